@@ -1,6 +1,9 @@
-"""Adapter protocol 1 in Python: one line of JSON in, one line of JSON out. Usage: python python_adapter.py fplc
+"""Adapter protocol 1 in Python: one line of JSON in, one line of JSON out.
 
-It serves our reference implementation as target fplc. For a program of your own, replace the lines marked <--.
+Usage: python python_adapter.py fplc
+
+It serves our reference implementation as target fplc. For a program of your own, replace the lines marked
+<--.
 """
 
 import json
@@ -35,7 +38,7 @@ def scan(state, entry):
 def answer(state, op, message):
     if op == "hello" and message == {"protocol": 1, "target": "fplc"} and sys.argv[1:] == ["fplc"]:
         return state, HELLO
-    if op == "reset":
+    if op == "reset" and set(message) <= {"params"}:
         return fplc.power_up(fplc.Params(**message.get("params", {}))), {"ok": True}  # <-- power-up
     if op == "scan":
         state, out = scan(state, message)
@@ -51,6 +54,7 @@ def answer(state, op, message):
     raise ValueError(f"cannot serve {op} {message}; protocol 1, target fplc only")
 
 
+sys.stdin.reconfigure(encoding="utf-8", errors="replace")
 state, reply = None, None
 while reply is not BYE and (line := sys.stdin.readline()):
     try:

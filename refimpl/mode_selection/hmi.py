@@ -352,6 +352,20 @@ def _check_field(name: str, field: Rectangle, screen: Rectangle) -> None:
         raise LayoutError(name, field, "a field on the screen")
 
 
+def layout_record(layout: Layout) -> dict[str, list[int] | list[list[int]]]:
+    """The layout as the panel tells it in the adapter protocol: x, y, width, height of each field."""
+    return {
+        "screen": _sides(layout.screen),
+        "selection": [_sides(field) for field in layout.selection],
+        "confirm": _sides(layout.confirm),
+        "reject": _sides(layout.reject),
+    }
+
+
+def _sides(field: Rectangle) -> list[int]:
+    return [field.x, field.y, field.width, field.height]
+
+
 def touch_at(layout: Layout, shown: Outputs, x: int, y: int) -> str:
     """The touch that a finger at (x, y) means while ``shown`` is on the screen; "" where no open field lies.
 

@@ -1,12 +1,11 @@
 """The four devices and the user together: whole insert and remove flows, for demonstrations and tests.
 
-There is no scheduler here. A ``System`` is a frozen record of the four states, of what each device last wrote, and of what the
-user does; each ``scan_`` function lets one device take one scan and leaves the others alone. In which order and how often is for
-the caller to choose: the devices are asynchronous (E-43).
+There is no scheduler here. A ``System`` is a frozen record of the four states, of what each device last
+wrote, and of what the user does; each ``scan_`` function lets one device take one scan and leaves the others
+alone. In which order and how often is for the caller to choose: the devices are asynchronous (E-43).
 
-    EKS --LA, A..STR--> F-PLC --MW01, MW05--> PLC --ReadAuthorization, CheckMSO--> HMI
-                        F-PLC <--MW03, MW07-- PLC <--SelectMSO, SwitchMSO--------- HMI
-                        F-PLC --active mode, for display only (E-25b)------------> HMI
+EKS --LA, A..STR--> F-PLC --MW01, MW05--> PLC --ReadAuthorization, CheckMSO--> HMI F-PLC <--MW03, MW07-- PLC
+<--SelectMSO, SwitchMSO--------- HMI F-PLC --active mode, for display only (E-25b)------------> HMI
 """
 
 from __future__ import annotations
@@ -21,15 +20,16 @@ from refimpl.mode_selection.code_tables import NONE
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """All four devices, their outputs as the others see them, the key in the reader, and a touch not yet seen.
+    """All four devices, their outputs as the others see them, the key in the reader, and a touch not seen yet.
 
-    ``touch`` is consumed by the next scan of the HMI. ``registers_zero`` is what channel B of the EKS will find on removal.
+    ``touch`` is consumed by the next scan of the HMI. ``registers_zero`` is what channel B of the EKS will
+    find on removal.
     """
 
-    eks: eks.State
-    fplc: fplc.State
-    plc: plc.State
-    hmi: hmi.State
+    eks_state: eks.State
+    fplc_state: fplc.State
+    plc_state: plc.State
+    hmi_state: hmi.State
     eks_out: eks.Outputs
     fplc_out: fplc.Outputs
     plc_out: plc.Outputs
@@ -71,7 +71,9 @@ def remove_key(system: System) -> System:
 
 
 def touch(system: System, field: str) -> System:
-    """Touch a field of the screen, "select:0".."select:4", "confirm" or "reject". EKS-2-14, EKS-2-23, EKS-2-25
+    """Touch a field of the screen, "select:0".."select:4", "confirm" or "reject".
+
+    EKS-2-14, EKS-2-23, EKS-2-25
 
     The touch counts in the next scan of the HMI; an earlier one not yet seen is lost. Raises InputError.
     """
@@ -129,26 +131,26 @@ def active_mode(system: System) -> int:
 
 def scan_eks(system: System, dt_ms: int) -> System:
     """One scan of the EKS, dt_ms after its last one. Raises InputError."""
-    state, outputs = eks.step(system.eks, eks_inputs(system, dt_ms))
-    return replace(system, eks=state, eks_out=outputs)
+    state, outputs = eks.step(system.eks_state, eks_inputs(system, dt_ms))
+    return replace(system, eks_state=state, eks_out=outputs)
 
 
 def scan_fplc(system: System, dt_ms: int) -> System:
     """One scan of the F-PLC, dt_ms after its last one. Raises InputError."""
-    state, outputs = fplc.step(system.fplc, fplc_inputs(system, dt_ms))
-    return replace(system, fplc=state, fplc_out=outputs)
+    state, outputs = fplc.step(system.fplc_state, fplc_inputs(system, dt_ms))
+    return replace(system, fplc_state=state, fplc_out=outputs)
 
 
 def scan_plc(system: System, dt_ms: int) -> System:
     """One scan of the PLC, dt_ms after its last one: one word is copied. Raises InputError."""
-    state, outputs = plc.step(system.plc, plc_inputs(system, dt_ms))
-    return replace(system, plc=state, plc_out=outputs)
+    state, outputs = plc.step(system.plc_state, plc_inputs(system, dt_ms))
+    return replace(system, plc_state=state, plc_out=outputs)
 
 
 def scan_hmi(system: System, dt_ms: int) -> System:
     """One scan of the HMI, dt_ms after its last one; it consumes the touch. Raises InputError."""
-    state, outputs = hmi.step(system.hmi, hmi_inputs(system, dt_ms))
-    return replace(system, hmi=state, hmi_out=outputs, touch=hmi.NO_TOUCH)
+    state, outputs = hmi.step(system.hmi_state, hmi_inputs(system, dt_ms))
+    return replace(system, hmi_state=state, hmi_out=outputs, touch=hmi.NO_TOUCH)
 
 
 # ---------------------------------------------------------------- logs
@@ -184,9 +186,10 @@ def scan(system: System, device: str, dt_ms: int) -> System:
 
 
 def log_line(before: System, device: str, dt_ms: int) -> str:
-    """One line of JSON: what the named device reads and writes when it takes a scan in the situation ``before``.
+    """One line of JSON: what the named device reads and writes when it scans in the situation ``before``.
 
-    The form is that of the adapter protocol: words as four hex digits, none as null, a set of modes as a list.
+    The form is that of the adapter protocol: words as four hex digits, none as null, a set of modes as a
+    list.
     """
     check_text("device", device, DEVICES)
     after = scan(before, device, dt_ms)
