@@ -1,0 +1,1 @@
+"""Theorems about the shipped reference implementation, judged by two solvers."""

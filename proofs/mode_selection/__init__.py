@@ -1,0 +1,1 @@
+"""Theorems about seed 000, operation mode selection."""

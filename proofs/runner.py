@@ -1,0 +1,186 @@
+"""Runs the theorems of a document: every query exported, asked of two solvers, and judged.
+
+PROVED: both solvers gave every expected answer. VIOLATED: both found a counterexample to a claim.
+INCONCLUSIVE: a solver did not know or reached its limit. UNJUDGED: the solvers disagree, a solver failed, a
+theorem is malformed, or an example that must exist does not (a premise that cannot be met, a planted fault
+that went unseen). Only PROVED is a pass.
+"""
+
+import os
+import re
+import shutil
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from proofs.smtlib import to_smtlib
+from proofs.solvers import Judgment, Solver, ask_cvc5, ask_z3
+from proofs.theorem import Query, Theorem, TheoremError, theorems_of
+
+Verdict = Literal["PROVED", "VIOLATED", "INCONCLUSIVE", "UNJUDGED"]
+LIMIT_MS = 20_000
+
+
+@dataclass(frozen=True)
+class QueryResult:
+    """One query: the expected answer, what each solver answered, where the exported file is."""
+
+    name: str
+    expected: str
+    z3: str
+    cvc5: str
+    seconds: float
+    smt2: Path
+    twin_of: str = ""
+    detail: str = ""
+    """Of a query not as expected: the example found, or why there is no answer."""
+
+
+@dataclass(frozen=True)
+class TheoremResult:
+    """One theorem with its verdict; `reason` is one line when it is not PROVED."""
+
+    name: str
+    sentence: str
+    remark: str
+    clauses: tuple[str, ...]
+    findings: tuple[str, ...]
+    verdict: Verdict
+    reason: str
+    queries: tuple[QueryResult, ...]
+    seconds: float
+
+
+def prove(
+    document: str,
+    out_dir: Path,
+    progress: Callable[[str], None],
+    limit_ms: int = LIMIT_MS,
+    z3_solver: Solver = ask_z3,
+    cvc5_solver: Solver = ask_cvc5,
+) -> list[TheoremResult]:
+    """Prove every theorem of `proofs/<document>`; one result each, in a fixed order.
+
+    out_dir: gets one folder a theorem with one `.smt2` file a query; folders of an earlier run are replaced.
+    progress: called with one line a theorem. limit_ms: time limit a query and solver, in milliseconds.
+    Raises TheoremError: no such document, no theorem, a name used twice.
+    """
+    return prove_all(theorems_of(document), out_dir, progress, limit_ms, z3_solver, cvc5_solver)
+
+
+def prove_all(
+    theorems: Iterable[Theorem],
+    out_dir: Path,
+    progress: Callable[[str], None],
+    limit_ms: int = LIMIT_MS,
+    z3_solver: Solver = ask_z3,
+    cvc5_solver: Solver = ask_cvc5,
+) -> list[TheoremResult]:
+    """Prove the given theorems (see `prove`)."""
+    results: list[TheoremResult] = []
+    for item in theorems:
+        result = _prove_one(item, out_dir / item.name, limit_ms, z3_solver, cvc5_solver)
+        results.append(result)
+        progress(f"{result.verdict} {result.name} ({len(result.queries)} queries, {result.seconds:.1f} s)")
+    return results
+
+
+def _prove_one(
+    item: Theorem, folder: Path, limit_ms: int, z3_solver: Solver, cvc5_solver: Solver
+) -> TheoremResult:
+    started = time.monotonic()
+    queries: list[QueryResult] = []
+    try:
+        built = item.queries()
+        _empty(folder)
+        for number, query in enumerate(built, start=1):
+            file = folder / f"{number:03d}-{_slug(query.name)}.smt2"
+            queries.append(_ask(item, query, file, limit_ms, z3_solver, cvc5_solver))
+        verdict, reason = judge(queries)
+    except (
+        Exception
+    ) as error:  # a theorem that cannot be built or asked is reported, and the others still run
+        kind = "" if isinstance(error, TheoremError) else f"{type(error).__name__}: "
+        verdict, reason = "UNJUDGED", kind + " ".join(str(error).split())
+    seconds = time.monotonic() - started
+    return TheoremResult(
+        item.name,
+        item.sentence,
+        item.remark,
+        item.clauses,
+        item.findings,
+        verdict,
+        reason,
+        tuple(queries),
+        seconds,
+    )
+
+
+def _ask(
+    item: Theorem, query: Query, file: Path, limit_ms: int, z3_solver: Solver, cvc5_solver: Solver
+) -> QueryResult:
+    started = time.monotonic()
+    text = to_smtlib(item, query)
+    _write(file, text)
+    first, second = z3_solver(query, text, limit_ms), cvc5_solver(query, text, limit_ms)
+    as_expected = first.answer == second.answer == query.expected
+    return QueryResult(
+        query.name,
+        query.expected,
+        first.answer,
+        second.answer,
+        time.monotonic() - started,
+        file,
+        query.twin_of,
+        "" if as_expected else _detail(first, second),
+    )
+
+
+def judge(queries: list[QueryResult]) -> tuple[Verdict, str]:
+    """The verdict on a theorem from its queries, the gravest first, and one line of reason unless PROVED."""
+    if not queries:
+        return "UNJUDGED", "no query was asked"
+    for query in queries:
+        if {query.z3, query.cvc5} == {"sat", "unsat"}:
+            return (
+                "UNJUDGED",
+                f"{query.name}: the solvers disagree, z3 says {query.z3}, cvc5 says {query.cvc5}",
+            )
+    for query in queries:
+        if query.expected == "unsat" and query.z3 == query.cvc5 == "sat":
+            return "VIOLATED", f"{query.name}: counterexample {query.detail}"
+    for query in queries:
+        if query.expected == "sat" and query.z3 == query.cvc5 == "unsat":
+            what = "the premises cannot be met" if query.twin_of else "the example that must exist does not"
+            return "UNJUDGED", f"{query.name}: {what}"
+    for query in queries:
+        if "error" in (query.z3, query.cvc5):
+            return "UNJUDGED", f"{query.name}: {query.detail}"
+    for query in queries:
+        if (query.z3, query.cvc5) != (query.expected, query.expected):
+            return "INCONCLUSIVE", f"{query.name}: z3 {query.z3}, cvc5 {query.cvc5}; {query.detail}"
+    return "PROVED", ""
+
+
+def _detail(first: Judgment, second: Judgment) -> str:
+    return "; ".join(part for part in (first.detail, second.detail) if part)
+
+
+def _slug(name: str) -> str:
+    return re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-")[:60].strip("-")
+
+
+def _empty(folder: Path) -> None:
+    """A fresh folder, so that no file of an earlier run can be mistaken for one of this run."""
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir(parents=True)
+
+
+def _write(file: Path, text: str) -> None:
+    """Write through a temporary file, so that no half file is left under the name."""
+    partial = file.with_suffix(".partial")
+    partial.write_text(text, encoding="utf-8")
+    os.replace(partial, file)
