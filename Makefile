@@ -1,0 +1,50 @@
+# Two commands matter: `make verify` and `make test`. Both build .venv when it is missing; after that no network is used.
+# Only relative paths are used, so the checkout may lie in a folder whose name contains spaces.
+SHELL := /bin/bash
+.DELETE_ON_ERROR:
+.PHONY: verify smoke test bench doctor lint lock clean venv
+
+PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && echo $$p && break; done)
+PY := .venv/bin/python
+STAMP := .venv/requirements.lock
+
+verify: $(STAMP)
+	@$(PY) -m modeproof verify
+
+smoke: $(STAMP)
+	@$(PY) -m modeproof verify --lane smoke
+
+test: $(STAMP)
+	@$(PY) -m pytest
+
+bench: $(STAMP)
+	@$(PY) -m tests.bench
+
+doctor:
+	@if [ -x $(PY) ]; then $(PY) -m modeproof doctor; else $(if $(PYTHON),$(PYTHON),false) -m modeproof doctor; fi
+
+lint: $(STAMP)
+	@$(PY) -m ruff format --check . && $(PY) -m ruff check . && $(PY) -m mypy
+
+venv: $(STAMP)
+
+# The stamp is a copy of the lock, written last: a build that was cut short is built again, and a lock whose date
+# changed but whose text did not is no reason to build.
+$(STAMP): requirements.lock pyproject.toml
+	@if [ -z "$(PYTHON)" ]; then echo "modeproof: Python 3.11 or newer is missing; install it, or name it: make PYTHON=/path/to/python3" >&2; exit 2; fi
+	@if cmp -s requirements.lock $(STAMP) && $(PY) -c 'import modeproof' 2>/dev/null; then touch $(STAMP); else \
+	  echo "modeproof: building .venv from requirements.lock (once; needs PyPI)"; \
+	  $(PYTHON) -m venv --clear .venv && \
+	  $(PY) -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r requirements.lock && \
+	  $(PY) -m pip --disable-pip-version-check install --quiet --no-index --no-deps --no-build-isolation -e . && \
+	  cp requirements.lock $(STAMP); \
+	fi
+
+lock:
+	@rm -rf build/lock && $(PYTHON) -m venv build/lock && build/lock/bin/python -m pip --quiet install uv==0.13.8
+	@sed '/^[^#]/,$$d' requirements.lock > build/lock/new
+	@build/lock/bin/python -m uv pip compile --quiet --upgrade --universal --python-version 3.11 --generate-hashes --no-header requirements.in >> build/lock/new
+	@mv build/lock/new requirements.lock && rm -rf build/lock
+
+clean:
+	rm -rf build .venv .pytest_cache .mypy_cache .ruff_cache .hypothesis *.egg-info

@@ -1,0 +1,22 @@
+"""The one class of error that a user is meant to see: a clear line and exit status 2."""
+
+from __future__ import annotations
+
+EXIT_AS_EXPECTED = 0
+EXIT_NOT_AS_EXPECTED = 1
+EXIT_UNJUDGED = 2
+
+
+class Unjudged(Exception):
+    """Something could not be judged: a file is missing or malformed, a tool did not start, the disk is full.
+
+    The message is one line that names the place and the cause. It is never a pass: the exit status is 2.
+    """
+
+    def __init__(self, message: str) -> None:
+        super().__init__(" ".join(message.split()))
+
+    @property
+    def message(self) -> str:
+        """The line to print."""
+        return str(self.args[0])

@@ -1,0 +1,211 @@
+"""Runs TLC once: a fresh folder for its states, a time limit, and a clean end whatever happens."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+from modeproof.errors import Unjudged
+from modeproof.places import build
+from modeproof.tlc.messages import Counts, Log, LogReader
+from modeproof.tlc.runs import Run
+from modeproof.tlc.toolchain import Toolchain
+
+FINGERPRINT = 1
+SEED = 1
+WITNESS_LIMIT = 100_000
+
+_RUNNING: dict[int, subprocess.Popen[bytes]] = {}
+_GUARD = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one TLC run.
+
+    `status` is the exit status (negative: killed by that signal), `seconds` the wall-clock time, `printed` the
+    distinct printed lines (OPEN runs keep them in `graph_file` instead), `stderr` the last lines of Java.
+    """
+
+    status: int
+    seconds: float
+    timed_out: bool
+    log: Log
+    command: tuple[str, ...]
+    printed: frozenset[bytes] = frozenset()
+    printed_all: bool = True
+    graph_file: Path | None = None
+    stderr: str = ""
+
+
+def command_line(run: Run, tools: Toolchain, metadir: Path, library: Path | None) -> list[str]:
+    """The command that runs TLC, to be started in the document's folder of the specification."""
+    java = [
+        str(tools.java),
+        "-XX:+UseParallelGC",
+        "-XX:+ExitOnOutOfMemoryError",
+        f"-Xmx{run.heap_mb}m",
+        f"-Djava.io.tmpdir={metadir / 'tmp'}",
+    ]
+    if library is not None:
+        java.append(f"-DTLA-Library={library}")
+    tlc = ["-tool", "-fp", str(FINGERPRINT), "-seed", str(SEED), "-workers", str(run.workers)]
+    tlc += ["-checkpoint", "0", "-metadir", str(metadir / "states"), "-config", run.cfg]
+    if not run.deadlock:
+        tlc.append("-deadlock")  # this option of TLC turns the check off
+    return [*java, "-cp", str(tools.jar), "tlc2.TLC", *tlc, run.module]
+
+
+def stop_all() -> None:
+    """Kill every TLC that this process started; for Ctrl-C and for the end of the program."""
+    with _GUARD:
+        for process in list(_RUNNING.values()):
+            _kill(process)
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGKILL)
+
+
+class _Sink:
+    """Where printed lines go: a file for OPEN runs, a bounded set otherwise."""
+
+    def __init__(self, stream: BinaryIO | None) -> None:
+        self.lines: set[bytes] = set()
+        self.complete = True
+        self._stream = stream
+
+    def take(self, line: bytes) -> None:
+        if self._stream is not None:
+            self._stream.write(line + b"\n")
+        elif line not in self.lines:
+            if len(self.lines) < WITNESS_LIMIT:
+                self.lines.add(line)
+            else:
+                self.complete = False
+
+
+def run_tlc(
+    place: Path,
+    run: Run,
+    tools: Toolchain,
+    on_progress: Callable[[Counts], None] | None = None,
+) -> Outcome:
+    """Run TLC on `run` and read its log to the end.
+
+    The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
+    build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC cannot
+    be started or the disk is full.
+    """
+    folder = place / "spec" / run.document
+    for needed in (folder / f"{run.module}.tla", folder / run.cfg):
+        if not needed.is_file():
+            raise Unjudged(f"{run.name}: {needed.relative_to(place)} is missing")
+    logs = build(place) / "tlc" / run.document
+    graph = build(place) / "graphs" / run.document / f"{run.id}.txt"
+    common = place / "spec" / "common"
+    try:
+        logs.mkdir(parents=True, exist_ok=True)
+        metadir = Path(tempfile.mkdtemp(prefix=f"{run.id}.", dir=logs))
+    except OSError as error:
+        raise Unjudged(f"{run.name}: cannot write to {logs}: {error.strerror}") from None
+    try:
+        (metadir / "tmp").mkdir()
+        command = command_line(run, tools, metadir, common if common.is_dir() else None)
+        if run.kind == "OPEN":
+            graph.parent.mkdir(parents=True, exist_ok=True)
+            graph.unlink(missing_ok=True)
+            part = graph.with_suffix(".txt.part")
+            with part.open("wb", buffering=1 << 20) as stream:
+                outcome = _follow(run, command, folder, metadir, logs, stream, on_progress)
+                stream.flush()
+                os.fsync(stream.fileno())
+            if outcome.log.success and outcome.log.finished and not outcome.log.broken and outcome.status == 0:
+                part.replace(graph)
+                return _with_graph(outcome, graph)
+            part.unlink(missing_ok=True)
+            return outcome
+        return _follow(run, command, folder, metadir, logs, None, on_progress)
+    except OSError as error:
+        graph.with_suffix(".txt.part").unlink(missing_ok=True)
+        raise Unjudged(f"{run.name}: {error.strerror or error} ({error.filename or logs})") from None
+    finally:
+        shutil.rmtree(metadir, ignore_errors=True)
+
+
+def _with_graph(outcome: Outcome, graph: Path) -> Outcome:
+    return Outcome(**{**outcome.__dict__, "graph_file": graph})
+
+
+def _follow(
+    run: Run,
+    command: list[str],
+    folder: Path,
+    metadir: Path,
+    logs: Path,
+    stream: BinaryIO | None,
+    on_progress: Callable[[Counts], None] | None,
+) -> Outcome:
+    sink = _Sink(stream)
+    reader = LogReader(on_printed=sink.take, on_progress=on_progress)
+    errors = metadir / "stderr"
+    expired = threading.Event()
+    began = time.monotonic()
+    with errors.open("wb") as stderr, (logs / f"{run.id}.log").open("wb") as log_file:
+        with _GUARD:
+            process = subprocess.Popen(
+                command,
+                cwd=folder,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=stderr,
+                bufsize=1 << 20,
+                start_new_session=True,
+            )
+            _RUNNING[process.pid] = process
+
+        def expire() -> None:
+            expired.set()
+            _kill(process)
+
+        timer = threading.Timer(run.timeout_s, expire)
+        timer.daemon = True
+        timer.start()
+        try:
+            assert process.stdout is not None
+            for line in process.stdout:
+                if line[:1] != b'"':
+                    log_file.write(line)
+                reader.feed(line)
+            status = process.wait()
+        finally:
+            timer.cancel()
+            _kill(process)
+            process.wait()
+            if process.stdout is not None:
+                process.stdout.close()
+            with _GUARD:
+                _RUNNING.pop(process.pid, None)
+    seconds = time.monotonic() - began
+    tail = errors.read_bytes()[-4000:].decode("utf-8", "replace").strip()
+    return Outcome(
+        status=status,
+        seconds=seconds,
+        timed_out=expired.is_set(),
+        log=reader.close(),
+        command=tuple(command),
+        printed=frozenset(sink.lines),
+        printed_all=sink.complete,
+        stderr=tail,
+    )
