@@ -105,8 +105,15 @@ def paths(function: Callable[[int], int], symbol: z3.BitVecRef) -> Iterator[Path
             question if choice else z3.Not(question)
             for question, choice in zip(decisions.asked, taken, strict=True)
         ]
-        yield Path(z3.And(*literals) if literals else z3.BoolVal(True), result)
+        yield Path(_all(literals), result)
     raise ConcretizationError(f"more than {MAX_PATHS} paths")
+
+
+def _all(literals: list[z3.BoolRef]) -> z3.BoolRef:
+    """All the literals; SMT-LIB has no conjunction of none or of one."""
+    if not literals:
+        return z3.BoolVal(True)
+    return literals[0] if len(literals) == 1 else z3.And(*literals)
 
 
 def _run(function: Callable[[int], int], symbol: _Symbol) -> int | None:

@@ -67,8 +67,8 @@ def _answer_of(said: str) -> Judgment:
         return Judgment("unsat")
     if said == "sat":
         return Judgment("sat")
-    if said == "unknown":
-        return Judgment("unknown", "cvc5 gave up or reached its limit")
+    if said.startswith("unknown"):
+        return Judgment("unknown", f"cvc5: {said}")
     return Judgment("error", f"cvc5 said {said[:300]!r}")
 
 

@@ -23,9 +23,12 @@ def one_of(term: z3.BitVecRef, values: Iterable[int]) -> z3.BoolRef:
 
 
 def ones(term: z3.BitVecRef) -> z3.BitVecRef:
-    """The number of ones, as a word."""
-    bits = [z3.ZeroExt(BITS - 1, z3.Extract(i, i, term)) for i in range(BITS)]
-    return z3.simplify(sum(bits[1:], bits[0]))
+    """The number of ones, as a word; neighbours are added in pairs, each time one bit wider."""
+    counts = [z3.Extract(i, i, term) for i in range(BITS)]
+    while len(counts) > 1:
+        wider = [z3.ZeroExt(1, count) for count in counts]
+        counts = [left + right for left, right in zip(wider[::2], wider[1::2], strict=True)]
+    return z3.ZeroExt(BITS - counts[0].size(), counts[0])
 
 
 def high(term: z3.BitVecRef) -> z3.BitVecRef:

@@ -1,9 +1,9 @@
 """The tables were written down twice, in TLA+ and in Python; here the two are compared.
 
 The numbers are read from the text of `spec/mode_selection/CodeTables.tla`, by a reader that knows one form
-only:
+only (`TLCEval` may be left out):
 
-    RE == [m \\in MSO |-> CASE m = 0 -> \\h0F0F [] m = 1 -> \\h0FF0 ... [] m = 4 -> \\h3C3C]
+    RE == TLCEval([m \\in MSO |-> CASE m = 0 -> \\h0F0F [] m = 1 -> \\h0FF0 ... [] m = 4 -> \\h3C3C])
 
 TLC's own reading of the same module is compared in the tests.
 """
@@ -20,7 +20,7 @@ from proofs.words import constant
 
 SPECIFICATION: Final = Path(__file__).resolve().parents[2] / "spec" / "mode_selection" / "CodeTables.tla"
 
-_DEFINITION = re.compile(r"^(\w+)\s*==\s*\[\s*m\s+\\in\s+MSO\s*\|->\s*CASE\b((?:[^\[\]]|\[\])*)\]", re.M)
+_DEFINITION = re.compile(r"^(\w+)\s*==\s*(?:TLCEval\()?\[\s*m\s+\\in\s+MSO\s*\|->\s*CASE\b((?:[^\[\]]|\[\])*)\]", re.M)
 _BRANCH = re.compile(r"\s*m\s*=\s*([0-9]+)\s*->\s*\\[hH]([0-9A-Fa-f]{4})\s*")
 
 

@@ -1,0 +1,229 @@
+"""How a theorem is judged: only two solvers that both give every expected answer make it PROVED."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+import z3
+
+from proofs.runner import TheoremResult, prove, prove_all
+from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3
+from proofs.theorem import Queries, Query, Theorem, claim, control, theorem
+
+X = z3.BitVec("x", 16)
+SMALL = {"x is small": z3.ULT(X, 10)}
+
+
+@theorem(clauses=["EKS-T2", "EKS-KS-9"], findings=["E-18"])
+def small_numbers_are_less_than_twenty() -> Queries:
+    """Small numbers are less than 20."""
+    yield from claim("less than 20", SMALL, z3.ULT(X, 20))
+    yield control("some are odd", {**SMALL, "x is odd": X & 1 == 1})
+
+
+@theorem(clauses=["EKS-T2"], findings=[])
+def small_numbers_are_less_than_five() -> Queries:
+    """Small numbers are less than 5, which is false."""
+    return claim("less than 5", SMALL, z3.ULT(X, 5))
+
+
+@theorem(clauses=["EKS-T2"], findings=[])
+def numbers_below_zero_are_even() -> Queries:
+    """Unsigned numbers below zero are even; there are none."""
+    return claim("even", {"x is below zero": z3.ULT(X, 0)}, X & 1 == 0)
+
+
+@theorem(clauses=["EKS-T2"], findings=[])
+def a_control_finds_nothing() -> Queries:
+    """A planted fault that no solver can see."""
+    yield from claim("less than 20", SMALL, z3.ULT(X, 20))
+    yield control("planted", {**SMALL, "x is large": z3.UGT(X, 20)})
+
+
+@theorem(clauses=["EKS-T2"], findings=[])
+def an_unsat_query_has_no_twin() -> Queries:
+    """A refutation that nobody has shown to be about anything."""
+    yield Query("alone", {"x is below zero": z3.ULT(X, 0)}, "unsat")
+
+
+@theorem(clauses=["EKS-T2"], findings=[])
+def a_theorem_cannot_be_built() -> Queries:
+    """A theorem whose function raises."""
+    raise ZeroDivisionError("planted")
+
+
+def _always(answer: Answer) -> Solver:
+    return lambda query, text, limit_ms: Judgment(answer, f"fake {answer}")
+
+
+def _but(name: str, answer: Answer, honest: Solver) -> Solver:
+    """A solver that lies about one query."""
+
+    def solver(query: Query, text: str, limit_ms: int) -> Judgment:
+        return Judgment(answer, "fake") if query.name == name else honest(query, text, limit_ms)
+
+    return solver
+
+
+def _one(
+    item: Theorem, tmp_path: Path, z3_solver: Solver = ask_z3, cvc5_solver: Solver = ask_cvc5
+) -> TheoremResult:
+    return prove_all([item], tmp_path, lambda line: None, z3_solver=z3_solver, cvc5_solver=cvc5_solver)[0]
+
+
+def test_a_true_theorem_is_proved_when_both_solvers_say_so(tmp_path: Path) -> None:
+    result = _one(small_numbers_are_less_than_twenty, tmp_path)
+    assert (result.verdict, result.reason) == ("PROVED", "")
+    assert [(q.expected, q.z3, q.cvc5) for q in result.queries] == [
+        ("unsat",) * 3,
+        ("sat",) * 3,
+        ("sat",) * 3,
+    ]
+    assert result.clauses == ("EKS-T2", "EKS-KS-9")
+
+
+def test_a_false_theorem_is_violated_and_the_counterexample_is_shown(tmp_path: Path) -> None:
+    result = _one(small_numbers_are_less_than_five, tmp_path)
+    assert result.verdict == "VIOLATED"
+    assert result.reason.startswith("less than 5: counterexample x = 000")
+
+
+def test_premises_that_cannot_be_met_are_no_proof(tmp_path: Path) -> None:
+    result = _one(numbers_below_zero_are_even, tmp_path)
+    assert result.verdict == "UNJUDGED"
+    assert "the premises cannot be met" in result.reason
+
+
+def test_a_control_that_finds_nothing_is_no_proof(tmp_path: Path) -> None:
+    result = _one(a_control_finds_nothing, tmp_path)
+    assert result.verdict == "UNJUDGED"
+    assert "planted" in result.reason
+
+
+def test_an_unsat_without_a_twin_is_refused_and_never_asked(tmp_path: Path) -> None:
+    result = _one(an_unsat_query_has_no_twin, tmp_path)
+    assert (result.verdict, result.queries) == ("UNJUDGED", ())
+    assert "has no sat twin" in result.reason
+
+
+def test_a_theorem_that_raises_is_unjudged_and_the_others_still_run(tmp_path: Path) -> None:
+    items = [a_theorem_cannot_be_built, small_numbers_are_less_than_twenty]
+    lines: list[str] = []
+    results = prove_all(items, tmp_path, lines.append)
+    assert [result.verdict for result in results] == ["UNJUDGED", "PROVED"]
+    assert results[0].reason == "ZeroDivisionError: planted"
+    assert [line.split(" ")[:2] for line in lines] == [
+        ["UNJUDGED", "a_theorem_cannot_be_built"],
+        ["PROVED", "small_numbers_are_less_than_twenty"],
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "lie"),
+    [("less than 20", "sat"), ("less than 20: premises can be met", "unsat"), ("some are odd", "unsat")],
+)
+@pytest.mark.parametrize("liar", ["z3", "cvc5"])
+def test_solvers_that_disagree_are_never_a_pass(tmp_path: Path, name: str, lie: Answer, liar: str) -> None:
+    first = _but(name, lie, ask_z3) if liar == "z3" else ask_z3
+    second = _but(name, lie, ask_cvc5) if liar == "cvc5" else ask_cvc5
+    result = _one(small_numbers_are_less_than_twenty, tmp_path, first, second)
+    assert result.verdict == "UNJUDGED"
+    assert "the solvers disagree" in result.reason
+
+
+@pytest.mark.parametrize("silent", ["z3", "cvc5", "both"])
+def test_unknown_is_inconclusive(tmp_path: Path, silent: str) -> None:
+    first = _but("less than 20", "unknown", ask_z3) if silent != "cvc5" else ask_z3
+    second = _but("less than 20", "unknown", ask_cvc5) if silent != "z3" else ask_cvc5
+    result = _one(small_numbers_are_less_than_twenty, tmp_path, first, second)
+    assert result.verdict == "INCONCLUSIVE"
+    assert result.reason.startswith("less than 20: ")
+
+
+def test_a_solver_that_fails_leaves_the_theorem_unjudged(tmp_path: Path) -> None:
+    result = _one(small_numbers_are_less_than_twenty, tmp_path, cvc5_solver=_always("error"))
+    assert (result.verdict, result.reason) == ("UNJUDGED", "less than 20: fake error")
+
+
+@pytest.fixture
+def hard() -> Query:
+    """A pair of factors that no solver finds in a millisecond."""
+    a, b = z3.BitVecs("a b", 96)
+    wide = z3.ZeroExt(96, a) * z3.ZeroExt(96, b)
+    factors = {
+        "a is not 1": z3.UGT(a, 1),
+        "b is not 1": z3.UGT(b, 1),
+        "product": wide == (2**89 - 1) * (2**61 - 1),
+    }
+    return Query("factors", factors, "sat")
+
+
+def test_a_time_limit_that_is_hit_is_unknown(hard: Query, tmp_path: Path) -> None:
+    @theorem(clauses=["EKS-T2"], findings=[])
+    def the_number_is_prime() -> Queries:
+        """A product of two primes has no factors, which is false and hard to see."""
+        premises = {name: f for name, f in hard.formulas.items() if name != "product"}
+        return claim("no factors", premises, z3.Not(hard.formulas["product"]))
+
+    result = prove_all([the_number_is_prime], tmp_path, lambda line: None, limit_ms=30)[0]
+    assert result.verdict == "INCONCLUSIVE"
+    assert (result.queries[0].z3, result.queries[0].cvc5) == ("unknown", "unknown")
+
+
+@pytest.mark.parametrize("text", ["", "(assert", "(check-sat)\n(check-sat)", "(exit)", "(assert (= y 1))"])
+def test_text_that_cvc5_cannot_answer_is_an_error(text: str) -> None:
+    assert ask_cvc5(control("any", SMALL), text, 1000).answer == "error"
+
+
+def _corrupted(change: Callable[[str], str]) -> Solver:
+    return lambda query, text, limit_ms: ask_cvc5(query, change(text), limit_ms)
+
+
+def test_a_wrong_export_is_seen_because_cvc5_reads_the_file_and_z3_does_not(tmp_path: Path) -> None:
+    wrong = _corrupted(lambda text: text.replace("(not (bvult x #x0014))", "(bvult x #x0014)"))
+    result = _one(small_numbers_are_less_than_twenty, tmp_path, cvc5_solver=wrong)
+    assert result.verdict == "UNJUDGED"
+
+
+def test_every_query_is_exported_and_files_of_an_earlier_run_are_gone(tmp_path: Path) -> None:
+    folder = tmp_path / "small_numbers_are_less_than_twenty"
+    folder.mkdir()
+    (folder / "999-old.smt2").write_text("(check-sat)")
+    result = _one(small_numbers_are_less_than_twenty, tmp_path)
+    assert sorted(folder.iterdir()) == [query.smt2 for query in result.queries]
+    assert [file.name for file in sorted(folder.iterdir())] == [
+        "001-less-than-20.smt2",
+        "002-less-than-20-premises-can-be-met.smt2",
+        "003-some-are-odd.smt2",
+    ]
+
+
+def test_the_header_of_an_exported_file_says_theorem_clauses_and_expected_answer(tmp_path: Path) -> None:
+    result = _one(small_numbers_are_less_than_twenty, tmp_path)
+    assert result.queries[0].smt2.read_text().splitlines() == [
+        "; Theorem: Small numbers are less than 20.",
+        "; Name: small_numbers_are_less_than_twenty",
+        "; Query: less than 20",
+        "; Clauses: EKS-T2, EKS-KS-9",
+        "; Findings: E-18",
+        "; Expected: unsat (no counterexample exists)",
+        "(set-logic QF_BV)",
+        "(declare-fun x () (_ BitVec 16))",
+        "; Assert: x is small",
+        "(assert (bvult x #x000a))",
+        "; Assert: counterexample",
+        "(assert (not (bvult x #x0014)))",
+        "(check-sat)",
+    ]
+
+
+def test_a_place_that_cannot_be_written_is_unjudged(tmp_path: Path) -> None:
+    (tmp_path / "small_numbers_are_less_than_twenty").write_text("a file where the folder should be")
+    assert _one(small_numbers_are_less_than_twenty, tmp_path).verdict == "UNJUDGED"
+
+
+def test_the_theorems_of_mode_selection_can_be_asked_by_name_of_the_document(tmp_path: Path) -> None:
+    lines: list[str] = []
+    results = prove("mode_selection", tmp_path, lines.append, z3_solver=_always("unknown"))
+    assert len(results) == len(lines) >= 25
+    assert {result.verdict for result in results} == {"INCONCLUSIVE"}
