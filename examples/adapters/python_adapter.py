@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # <-- where the program is found
-from refimpl.mode_selection import fplc  # noqa: E402
+from refimpl.mode_selection import fplc
 
 WORDS, BOOLS = {"MW03", "MW07"}, {"LA", "A", "B", "C", "D", "STR"}
 HELLO = {"ok": True, "name": "refimpl", "version": "1", "time": "virtual", "relations": ["exact"]}

@@ -299,7 +299,7 @@ def _check_checksum(s: State) -> State:
     """
     calculated = s.params.checksum(checksum_data(s.key))
     check_word("checksum", calculated, ParameterError)
-    if s.key.KEYCRC == calculated:
+    if calculated == s.key.KEYCRC:
         return _enter(s, Step.CHECK_LEVEL)  # AcceptChecksum
     return _enter(s, Step.REJECTED)  # RefuseChecksum
 

@@ -10,6 +10,7 @@ All decisions stand on this scan's inputs and on private memory; MW01 and MW05 a
 back (E-18).
 """
 
+# ruff: noqa: SIM109, SIM300 -- the names of words are upper case, and each comparison is one of the note's
 from __future__ import annotations
 
 from dataclasses import dataclass

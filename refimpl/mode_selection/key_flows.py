@@ -20,7 +20,7 @@ from refimpl.mode_selection.code_tables import NONE
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """All four devices, their outputs as the others see them, the key in the reader, and a touch not seen yet.
+    """All four devices, what the others see of them, the key in the reader, and a touch not seen yet.
 
     ``touch`` is consumed by the next scan of the HMI. ``registers_zero`` is what channel B of the EKS will
     find on removal.
