@@ -125,7 +125,9 @@ class Target:
         if op == "scan":
             self.state, reply = self.scan(self.state, message)
             return reply
-        if op == "scans" and set(message) == {"list"}:
+        if op == "scans":
+            if set(message) != {"list"}:
+                raise ValueError(f"scans has a list and nothing else, got {' '.join(message)}")
             state, replies = self.state, []
             for entry in message["list"]:
                 state, reply = self.scan(state, entry)
