@@ -215,7 +215,8 @@ def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
 def outputs(s: State) -> Outputs:
     """The outputs that belong to a state; only one of the five is ever set outside the test pulse.
 
-    EKS-KS-5, EKS-2-5, EKS-2-7, EKS-T2
+    EKS-KS-5, EKS-2-5, EKS-2-7, EKS-T2; the outputs tell the level (EKS-SD-1), LA that the key is valid
+    (EKS-SD-2).
 
     LA is on from step 5 to the removal. A key that fails a check gives no LA and no output (EKS-2-3,
     EKS-2-9). On removal LA goes first (EKS-8-2), the output a scan later (EKS-8-5). Output D, not C, is level
@@ -357,7 +358,7 @@ def _test_zeros(s: State, i: Inputs) -> State:
 def _removal(s: State) -> State:
     """LA goes off at once, and so does a test pulse; the one output goes off in a step of its own.
 
-    EKS-8-1, EKS-8-2, EKS-8-5
+    EKS-8-1, EKS-8-2, EKS-8-5, EKS-SD-4
     """
     if s.state == Step.SIGNAL:
         return _enter(s, Step.CLEAR_OUTPUTS)

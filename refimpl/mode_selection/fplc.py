@@ -161,7 +161,7 @@ def power_up(params: Params) -> State:
 
 
 def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
-    """One scan: the state after it, and the outputs of that state. EKS-GP-2, EKS-GP-3"""
+    """One scan: the state after it, and the outputs of that state. EKS-GP-2-FPLC, EKS-GP-3"""
     after = _next_state(state, inputs, output_signalled(inputs), state.elapsed_ms + inputs.dt_ms)
     return after, outputs(after)
 
@@ -169,7 +169,8 @@ def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
 def outputs(s: State) -> Outputs:
     """The row of outputs that belongs to a state.
 
-    MW01 carries the authorization level from the end of step 12 until removal or error (EKS-2-12, EKS-8-6).
+    MW01 carries the authorization level from the end of step 12 until removal or error (EKS-2-12, EKS-8-6);
+    zero is the word of no key (EKS-KS-8).
     MW05 carries the echo from step 20 until the switchover (Figure 6, from the latched selection), and is
     zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). The mode outputs are one of five, none before
     the first switchover; removal does not touch them (EKS-2-29, EKS-8-8). ERROR is the one error mode (E-22).
@@ -294,7 +295,7 @@ def matches(MW03: int, MW07: int) -> bool:
 def _zeros_returned(s: State, i: Inputs, elapsed: int) -> bool:
     """Whether both words came back as zero, long enough after the F-PLC wrote its own zeros.
 
-    EKS-8-11, EKS-8-12, EKS-8-14, EKS-8-18
+    EKS-8-11, EKS-8-12, EKS-8-14, EKS-8-18, EKS-SD-5
 
     The dwell is ours: without it zeros that were there all along would pass as an answer (E-52).
     """
@@ -361,7 +362,7 @@ def _wait_dwelling(s: State, elapsed: int) -> State:
 
 
 def _next_state(s: State, i: Inputs, output: int, elapsed: int) -> State:
-    """The check that comes before every single step, then the step. EKS-3-0, EKS-9-0, EKS-GP-4, EKS-GP-1
+    """The check that comes before every single step, then the step. EKS-3-0, EKS-9-0, EKS-GP-4
 
     Order: several outputs (Error), no LA (removal), another output than the accepted one (removal), deadline
     (Error), the step.
@@ -570,7 +571,7 @@ def _match(s: State, i: Inputs) -> State:
 def _switch(s: State, i: Inputs) -> State:
     """Step 29: switch over, with LA, output, MW03 and MW07 judged once more in this very scan.
 
-    EKS-2-29, EKS-SD-5, E-16, E-42
+    EKS-2-29, EKS-SD-3, E-16, E-42
 
     The mode that becomes active is the latched selection (E-01).
     """
