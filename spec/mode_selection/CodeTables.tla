@@ -5,23 +5,24 @@
 (* Leaves out: how a word is stored and sent; a word moves atomically      *)
 (* (assumption A-01).  Compared by machine with refimpl's own copy.        *)
 (***************************************************************************)
-EXTENDS Integers
+EXTENDS Integers, TLC
 
 MSO == 0..4    \* modes of safe operation; the authorization levels have the same numbers (EKS-T2)
 None == -1     \* no mode, no level
 
 \* EKS-T1, EKS-T2: MW01 and ReadAuthorization, also the level on the key
-RE == [m \in MSO |-> CASE m = 0 -> \h0F0F [] m = 1 -> \h0FF0 [] m = 2 -> \h3333 [] m = 3 -> \h33CC [] m = 4 -> \h3C3C]
+RE == TLCEval([m \in MSO |-> CASE m = 0 -> \h0F0F [] m = 1 -> \h0FF0 [] m = 2 -> \h3333 [] m = 3 -> \h33CC [] m = 4 -> \h3C3C])
 \* EKS-T2: MW03 and SelectMSO
-SE == [m \in MSO |-> CASE m = 0 -> \h0FF0 [] m = 1 -> \h3333 [] m = 2 -> \h33CC [] m = 3 -> \h3C3C [] m = 4 -> \h0F0F]
+SE == TLCEval([m \in MSO |-> CASE m = 0 -> \h0FF0 [] m = 1 -> \h3333 [] m = 2 -> \h33CC [] m = 3 -> \h3C3C [] m = 4 -> \h0F0F])
 \* EKS-T2: MW05 and CheckMSO
-CH == [m \in MSO |-> CASE m = 0 -> \h3333 [] m = 1 -> \h33CC [] m = 2 -> \h3C3C [] m = 3 -> \h0F0F [] m = 4 -> \h0FF0]
+CH == TLCEval([m \in MSO |-> CASE m = 0 -> \h3333 [] m = 1 -> \h33CC [] m = 2 -> \h3C3C [] m = 3 -> \h0F0F [] m = 4 -> \h0FF0])
 \* EKS-T2: MW07 and SwitchMSO
-SW == [m \in MSO |-> CASE m = 0 -> \h33CC [] m = 1 -> \h3C3C [] m = 2 -> \h0F0F [] m = 3 -> \h0FF0 [] m = 4 -> \h3333]
+SW == TLCEval([m \in MSO |-> CASE m = 0 -> \h33CC [] m = 1 -> \h3C3C [] m = 2 -> \h0F0F [] m = 3 -> \h0FF0 [] m = 4 -> \h3333])
 
 \* EKS-KS-10, E-12: the mode that a word means in a range; None for zero and for every word outside the range
 ModeOf(range, word) ==
-    IF \E m \in MSO : range[m] = word THEN CHOOSE m \in MSO : range[m] = word ELSE None
+    IF word = range[0] THEN 0 ELSE IF word = range[1] THEN 1 ELSE IF word = range[2] THEN 2
+    ELSE IF word = range[3] THEN 3 ELSE IF word = range[4] THEN 4 ELSE None
 
 \* EKS-T2-2, E-47: the levels are totally ordered; a level permits its own mode and all lower ones
 Permitted(level, m) == level # None /\ m # None /\ m <= level

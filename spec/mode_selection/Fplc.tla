@@ -31,14 +31,14 @@ ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
 ASSUME ON_ERROR \in {"hold", "none"}
 
 VARIABLES
-    state,      \* the step that is executed next
+    fplcState,      \* the step that is executed next
     accepted,   \* the one output accepted in this insertion
     authority,  \* authorization level of this insertion
-    selection,  \* the selection latched from MW03
+    fplcSelection,  \* the selection latched from MW03
     mode,       \* the mode outputs that are set, as a set of modes
-    elapsed     \* ticks since the timer of this state was started
+    fplcElapsed     \* ticks since the timer of this state was started
 
-vars == <<state, accepted, authority, selection, mode, elapsed>>
+fplc == <<fplcState, accepted, authority, fplcSelection, mode, fplcElapsed>>
 
 Transaction == {"EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
 Authorized == {"AwaitSelection", "CheckSelection", "Settle"} \cup Transaction
@@ -48,70 +48,70 @@ Removing == {"Clear", "AwaitZeros"}
 OwnRules == {"Start", "Idle", "Error"}                    \* states that the check before every step leaves alone
 Timed == Pulse \cup {"OneOutput"} \cup Removing           \* states with a deadline
 Clocked == Timed \cup {"Start", "Settle", "Error"}         \* states in which time is counted
-States == {"Start", "Idle", "OneOutput", "Error"} \cup Holding \cup Pulse \cup Removing
+FplcStates == {"Start", "Idle", "OneOutput", "Error"} \cup Holding \cup Pulse \cup Removing
 
-TypeOK ==
-    /\ state \in States
-    /\ accepted \in MSO \cup {None} /\ authority \in MSO \cup {None} /\ selection \in MSO \cup {None}
+FplcTypeOK ==
+    /\ fplcState \in FplcStates
+    /\ accepted \in MSO \cup {None} /\ authority \in MSO \cup {None} /\ fplcSelection \in MSO \cup {None}
     /\ mode \subseteq MSO
-    /\ elapsed \in 0..T_ON + T_SEQ + T_REM
+    /\ fplcElapsed \in 0..T_ON + T_SEQ + T_REM
 
 \* EKS-8-6, E-25c: at power-up no mode is active and nothing is authorized
-Init ==
-    /\ state = "Start" /\ accepted = None /\ authority = None /\ selection = None
-    /\ mode = {} /\ elapsed = 0
+FplcInit ==
+    /\ fplcState = "Start" /\ accepted = None /\ authority = None /\ fplcSelection = None
+    /\ mode = {} /\ fplcElapsed = 0
 
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
 \* EKS-2-12, EKS-8-6, E-05: the level is published from AwaitSelection to Settle and is zero in every other state
-MW01 == IF state \in Authorized THEN RE[authority] ELSE 0
+MW01 == IF fplcState \in Authorized THEN RE[authority] ELSE 0
 \* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-16, E-27: the echo is there only while an acknowledgment may come
-MW05 == IF state \in Transaction \ {"EchoSelection"} THEN CH[selection] ELSE 0
+MW05 == IF fplcState \in Transaction \ {"EchoSelection"} THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
-ERROR == state = "Error"
+ERROR == fplcState = "Error"
 
 ----------------------------------------------------------------------------
 (* What a scan sees.                                                       *)
 
 Literal(reading) == reading \in LITERAL
-Now(i) == elapsed + i.dt
-Min(a, b) == IF a < b THEN a ELSE b
+LOCAL Now(i) == fplcElapsed + i.dt
+LOCAL Min(a, b) == IF a < b THEN a ELSE b
 
 \* EKS-KS-6, EKS-2-11, E-09, E-06b: A, B, C, D and STR alike, in every scan outside the test pulse
 Many(i) == Cardinality(i.vec) >= 2
 \* EKS-3-1-FPLC, EKS-9-1-FPLC, E-28
-NoSignal(i) == ~i.LA /\ i.vec = {}
-NoWords(i) == i.MW03 = 0 /\ i.MW07 = 0
-Dwelt(i) == Now(i) >= T_DWELL \/ Literal("NO_DWELL")
+LOCAL NoSignal(i) == ~i.LA /\ i.vec = {}
+LOCAL NoWords(i) == i.MW03 = 0 /\ i.MW07 = 0
+LOCAL Dwelt(i) == Now(i) >= T_DWELL \/ Literal("NO_DWELL")
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-52: one conjunction, not before the dwell time is over
-ZerosReturned(i) == NoSignal(i) /\ NoWords(i) /\ Dwelt(i)
+LOCAL ZerosReturned(i) == NoSignal(i) /\ NoWords(i) /\ Dwelt(i)
 
-Deadline == CASE state = "PulseOnes" -> T_ON [] state \in Removing -> T_REM [] OTHER -> T_SEQ
+Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Removing -> T_REM [] OTHER -> T_SEQ
 
 \* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority
-UnguardedSwitch == state = "Switch" /\ Literal("NO_LA_AT_SWITCH")
-IsMany(i) == Many(i) /\ state \notin OwnRules /\ state \notin Pulse
-IsGone(i) == ~i.LA /\ state \notin OwnRules /\ state \notin Removing /\ ~UnguardedSwitch
-IsChanged(i) == state \in Holding /\ i.vec # {accepted} /\ ~UnguardedSwitch
-IsExpired(i) == state \in Timed /\ Now(i) >= Deadline
+UnguardedSwitch == fplcState = "Switch" /\ Literal("NO_LA_AT_SWITCH")
+IsMany(i) == Many(i) /\ fplcState \notin OwnRules /\ fplcState \notin Pulse
+IsGone(i) == ~i.LA /\ fplcState \notin OwnRules /\ fplcState \notin Removing /\ ~UnguardedSwitch
+IsChanged(i) == fplcState \in Holding /\ i.vec # {accepted} /\ ~UnguardedSwitch
+IsExpired(i) == fplcState \in Timed /\ Now(i) >= Deadline
 CheckPasses(i) == ~IsMany(i) /\ ~IsGone(i) /\ ~IsChanged(i) /\ ~IsExpired(i)
 
 ----------------------------------------------------------------------------
 (* What a scan does.                                                       *)
 
-KeepKey == UNCHANGED <<accepted, authority>>
-GoTo(s) == state' = s /\ elapsed' = 0
-Stay(i, limit) == UNCHANGED <<state, accepted, authority, selection, mode>> /\ elapsed' = Min(Now(i), limit)
-Untimed == UNCHANGED vars
-DropKey == accepted' = None /\ authority' = None /\ selection' = None
+LOCAL KeepKey == UNCHANGED <<accepted, authority>>
+LOCAL GoTo(s) == fplcState' = s /\ fplcElapsed' = 0
+LOCAL Stay(i, limit) == UNCHANGED <<fplcState, accepted, authority, fplcSelection, mode>> /\ fplcElapsed' = Min(Now(i), limit)
+LOCAL Untimed == UNCHANGED fplc
+LOCAL DropKey == accepted' = None /\ authority' = None /\ fplcSelection' = None
 
-EnterError ==
+LOCAL EnterError ==
     /\ GoTo("Error") /\ DropKey
     /\ mode' = IF ON_ERROR = "none" THEN {} ELSE mode
-EnterClear == GoTo("Clear") /\ DropKey /\ UNCHANGED mode
-EnterSettle == GoTo("Settle") /\ KeepKey /\ selection' = None /\ UNCHANGED mode
-Proceed(s) == GoTo(s) /\ KeepKey /\ UNCHANGED <<selection, mode>>
+LOCAL EnterClear == GoTo("Clear") /\ DropKey /\ UNCHANGED mode
+LOCAL EnterSettle == GoTo("Settle") /\ KeepKey /\ fplcSelection' = None /\ UNCHANGED mode
+LOCAL Proceed(s) == GoTo(s) /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
 
 ----------------------------------------------------------------------------
 (* The check before every step, Figures 3 and 9.                           *)
@@ -119,8 +119,8 @@ Proceed(s) == GoTo(s) /\ KeepKey /\ UNCHANGED <<selection, mode>>
 \* EKS-KS-6, EKS-2-11, E-09: more than one output outside the pulse is a fault of the EKS, also without LA
 TooManyOutputs(i) ==
     /\ \/ IsMany(i)
-       \/ state = "Start" /\ Many(i)
-       \/ state = "Idle" /\ ~i.LA /\ Many(i)
+       \/ fplcState = "Start" /\ Many(i)
+       \/ fplcState = "Idle" /\ ~i.LA /\ Many(i)
     /\ EnterError
     /\ Did("TooManyOutputs")
 
@@ -146,71 +146,71 @@ DeadlineExpired(i) ==
 (* Power-up, waiting for a key.                                            *)
 
 \* EKS-GP-5, E-25c, E-56: power-up; a key in the reader must be taken out first
-LeaveStart(i) == state = "Start" /\ ~Many(i) /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveStart")
+LeaveStart(i) == fplcState = "Start" /\ ~Many(i) /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveStart")
 \* E-25c
 AwaitPowerUpZeros(i) ==
-    state = "Start" /\ ~Many(i) /\ ~ZerosReturned(i) /\ Stay(i, T_DWELL) /\ Did("AwaitPowerUpZeros")
+    fplcState = "Start" /\ ~Many(i) /\ ~ZerosReturned(i) /\ Stay(i, T_DWELL) /\ Did("AwaitPowerUpZeros")
 
 \* EKS-9-1-FPLC, EKS-9-2, EKS-9-3, E-35, E-36
-AwaitKey(i) == state = "Idle" /\ ~i.LA /\ ~Many(i) /\ Untimed /\ Did("AwaitKey")
+AwaitKey(i) == fplcState = "Idle" /\ ~i.LA /\ ~Many(i) /\ Untimed /\ Did("AwaitKey")
 \* EKS-2-6, EKS-9-4-FPLC, E-17, E-40: the deadline for the pulse starts with LA, whatever the outputs show
-DetectKey(i) == state = "Idle" /\ i.LA /\ Proceed("PulseOnes") /\ Did("DetectKey")
+DetectKey(i) == fplcState = "Idle" /\ i.LA /\ Proceed("PulseOnes") /\ Did("DetectKey")
 
 ----------------------------------------------------------------------------
 (* The test pulse, Figure 4.                                               *)
 
 \* EKS-2-6, EKS-2-10, EKS-4-1, E-10: patterns between are waited out
-AwaitOnes(i) == state = "PulseOnes" /\ i.vec # MSO /\ Stay(i, T_ON) /\ Did("AwaitOnes")
+AwaitOnes(i) == fplcState = "PulseOnes" /\ i.vec # MSO /\ Stay(i, T_ON) /\ Did("AwaitOnes")
 \* EKS-2-10, EKS-4-1, EKS-4-2, E-38: the sequence timer is started
-SeeOnes(i) == state = "PulseOnes" /\ i.vec = MSO /\ Proceed("PulseZeros") /\ Did("SeeOnes")
+SeeOnes(i) == fplcState = "PulseOnes" /\ i.vec = MSO /\ Proceed("PulseZeros") /\ Did("SeeOnes")
 \* EKS-4-3, EKS-4-4, E-39
-AwaitPulseZeros(i) == state = "PulseZeros" /\ i.vec # {} /\ Stay(i, T_SEQ) /\ Did("AwaitPulseZeros")
+AwaitPulseZeros(i) == fplcState = "PulseZeros" /\ i.vec # {} /\ Stay(i, T_SEQ) /\ Did("AwaitPulseZeros")
 \* EKS-4-3, EKS-4-5: the timer goes on
 SeePulseZeros(i) ==
-    /\ state = "PulseZeros" /\ i.vec = {}
-    /\ state' = "OneOutput" /\ elapsed' = Now(i)
-    /\ KeepKey /\ UNCHANGED <<selection, mode>>
+    /\ fplcState = "PulseZeros" /\ i.vec = {}
+    /\ fplcState' = "OneOutput" /\ fplcElapsed' = Now(i)
+    /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
     /\ Did("SeePulseZeros")
 \* EKS-4-5, EKS-4-6
-AwaitOneOutput(i) == state = "OneOutput" /\ i.vec = {} /\ Stay(i, T_SEQ) /\ Did("AwaitOneOutput")
+AwaitOneOutput(i) == fplcState = "OneOutput" /\ i.vec = {} /\ Stay(i, T_SEQ) /\ Did("AwaitOneOutput")
 \* EKS-2-10, EKS-2-11, EKS-4-5, EKS-4-7, EKS-KS-5: one of five
 AcceptOutput(i) ==
-    /\ state = "OneOutput" /\ i.vec # {}
+    /\ fplcState = "OneOutput" /\ i.vec # {}
     /\ \E a \in i.vec : accepted' = a
     /\ GoTo("Authorize")
-    /\ UNCHANGED <<authority, selection, mode>>
+    /\ UNCHANGED <<authority, fplcSelection, mode>>
     /\ Did("AcceptOutput")
 
 ----------------------------------------------------------------------------
 (* Authorization and selection.                                            *)
 
 \* E-54: a word that is there before anything was offered answers nothing
-RefuseEarlyWord(i) == state = "Authorize" /\ ~NoWords(i) /\ EnterError /\ Did("RefuseEarlyWord")
+RefuseEarlyWord(i) == fplcState = "Authorize" /\ ~NoWords(i) /\ EnterError /\ Did("RefuseEarlyWord")
 \* EKS-2-12, EKS-SD-1, E-05, E-18: the level comes from the outputs and is kept in private memory
 PublishAuthority(i) ==
-    /\ state = "Authorize" /\ NoWords(i)
+    /\ fplcState = "Authorize" /\ NoWords(i)
     /\ \E a \in i.vec : authority' = a
     /\ GoTo("AwaitSelection")
-    /\ UNCHANGED <<accepted, selection, mode>>
+    /\ UNCHANGED <<accepted, fplcSelection, mode>>
     /\ Did("PublishAuthority")
 
 \* EKS-2-17
-AwaitMW03(i) == state = "AwaitSelection" /\ i.MW07 = 0 /\ i.MW03 = 0 /\ Untimed /\ Did("AwaitMW03")
+AwaitMW03(i) == fplcState = "AwaitSelection" /\ i.MW07 = 0 /\ i.MW03 = 0 /\ Untimed /\ Did("AwaitMW03")
 \* EKS-2-17
 SeeSelection(i) ==
-    state = "AwaitSelection" /\ i.MW07 = 0 /\ i.MW03 # 0 /\ Proceed("CheckSelection") /\ Did("SeeSelection")
+    fplcState = "AwaitSelection" /\ i.MW07 = 0 /\ i.MW03 # 0 /\ Proceed("CheckSelection") /\ Did("SeeSelection")
 
 \* E-16: the selection must stand unchanged until the switchover
-Stands(i) ==
-    \/ i.MW03 = SE[selection]
+LOCAL Stands(i) ==
+    \/ i.MW03 = SE[fplcSelection]
     \/ Literal("LIVE_MW03") /\ ModeOf(SE, i.MW03) # None
-Unchanged(s, i) == state = s /\ Stands(i)
+LOCAL Unchanged(s, i) == fplcState = s /\ Stands(i)
 
 \* E-11, E-15: an acknowledgment that nobody asked for
 UnexpectedAcknowledgment(i) ==
-    /\ \/ state = "AwaitSelection"
-       \/ state = "CheckSelection"
-       \/ state = "EchoSelection" /\ Stands(i)
+    /\ \/ fplcState = "AwaitSelection"
+       \/ fplcState = "CheckSelection"
+       \/ fplcState = "EchoSelection" /\ Stands(i)
     /\ i.MW07 # 0
     /\ EnterError
     /\ Did("UnexpectedAcknowledgment")
@@ -218,15 +218,15 @@ UnexpectedAcknowledgment(i) ==
 \* EKS-2-18, EKS-2-19, EKS-5-1 to the end of Figure 5, EKS-5-9, EKS-6-1, EKS-6-3, EKS-6-5, EKS-6-7, EKS-6-9, EKS-6-11,
 \* EKS-5-3, EKS-5-5, EKS-5-7, E-12, E-14, E-16, E-47: range and authority in one scan, then the selection is latched
 AcceptSelection(i) ==
-    /\ state = "CheckSelection" /\ i.MW07 = 0
+    /\ fplcState = "CheckSelection" /\ i.MW07 = 0
     /\ Permitted(authority, ModeOf(SE, i.MW03))
-    /\ selection' = ModeOf(SE, i.MW03)
+    /\ fplcSelection' = ModeOf(SE, i.MW03)
     /\ GoTo("EchoSelection")
     /\ KeepKey /\ UNCHANGED mode
     /\ Did("AcceptSelection")
 \* EKS-2-18, EKS-2-19, EKS-5-2, EKS-5-4, EKS-5-6, EKS-5-8, EKS-5-10, EKS-6-12, E-12, E-14
 RefuseSelection(i) ==
-    /\ state = "CheckSelection" /\ i.MW07 = 0 /\ i.MW03 # 0
+    /\ fplcState = "CheckSelection" /\ i.MW07 = 0 /\ i.MW03 # 0
     /\ ~Permitted(authority, ModeOf(SE, i.MW03))
     /\ EnterError
     /\ Did("RefuseSelection")
@@ -236,8 +236,8 @@ RefuseSelection(i) ==
 
 \* EKS-2-25, E-16, E-21: the panel took the selection back or changed it
 WithdrawSelection(i) ==
-    /\ \/ state = "CheckSelection" /\ i.MW07 = 0 /\ i.MW03 = 0
-       \/ state \in Transaction /\ ~Stands(i)
+    /\ \/ fplcState = "CheckSelection" /\ i.MW07 = 0 /\ i.MW03 = 0
+       \/ fplcState \in Transaction /\ ~Stands(i)
     /\ EnterSettle
     /\ Did("WithdrawSelection")
 
@@ -271,9 +271,9 @@ WithdrawAcknowledgment(i) ==
     /\ Did("WithdrawAcknowledgment")
 
 \* Figure 7 as printed has the word of MSO 3 in the row of MSO 2; in a chain that falls through, MSO 3 confirms MSO 2 (E-01)
-PrintedMatch(i) == i.MW07 = SW[3] /\ selection = 2
-Matches(i) ==
-    \/ i.MW07 = SW[selection]
+LOCAL PrintedMatch(i) == i.MW07 = SW[3] /\ fplcSelection = 2
+LOCAL Matches(i) ==
+    \/ i.MW07 = SW[fplcSelection]
     \/ Literal("LITERAL_FIG7") /\ PrintedMatch(i)
     \/ Literal("LIVE_MW03") /\ ModeOf(SW, i.MW07) # None /\ ModeOf(SW, i.MW07) = ModeOf(SE, i.MW03)
 
@@ -289,67 +289,67 @@ RefuseMatch(i) ==
 \* EKS-2-29, EKS-SD-2, E-01, E-16, E-18, E-42: every guard is evaluated again in the scan that switches
 SwitchMode(i) ==
     /\ Unchanged("Switch", i) /\ Matches(i)
-    /\ mode' = {IF LITERAL \cap {"LITERAL_FIG7", "LIVE_MW03"} # {} THEN ModeOf(SW, i.MW07) ELSE selection}
-    /\ selection' = None
+    /\ mode' = {IF LITERAL \cap {"LITERAL_FIG7", "LIVE_MW03"} # {} THEN ModeOf(SW, i.MW07) ELSE fplcSelection}
+    /\ fplcSelection' = None
     /\ KeepKey
     /\ GoTo(IF Literal("NO_SETTLE") THEN "AwaitSelection" ELSE "Settle")
     /\ Did("SwitchMode")
 
 \* EKS-GP-5, E-15: before the next selection both words must have been zero
-AwaitSettled(i) == state = "Settle" /\ ~(NoWords(i) /\ Dwelt(i)) /\ Stay(i, T_DWELL) /\ Did("AwaitSettled")
+AwaitSettled(i) == fplcState = "Settle" /\ ~(NoWords(i) /\ Dwelt(i)) /\ Stay(i, T_DWELL) /\ Did("AwaitSettled")
 \* EKS-GP-5, E-15, E-52
-LeaveSettle(i) == state = "Settle" /\ NoWords(i) /\ Dwelt(i) /\ Proceed("AwaitSelection") /\ Did("LeaveSettle")
+LeaveSettle(i) == fplcState = "Settle" /\ NoWords(i) /\ Dwelt(i) /\ Proceed("AwaitSelection") /\ Did("LeaveSettle")
 
 ----------------------------------------------------------------------------
 (* Removal, Figures 8 and 9, and the way out of the error mode.            *)
 
 \* EKS-8-3, EKS-8-6, E-27: the words fell to zero in the scan that saw the key go; the timer goes on
 ClearWords(i) ==
-    /\ state = "Clear"
-    /\ state' = "AwaitZeros" /\ elapsed' = Now(i)
-    /\ KeepKey /\ UNCHANGED <<selection, mode>>
+    /\ fplcState = "Clear"
+    /\ fplcState' = "AwaitZeros" /\ fplcElapsed' = Now(i)
+    /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
     /\ Did("ClearWords")
 
-Reinserted(i) == Literal("INSERT_DURING_REMOVAL") /\ i.LA
+LOCAL Reinserted(i) == Literal("INSERT_DURING_REMOVAL") /\ i.LA
 \* EKS-8-11, EKS-8-12, E-30, E-31
 AwaitReturnedZeros(i) ==
-    state = "AwaitZeros" /\ ~ZerosReturned(i) /\ ~Reinserted(i) /\ Stay(i, T_REM) /\ Did("AwaitReturnedZeros")
+    fplcState = "AwaitZeros" /\ ~ZerosReturned(i) /\ ~Reinserted(i) /\ Stay(i, T_REM) /\ Did("AwaitReturnedZeros")
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-35, E-52
-LeaveAwaitZeros(i) == state = "AwaitZeros" /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveAwaitZeros")
+LeaveAwaitZeros(i) == fplcState = "AwaitZeros" /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveAwaitZeros")
 \* The literal Figure 9: a key starts the insertion at once, the removal is not finished (E-17)
 InsertDuringRemoval(i) ==
-    state = "AwaitZeros" /\ ~ZerosReturned(i) /\ Reinserted(i) /\ Proceed("PulseOnes") /\ Did("InsertDuringRemoval")
+    fplcState = "AwaitZeros" /\ ~ZerosReturned(i) /\ Reinserted(i) /\ Proceed("PulseOnes") /\ Did("InsertDuringRemoval")
 
 \* EKS-3-0, EKS-9-0, EKS-SD-5, E-22, E-23
-StayInError(i) == state = "Error" /\ ~ZerosReturned(i) /\ Stay(i, T_DWELL) /\ Did("StayInError")
+StayInError(i) == fplcState = "Error" /\ ~ZerosReturned(i) /\ Stay(i, T_DWELL) /\ Did("StayInError")
 \* EKS-3-0, EKS-9-0, EKS-GP-4, E-23, E-52: the key is out and zeros went round; never back into a pending transaction
-LeaveError(i) == state = "Error" /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveError")
+LeaveError(i) == fplcState = "Error" /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveError")
 
 ----------------------------------------------------------------------------
 \* The steps, grouped by the states in which they can fire
-Step(i) ==
-    \/ state = "Start" /\ (LeaveStart(i) \/ AwaitPowerUpZeros(i))
-    \/ state = "Idle" /\ (AwaitKey(i) \/ DetectKey(i))
-    \/ state = "PulseOnes" /\ (AwaitOnes(i) \/ SeeOnes(i))
-    \/ state = "PulseZeros" /\ (AwaitPulseZeros(i) \/ SeePulseZeros(i))
-    \/ state = "OneOutput" /\ (AwaitOneOutput(i) \/ AcceptOutput(i))
-    \/ state = "Authorize" /\ (RefuseEarlyWord(i) \/ PublishAuthority(i))
-    \/ state = "AwaitSelection" /\ (AwaitMW03(i) \/ SeeSelection(i) \/ UnexpectedAcknowledgment(i))
-    \/ state = "CheckSelection" /\
+FplcStep(i) ==
+    \/ fplcState = "Start" /\ (LeaveStart(i) \/ AwaitPowerUpZeros(i))
+    \/ fplcState = "Idle" /\ (AwaitKey(i) \/ DetectKey(i))
+    \/ fplcState = "PulseOnes" /\ (AwaitOnes(i) \/ SeeOnes(i))
+    \/ fplcState = "PulseZeros" /\ (AwaitPulseZeros(i) \/ SeePulseZeros(i))
+    \/ fplcState = "OneOutput" /\ (AwaitOneOutput(i) \/ AcceptOutput(i))
+    \/ fplcState = "Authorize" /\ (RefuseEarlyWord(i) \/ PublishAuthority(i))
+    \/ fplcState = "AwaitSelection" /\ (AwaitMW03(i) \/ SeeSelection(i) \/ UnexpectedAcknowledgment(i))
+    \/ fplcState = "CheckSelection" /\
         \/ AcceptSelection(i) \/ RefuseSelection(i) \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i)
-    \/ state \in Transaction /\
+    \/ fplcState \in Transaction /\
         \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i) \/ PublishEcho(i) \/ AwaitMW07(i)
         \/ SeeAcknowledgment(i) \/ AcceptAcknowledgment(i) \/ RefuseAcknowledgment(i) \/ WithdrawAcknowledgment(i)
         \/ MatchWords(i) \/ RefuseMatch(i) \/ SwitchMode(i)
-    \/ state = "Settle" /\ (AwaitSettled(i) \/ LeaveSettle(i))
-    \/ state = "Clear" /\ ClearWords(i)
-    \/ state = "AwaitZeros" /\ (AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i) \/ InsertDuringRemoval(i))
-    \/ state = "Error" /\ (StayInError(i) \/ LeaveError(i))
+    \/ fplcState = "Settle" /\ (AwaitSettled(i) \/ LeaveSettle(i))
+    \/ fplcState = "Clear" /\ ClearWords(i)
+    \/ fplcState = "AwaitZeros" /\ (AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i) \/ InsertDuringRemoval(i))
+    \/ fplcState = "Error" /\ (StayInError(i) \/ LeaveError(i))
 
 \* EKS-GP-3, EKS-GP-4, EKS-3-2, EKS-3-3, EKS-9-2, EKS-9-3: first the check, then at most one step
-Scan(i) ==
+FplcScan(i) ==
     \/ TooManyOutputs(i) \/ KeyGone(i) \/ VectorChanged(i) \/ DeadlineExpired(i)
-    \/ CheckPasses(i) /\ Step(i)
+    \/ CheckPasses(i) /\ FplcStep(i)
 
 ----------------------------------------------------------------------------
 (* What the F-PLC promises whatever its inputs do.  `i` is the scan's.     *)
@@ -359,13 +359,13 @@ AtMostOneModeOutput == Cardinality(mode) <= 1
 
 \* EKS-2-20, EKS-6-12: MW05 shows only what was selected and permitted
 EchoIsTheSelection ==
-    MW05 # 0 => selection # None /\ MW05 = CH[selection] /\ Permitted(authority, selection) /\ MW01 = RE[authority]
+    MW05 # 0 => fplcSelection # None /\ MW05 = CH[fplcSelection] /\ Permitted(authority, fplcSelection) /\ MW01 = RE[authority]
 
 \* EKS-8-6, EKS-8-8, E-27: without an accepted key both words of the F-PLC are zero
 WordsZeroWithoutKey == accepted = None => MW01 = 0 /\ MW05 = 0
 
 \* EKS-2-18, EKS-T2-2: a latched selection never exceeds the level
 SelectionWithinAuthority ==
-    /\ selection # None => Permitted(authority, selection)
+    /\ fplcSelection # None => Permitted(authority, fplcSelection)
     /\ authority # None => authority = accepted
 =============================================================================

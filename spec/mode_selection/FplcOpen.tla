@@ -7,23 +7,21 @@
 (* Models Figures 3 to 9 as far as the F-PLC goes; leaves out every other  *)
 (* device.                                                                 *)
 (***************************************************************************)
-EXTENDS Integers, Sequences, FiniteSets, TLC, CodeTables
+EXTENDS Sequences, TLC, Fplc
 
-CONSTANTS T_ON, T_SEQ, T_REM, T_DWELL, ON_ERROR, LITERAL, RECORD_STEPS,
+CONSTANTS
           ALL_VECTORS,    \* TRUE: all 32 output vectors; FALSE: none, one, two, all
           PRINT_GRAPH     \* TRUE: print inputs, states and edges
 
-VARIABLES state, accepted, authority, selection, mode, elapsed, step,
+VARIABLES
           in,         \* the input of the last scan, by its number; hidden by VIEW
           \* What an observer of the wires alone has seen in this insertion; nothing of the F-PLC reads it:
           cleared,    \* one output, LA and both words zero, since LA was last off
           selected,   \* then MW03 showed this mode, with MW07 still zero
           echoed      \* then MW05 showed it
 
-INSTANCE Fplc
-
 observer == <<cleared, selected, echoed>>
-View == <<state, accepted, authority, selection, mode, elapsed>>
+View == fplc
 ObservedView == <<View, observer>>
 
 ----------------------------------------------------------------------------
@@ -55,7 +53,7 @@ PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>)
 
 ----------------------------------------------------------------------------
 OpenInit ==
-    /\ Init /\ step = "" /\ in = 0
+    /\ FplcInit /\ step = "" /\ in = 0
     /\ cleared = FALSE /\ selected = None /\ echoed = FALSE
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
@@ -71,11 +69,11 @@ Observe(i) ==
         /\ echoed' = (standing /\ (echoed \/ MW05 = CH[selected]))
 
 \* Where the clock stands the graph still tries every time; the properties need only one
-TimesToTry == IF PRINT_GRAPH \/ state \in Clocked THEN 0..N - 1 ELSE 0..(98 * NV) - 1
+TimesToTry == IF PRINT_GRAPH \/ fplcState \in Clocked THEN 0..N - 1 ELSE 0..(98 * NV) - 1
 
 OpenNext ==
     \E n \in TimesToTry : \E i \in {Alphabet[n]} :
-        /\ Scan(i)
+        /\ FplcScan(i)
         /\ in' = n
         /\ IF PRINT_GRAPH THEN UNCHANGED observer ELSE Observe(i)
 
@@ -84,7 +82,7 @@ OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in>>
 ----------------------------------------------------------------------------
 (* Action properties; Scanned is the input of the scan that is judged.     *)
 Scanned == Alphabet[in']
-PulseWindow == state \in Pulse \/ (state = "Idle" /\ Scanned.LA)
+PulseWindow == fplcState \in Pulse \/ (fplcState = "Idle" /\ Scanned.LA)
 
 \* EKS-2-28, EKS-2-29, EKS-SD-2, E-15, E-16: the pair stands on the wires in the scan that switches, and it came after zeros, in this insertion
 SwitchNeedsMatchingPair ==
@@ -104,25 +102,25 @@ NoChangeWithoutLA == [][mode' # mode /\ mode' # {} => Scanned.LA]_ObservedView
 \* EKS-8-8, EKS-SD-7, E-24: insertion, removal, error and deadline leave the mode; under ON_ERROR = "none" the error mode clears it
 NoChangeBesideSwitchover ==
     [][mode' # mode =>
-        \/ state = "Switch" /\ state' = "Settle"
-        \/ ON_ERROR = "none" /\ state' = "Error" /\ mode' = {}]_ObservedView
+        \/ fplcState = "Switch" /\ fplcState' = "Settle"
+        \/ ON_ERROR = "none" /\ fplcState' = "Error" /\ mode' = {}]_ObservedView
 
 \* EKS-KS-6, EKS-2-11, E-09: two outputs outside the pulse window lead to the error mode in that scan, and nothing switches
 TwoOutputsLeadToError ==
     [][Cardinality(Scanned.vec) >= 2 /\ ~PulseWindow =>
-        state' = "Error" /\ (mode' = mode \/ (ON_ERROR = "none" /\ mode' = {}))]_ObservedView
+        fplcState' = "Error" /\ (mode' = mode \/ (ON_ERROR = "none" /\ mode' = {}))]_ObservedView
 
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-17, E-23, E-29: the way to a new insertion leads over zeros everywhere
 IdleOnlyOverZeros ==
-    [][state # "Idle" /\ state' = "Idle" =>
+    [][fplcState # "Idle" /\ fplcState' = "Idle" =>
         /\ ~Scanned.LA /\ Scanned.vec = {} /\ Scanned.MW03 = 0 /\ Scanned.MW07 = 0
-        /\ elapsed + Scanned.dt >= T_DWELL]_ObservedView
+        /\ fplcElapsed + Scanned.dt >= T_DWELL]_ObservedView
 
 \* EKS-GP-3, EKS-3-1-FPLC: a transaction is left in the scan in which the key is not signalled
 RemovalSeenAtOnce ==
-    [][(state \in Holding /\ (~Scanned.LA \/ Scanned.vec # {accepted})) =>
-        MW01' = 0 /\ MW05' = 0 /\ state' \in {"Clear", "Error"}]_ObservedView
+    [][(fplcState \in Holding /\ (~Scanned.LA \/ Scanned.vec # {accepted})) =>
+        MW01' = 0 /\ MW05' = 0 /\ fplcState' \in {"Clear", "Error"}]_ObservedView
 
 \* EKS-GP-3: every scan has exactly one step (the guards overlap nowhere and leave no gap)
-ExactlyOneStep == \A n \in 0..N - 1 : ENABLED (in' = n /\ Scan(Alphabet[n]) /\ UNCHANGED observer)
+ExactlyOneStep == \A n \in 0..N - 1 : ENABLED (in' = n /\ FplcScan(Alphabet[n]) /\ UNCHANGED observer)
 =============================================================================

@@ -1,0 +1,132 @@
+-------------------------------- MODULE Hmi ---------------------------------
+(***************************************************************************)
+(* The touchscreen of the note: insert steps 14, 15, 22 to 25, removal     *)
+(* steps 8, 9, 16, and the HMI's rows of Figures 3 and 9.                  *)
+(* One step is one scan.  i = [RA, CM, touch]: ReadAuthorization and       *)
+(* CheckMSO as they stand on the bus, and the field that the user touched  *)
+(* ("" for none).                                                          *)
+(* Leaves out: the layout (data of the implementation, checked there) and  *)
+(* the display of the active mode, which decides nothing (E-25).           *)
+(***************************************************************************)
+EXTENDS Integers, CodeTables, StepName
+
+VARIABLES
+    hmiState,      \* the screen and what it waits for
+    offered,    \* the authorization level that the screen was opened with
+    hmiSelection   \* the mode that was touched
+
+hmi == <<hmiState, offered, hmiSelection>>
+
+Pending == {"AwaitEcho", "Confirm", "AwaitSwitch"}
+HmiStates == {"Inhibited", "Select", "Withdrawn"} \cup Pending
+
+Field(m) == CASE m = 0 -> "select:0" [] m = 1 -> "select:1" [] m = 2 -> "select:2" [] m = 3 -> "select:3" [] m = 4 -> "select:4"
+Touches == {"", "confirm", "reject"} \cup {Field(m) : m \in MSO}
+
+HmiTypeOK ==
+    /\ hmiState \in HmiStates
+    /\ offered \in MSO \cup {None}
+    /\ hmiSelection \in MSO \cup {None}
+
+HmiInit == hmiState = "Inhibited" /\ offered = None /\ hmiSelection = None
+
+----------------------------------------------------------------------------
+(* Outputs: the row of the state.                                          *)
+
+\* EKS-2-15, EKS-8-9
+SelectMSO == IF hmiState \in Pending THEN SE[hmiSelection] ELSE 0
+\* EKS-2-24, EKS-8-16, E-19: the acknowledged word is made from the echo, which equals the selection in this state
+SwitchMSO == IF hmiState = "AwaitSwitch" THEN SW[hmiSelection] ELSE 0
+\* EKS-2-14, EKS-8-8, EKS-SD-3
+Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "select" [] hmiState = "Confirm" -> "confirm"
+            [] OTHER -> "waiting"
+\* EKS-2-14, EKS-SD-4: only what the key permits
+Enabled == IF hmiState = "Select" THEN {m \in MSO : Permitted(offered, m)} ELSE {}
+\* EKS-2-22
+Shown == IF hmiState = "Confirm" THEN hmiSelection ELSE None
+
+----------------------------------------------------------------------------
+LOCAL Level(i) == ModeOf(RE, i.RA)
+\* EKS-3-1-HMI, EKS-9-1-HMI, EKS-GP-4, E-46, E-55: enabled means a code word, and the same one as when the screen was opened
+LOCAL Enable(i) == Level(i) # None /\ Level(i) = offered
+LOCAL At(s, i) == hmiState = s /\ Enable(i)
+LOCAL Echoed(i) == i.CM = CH[hmiSelection]
+LOCAL GoTo(s) == hmiState' = s /\ UNCHANGED <<offered, hmiSelection>>
+LOCAL Stay == UNCHANGED hmi
+LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
+
+\* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55; from Select also when an echo shows that nobody asked for
+InhibitScreen(i) ==
+    /\ \/ hmiState # "Inhibited" /\ ~Enable(i)
+       \/ At("Select", i) /\ i.CM # 0
+    /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
+    /\ Did("InhibitScreen")
+\* EKS-2-14, EKS-9-4-HMI, EKS-SD-3, E-46, E-57: opened by a code word, and only when the old echo is gone
+EnableScreen(i) ==
+    /\ hmiState = "Inhibited" /\ Level(i) # None /\ i.CM = 0
+    /\ hmiState' = "Select" /\ offered' = Level(i) /\ UNCHANGED hmiSelection
+    /\ Did("EnableScreen")
+\* EKS-8-8, EKS-9-1-HMI, EKS-9-2
+StayInhibited(i) == hmiState = "Inhibited" /\ (Level(i) = None \/ i.CM # 0) /\ Stay /\ Did("StayInhibited")
+
+\* EKS-2-14, EKS-2-15, EKS-3-2
+TouchSelection(i) ==
+    /\ At("Select", i) /\ i.CM = 0
+    /\ \E m \in Enabled : i.touch = Field(m) /\ hmiSelection' = m
+    /\ hmiState' = "AwaitEcho" /\ UNCHANGED offered
+    /\ Did("TouchSelection")
+\* EKS-2-14, EKS-SD-4: a field that is not enabled does nothing
+OfferModes(i) ==
+    At("Select", i) /\ i.CM = 0 /\ (\A m \in Enabled : i.touch # Field(m)) /\ Stay /\ Did("OfferModes")
+
+\* EKS-2-22
+AwaitCheckMSO(i) == At("AwaitEcho", i) /\ i.CM = 0 /\ Stay /\ Did("AwaitCheckMSO")
+\* EKS-2-22, E-20: the panel compares by itself, then asks
+ShowEcho(i) == At("AwaitEcho", i) /\ Echoed(i) /\ GoTo("Confirm") /\ Did("ShowEcho")
+\* EKS-2-22, EKS-2-25, E-20, E-21: an echo of something else, or an echo that goes away
+AbandonSelection(i) ==
+    /\ \/ At("AwaitEcho", i) /\ i.CM # 0 /\ ~Echoed(i)
+       \/ At("Confirm", i) /\ ~Echoed(i)
+       \/ At("AwaitSwitch", i) /\ i.CM # 0 /\ ~Echoed(i)
+    /\ Drop("Withdrawn")
+    /\ Did("AbandonSelection")
+
+\* EKS-2-22, EKS-2-23
+AskConfirmation(i) ==
+    At("Confirm", i) /\ Echoed(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
+\* EKS-2-23, EKS-2-24, EKS-SD-5
+TouchConfirm(i) ==
+    At("Confirm", i) /\ Echoed(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
+\* EKS-2-25, E-21, E-53: the negative acknowledgment takes the selection back; after the confirmation there is none
+TouchReject(i) ==
+    At("Confirm", i) /\ Echoed(i) /\ i.touch = "reject" /\ Drop("Withdrawn") /\ Did("TouchReject")
+
+\* E-15, E-53
+AwaitCleared(i) == At("AwaitSwitch", i) /\ Echoed(i) /\ Stay /\ Did("AwaitCleared")
+\* E-15: both words go back to zero when the echo does, then the next selection may begin
+FinishSelection(i) ==
+    /\ At("AwaitSwitch", i) \/ At("Withdrawn", i)
+    /\ i.CM = 0
+    /\ Drop("Select")
+    /\ Did("FinishSelection")
+\* E-15, E-21
+AwaitWithdrawn(i) == At("Withdrawn", i) /\ i.CM # 0 /\ Stay /\ Did("AwaitWithdrawn")
+
+\* EKS-GP-3, EKS-3-2, EKS-9-2: grouped by the states in which the steps can fire
+HmiScan(i) ==
+    \/ InhibitScreen(i)
+    \/ hmiState = "Inhibited" /\ (EnableScreen(i) \/ StayInhibited(i))
+    \/ hmiState = "Select" /\ (TouchSelection(i) \/ OfferModes(i))
+    \/ hmiState = "AwaitEcho" /\ (AwaitCheckMSO(i) \/ ShowEcho(i) \/ AbandonSelection(i))
+    \/ hmiState = "Confirm" /\ (AbandonSelection(i) \/ AskConfirmation(i) \/ TouchConfirm(i) \/ TouchReject(i))
+    \/ hmiState = "AwaitSwitch" /\ (AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i))
+    \/ hmiState = "Withdrawn" /\ (FinishSelection(i) \/ AwaitWithdrawn(i))
+
+----------------------------------------------------------------------------
+(* What the panel promises whatever the bus shows.                         *)
+
+\* EKS-2-14, EKS-SD-4: nothing beyond the level is ever sent
+SelectionWithinOffer == hmiSelection # None => Permitted(offered, hmiSelection)
+\* EKS-8-8, EKS-8-9, EKS-8-16: an inhibited panel sends zeros
+InhibitedSendsZeros == hmiState = "Inhibited" => SelectMSO = 0 /\ SwitchMSO = 0
+=============================================================================

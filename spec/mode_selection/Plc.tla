@@ -1,0 +1,65 @@
+-------------------------------- MODULE Plc ---------------------------------
+(***************************************************************************)
+(* The PLC of the note: it forwards four words between the F-PLC and the   *)
+(* panel.  Insert steps 13, 16, 21, 26, removal steps 7, 10, 15, 17, and   *)
+(* the PLC's rows of Figures 3 and 9, which a cyclic copier fulfils: each  *)
+(* change of MW01 is copied on, whatever step the PLC would be in.         *)
+(* i = [MW01, MW05, SelectMSO, SwitchMSO], four words.                     *)
+(* Leaves out: the PLC's own step counter (E-08, E-43).                    *)
+(***************************************************************************)
+EXTENDS Integers, CodeTables, StepName
+
+CONSTANTS
+    WORDS,        \* the words that can occur
+    ANY_ORDER     \* TRUE: the four copies in any order; FALSE: one after the other
+
+VARIABLES
+    turn,               \* the copy that is executed next, where the order is fixed
+    ReadAuthorization,  \* the word as last sent to the panel
+    MW03,               \* the word as last written for the F-PLC
+    CheckMSO,           \* the word as last sent to the panel
+    MW07                \* the word as last written for the F-PLC
+
+plc == <<turn, ReadAuthorization, MW03, CheckMSO, MW07>>
+
+LOCAL Turns == {"CopyReadAuthorization", "CopyMW03", "CopyCheckMSO", "CopyMW07"}
+
+PlcTypeOK ==
+    /\ turn \in Turns
+    /\ ReadAuthorization \in WORDS /\ MW03 \in WORDS /\ CheckMSO \in WORDS /\ MW07 \in WORDS
+
+PlcInit ==
+    /\ turn = "CopyReadAuthorization"
+    /\ ReadAuthorization = 0 /\ MW03 = 0 /\ CheckMSO = 0 /\ MW07 = 0
+
+\* EKS-GP-3: one word a scan
+LOCAL Turn(this, next) == IF ANY_ORDER THEN UNCHANGED turn ELSE turn = this /\ turn' = next
+
+\* EKS-2-13, EKS-3-1-PLC, EKS-3-2, EKS-3-3, EKS-3-4-PLC, EKS-8-7, EKS-9-1-PLC, EKS-9-2, EKS-9-3, EKS-9-4-PLC, E-05, E-08
+CopyReadAuthorization(i) ==
+    /\ Turn("CopyReadAuthorization", "CopyMW03")
+    /\ ReadAuthorization' = i.MW01
+    /\ UNCHANGED <<MW03, CheckMSO, MW07>>
+    /\ Did("CopyReadAuthorization")
+\* EKS-2-16, EKS-8-10, E-33: copied as it is; the F-PLC judges it
+CopyMW03(i) ==
+    /\ Turn("CopyMW03", "CopyCheckMSO")
+    /\ MW03' = i.SelectMSO
+    /\ UNCHANGED <<ReadAuthorization, CheckMSO, MW07>>
+    /\ Did("CopyMW03")
+\* EKS-2-21, EKS-8-15
+CopyCheckMSO(i) ==
+    /\ Turn("CopyCheckMSO", "CopyMW07")
+    /\ CheckMSO' = i.MW05
+    /\ UNCHANGED <<ReadAuthorization, MW03, MW07>>
+    /\ Did("CopyCheckMSO")
+\* EKS-2-26, EKS-8-17
+CopyMW07(i) ==
+    /\ Turn("CopyMW07", "CopyReadAuthorization")
+    /\ MW07' = i.SwitchMSO
+    /\ UNCHANGED <<ReadAuthorization, MW03, CheckMSO>>
+    /\ Did("CopyMW07")
+
+\* EKS-BD-1, EKS-GP-2, E-43: a cyclic copier
+PlcScan(i) == CopyReadAuthorization(i) \/ CopyMW03(i) \/ CopyCheckMSO(i) \/ CopyMW07(i)
+=============================================================================
