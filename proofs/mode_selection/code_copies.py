@@ -30,7 +30,7 @@ def _pairs(first: z3.BitVecRef, second: z3.BitVecRef, listed: tuple[tuple[int, i
     return z3.Or(*[z3.And(first == one, second == two) for one, two in listed])
 
 
-@theorem(clauses=["EKS-T2", "EKS-T2-1"], findings=["E-18"])
+@theorem(clauses=["EKS-T2", "EKS-T2-1", "EKS-SD-17"], findings=["E-18"])
 def every_copy_between_two_flag_words_stays_in_range_and_moves_the_mode_by_a_fixed_number() -> Queries:
     """A code word copied from one flag word to another is a code there too, and means the mode k further on,
     modulo 5.

@@ -22,7 +22,7 @@ into each other.
 """
 
 
-@theorem(clauses=["EKS-KS-9", "EKS-T2"], findings=["E-49"])
+@theorem(clauses=["EKS-KS-9", "EKS-T2-4", "EKS-SD-15"], findings=["E-49"])
 def every_error_of_one_to_seven_bits_is_detected() -> Queries:
     """One to seven flipped bits never turn a code word or zero into another accepted word, in any range.
 
@@ -38,7 +38,7 @@ def every_error_of_one_to_seven_bits_is_detected() -> Queries:
         yield from claim(f"{name}: one to seven bits", given, z3.Not(is_accepted(name, sent ^ error)))
 
 
-@theorem(clauses=["EKS-KS-9", "EKS-T2"], findings=["E-49"])
+@theorem(clauses=["EKS-KS-9", "EKS-SD-15"], findings=["E-49"])
 def every_error_of_nine_to_sixteen_bits_is_detected() -> Queries:
     """Nine to sixteen flipped bits never turn a code word or zero into another accepted word, in any range.
 
@@ -53,7 +53,7 @@ def every_error_of_nine_to_sixteen_bits_is_detected() -> Queries:
         yield from claim(f"{name}: nine to sixteen bits", given, z3.Not(is_accepted(name, sent ^ error)))
 
 
-@theorem(clauses=["EKS-KS-9", "EKS-T2"], findings=["E-49"])
+@theorem(clauses=["EKS-KS-9", "EKS-SD-15"], findings=["E-49"])
 def the_undetected_errors_are_exactly_seven_patterns_of_eight_bits() -> Queries:
     """Of the 12870 errors of eight bits exactly seven can go undetected: 0F0F, 0FF0, 3333, 33CC, 3C3C, 00FF
     and 3CC3.

@@ -83,7 +83,7 @@ def an_inverted_high_byte_is_always_detected_and_an_inverted_low_byte_only_in_3c
         yield from claim(f"{name}: low byte", given, is_accepted(name, lower) == undetected)
 
 
-@theorem(clauses=["EKS-T2", "EKS-T2-1", "EKS-KS-8"], findings=[])
+@theorem(clauses=["EKS-T2", "EKS-SD-15", "EKS-KS-8"], findings=[])
 def a_torn_word_is_never_a_third_accepted_word() -> Queries:
     """The high byte of one accepted word with the low byte of another is one of the two or is refused, zero
     included.
@@ -159,7 +159,7 @@ def a_straddled_address_can_pass_for_a_selection_but_never_for_the_acknowledgmen
     yield from claim("MW6 for MW07", echoed, straddled != word_of("SW", selection))
 
 
-@theorem(clauses=["EKS-T2", "EKS-KS-9"], findings=["E-18"])
+@theorem(clauses=["EKS-KS-9", "EKS-SD-15"], findings=["E-18"])
 def two_different_code_words_and_ed_or_ored_are_never_accepted() -> Queries:
     """AND and OR of two different code words are neither code words nor zero; with zero they give zero and
     the word.

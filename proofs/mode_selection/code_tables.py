@@ -76,7 +76,7 @@ def every_range_is_the_set_of_values_of_table_1_and_zero_is_in_none() -> Queries
         yield from claim(f"{name}: each word once", two, word_of(name, mode) != word_of(name, other))
 
 
-@theorem(clauses=["EKS-T2", "EKS-T2-1"], findings=["E-18"])
+@theorem(clauses=["EKS-T2", "EKS-T2-1", "EKS-SD-17"], findings=["E-18"])
 def no_word_means_the_same_mode_in_two_ranges() -> Queries:
     """No word means the same mode in two of the four ranges: as relations of word and mode they are
     disjoint.
@@ -90,7 +90,7 @@ def no_word_means_the_same_mode_in_two_ranges() -> Queries:
         yield from claim(f"{first} and {second}", given, mode_of(first, read) != mode_of(second, read))
 
 
-@theorem(clauses=["EKS-T2", "EKS-KS-8", "EKS-KS-10"], findings=[])
+@theorem(clauses=["EKS-T2", "EKS-T2-4", "EKS-KS-8", "EKS-KS-10"], findings=[])
 def decoding_gives_the_encoded_mode_and_none_for_every_other_word() -> Queries:
     """In every range the word written for a mode is read as that mode, and each of the other 65531 words as
     none.

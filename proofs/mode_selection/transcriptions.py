@@ -20,7 +20,9 @@ from proofs.words import constant
 
 SPECIFICATION: Final = Path(__file__).resolve().parents[2] / "spec" / "mode_selection" / "CodeTables.tla"
 
-_DEFINITION = re.compile(r"^(\w+)\s*==\s*(?:TLCEval\()?\[\s*m\s+\\in\s+MSO\s*\|->\s*CASE\b((?:[^\[\]]|\[\])*)\]", re.M)
+_DEFINITION = re.compile(
+    r"^(\w+)\s*==\s*(?:TLCEval\()?\[\s*m\s+\\in\s+MSO\s*\|->\s*CASE\b((?:[^\[\]]|\[\])*)\]", re.M
+)
 _BRANCH = re.compile(r"\s*m\s*=\s*([0-9]+)\s*->\s*\\[hH]([0-9A-Fa-f]{4})\s*")
 
 

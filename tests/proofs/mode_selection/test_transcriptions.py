@@ -1,4 +1,4 @@
-"""Table 2 was written down in TLA+ and in Python: all readers give the same numbers, a wrong digit is seen."""
+"""Table 2 was written down in TLA+ and in Python: all readers agree, and a wrong digit is seen."""
 
 import re
 import subprocess
@@ -91,12 +91,44 @@ def test_a_table_in_another_form_is_refused_and_never_guessed(old: str, new: str
         tables_in(TEXT.replace(old, new))
 
 
-def test_words_that_the_clause_register_prints_are_words_of_table_1() -> None:
-    """The register paraphrases the note; wherever it prints a code word, that word is one of the five."""
-    register = SPECIFICATION.parent / "clauses.toml"
-    with register.open("rb") as file:
-        text = str(tomllib.load(file))
-    printed = {
-        int(word, 16) for word in re.findall(r"\b(?:0x)?([0-9A-F]{4})H?\b", text) if re.search("[A-F]", word)
-    }
-    assert printed <= set(SET_OF_VALUES)
+PHRASES = {
+    "RE": r"level (\d) \(([0-9A-F]{4}) in MW01\)",
+    "SE": r"mode (\d) \(([0-9A-F]{4}) in MW03\)|selection word of mode (\d) \(([0-9A-F]{4})\)",
+    "CH": r"check word of mode (\d) \(([0-9A-F]{4})\)",
+    "SW": r"switchover word of mode (\d) \(([0-9A-F]{4})\)",
+}
+
+
+def _words_in_clauses(texts: list[str]) -> dict[str, dict[int, set[int]]]:
+    """Per range and mode, the words that the paraphrases of Figures 5 to 7 give in passing."""
+    found: dict[str, dict[int, set[int]]] = {name: {} for name in PHRASES}
+    for name, phrase in PHRASES.items():
+        for groups in re.findall(phrase, " ".join(texts)):
+            mode, value = [group for group in groups if group]
+            found[name].setdefault(int(mode), set()).add(int(value, 16))
+    return found
+
+
+def _clause_texts() -> list[str]:
+    with (SPECIFICATION.parent / "clauses.toml").open("rb") as file:
+        return [clause["text"] for clause in tomllib.load(file)["clause"]]
+
+
+def test_the_words_in_the_paraphrased_steps_of_figures_5_to_7_are_those_of_the_tables() -> None:
+    found = _words_in_clauses(_clause_texts())
+    assert {name: len(modes) for name, modes in found.items()} == {"RE": 4, "SE": 5, "CH": 5, "SW": 4}
+    for name, modes in found.items():
+        assert modes == {mode: {RANGES[name][mode]} for mode in modes}
+
+
+def test_a_wrong_word_in_a_paraphrased_step_is_seen() -> None:
+    wrong = [text.replace("(3C3C in MW01)", "(3C3D in MW01)") for text in _clause_texts()]
+    assert wrong != _clause_texts()
+    assert _words_in_clauses(wrong)["RE"][4] != {RANGES["RE"][4]}
+
+
+def test_the_paraphrase_of_table_1_lists_the_set_of_values() -> None:
+    texts = [text for text in _clause_texts() if text.startswith("The level on a key is one of")]
+    assert [sorted(int(w, 16) for w in re.findall(r"\b[0-9A-F]{4}\b", text)) for text in texts] == [
+        sorted(SET_OF_VALUES)
+    ]
