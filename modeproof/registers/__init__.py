@@ -1,0 +1,61 @@
+"""The registers of a document: what it says, what must be true, what was decided; and who cites what.
+
+Load with `load_document` (all registers) or `load_interface` (names only); both raise `Unjudged` with one
+line. `judge` finds contradictions, unresolved citations and orphans; `matrix` is clause -> action -> step ->
+property -> theorem -> vector. Everything is read from text: no code of a document is run.
+"""
+
+from __future__ import annotations
+
+from modeproof.errors import Unjudged
+from modeproof.registers.citations import Citation, citations, read_sources
+from modeproof.registers.crosscheck import cross_check, value_fault
+from modeproof.registers.judge import Judgement, judge, judge_tree, matrix
+from modeproof.registers.load import documents, load_document, load_interface, read_register
+from modeproof.registers.matrix import Row
+from modeproof.registers.rows import (
+    About,
+    Assumption,
+    Clause,
+    Device,
+    Document,
+    Finding,
+    Graph,
+    Interface,
+    Problem,
+    Property,
+    Run,
+    Signal,
+)
+from modeproof.registers.tables import render_properties_table
+
+__all__ = [
+    "About",
+    "Assumption",
+    "Citation",
+    "Clause",
+    "Device",
+    "Document",
+    "Finding",
+    "Graph",
+    "Interface",
+    "Judgement",
+    "Problem",
+    "Property",
+    "Row",
+    "Run",
+    "Signal",
+    "Unjudged",
+    "citations",
+    "cross_check",
+    "documents",
+    "judge",
+    "judge_tree",
+    "load_document",
+    "load_interface",
+    "matrix",
+    "read_register",
+    "read_sources",
+    "render_properties_table",
+    "value_fault",
+]

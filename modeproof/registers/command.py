@@ -1,0 +1,116 @@
+"""The command `modeproof registers`: judge the registers, print or write the matrix, render tables."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.places import root as repository_root
+from modeproof.registers.files import read_text, shown, write_text
+from modeproof.registers.judge import Judgement, judge, judge_tree
+from modeproof.registers.load import documents, load_document
+from modeproof.registers.rows import Problem
+from modeproof.registers.schema import suggestion
+from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text, pages, render_blocks
+
+if TYPE_CHECKING:
+    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
+
+
+def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+    """Add the command; `args.run(args)` returns 0 as expected, 1 not as expected, and raises Unjudged."""
+    parser = subparsers.add_parser(
+        "registers",
+        help="judge the registers and the matrix from clause to vector",
+        description="Judges the registers of every document: schemas, contradictions, citations, orphans, "
+        "names. Exit status: 0 as expected, 1 not as expected, 2 could not be judged.",
+    )
+    parser.add_argument(
+        "--document", action="append", metavar="NAME", help="only this document (may be repeated)"
+    )
+    parser.add_argument("--matrix", action="store_true", help="print the matrix, one clause a line")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write matrix and problems as JSON")
+    parser.add_argument("--csv", type=Path, metavar="FILE", help="write the matrix of one document as CSV")
+    parser.add_argument(
+        "--render", action="store_true", help="render the tables in README.md and docs/ anew first"
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    root = repository_root()
+    known = documents(root)
+    chosen = tuple(args.document or known)
+    for name in chosen:
+        if name not in known:
+            raise Unjudged(f"unknown document {name!r}; {suggestion(name, known)}")
+    if not chosen:
+        raise Unjudged("no folder of spec has a document.toml, so there is nothing to judge")
+    if args.csv and len(chosen) != 1:
+        raise Unjudged(f"--csv writes one document; choose it with --document ({', '.join(chosen)})")
+    if args.render:
+        render(root)
+    judgements = [judge(load_document(root, name)) for name in chosen]
+    tree = judge_tree(root)
+    for judgement in judgements:
+        if args.matrix:
+            print(matrix_text(judgement.rows))
+        print(summary(judgement))
+    problems = [*(problem for one in judgements for problem in one.problems), *tree]
+    for problem in problems:
+        print(f"  {problem}")
+    print(f"registers: {'as expected' if not problems else f'not as expected, {len(problems)} problems'}")
+    if args.json:
+        write_text(args.json, json.dumps(record(judgements, tree), indent=2, ensure_ascii=False) + "\n")
+    if args.csv:
+        write_text(args.csv, matrix_csv(judgements[0].rows))
+    as_expected = not problems and all(one.as_expected for one in judgements)
+    return EXIT_AS_EXPECTED if as_expected else EXIT_NOT_AS_EXPECTED
+
+
+def summary(judgement: Judgement) -> str:
+    """One line of counts."""
+    filled = {
+        column: sum(bool(getattr(row, column)) for row in judgement.rows)
+        for column in ("action", "step", "property", "theorem", "vector")
+    }
+    counts = ", ".join(f"{number} with {column}" for column, number in filled.items())
+    return (
+        f"{judgement.document}: {len(judgement.rows)} clauses ({counts}); "
+        f"{judgement.citations} citations, {judgement.unresolved} unresolved; "
+        f"{len(judgement.problems)} problems"
+    )
+
+
+def record(judgements: list[Judgement], tree: list[Problem]) -> dict[str, object]:
+    """Everything as plain data."""
+    return {
+        "documents": [
+            {
+                "document": one.document,
+                "as_expected": one.as_expected,
+                "citations": one.citations,
+                "unresolved": one.unresolved,
+                "problems": [str(problem) for problem in one.problems],
+                "matrix": matrix_records(one.rows),
+            }
+            for one in judgements
+        ],
+        "problems": [str(problem) for problem in tree],
+    }
+
+
+def render(root: Path) -> None:
+    """Render every marked block in README.md and docs/ anew; a page that does not change is not written."""
+    loaded = [load_document(root, name) for name in documents(root)]
+    for path in pages(root):
+        text = read_text(root, path)
+        rendered = render_blocks(text, loaded)
+        if rendered != text:
+            write_text(path, rendered)
+            print(f"rendered {shown(root, path)}")

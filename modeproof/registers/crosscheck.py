@@ -1,0 +1,217 @@
+"""Contradictions between the registers of one document, which no schema of one file can see."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from modeproof.registers.citations import Sources
+from modeproof.registers.rows import Device, Document, Problem, Run, Signal
+from modeproof.registers.schema import suggestion
+from modeproof.registers.tla import closure
+
+PERSON = "user"
+"""The one actor that is no device of an interface."""
+
+TECHNICAL = re.compile(r"\w*TypeOK|Print\w*")
+"""Invariants that type the variables or print the graph; they state no requirement and need no row."""
+
+
+def cross_check(document: Document, sources: Sources) -> list[Problem]:
+    """All contradictions between registers; an empty list when there is none."""
+    return [
+        *_clauses(document),
+        *_interface(document),
+        *_properties(document, sources),
+        *_findings(document, sources),
+        *_assumptions(document),
+        *_runs(document, sources),
+    ]
+
+
+def _clauses(document: Document) -> Iterator[Problem]:
+    file = document.source("clauses")
+    known = [*document.interface.devices, PERSON]
+    for clause in document.clauses:
+        if not clause.id.startswith(f"{document.about.prefix}-"):
+            yield Problem(file, clause.id, f"the id does not begin with the prefix {document.about.prefix}-")
+        for device in clause.device:
+            if device not in known:
+                yield Problem(file, clause.id, f"unknown device {device!r}; {suggestion(device, known)}")
+
+
+def _interface(document: Document) -> Iterator[Problem]:
+    file = document.source("interface")
+    for device in document.interface.devices.values():
+        for name in sorted(device.inputs.keys() & device.outputs.keys()):
+            yield Problem(file, f"devices.{device.id}", f"{name} is both an input and an output")
+        for group, signals in _groups(device):
+            for signal in signals:
+                for text in _signal_faults(signal, group):
+                    yield Problem(file, f"devices.{device.id}.{group}.{signal.name}", text)
+
+
+def _groups(device: Device) -> list[tuple[str, list[Signal]]]:
+    return [
+        ("memory", list(device.memory.values())),
+        ("inputs", list(device.inputs.values())),
+        ("outputs", list(device.outputs.values())),
+        ("parameters", list(device.parameters.values())),
+    ]
+
+
+def _signal_faults(signal: Signal, group: str) -> Iterator[str]:
+    if signal.minimum is not None and signal.maximum is not None and signal.minimum > signal.maximum:
+        yield f"min {signal.minimum} is greater than max {signal.maximum}"
+    if signal.type == "text" and not signal.values and group != "memory":
+        yield "a text needs the list of its values"
+    if signal.type != "text" and signal.values:
+        yield f"values belong to the type text, not to {signal.type}"
+    if signal.type in ("int", "ms") and group == "parameters" and None in (signal.minimum, signal.maximum):
+        yield "a number needs min and max"
+    if group == "parameters" and not signal.required and signal.default is None:
+        yield "a parameter needs a default, or required = true"
+    if signal.default is not None:
+        fault = value_fault(signal, signal.default)
+        if fault:
+            yield f"default {signal.default!r} {fault}"
+
+
+def value_fault(signal: Signal, value: object) -> str:
+    """Why a parameter cannot have this value (integers, texts and booleans as in TOML); empty when it can."""
+    if signal.type == "bool":
+        return "" if isinstance(value, bool) else "is not true or false"
+    if signal.type == "text":
+        return "" if value in signal.values else f"is not one of {', '.join(map(repr, signal.values))}"
+    if isinstance(value, str) and signal.type in ("word", "function"):
+        return "" if re.fullmatch(r"[0-9A-F]{4}", value) else "is not a word of four upper-case hex digits"
+    if not isinstance(value, int) or isinstance(value, bool):
+        return "is not an integer"
+    low = {"word": 0, "function": 0, "mode": -1}.get(signal.type, signal.minimum)
+    high = {"word": 65535, "function": 65535}.get(signal.type, signal.maximum)
+    if (low is not None and value < low) or (high is not None and value > high):
+        return f"is not in {low}..{high}"
+    return ""
+
+
+def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
+    file = document.source("properties")
+    witnesses = [name for run in document.runs for name in run.witnesses]
+    for one in document.properties:
+        runs = [run for run in document.runs if one.tla in run.properties and run.kind != "NEG"]
+        if not runs:
+            yield Problem(file, one.id, f"no run checks {one.tla}")
+        for environment in one.environments:
+            if runs and environment not in [run.environment for run in runs]:
+                names = dict.fromkeys(run.environment for run in runs)
+                yield Problem(
+                    file,
+                    one.id,
+                    f"no run checks it in the environment {environment!r}; checked in: {', '.join(names)}",
+                )
+        if one.antecedent and one.antecedent not in witnesses:
+            yield Problem(
+                file,
+                one.id,
+                f"no run has the witness {one.antecedent!r}; {suggestion(one.antecedent, witnesses)}",
+            )
+        if not one.antecedent and not one.reason.strip():
+            yield Problem(file, one.id, "names no antecedent, and `reason` does not say why it needs none")
+        modules = closure(sources.modules, one.module)
+        if not modules:
+            yield Problem(
+                file, one.id, f"module {one.module} does not exist; {suggestion(one.module, sources.modules)}"
+            )
+        elif not any(one.tla in module.defined for module in modules):
+            defined = sorted(modules[0].defined)
+            yield Problem(
+                file, one.id, f"{one.module}.tla does not define {one.tla}; {suggestion_of(one.tla, defined)}"
+            )
+
+
+def suggestion_of(name: str, allowed: list[str]) -> str:
+    """Like `suggestion`, without the list of everything that is allowed."""
+    return (
+        suggestion(name, allowed).split("? ")[0] + "?"
+        if "? " in suggestion(name, allowed)
+        else "nothing is close"
+    )
+
+
+def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
+    file = document.source("findings")
+    known = _evidence_names(document, sources)
+    clauses = {clause.id for clause in document.clauses}
+    constants = {name for module in sources.modules.values() for name in module.constants}
+    strings = {text for module in sources.modules.values() for text in module.strings}
+    for one in document.findings:
+        for name in one.evidence:
+            if name not in known and name not in clauses:
+                yield Problem(
+                    file, one.id, f"evidence {name!r} is no run and no theorem; {suggestion_of(name, known)}"
+                )
+        if not one.evidence and not one.evidence_open.strip():
+            yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
+        if one.switch and one.switch not in constants and one.switch not in strings:
+            yield Problem(
+                file,
+                one.id,
+                f"switch {one.switch!r} is no CONSTANT of the specification and no value that one can hold; "
+                f"{suggestion_of(one.switch, sorted(constants | strings))}",
+            )
+
+
+def _evidence_names(document: Document, sources: Sources) -> list[str]:
+    theorems = [theorem.name for module in sources.proofs for theorem in module.theorems]
+    return [*(run.id for run in document.runs), *theorems]
+
+
+def _assumptions(document: Document) -> Iterator[Problem]:
+    file = document.source("assumptions")
+    runs = [run.id for run in document.runs]
+    for one in document.assumptions:
+        for name in one.breaks:
+            if name not in runs:
+                yield Problem(file, one.id, f"breaks: unknown run {name!r}; {suggestion_of(name, runs)}")
+        if not one.breaks and not one.breaks_open.strip():
+            yield Problem(file, one.id, "names no run that breaks it, and `breaks_open` does not say why")
+
+
+def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
+    file = document.source("runs")
+    known = [one.tla for one in document.properties]
+    for run in document.runs:
+        modules = closure(sources.modules, run.module)
+        if not modules:
+            yield Problem(
+                file, run.id, f"module {run.module} does not exist; {suggestion(run.module, sources.modules)}"
+            )
+        if not run.id.startswith(f"{run.kind}_"):
+            yield Problem(file, run.id, f"the id of a run of kind {run.kind} begins with {run.kind}_")
+        for name in (*run.properties, *([run.property] if run.property else [])):
+            if name not in known and not TECHNICAL.fullmatch(name):
+                yield Problem(
+                    file, run.id, f"{name} is in no row of properties.toml; {suggestion_of(name, known)}"
+                )
+        if run.graph is not None:
+            for text in _graph_faults(document, run):
+                yield Problem(file, run.id, text)
+
+
+def _graph_faults(document: Document, run: Run) -> Iterator[str]:
+    assert run.graph is not None
+    device = document.interface.devices.get(run.graph.device)
+    if device is None:
+        yield f"graph.device: {suggestion(run.graph.device, document.interface.devices)}"
+        return
+    for name, value in run.graph.params.items():
+        signal = device.parameters.get(name)
+        if signal is None:
+            yield f"graph.params: unknown parameter {name!r}; {suggestion(name, device.parameters)}"
+        elif fault := value_fault(signal, value):
+            yield f"graph.params: {name} = {value!r} {fault}"
+    for output, source in run.graph.passed.items():
+        if output not in device.outputs:
+            yield f"graph.pass: unknown output {output!r}; {suggestion(output, device.outputs)}"
+        if source not in device.inputs:
+            yield f"graph.pass: unknown input {source!r}; {suggestion(source, device.inputs)}"

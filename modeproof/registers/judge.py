@@ -1,0 +1,62 @@
+"""Judges the registers of a document: no contradiction, no unknown id, no orphan, one name everywhere."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeproof.registers.citations import citations, read_sources, unresolved
+from modeproof.registers.crosscheck import cross_check
+from modeproof.registers.load import documents, load_document
+from modeproof.registers.matrix import Row, matrix_of, orphans
+from modeproof.registers.names import check_names
+from modeproof.registers.rooms import check_imports, check_no_document_known
+from modeproof.registers.rows import Document, Problem
+from modeproof.registers.tables import check_pages
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """The matrix of a document and all that is wrong; as expected means no problem and at least one row."""
+
+    document: str
+    rows: tuple[Row, ...]
+    problems: tuple[Problem, ...]
+    citations: int
+    unresolved: int
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether nothing is wrong."""
+        return bool(self.rows) and not self.problems
+
+
+def judge(document: Document) -> Judgement:
+    """Judge one document. Raises Unjudged when a file that it names cannot be read."""
+    sources = read_sources(document)
+    cited = citations(document, sources)
+    rows = matrix_of(document, cited)
+    lost = unresolved(document, cited)
+    problems = [
+        *cross_check(document, sources),
+        *lost,
+        *orphans(document, rows, cited, sources),
+        *check_names(document, sources),
+    ]
+    count = sum(len(one.clauses) + len(one.findings) for one in cited)
+    return Judgement(document.name, rows, tuple(problems), count, len(lost))
+
+
+def judge_tree(root: Path) -> list[Problem]:
+    """What concerns no single document: the walls between rooms, and rendered tables in pages."""
+    loaded = [load_document(root, name) for name in documents(root)]
+    return [
+        *check_imports(root),
+        *check_no_document_known(root, [one.interface for one in loaded], loaded),
+        *check_pages(root, loaded),
+    ]
+
+
+def matrix(document: Document) -> tuple[Row, ...]:
+    """The matrix alone."""
+    return matrix_of(document, citations(document, read_sources(document)))

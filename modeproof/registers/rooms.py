@@ -1,0 +1,135 @@
+"""The rules between rooms: who may import whom, and that the tool knows no document."""
+
+from __future__ import annotations
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeproof.registers.files import read_text, shown
+from modeproof.registers.rows import Document, Interface, Problem
+
+OURS = ("modeproof", "refimpl", "proofs", "examples", "tests")
+
+ORDINARY = frozenset({"ERROR"})
+"""Declared names that are also ordinary words of any program."""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Which of our packages the files below a folder may import; `stdlib_only` forbids all others too."""
+
+    folder: str
+    allowed: tuple[str, ...]
+    stdlib_only: bool = False
+
+
+RULES = (
+    Rule("refimpl", ("refimpl",), stdlib_only=True),
+    Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
+    Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
+    Rule(
+        "modeproof/report",
+        ("modeproof.report", "modeproof.registers", "modeproof.evidence", "modeproof.errors"),
+    ),
+    Rule("modeproof/registers", ("modeproof.registers", "modeproof.errors", "modeproof.places")),
+)
+
+PROOFS_REACHED_FROM = ("modeproof/cli.py", "modeproof/cli/", "proofs/", "tests/")
+
+
+def check_imports(root: Path) -> list[Problem]:
+    """Every import that crosses a wall."""
+    problems: list[Problem] = []
+    for rule in RULES:
+        for path in sorted((root / rule.folder).rglob("*.py")):
+            for line, name in _imports(root, path):
+                if not _allowed(rule, name):
+                    text = f"line {line}: imports {name}; {rule.folder} may import {_words(rule)}"
+                    problems.append(Problem(shown(root, path), "", text))
+    for path in sorted((root / "modeproof").rglob("*.py")):
+        file = shown(root, path)
+        if not file.startswith(PROOFS_REACHED_FROM):
+            for line, name in _imports(root, path):
+                if name.split(".")[0] == "proofs":
+                    problems.append(
+                        Problem(file, "", f"line {line}: imports {name}; only modeproof.cli reaches proofs")
+                    )
+    return problems
+
+
+def _allowed(rule: Rule, name: str) -> bool:
+    top = name.split(".")[0]
+    if top in OURS:
+        return any(name == one or name.startswith(f"{one}.") for one in rule.allowed)
+    return not rule.stdlib_only or top in sys.stdlib_module_names
+
+
+def _words(rule: Rule) -> str:
+    others = "the standard library" if rule.stdlib_only else "any installed package"
+    return f"{', '.join(rule.allowed)} and {others}"
+
+
+def _imports(root: Path, path: Path) -> Iterator[tuple[int, str]]:
+    """The absolute names that a module imports, with their lines."""
+    package = list(path.relative_to(root).with_suffix("").parts[:-1])
+    for node in ast.walk(ast.parse(read_text(root, path))):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else []
+            name = ".".join([*base, *([node.module] if node.module else [])])
+            if name in OURS or (node.level and not node.module):
+                yield from ((node.lineno, f"{name}.{alias.name}") for alias in node.names)
+            else:
+                yield node.lineno, name
+
+
+def check_no_document_known(
+    root: Path, interfaces: list[Interface], documents: list[Document]
+) -> list[Problem]:
+    """Every place in modeproof/ that contains a name which a register declares."""
+    names = declared_names(interfaces, documents)
+    problems: list[Problem] = []
+    if not names:
+        return problems
+    longest_first = "|".join(sorted(map(re.escape, names), key=len, reverse=True))
+    form = re.compile(rf"(?<![A-Za-z0-9_])(?:{longest_first})(?![A-Za-z0-9_])")
+    for path in sorted((root / "modeproof").rglob("*")):
+        if path.suffix not in (".py", ".json", ".toml", ".html", ".css", ".js"):
+            continue
+        for number, line in enumerate(read_text(root, path).splitlines(), 1):
+            for found in dict.fromkeys(form.findall(line)):
+                text = f"line {number}: knows {found!r}, which a register declares; take it from the register"
+                problems.append(Problem(shown(root, path), "", text))
+    return problems
+
+
+def declared_names(interfaces: list[Interface], documents: list[Document]) -> frozenset[str]:
+    """The names that only registers may know: documents, devices, and every name that is no ordinary word."""
+    names: set[str] = set()
+    for interface in interfaces:
+        names.add(interface.document)
+        for device in interface.devices.values():
+            names.add(device.id)
+            groups = (device.memory, device.inputs, device.outputs, device.parameters)
+            inner = {name for group in groups for name in group}
+            names |= {
+                name for name in {*inner, *device.states, *device.steps, device.module} if _peculiar(name)
+            }
+    for document in documents:
+        names.add(document.about.prefix)
+        names |= {one.id for one in document.properties if _peculiar(one.id)}
+        names |= {one.id for one in document.runs}
+    return frozenset(names)
+
+
+def _peculiar(name: str) -> bool:
+    """Not an ordinary word: it has a digit, an underscore, an inner capital, or four capitals or more."""
+    if name in ORDINARY:
+        return False
+    inner_capital = re.search(r"[a-z][A-Z]", name) is not None
+    return bool(re.search(r"[0-9_]", name)) or inner_capital or (name.isupper() and len(name) >= 4)

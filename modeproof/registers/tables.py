@@ -1,0 +1,109 @@
+"""Renders the matrix and the properties as tables, and keeps marked blocks in pages equal to them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from modeproof.registers.files import read_text, shown
+from modeproof.registers.matrix import Row
+from modeproof.registers.rows import Document, Problem
+
+COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
+"""The columns of the text table; JSON and CSV have all fields."""
+
+BLOCK = re.compile(
+    r"(<!-- begin properties(?: ([a-z][a-z0-9_]*))? -->\n)(.*?)(<!-- end(?: properties)? -->)", re.DOTALL
+)
+
+
+def matrix_text(rows: Sequence[Row]) -> str:
+    """The matrix as a table for a terminal; a cell shows its first entry and the number of the others."""
+    cells = [[_cell(getattr(row, column)) for column in COLUMNS] for row in rows]
+    widths = [max(len(line[n]) for line in [list(COLUMNS), *cells]) for n in range(len(COLUMNS))]
+    lines = [list(COLUMNS), ["-" * width for width in widths], *cells]
+    return "\n".join(
+        "  ".join(text.ljust(width) for text, width in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    )
+
+
+def _cell(value: str | tuple[str, ...]) -> str:
+    if isinstance(value, str):
+        return value
+    if not value:
+        return "-"
+    return value[0] if len(value) == 1 else f"{value[0]} +{len(value) - 1}"
+
+
+def matrix_records(rows: Sequence[Row]) -> list[dict[str, object]]:
+    """The matrix as plain records, one a clause, lists in full."""
+    return [
+        {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(row).items()}
+        for row in rows
+    ]
+
+
+def matrix_csv(rows: Sequence[Row]) -> str:
+    """The matrix as CSV with all fields; entries of a cell are separated by a blank."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    records = matrix_records(rows)
+    writer.writerow(records[0] if records else COLUMNS)
+    for record in records:
+        writer.writerow([" ".join(value) if isinstance(value, list) else value for value in record.values()])
+    return stream.getvalue()
+
+
+def render_properties_table(document: Document) -> str:
+    """The properties of a document as a Markdown table that ends with a line end."""
+    lines = [
+        "| property | what must be true | hazard otherwise | environments | clauses |",
+        "|---|---|---|---|---|",
+    ]
+    for one in document.properties:
+        cells = (f"`{one.id}`", one.sentence, one.hazard, ", ".join(one.environments), ", ".join(one.clauses))
+        lines.append("| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def render_blocks(text: str, documents: Sequence[Document]) -> str:
+    """The page with each block `<!-- begin properties [DOCUMENT] --> .. <!-- end -->` rendered anew.
+
+    Without a name the block holds the tables of all documents.
+    """
+
+    def block(match: re.Match[str]) -> str:
+        chosen = [one for one in documents if match.group(2) in (None, one.name)]
+        return match.group(1) + "\n".join(map(render_properties_table, chosen)) + match.group(4)
+
+    return BLOCK.sub(block, text)
+
+
+def pages(root: Path) -> list[Path]:
+    """The pages that may hold rendered blocks: README.md and docs/*.md, as far as they exist."""
+    return [path for path in [root / "README.md", *sorted((root / "docs").glob("*.md"))] if path.is_file()]
+
+
+def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
+    """Pages whose blocks differ from the registers."""
+    problems = []
+    for path in pages(root):
+        text = read_text(root, path)
+        if text.count("<!-- begin properties") != len(BLOCK.findall(text)):
+            problems.append(
+                Problem(shown(root, path), "", "a block `begin properties` has no end, or is malformed")
+            )
+        elif render_blocks(text, documents) != text:
+            problems.append(
+                Problem(
+                    shown(root, path),
+                    "",
+                    "a table of properties has drifted; run modeproof registers --render",
+                )
+            )
+    return problems
