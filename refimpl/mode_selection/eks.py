@@ -362,7 +362,7 @@ def _test_zeros(s: State, i: Inputs) -> State:
 def _removal(s: State) -> State:
     """LA goes off at once, and so does a test pulse; the one output goes off in a step of its own.
 
-    EKS-8-1, EKS-8-2, EKS-8-5, EKS-SD-4
+    EKS-8-1, EKS-8-2, EKS-8-5, EKS-SD-8
     """
     if s.state == Step.SIGNAL:
         return _enter(s, Step.CLEAR_OUTPUTS)

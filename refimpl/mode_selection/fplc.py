@@ -295,7 +295,7 @@ def matches(MW03: int, MW07: int) -> bool:
 def _zeros_returned(s: State, i: Inputs, elapsed: int) -> bool:
     """Whether both words came back as zero, long enough after the F-PLC wrote its own zeros.
 
-    EKS-8-11, EKS-8-12, EKS-8-14, EKS-8-18, EKS-SD-5
+    EKS-8-11, EKS-8-12, EKS-8-14, EKS-8-18, EKS-SD-9
 
     The dwell is ours: without it zeros that were there all along would pass as an answer (E-52).
     """
@@ -571,7 +571,7 @@ def _match(s: State, i: Inputs) -> State:
 def _switch(s: State, i: Inputs) -> State:
     """Step 29: switch over, with LA, output, MW03 and MW07 judged once more in this very scan.
 
-    EKS-2-29, EKS-SD-3, E-16, E-42
+    EKS-2-29, EKS-SD-2, E-16, E-42
 
     The mode that becomes active is the latched selection (E-01).
     """

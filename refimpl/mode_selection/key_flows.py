@@ -106,7 +106,7 @@ def fplc_inputs(system: System, dt_ms: int) -> fplc.Inputs:
 
 
 def plc_inputs(system: System, dt_ms: int) -> plc.Inputs:
-    """The flag words from the F-PLC and the words from the panel. EKS-BD-1"""
+    """The flag words from the F-PLC and the words from the panel. EKS-BD-2"""
     f, h = system.fplc_out, system.hmi_out
     return plc.Inputs(dt_ms, f.MW01, f.MW05, h.SelectMSO, h.SwitchMSO)
 

@@ -327,7 +327,8 @@ def test_the_mode_that_becomes_active_is_the_latched_selection(mode: int) -> Non
     assert [m == mode for m in range(5)] == [row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4]
 
 
-def test_no_mode_is_active_after_power_up() -> None:
+def test_power_up_is_start_with_nothing_remembered_and_no_mode_active() -> None:
+    assert fplc.power_up(PARAMS) == State(PARAMS, Step.START, -1, -1, -1, -1, 0)
     row = fplc.outputs(fplc.power_up(PARAMS))
     assert not any((row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4, row.ERROR, row.MW01, row.MW05))
 
@@ -341,6 +342,33 @@ def test_accepting_an_output_remembers_its_level_and_publishing_makes_it_the_aut
         assert (accepted.accepted, accepted.authority) == (level, -1)
         published, row = fplc.step(accepted, inputs(on=name))
         assert (published.authority, row.MW01) == (level, RE[level])
+
+
+FORWARD = [(name, before, i) for name, before, i, _ in ROWS if before.state in IN_FLOW]
+
+
+@pytest.mark.parametrize(
+    ("name", "before", "i"), FORWARD, ids=[f"{n}-{b.state.value}" for n, b, _ in FORWARD]
+)
+def test_the_accepted_output_and_the_authority_stay_while_the_flow_goes_on(
+    name: str, before: State, i: Inputs
+) -> None:
+    state = after(before, i)
+    if state.state in IN_FLOW:
+        assert state.accepted == 3
+        assert state.authority == 3
+        assert state.selection in ({2} if before.state != Step.CHECK_SELECTION else {3, -1}) | {-1}
+        assert (state.selection != -1) == (state.state in WITH_SELECTION)
+        assert state.elapsed_ms == 0 or state.state == before.state == Step.SETTLE
+
+
+def test_idle_has_forgotten_the_insertion() -> None:
+    for before in (
+        at(Step.START, 400, mode=1),
+        at(Step.ERROR, 400, mode=1),
+        at(Step.AWAIT_ZEROS, 400, mode=1),
+    ):
+        assert after(before, inputs(False, "")) == State(PARAMS, Step.IDLE, -1, -1, -1, 1, 0)
 
 
 @pytest.mark.parametrize("step", WITH_SELECTION)
