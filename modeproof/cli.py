@@ -1,53 +1,438 @@
-"""Command line (first light: `check RUN..`)."""
+"""The command line: verify, check, prove, conform, doctor.
+
+Exit status 0: as expected; 1: not as expected; 2: could not be judged (and then one line says why).
+"""
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import importlib
+import json
+import os
+import signal
 import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+from typing import Any, NoReturn
 
-from modeproof.errors import Unjudged
-from modeproof.places import documents, root
-from modeproof.tlc.cfg import parse_cfg
-from modeproof.tlc.judge import judge
-from modeproof.tlc.messages import format_trace
-from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import load_runs
-from modeproof.tlc.toolchain import find_toolchain, sha256
+from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.places import build, documents, root
+
+LANES = ("smoke", "full", "exhaustive")
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Entry point."""
-    parser = argparse.ArgumentParser(prog="modeproof")
-    commands = parser.add_subparsers(dest="command", required=True)
-    check = commands.add_parser("check")
-    check.add_argument("runs", nargs="*")
+    """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
+    parser = make_parser()
     args = parser.parse_args(argv)
+    previous = _stop_on_signals()
     try:
         place = root()
-        tools = find_toolchain()
-        worst = 0
-        for document in documents(place):
-            for run in load_runs(place, document):
-                if args.runs and run.id not in args.runs:
-                    continue
-                outcome = run_tlc(
-                    place,
-                    run,
-                    tools,
-                    lambda c: print(f"  .. {c.distinct:,} distinct {c.generated:,} generated", file=sys.stderr),
-                )
-                path = place / "spec" / document / run.cfg
-                verdict = judge(run, parse_cfg(path.read_text(), run.cfg), sha256(path), outcome)
-                if outcome.log.trace:
-                    print(format_trace(outcome.log.trace, outcome.log.loop))
-                counts = outcome.log.counts
-                print(
-                    f"{run.name}: {verdict.words} {verdict.violated} {verdict.reason}; "
-                    f"distinct {counts.distinct if counts else '-'} generated {counts.generated if counts else '-'} "
-                    f"trace {len(outcome.log.trace)} printed {outcome.log.tags} {outcome.seconds:.1f} s"
-                )
-                worst = max(worst, 0 if verdict.as_expected else 1 if verdict.judged else 2)
-        return worst
+        if str(place) not in sys.path:
+            sys.path.insert(0, str(place))
+        run: Callable[[argparse.Namespace], int] = args.run
+        return int(run(args))
     except Unjudged as error:
-        print(f"modeproof: {error.message}", file=sys.stderr)
-        return 2
+        if args.debug:
+            raise
+        _complain(error.message)
+    except KeyboardInterrupt:
+        _stop_tools()
+        _complain("interrupted; nothing was judged")
+    except BrokenPipeError:
+        # Whoever read our output has gone; Python would complain once more while flushing at exit.
+        with contextlib.suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except Exception as error:  # a defect of ours: still one line, and never a pass
+        if args.debug:
+            raise
+        text = " ".join(str(error).split())[:300]
+        _complain(f"internal error: {type(error).__name__}: {text} (--debug shows where)")
+    finally:
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+    return EXIT_UNJUDGED
+
+
+def make_parser() -> argparse.ArgumentParser:
+    """All commands and their options."""
+    parser = argparse.ArgumentParser(
+        prog="modeproof",
+        description="Checks published safety procedures by TLA+ models and proofs. It certifies nothing.",
+        epilog="exit status: 0 as expected, 1 not as expected, 2 could not be judged",
+    )
+    parser.add_argument("--debug", action="store_true", help="show where an error comes from")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    verify = _command(
+        commands, "verify", _verify, "registers, TLC, conformance and proofs; ends with a summary"
+    )
+    verify.add_argument(
+        "--lane", choices=LANES, default="full", help="smoke: under a minute; full: the default"
+    )
+    verify.add_argument("--document", metavar="NAME", help="only this document of spec/")
+
+    check = _command(commands, "check", _check, "run TLC on declared runs and judge them")
+    check.add_argument(
+        "runs", nargs="*", metavar="RUN", help="id or pattern, such as MC_* (default: the full lane)"
+    )
+    check.add_argument("--lane", choices=LANES, help="only runs of this lane")
+    check.add_argument("--document", metavar="NAME", help="only runs of this document")
+    check.add_argument("--trace", action="store_true", help="show expected counterexamples too")
+    check.add_argument("--all-variables", action="store_true", help="show every variable in every state")
+    check.add_argument("--list", action="store_true", help="list the runs, run nothing")
+    check.add_argument(
+        "--repin", action="store_true", help="move the pins of these runs to what they give now"
+    )
+    check.add_argument("--reason", metavar="TEXT", help="why the pins move (with --repin)")
+
+    prove = _command(
+        commands, "prove", _prove, "prove the theorems of a document with Z3, re-checked by cvc5"
+    )
+    prove.add_argument("theorems", nargs="*", metavar="THEOREM", help="name or pattern (default: all)")
+    prove.add_argument("--document", metavar="NAME", help="only this document")
+    prove.add_argument(
+        "--limit", type=int, default=20_000, metavar="MS", help="time limit a query (default 20000)"
+    )
+
+    for name, room in (("conform", "kit"), ("registers", "registers")):
+        _plug_in(commands, name, f"modeproof.{room}.command")
+
+    _command(commands, "doctor", _doctor, "tell what this machine lacks, and how to mend it")
+    return parser
+
+
+def _plug_in(commands: Any, name: str, module: str) -> None:
+    """A command that another room brings along. If its packages are missing, it says so when it is called."""
+    try:
+        importlib.import_module(module).add_parser(commands)
+    except ImportError as error:
+        cause = str(error)
+
+        def refuse(args: argparse.Namespace) -> int:
+            raise Unjudged(f"{name} cannot be loaded: {cause}; `modeproof doctor` tells how to mend it")
+
+        parser = commands.add_parser(name, help=f"cannot be loaded: {cause}")
+        parser.add_argument("rest", nargs=argparse.REMAINDER)
+        parser.set_defaults(run=refuse)
+
+
+def _command(
+    commands: Any, name: str, run: Callable[[argparse.Namespace], int], text: str
+) -> argparse.ArgumentParser:
+    parser: argparse.ArgumentParser = commands.add_parser(
+        name, help=text, description=text[0].upper() + text[1:] + "."
+    )
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def _complain(line: str) -> None:
+    with contextlib.suppress(OSError):
+        print(f"modeproof: {line}", file=sys.stderr, flush=True)
+
+
+def _stop_tools() -> None:
+    loaded = sys.modules.get("modeproof.tlc.process")
+    if loaded is not None:
+        loaded.stop_all()
+
+
+def _stop_on_signals() -> dict[int, Any]:
+    """Treat SIGTERM and SIGHUP like Ctrl-C, so that Java never outlives us."""
+
+    def stop(number: int, frame: FrameType | None) -> NoReturn:
+        raise KeyboardInterrupt
+
+    previous: dict[int, Any] = {}
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        with contextlib.suppress(ValueError, AttributeError):  # not the main thread
+            previous[number] = signal.signal(number, stop)
+    return previous
+
+
+def _write_json(args: argparse.Namespace, status: int, **content: Any) -> None:
+    if args.json is None:
+        return
+    from modeproof.evidence.files import write_whole
+
+    text = json.dumps({"command": args.command, "status": status, **content}, indent=1, ensure_ascii=False)
+    write_whole(args.json, (text + "\n").encode("utf-8"))
+
+
+def _chosen(place: Path, document: str | None) -> tuple[str, ...]:
+    known = documents(place)
+    if document is None:
+        return known
+    if document not in known:
+        raise Unjudged(f"no document {document!r} in spec/; there are: {', '.join(known) or 'none'}")
+    return (document,)
+
+
+# ------------------------------------------------------------------------------------------------ check
+
+
+def _check(args: argparse.Namespace) -> int:
+    from modeproof.lock import only_one
+    from modeproof.progress import Progress
+    from modeproof.tlc.check import check_all, register_problems, select
+    from modeproof.tlc.repin import refuse_in_ci
+    from modeproof.tlc.toolchain import find_toolchain
+    from modeproof.verify import line_of
+
+    place = root()
+    if args.repin:
+        refuse_in_ci()
+        if not args.runs:
+            raise Unjudged("--repin needs the runs by name")
+    elif args.reason is not None:
+        raise Unjudged("--reason belongs to --repin")
+    lane = args.lane or (None if args.runs else "full")
+    runs = select(place, args.runs, lane, args.document)
+    if args.list:
+        for run in runs:
+            print(f"{run.name}  {run.expect}  {','.join(run.lanes)}  {run.environment}")
+        return 0
+    tools = find_toolchain()
+    progress = Progress(quiet=args.quiet)
+    with only_one(place):
+        done = check_all(place, runs, tools, progress, lambda one: progress.say(line_of(one)))
+        for one in done if not args.repin or args.trace else ():
+            _show_trace(one, args)
+        status = max(one.status for one in done)
+        problems: list[str] = []
+        for document in sorted({run.document for run in runs}):
+            problems += [f"{document}: {problem}" for problem in register_problems(place, document)]
+        for problem in problems:
+            _complain(problem)
+        if problems and not args.runs:
+            status = max(status, EXIT_NOT_AS_EXPECTED)
+        if args.repin:
+            status = _repin(place, done, args.reason)
+    if len(done) > 1 and not args.repin:
+        good = sum(1 for one in done if one.status == 0)
+        print(f"{good} of {len(done)} runs as expected")
+    _write_json(args, status, runs=[one.record for one in done], problems=problems)
+    return status
+
+
+def _show_trace(one: Any, args: argparse.Namespace) -> None:
+    from modeproof.tlc.messages import format_trace
+
+    if one.outcome is None or not one.outcome.log.trace:
+        return
+    if one.judgement.as_expected and not args.trace:
+        return
+    print(
+        f"counterexample of {one.run.name}"
+        + (f" ({one.judgement.violated})" if one.judgement.violated else "")
+    )
+    print(format_trace(one.outcome.log.trace, one.outcome.log.loop, args.all_variables))
+
+
+def _repin(place: Path, done: list[Any], given: str | None) -> int:
+    from modeproof.tlc.repin import Move, apply, ask_reason, cfg_diff, moves
+
+    changes: dict[str, dict[str, tuple[Move, ...]]] = {}
+    for one in done:
+        moved = moves(place, one)
+        print(f"{one.run.name}:" + ("" if moved else " pins stay as they are"))
+        for move in moved:
+            print(f"  {move}")
+        if moved:
+            print("  " + cfg_diff(place, one).replace("\n", "\n  "))
+            changes.setdefault(one.run.document, {})[one.run.id] = moved
+    if not changes:
+        return 0
+    reason = ask_reason(given)
+    apply(place, changes, reason)
+    count = sum(len(of_run) for of_run in changes.values())
+    print(f"pins of {count} run{'s' if count != 1 else ''} moved; reason: {reason}")
+    return 0
+
+
+# ------------------------------------------------------------------------------------------------ prove
+
+
+def _prove(args: argparse.Namespace) -> int:
+    from modeproof.lock import only_one
+    from modeproof.progress import Progress
+    from modeproof.summary import counted, status_of
+
+    place = root()
+    progress = Progress(quiet=args.quiet)
+    names = [name for name in _chosen(place, args.document) if args.document or _has_proofs(place, name)]
+    if not names:
+        raise Unjudged("no document has proofs (proofs/<document>/)")
+    records: list[dict[str, Any]] = []
+    with only_one(place):
+        for name in names:
+            records += prove_document(place, name, progress, tuple(args.theorems), args.limit)
+    status = max(status_of(record) for record in records)
+    print(counted("proofs", records, "PROVED by Z3, re-checked by cvc5"))
+    _write_json(args, status, proofs=records)
+    return status
+
+
+def _has_proofs(place: Path, document: str) -> bool:
+    return (place / "proofs" / document / "__init__.py").is_file()
+
+
+def prove_document(
+    place: Path, document: str, progress: Any, patterns: tuple[str, ...] = (), limit_ms: int = 20_000
+) -> list[dict[str, Any]]:
+    """Prove the theorems of a document and write one piece of evidence for each.
+
+    Raises Unjudged when there is none, or when the proofs cannot be imported.
+    """
+    import fnmatch
+
+    from modeproof import evidence
+
+    try:
+        theorem = importlib.import_module("proofs.theorem")
+        runner = importlib.import_module("proofs.runner")
+    except ImportError as error:
+        raise Unjudged(f"proofs cannot be run: {error}") from None
+    try:
+        theorems = theorem.theorems_of(document)
+    except (theorem.TheoremError, ImportError) as error:
+        raise Unjudged(f"proofs of {document}: {error}") from None
+    chosen = [
+        one for one in theorems if not patterns or any(fnmatch.fnmatchcase(one.name, p) for p in patterns)
+    ]
+    if not chosen:
+        raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns)}")
+    out = build(place) / "proofs" / document
+    sources = [*(place / "proofs").glob("*.py"), *(place / "proofs" / document).glob("*.py")]
+    sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
+    inputs = evidence.hashes(place, sources)
+    tools = {
+        name: evidence.tool(_version(package)) for name, package in (("z3", "z3-solver"), ("cvc5", "cvc5"))
+    }
+    progress.expect(len(chosen))
+    records: list[dict[str, Any]] = []
+    for one in chosen:
+        evidence.discard(place, document, one.name)
+        started = time.time()
+        progress.begin(one.name)
+        try:
+            (result,) = runner.prove_all([one], out, lambda line: None, limit_ms)
+        except OSError as error:
+            raise Unjudged(f"{out}: {error.strerror or error}") from None
+        finally:
+            progress.end(one.name)
+        good = result.verdict == "PROVED"
+        record = evidence.make(
+            kind="proof",
+            id=one.name,
+            document=document,
+            verdict=result.verdict,
+            expected="PROVED",
+            as_expected=good,
+            strength=f"{len(result.queries)} queries, each asked of two solvers",
+            command=f"modeproof prove --document {document} {one.name}",
+            started=started,
+            seconds=result.seconds,
+            inputs=inputs,
+            tools=tools,
+            result={
+                "sentence": result.sentence,
+                "remark": result.remark,
+                "clauses": list(result.clauses),
+                "findings": list(result.findings),
+                "queries": [
+                    {
+                        "name": query.name,
+                        "expected": query.expected,
+                        "z3": query.z3,
+                        "cvc5": query.cvc5,
+                        "twin_of": query.twin_of,
+                        "seconds": round(query.seconds, 3),
+                        "detail": query.detail,
+                        "smt2": query.smt2.relative_to(place).as_posix(),
+                    }
+                    for query in result.queries
+                ],
+            },
+            reason=result.reason if not good else "",
+        )
+        evidence.write(place, record)
+        records.append(record)
+        progress.say(
+            f"{'ok ' if good else 'NOT'} {document}/{one.name}: {result.verdict}; {result.seconds:.1f} s"
+            + (f"; {result.reason}" if result.reason else "")
+        )
+    return records
+
+
+def _version(package: str) -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "unknown"
+
+
+# ------------------------------------------------------------------------------------------------ verify
+
+
+def _verify(args: argparse.Namespace) -> int:
+    from modeproof import evidence
+    from modeproof.lock import only_one
+    from modeproof.progress import Progress
+    from modeproof.verify import Stage, check_lane, check_registers, verify
+
+    place = root()
+    progress = Progress(quiet=args.quiet)
+
+    def conform(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
+        return conform_builtins(place, document, lane, progress)
+
+    def prove(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
+        return prove_document(place, document, progress)
+
+    stages: list[tuple[str, Stage]] = [
+        ("registers", check_registers),
+        ("proofs", prove),
+        ("TLC", check_lane),
+        ("conformance", conform),
+    ]
+    names = _chosen(place, args.document)
+    with only_one(place):
+        status, records = verify(place, names, args.lane, stages, progress)
+        for name in names:  # everything that was written can be read back
+            evidence.read_document(place, name)
+    _write_json(args, status, records=records)
+    return status
+
+
+def conform_builtins(place: Path, document: str, lane: str, progress: Any) -> list[dict[str, Any]]:
+    """Compare each device graph of the lane with the reference implementation, both ways."""
+    raise Unjudged("conformance is not there yet")
+
+
+# ------------------------------------------------------------------------------------------------ doctor
+
+
+def _doctor(args: argparse.Namespace) -> int:
+    from modeproof.doctor import examine, report
+
+    findings = examine(root())
+    text, status = report(findings)
+    print(text)
+    if args.json is not None:
+        rows = [dict(one.__dict__) for one in findings]
+        try:
+            args.json.write_text(
+                json.dumps({"command": "doctor", "status": status, "findings": rows}, indent=1) + "\n"
+            )
+        except OSError as error:
+            raise Unjudged(f"{args.json}: {error.strerror or error}") from None
+    return status

@@ -31,5 +31,5 @@ def documents(place: Path) -> tuple[str, ...]:
 
 
 def build(place: Path) -> Path:
-    """The folder for everything that is made: graphs, logs, evidence, reports. Never under version control."""
+    """The folder for all that is made: graphs, logs, evidence, reports. Never under version control."""
     return place / "build"

@@ -1,7 +1,7 @@
 """Judges one TLC run against its declaration: a pure function of declaration, cfg and outcome.
 
-First the outcome alone gives a verdict word; then the declaration says whether that was expected. An outcome that
-is cut off, contradicts itself or is not understood is never a pass.
+First the outcome alone gives a verdict word; then the declaration says whether that was expected. An outcome
+that is cut off, contradicts itself or is not understood is never a pass.
 """
 
 from __future__ import annotations
@@ -205,7 +205,9 @@ def _graph(run: Run, outcome: Outcome) -> str:
     if log.initial is None:
         return "TLC did not say how many initial states it generated"
     if edges != log.counts.generated - log.initial:
-        return f"{edges:,} edges were printed, but TLC took {log.counts.generated - log.initial:,} transitions"
+        return (
+            f"{edges:,} edges were printed, but TLC took {log.counts.generated - log.initial:,} transitions"
+        )
     if states != log.counts.distinct:
         return f"{states:,} states were printed, but TLC found {log.counts.distinct:,}"
     for name, pinned, got in (("states", run.graph.states, states), ("edges", run.graph.edges, edges)):

@@ -46,7 +46,7 @@ _TAG = re.compile(rb'^"<<\\"([A-Z_]+)\\"')
 
 @dataclass(frozen=True)
 class TraceState:
-    """One state of a counterexample: its number from 1, the action that led to it, and all variables as text."""
+    """One state of a counterexample: its number from 1, the action that led to it, all variables as text."""
 
     number: int
     action: str
@@ -102,8 +102,9 @@ def unquote(line: bytes) -> bytes:
 class LogReader:
     """Takes TLC's standard output line by line.
 
-    `on_printed` gets each printed line of the model (a TLA+ string, unquoted, without the newline), `on_progress`
-    gets the counts as TLC reports them. Printed lines are the hot path: a run may print millions.
+    `on_printed` gets each printed line of the model (a TLA+ string, unquoted, without the newline),
+    `on_progress` gets the counts as TLC reports them. Printed lines are the hot path: a run may print
+    millions.
     """
 
     def __init__(
@@ -233,8 +234,12 @@ class LogReader:
         self.log.trace.append(TraceState(int(head.group(1)), action, module, tuple(variables)))
 
 
-def format_trace(trace: list[TraceState] | tuple[TraceState, ...], loop: str, everything: bool = False) -> str:
-    """A counterexample to read: each step with the variables that it changed (all of them in the first state)."""
+def format_trace(
+    trace: list[TraceState] | tuple[TraceState, ...], loop: str, everything: bool = False
+) -> str:
+    """A counterexample to read: each step with the variables that it changed (all of them in the first
+    state).
+    """
     lines: list[str] = []
     before: dict[str, str] = {}
     for state in trace:

@@ -33,8 +33,8 @@ _GUARD = threading.Lock()
 class Outcome:
     """What came of one TLC run.
 
-    `status` is the exit status (negative: killed by that signal), `seconds` the wall-clock time, `printed` the
-    distinct printed lines (OPEN runs keep them in `graph_file` instead), `stderr` the last lines of Java.
+    `status` is the exit status (negative: killed by that signal), `seconds` the wall-clock time, `printed`
+    the distinct printed lines (OPEN runs keep them in `graph_file` instead), `stderr` the last lines of Java.
     """
 
     status: int
@@ -105,8 +105,8 @@ def run_tlc(
     """Run TLC on `run` and read its log to the end.
 
     The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
-    build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC cannot
-    be started or the disk is full.
+    build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
+    cannot be started or the disk is full.
     """
     folder = place / "spec" / run.document
     for needed in (folder / f"{run.module}.tla", folder / run.cfg):
@@ -131,7 +131,12 @@ def run_tlc(
                 outcome = _follow(run, command, folder, metadir, logs, stream, on_progress)
                 stream.flush()
                 os.fsync(stream.fileno())
-            if outcome.log.success and outcome.log.finished and not outcome.log.broken and outcome.status == 0:
+            if (
+                outcome.log.success
+                and outcome.log.finished
+                and not outcome.log.broken
+                and outcome.status == 0
+            ):
                 part.replace(graph)
                 return _with_graph(outcome, graph)
             part.unlink(missing_ok=True)

@@ -76,7 +76,9 @@ class _Table:
         self.place = place
         self.values = dict(values)
 
-    def take(self, key: str, kind: type | tuple[type, ...], default: Any = None, required: bool = False) -> Any:
+    def take(
+        self, key: str, kind: type | tuple[type, ...], default: Any = None, required: bool = False
+    ) -> Any:
         if key not in self.values:
             if required:
                 raise Unjudged(f"{self.place}: {key} is missing")
@@ -193,8 +195,8 @@ def _check_kind(place: str, run: Run) -> None:
 def load_runs(place: Path, document: str) -> tuple[Run, ...]:
     """All runs that spec/<document>/runs.toml declares.
 
-    Raises Unjudged with place and cause: no file, no run, malformed TOML, a field that is unknown or has the wrong
-    type, an id twice.
+    Raises Unjudged with place and cause: no file, no run, malformed TOML, a field that is unknown or has the
+    wrong type, an id twice.
     """
     path = place / "spec" / document / "runs.toml"
     source = f"spec/{document}/runs.toml"

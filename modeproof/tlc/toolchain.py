@@ -19,7 +19,9 @@ JAR_VERSION = "TLC2 2.15 (rev d5b5a7f)"
 
 @dataclass(frozen=True)
 class Toolchain:
-    """One Java and one jar. `pinned` is false when TLA2TOOLS_JAR names another jar than the pinned counts know."""
+    """One Java and one jar. `pinned` is false when TLA2TOOLS_JAR names another jar than the pinned counts
+    know.
+    """
 
     java: Path
     java_version: str

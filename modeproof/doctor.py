@@ -1,0 +1,156 @@
+"""Tells what this machine lacks for modeproof, and how to mend it. Needs the standard library only."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeproof.errors import Unjudged
+
+DISK_MB = 3000
+MEMORY_MB = 6000
+_VENV = "run `make venv`"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing looked at: what was found, or how to mend it. `needed` is false for what only some commands
+    use.
+    """
+
+    name: str
+    good: bool
+    found: str
+    mend: str = ""
+    needed: bool = True
+
+
+def examine(place: Path) -> list[Finding]:
+    """Look at everything that `make verify` and `make test` need on this machine."""
+    checks: list[Callable[[], Finding]] = [
+        _python,
+        lambda: _environment(place),
+        _java,
+        _jar,
+        lambda: _module("z3", "z3-solver"),
+        lambda: _module("cvc5", "cvc5"),
+        lambda: _module("jsonschema", "jsonschema"),
+        lambda: _program("make", "install make (Debian, Ubuntu: apt install make)"),
+        lambda: _program("gcc", "install gcc (Debian, Ubuntu: apt install gcc)"),
+        lambda: _disk(place),
+        _memory,
+        lambda: _writable(place),
+    ]
+    return [check() for check in checks]
+
+
+def _python() -> Finding:
+    version = ".".join(map(str, sys.version_info[:3]))
+    good = sys.version_info >= (3, 11)
+    return Finding("Python 3.11 or newer", good, f"{version} ({sys.executable})", "install Python 3.11")
+
+
+def _environment(place: Path) -> Finding:
+    lock, stamp = place / "requirements.lock", place / ".venv" / "requirements.lock"
+    if not stamp.is_file():
+        return Finding("packages (.venv)", False, "not built", f"{_VENV} (needs PyPI, about 400 MB)")
+    same = lock.is_file() and lock.read_bytes() == stamp.read_bytes()
+    return Finding(
+        "packages (.venv)", same, "as in requirements.lock" if same else "older than requirements.lock", _VENV
+    )
+
+
+def _java() -> Finding:
+    from modeproof.tlc.toolchain import find_java, java_version
+
+    try:
+        java = find_java()
+        return Finding("Java", True, f"{java_version(java)} ({java})")
+    except Unjudged as error:
+        return Finding("Java", False, error.message, f"{_VENV}, or set MODEPROOF_JAVA to a Java 11 or newer")
+
+
+def _jar() -> Finding:
+    from modeproof.tlc.toolchain import JAR_VERSION, find_jar
+
+    try:
+        jar, digest, pinned = find_jar()
+    except Unjudged as error:
+        return Finding(
+            "TLC jar", False, error.message, "rm -rf .venv and run `make venv`, or set TLA2TOOLS_JAR"
+        )
+    if pinned:
+        return Finding("TLC jar", True, f"{JAR_VERSION}, SHA-256 {digest[:12]}..")
+    return Finding(
+        "TLC jar",
+        True,
+        f"{jar} of TLA2TOOLS_JAR, SHA-256 {digest[:12]}.., not the pinned one: counts may differ",
+    )
+
+
+def _module(module: str, package: str) -> Finding:
+    if importlib.util.find_spec(module) is None:
+        return Finding(package, False, "missing", _VENV)
+    try:
+        importlib.import_module(module)
+        from importlib.metadata import version
+
+        return Finding(package, True, version(package))
+    except Exception as error:  # a broken binary package can raise anything
+        return Finding(package, False, f"broken: {error}", f"rm -rf .venv and {_VENV}")
+
+
+def _program(name: str, mend: str) -> Finding:
+    path = shutil.which(name)
+    if path is None:
+        return Finding(name, False, "missing", mend)
+    try:
+        done = subprocess.run([path, "--version"], capture_output=True, text=True, timeout=20, check=False)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return Finding(name, False, f"{path} cannot be run: {error}", mend)
+    lines = (done.stdout + done.stderr).strip().splitlines()
+    return Finding(name, done.returncode == 0, lines[0] if lines else path, mend)
+
+
+def _disk(place: Path) -> Finding:
+    free = shutil.disk_usage(place).free // (1 << 20)
+    return Finding("free disk", free >= DISK_MB, f"{free:,} MB", f"free {DISK_MB:,} MB, or `rm -rf build`")
+
+
+def _memory() -> Finding:
+    try:
+        size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
+    except (OSError, ValueError):
+        return Finding("memory", True, "unknown", needed=False)
+    mend = (
+        "the full lane wants 6 GB; `make smoke` needs less, MODEPROOF_HEAP_MB limits all Java heaps together"
+    )
+    return Finding("memory", size >= MEMORY_MB, f"{size:,} MB", mend, needed=False)
+
+
+def _writable(place: Path) -> Finding:
+    build = place / "build"
+    folder = build if build.exists() else place
+    good = os.access(folder, os.W_OK)
+    return Finding("build folder", good, str(build), f"make {folder} writable")
+
+
+def report(findings: list[Finding]) -> tuple[str, int]:
+    """The lines to print, and the exit status: 0 when nothing needed is missing, else 1."""
+    width = max(len(one.name) for one in findings)
+    lines = []
+    for one in findings:
+        word = "ok     " if one.good else "MISSING" if one.needed else "note   "
+        lines.append(f"{word}  {one.name:<{width}}  {one.found}")
+        if not one.good:
+            lines.append(f"         {'':<{width}}  -> {one.mend}")
+    missing = [one.name for one in findings if one.needed and not one.good]
+    lines.append(f"missing: {', '.join(missing)}" if missing else "nothing is missing")
+    return "\n".join(lines), 1 if missing else 0

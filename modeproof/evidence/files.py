@@ -1,0 +1,105 @@
+"""Writes and reads evidence files: build/evidence/<document>/<id>.json.
+
+A file appears whole or not at all: it is written beside its place, flushed to the disk, then renamed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+
+from modeproof.errors import Unjudged
+from modeproof.places import build
+
+
+@cache
+def _validator() -> jsonschema.Draft202012Validator:
+    schema = json.loads(Path(__file__).with_name("schema.json").read_text(encoding="utf-8"))
+    return jsonschema.Draft202012Validator(schema)
+
+
+def _check(record: Any, place: str) -> None:
+    error = next(iter(sorted(_validator().iter_errors(record), key=lambda e: list(map(str, e.path)))), None)
+    if error is not None:
+        at = "/".join(str(part) for part in error.path) or "top level"
+        raise Unjudged(f"{place}: not valid evidence at {at}: {error.message[:200]}")
+
+
+def evidence_path(place: Path, document: str, id: str) -> Path:
+    """Where the evidence of a run lies."""
+    return build(place) / "evidence" / document / f"{id}.json"
+
+
+def write(place: Path, record: Mapping[str, Any]) -> Path:
+    """Write one piece of evidence and return its path.
+
+    Raises Unjudged when the record breaks the schema or cannot be written (no space, no permission); then
+    nothing is left behind.
+    """
+    _check(record, "evidence to be written")
+    path = evidence_path(place, record["document"], record["id"])
+    text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    write_whole(path, text.encode("utf-8"))
+    return path
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file atomically. Raises Unjudged when that fails; then the old file, if any, is still there."""
+    part: str | None = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.chmod(part, 0o644)
+        os.replace(part, path)
+        part = None
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
+    finally:
+        if part is not None:
+            with contextlib.suppress(OSError):
+                os.unlink(part)
+
+
+def discard(place: Path, document: str, id: str) -> None:
+    """Remove the evidence of an earlier run, so that a run that fails to write any cannot pass for it."""
+    try:
+        evidence_path(place, document, id).unlink(missing_ok=True)
+    except OSError as error:
+        raise Unjudged(f"evidence {document}/{id} cannot be removed: {error.strerror or error}") from None
+
+
+def read(path: Path) -> dict[str, Any]:
+    """Read one piece of evidence. Raises Unjudged when it is missing, cut off or breaks the schema."""
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise Unjudged(f"{path}: {error.strerror or error}") from None
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{path}: not JSON: {error}") from None
+    _check(record, str(path))
+    if path.stem != record["id"] or path.parent.name != record["document"]:
+        raise Unjudged(f"{path}: holds the evidence of {record['document']}/{record['id']}")
+    return dict(record)
+
+
+def read_document(place: Path, document: str) -> tuple[dict[str, Any], ...]:
+    """All evidence of a document, in the order of the ids. Raises Unjudged as `read` does."""
+    folder = build(place) / "evidence" / document
+    return tuple(read(path) for path in sorted(folder.glob("*.json")))

@@ -1,0 +1,127 @@
+"""Builds one piece of evidence: the fields that are the same for every kind are filled in here."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import time
+from collections.abc import Iterable, Mapping
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import Unjudged
+
+SCHEMA_VERSION = 1
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
+    """SHA-256 of each file, by its path relative to the root `place`.
+
+    Raises Unjudged when a file cannot be read or lies outside the root.
+    """
+    found: dict[str, str] = {}
+    for path in paths:
+        try:
+            found[path.resolve().relative_to(place.resolve()).as_posix()] = _sha256(path)
+        except OSError as error:
+            raise Unjudged(f"{path}: {error.strerror or error}") from None
+        except ValueError:
+            raise Unjudged(f"{path}: lies outside {place}") from None
+    return dict(sorted(found.items()))
+
+
+def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
+    """One entry of `tools`: a version, and the hash of the file that was run when there is one."""
+    try:
+        return {"version": version, "sha256": None if path is None else _sha256(path)}
+    except OSError as error:
+        raise Unjudged(f"{path}: {error.strerror or error}") from None
+
+
+@cache
+def _own_tools() -> dict[str, dict[str, str | None]]:
+    package = Path(__file__).resolve().parent.parent
+    digest = hashlib.sha256()
+    for source in sorted(package.rglob("*.py")):
+        digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")
+    try:
+        version = metadata.version("modeproof")
+    except metadata.PackageNotFoundError:
+        version = "not installed"
+    return {
+        "modeproof": {"version": version, "sha256": digest.hexdigest()},
+        "python": {"version": platform.python_version(), "sha256": None},
+    }
+
+
+@cache
+def _machine() -> dict[str, Any]:
+    cpu = platform.processor()
+    memory = 0
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            cpu = next(
+                (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), cpu
+            )
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
+    except (OSError, ValueError):
+        pass
+    return {
+        "system": f"{platform.system()} {platform.release()}",
+        "arch": platform.machine(),
+        "cpu": cpu,
+        "cores": os.cpu_count() or 1,
+        "memory_mb": memory,
+    }
+
+
+def make(
+    *,
+    kind: str,
+    id: str,
+    document: str,
+    verdict: str,
+    expected: str,
+    as_expected: bool,
+    command: str,
+    started: float,
+    seconds: float,
+    environment: str = "",
+    strength: str = "",
+    inputs: Mapping[str, str] | None = None,
+    tools: Mapping[str, Mapping[str, str | None]] | None = None,
+    result: Mapping[str, Any] | None = None,
+    reason: str = "",
+) -> dict[str, Any]:
+    """One piece of evidence, ready to be written.
+
+    `started` is seconds since the epoch, `seconds` the duration. The machine, the Python and modeproof itself
+    are recorded in every piece.
+    """
+    return {
+        "schema_version": SCHEMA_VERSION,
+        "kind": kind,
+        "id": id,
+        "document": document,
+        "verdict": verdict,
+        "expected": expected,
+        "as_expected": as_expected,
+        "environment": environment,
+        "strength": strength,
+        "command": command,
+        "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started)),
+        "seconds": round(seconds, 3),
+        "inputs": dict(inputs or {}),
+        "tools": {**_own_tools(), **{name: dict(entry) for name, entry in (tools or {}).items()}},
+        "machine": _machine(),
+        "result": dict(result or {}),
+        "reason": " ".join(reason.split()),
+    }

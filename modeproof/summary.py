@@ -1,0 +1,161 @@
+"""The one screen at the end of `modeproof verify`, from evidence and the register of properties alone."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+Record = Mapping[str, Any]
+
+ASIDE = "not in this lane"
+
+
+@dataclass(frozen=True)
+class PropertyRow:
+    """A property as the register declares it: id, TLA+ name and the environments under which it must hold."""
+
+    id: str
+    tla: str
+    environments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of the summary; `status` 0 as expected, 1 not, 2 not judged."""
+
+    property: str
+    verdict: str
+    environment: str
+    strength: str
+    distinct: int | None
+    seconds: float | None
+    status: int
+
+
+def status_of(record: Record) -> int:
+    """Exit status of one piece of evidence."""
+    if record["as_expected"]:
+        return 0
+    return 2 if record["verdict"] in ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED") else 1
+
+
+def property_lines(
+    properties: Sequence[PropertyRow], records: Sequence[Record], declared: Mapping[str, set[tuple[str, str]]]
+) -> list[Line]:
+    """A line per property and environment, from the runs that must hold.
+
+    `declared` gives for each run id the pairs (property, environment) that any lane checks: a pair that no
+    run of any lane checks is UNJUDGED; one that only another lane checks is shown and not counted.
+    """
+    anywhere = set().union(*declared.values()) if declared else set()
+    positive = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in ("MC", "LIVE", "OPEN")]
+    lines = []
+    for row in properties:
+        for environment in row.environments:
+            runs = [
+                r
+                for r in positive
+                if r["environment"] == environment and row.tla in r["result"].get("properties", ())
+            ]
+            lines.append(_line(row, environment, runs, (row.tla, environment) in anywhere))
+    return lines
+
+
+def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere: bool) -> Line:
+    if not runs:
+        word, status = (ASIDE, 0) if elsewhere else ("UNJUDGED", 2)
+        why = "" if elsewhere else "no run checks it"
+        return Line(row.id, word, environment, why, None, None, status)
+    # The weakest verdict counts; among equals the biggest run is shown.
+    worst = max(runs, key=lambda r: (status_of(r), r["result"].get("distinct") or 0))
+    status = status_of(worst)
+    verdict = str(worst["verdict"])
+    if status and verdict == "VIOLATED" and worst["result"].get("violated") not in (row.tla, ""):
+        verdict = (
+            "INCONCLUSIVE"  # another property of the same run failed first: nothing is known of this one
+        )
+    elif status == 1 and verdict == "HOLDS":
+        verdict = "HOLDS?"  # held, but not the run that was declared: a count or a name differs
+    seconds = sum(float(r["seconds"]) for r in runs)
+    return Line(
+        row.id, verdict, environment, worst["strength"], worst["result"].get("distinct"), seconds, status
+    )
+
+
+def _cell(value: float | int | None, form: str) -> str:
+    return "" if value is None else format(value, form)
+
+
+def _fit(text: str, width: int) -> str:
+    return text if len(text) <= width else text[: width - 2] + ".."
+
+
+def table(lines: Sequence[Line], width: int) -> list[str]:
+    """The property lines as a table that is at most `width` columns wide."""
+    if not lines:
+        return []
+    names = max(len("property"), *(len(line.property) for line in lines))
+    words = max(len("verdict"), *(len(line.verdict) for line in lines))
+    places = max(len("environment"), *(len(line.environment) for line in lines))
+    strength = max(12, width - names - words - places - 11 - 8 - 5)
+
+    def row(name: str, word: str, place: str, how: str, distinct: str, seconds: str) -> str:
+        cells = f"{name:<{names}} {word:<{words}} {place:<{places}} {_fit(how, strength):<{strength}}"
+        return f"{cells} {distinct:>11} {seconds:>8}"
+
+    rows = [row("property", "verdict", "environment", "strength", "distinct", "seconds")]
+    for line in lines:
+        counts = _cell(line.distinct, ",d"), _cell(line.seconds, ".1f")
+        rows.append(row(line.property, line.verdict, line.environment, line.strength, *counts))
+    return rows
+
+
+def counted(label: str, records: Sequence[Record], words: str) -> str:
+    """One line for a group of runs: how many of how many are as expected, and the first ones that are not."""
+    good = sum(1 for r in records if r["as_expected"])
+    seconds = sum(float(r["seconds"]) for r in records)
+    line = f"{label:<12} {good} of {len(records)} {words}, {seconds:.1f} s"
+    bad = [str(r["id"]) for r in records if not r["as_expected"]]
+    return line + (f"; NOT: {', '.join(bad[:4])}{' ..' if len(bad) > 4 else ''}" if bad else "")
+
+
+def render(document: str, lines: Sequence[Line], records: Sequence[Record], width: int | None = None) -> str:
+    """The summary of one document."""
+    columns = width if width is not None else min(160, shutil.get_terminal_size((120, 40)).columns)
+    out = [f"== {document}", *table(lines, columns)]
+    tlc = [r for r in records if r["kind"] == "tlc"]
+    for kind, label, words in (
+        ("NEG", "negatives", "VIOLATED, as expected, by the named property"),
+        ("WIT", "witnesses", "REACHED"),
+        ("OPEN", "graphs", "complete"),
+    ):
+        group = [r for r in tlc if r["result"].get("run") == kind]
+        if group:
+            out.append(counted(label, group, words))
+    out += [
+        f"{'conformance':<12} {r['id']}: {r['verdict']}; {r['strength']}; {r['seconds']:.1f} s"
+        for r in records
+        if r["kind"] == "conformance"
+    ]
+    proofs = [r for r in records if r["kind"] == "proof"]
+    if proofs:
+        out.append(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
+    registers = [r for r in records if r["kind"] == "registers"]
+    if registers:
+        out.append(counted("registers", registers, "consistent"))
+    return "\n".join(out)
+
+
+def failures(records: Sequence[Record], lines: Sequence[Line]) -> list[str]:
+    """One line for everything that is not as expected, with its reason."""
+    found = [
+        f"{r['document']}/{r['id']}: {r['verdict']}: {r['reason']}" for r in records if not r["as_expected"]
+    ]
+    found += [
+        f"property {line.property} ({line.environment}): {line.verdict}: {line.strength}"
+        for line in lines
+        if line.status and line.distinct is None and line.seconds is None
+    ]
+    return found

@@ -1,0 +1,270 @@
+"""Runs declared TLC runs, judges them and writes their evidence."""
+
+from __future__ import annotations
+
+import fnmatch
+import hashlib
+import shlex
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof import evidence
+from modeproof.errors import Unjudged
+from modeproof.places import build, documents
+from modeproof.progress import Progress
+from modeproof.tlc.cfg import Cfg, parse_cfg
+from modeproof.tlc.judge import UNJUDGED, Judgement, judge
+from modeproof.tlc.process import Outcome, run_tlc, stop_all
+from modeproof.tlc.runs import Run, load_runs
+from modeproof.tlc.schedule import Job, cores, memory_mb, run_all
+from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
+
+
+@dataclass(frozen=True)
+class Checked:
+    """One run, its judgement, what TLC did (None when it could not even be started), and its evidence."""
+
+    run: Run
+    judgement: Judgement
+    outcome: Outcome | None
+    cfg_sha256: str
+    record: dict[str, Any]
+
+    @property
+    def status(self) -> int:
+        """Exit status: 0 as expected, 1 not as expected, 2 not judged."""
+        return 0 if self.judgement.as_expected else 1 if self.judgement.judged else 2
+
+
+def select(
+    place: Path, names: Sequence[str] = (), lane: str | None = None, document: str | None = None
+) -> tuple[Run, ...]:
+    """The runs to check: by id or pattern (`MC_*`, `mode_selection/MC_*`), else all of a lane, else of all
+    lanes.
+
+    Raises Unjudged when a name or the whole selection matches nothing.
+    """
+    known = documents(place)
+    if document is not None and document not in known:
+        raise Unjudged(f"no document {document!r} in spec/; there are: {', '.join(known) or 'none'}")
+    chosen = [name for name in known if document in (None, name)]
+    runs = [run for name in chosen if _has_runs(place, name) for run in load_runs(place, name)]
+    for pattern in names:
+        if not any(_named(run, pattern) for run in runs):
+            raise Unjudged(f"no run {pattern!r} in runs.toml of {', '.join(chosen) or 'any document'}")
+    picked = tuple(
+        run
+        for run in runs
+        if (not names or any(_named(run, pattern) for pattern in names))
+        and (lane is None or lane in run.lanes)
+    )
+    if not picked:
+        raise Unjudged(f"no run to check{f' in the lane {lane}' if lane else ''}")
+    return picked
+
+
+def _has_runs(place: Path, document: str) -> bool:
+    return (place / "spec" / document / "runs.toml").is_file()
+
+
+def _named(run: Run, pattern: str) -> bool:
+    return fnmatch.fnmatchcase(run.id, pattern) or fnmatch.fnmatchcase(run.name, pattern)
+
+
+def register_problems(place: Path, document: str) -> tuple[str, ...]:
+    """What is wrong between runs.toml and the models folder: a missing or unlisted cfg, an empty property
+    list.
+    """
+    folder = place / "spec" / document
+    runs = load_runs(place, document)
+    problems = [f"run {run.id}: {run.cfg} is missing" for run in runs if not (folder / run.cfg).is_file()]
+    problems += [
+        f"run {run.id}: {run.module}.tla is missing"
+        for run in runs
+        if not (folder / f"{run.module}.tla").is_file()
+    ]
+    problems += [f"run {run.id}: the property list is empty" for run in runs if not run.properties]
+    listed = {run.cfg for run in runs}
+    problems += [
+        f"{cfg.relative_to(folder).as_posix()} is in no run"
+        for cfg in sorted((folder / "models").glob("*.cfg"))
+        if cfg.relative_to(folder).as_posix() not in listed
+    ]
+    return tuple(problems)
+
+
+def read_cfg(place: Path, run: Run) -> tuple[Cfg, str]:
+    """The parsed cfg of a run and its SHA-256. Raises Unjudged when it is missing or not understood."""
+    path = place / "spec" / run.document / run.cfg
+    try:
+        content = path.read_bytes()
+        text = content.decode("utf-8")
+    except FileNotFoundError:
+        raise Unjudged(f"{run.name}: {run.cfg} is missing") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{run.name}: {run.cfg}: {error}") from None
+    return parse_cfg(text, f"{run.name}: {run.cfg}"), hashlib.sha256(content).hexdigest()
+
+
+def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Checked:
+    """Run TLC once, judge the outcome and write the evidence.
+
+    A run whose files are missing or that TLC cannot start is UNJUDGED, with evidence that says so. Raises
+    Unjudged only when the evidence itself cannot be written.
+    """
+    evidence.discard(place, run.document, run.id)
+    started = time.time()
+    digest = ""
+    outcome: Outcome | None = None
+    progress.begin(run.id)
+    try:
+        cfg, digest = read_cfg(place, run)
+        outcome = run_tlc(
+            place,
+            run,
+            tools,
+            lambda c: progress.update(run.id, f"{c.distinct:,} distinct, {c.generated:,} generated"),
+        )
+        judgement = judge(run, cfg, digest, outcome)
+        if read_cfg(place, run)[1] != digest:
+            judgement = Judgement(UNJUDGED, False, f"{run.cfg} was changed while TLC ran")
+    except Unjudged as error:
+        judgement = Judgement(UNJUDGED, False, error.message)
+    finally:
+        progress.end(run.id)
+    record = _record(place, run, tools, judgement, outcome, started)
+    evidence.write(place, record)
+    return Checked(run, judgement, outcome, digest, record)
+
+
+def check_all(
+    place: Path,
+    runs: Sequence[Run],
+    tools: Toolchain,
+    progress: Progress,
+    on_checked: Callable[[Checked], None] = lambda checked: None,
+) -> list[Checked]:
+    """Check the runs, as many at once as the machine allows, longest first; results in the order given."""
+    core_limit = cores()
+    jobs = [Job(run.id, run.workers, run.heap_mb, _estimate(place, run)) for run in runs]
+    progress.expect(len(runs))
+
+    def work(index: int) -> Checked:
+        checked = check_one(place, runs[index], tools, progress)
+        on_checked(checked)
+        return checked
+
+    try:
+        return run_all(jobs, work, core_limit, memory_mb(), progress.tick)
+    except BaseException:
+        stop_all()
+        raise
+
+
+def _estimate(place: Path, run: Run) -> float:
+    """Seconds that the run will take: as last time, else by its pinned counts, else its time limit."""
+    try:
+        path = evidence.evidence_path(place, run.document, run.id)
+        return float(evidence.read(path)["seconds"])
+    except Unjudged:
+        return 1.0 + run.generated / 200_000 if run.generated is not None else run.timeout_s
+
+
+def _record(
+    place: Path, run: Run, tools: Toolchain, judgement: Judgement, outcome: Outcome | None, started: float
+) -> dict[str, Any]:
+    folder = place / "spec" / run.document
+    paths = {folder / "runs.toml"}
+    paths |= {path for path in (folder / run.cfg, folder / f"{run.module}.tla") if path.is_file()}
+    if outcome is not None:
+        spec = (place / "spec").resolve()
+        parsed = (Path(name) if Path(name).is_absolute() else folder / name for name in outcome.log.files)
+        paths |= {path for path in parsed if path.resolve().is_relative_to(spec) and path.is_file()}
+    return evidence.make(
+        kind="tlc",
+        id=run.id,
+        document=run.document,
+        verdict=judgement.verdict,
+        expected=run.expect,
+        as_expected=judgement.as_expected,
+        environment=run.environment,
+        strength=run.strength,
+        command=f"modeproof check {run.name}",
+        started=started,
+        seconds=outcome.seconds if outcome is not None else time.time() - started,
+        inputs=evidence.hashes(place, sorted(paths)),
+        tools={
+            "tlc": {
+                "version": (outcome.log.version if outcome is not None else "") or "not started",
+                "sha256": tools.jar_sha256,
+            },
+            "java": evidence.tool(tools.java_version, tools.java),
+        },
+        result=_result(place, run, tools, judgement, outcome),
+        reason=judgement.reason,
+    )
+
+
+def _result(
+    place: Path, run: Run, tools: Toolchain, judgement: Judgement, outcome: Outcome | None
+) -> dict[str, Any]:
+    result: dict[str, Any] = {
+        "run": run.kind,
+        "module": run.module,
+        "cfg": run.cfg,
+        "lanes": list(run.lanes),
+        "properties": list(run.properties),
+        "workers": run.workers,
+        "heap_mb": run.heap_mb,
+        "timeout_s": run.timeout_s,
+        "jar_pinned": tools.pinned,
+        "pins": {"distinct": run.distinct, "generated": run.generated, "trace_length": run.trace_length},
+    }
+    if not tools.pinned:
+        result["jar_note"] = f"pinned counts were taken with {JAR_VERSION}, not with this jar"
+    if run.violates is not None:
+        result["property"] = run.violates
+    if outcome is None:
+        return result
+    log = outcome.log
+    root = str(place)
+    result |= {
+        "exit_status": outcome.status,
+        "timed_out": outcome.timed_out,
+        "tlc_command": shlex.join(outcome.command).replace(root, "."),
+        "log": (build(place) / "tlc" / run.document / f"{run.id}.log").relative_to(place).as_posix(),
+        "distinct": log.counts.distinct if log.counts else None,
+        "generated": log.counts.generated if log.counts else None,
+        "queue": log.counts.queue if log.counts else None,
+        "initial": log.initial,
+        "depth": log.depth,
+        "printed": dict(sorted(log.tags.items())),
+    }
+    if judgement.violated:
+        result["violated"] = judgement.violated
+    if log.trace:
+        result["trace_length"] = len(log.trace)
+        result["loop"] = log.loop
+        result["trace"] = [
+            {"number": state.number, "action": state.action, "variables": dict(state.variables)}
+            for state in log.trace
+        ]
+    if run.kind == "WIT":
+        result["witnesses"] = list(run.witnesses)
+        result["reached"] = list(judgement.reached)
+    if run.graph is not None:
+        result["graph"] = {
+            "device": run.graph.device,
+            "tick_ms": run.graph.tick_ms,
+            "params": dict(run.graph.params),
+            "pass": dict(run.graph.passed),
+            "states": log.tags.get("STATE", 0),
+            "edges": log.tags.get("EDGE", 0),
+        }
+        if outcome.graph_file is not None:
+            result["graph"]["file"] = outcome.graph_file.relative_to(place).as_posix()
+            result["graph"] |= {"sha256": next(iter(evidence.hashes(place, [outcome.graph_file]).values()))}
+    return result

@@ -1,0 +1,207 @@
+"""Moves the pins of a run: the only way, and never silently.
+
+It prints each pin's old and new value and what changed in the cfg, and asks for a reason, which is kept as a
+comment beside the pins.
+"""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import os
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+
+from modeproof.errors import Unjudged
+from modeproof.evidence.files import write_whole
+from modeproof.tlc.check import Checked, read_cfg
+from modeproof.tlc.judge import HOLDS, REACHED, VIOLATED, judge
+
+_HISTORY = 200
+"""So many commits back the pinned version of a cfg is looked for."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """One pin that moves; `table` is "" for the run itself and "graph" for its graph."""
+
+    table: str
+    key: str
+    old: int | str | None
+    new: int | str | None
+
+    def __str__(self) -> str:
+        name = f"{self.table}.{self.key}" if self.table else self.key
+        return f"{name}: {_show(self.old)} -> {_show(self.new)}"
+
+
+def _show(value: int | str | None) -> str:
+    if value is None:
+        return "none"
+    return f"{value:,}" if isinstance(value, int) else value
+
+
+def refuse_in_ci() -> None:
+    """Raise Unjudged when the environment variable CI is set: a robot has no reason to give."""
+    if os.environ.get("CI"):
+        raise Unjudged("--repin is refused in CI: pins are moved by a person, with a reason")
+
+
+def moves(place: Path, checked: Checked) -> tuple[Move, ...]:
+    """The pins that this outcome would move.
+
+    Raises Unjudged when the outcome may not be pinned: wrong verdict, wrong property, or a property list that
+    differs from the cfg (which is corrected by hand in runs.toml, where it is reviewed).
+    """
+    run, judgement, outcome = checked.run, checked.judgement, checked.outcome
+    if outcome is None or not judgement.judged or outcome.log.counts is None:
+        raise Unjudged(f"{run.name}: {judgement.verdict}, nothing to pin: {judgement.reason}")
+    right = {"NEG": VIOLATED, "WIT": REACHED}.get(run.kind, HOLDS)
+    if judgement.verdict != right or (run.kind == "NEG" and judgement.violated != run.violates):
+        raise Unjudged(f"{run.name}: {judgement.verdict} is not what the run must show: {judgement.reason}")
+    log = outcome.log
+    assert log.counts is not None
+    wanted: list[Move] = [Move("", "cfg_sha256", run.cfg_sha256, checked.cfg_sha256)]
+    if run.kind == "NEG":
+        if run.workers == 1:
+            wanted.append(Move("", "trace_length", run.trace_length, len(log.trace)))
+    else:
+        wanted.append(Move("", "distinct", run.distinct, log.counts.distinct))
+        wanted.append(Move("", "generated", run.generated, log.counts.generated))
+    if run.graph is not None and log.initial is not None:
+        states, edges = log.tags.get("STATE", 0), log.tags.get("EDGE", 0)
+        wanted.append(Move("graph", "states", run.graph.states, states))
+        wanted.append(Move("graph", "edges", run.graph.edges, edges))
+    _refuse_other_faults(place, checked, wanted)
+    return tuple(move for move in wanted if move.old != move.new)
+
+
+def _refuse_other_faults(place: Path, checked: Checked, wanted: list[Move]) -> None:
+    """With the new pins the run must be as expected: whatever else is wrong is no matter of pins."""
+    run, outcome = checked.run, checked.outcome
+    assert outcome is not None
+    pins: dict[str, Any] = {move.key: move.new for move in wanted if not move.table}
+    if run.graph is not None:
+        counts: dict[str, Any] = {move.key: move.new for move in wanted if move.table}
+        pins["graph"] = replace(run.graph, **counts)
+    cfg, digest = read_cfg(place, run)
+    again = judge(replace(run, **pins), cfg, digest, outcome)
+    if not again.as_expected:
+        raise Unjudged(f"{run.name}: not a matter of pins: {again.reason}")
+
+
+def cfg_diff(place: Path, checked: Checked) -> str:
+    """What changed in the cfg since it was pinned, as a unified diff, from the history of git if there is
+    one.
+    """
+    run = checked.run
+    path = place / "spec" / run.document / run.cfg
+    name = path.relative_to(place).as_posix()
+    if run.cfg_sha256 is None:
+        return f"{name}: pinned for the first time"
+    if run.cfg_sha256 == checked.cfg_sha256:
+        return f"{name}: unchanged"
+    old = _pinned_version(place, name, run.cfg_sha256)
+    if old is None:
+        return f"{name}: the pinned version is not in the history of git; the whole file is new to the pins"
+    new = path.read_text(encoding="utf-8", errors="replace")
+    lines = difflib.unified_diff(
+        old.splitlines(), new.splitlines(), f"{name} (pinned)", f"{name} (now)", lineterm="", n=1
+    )
+    return "\n".join(lines)
+
+
+def _git(place: Path, *arguments: str) -> bytes | None:
+    try:
+        done = subprocess.run(
+            ["git", "-C", str(place), *arguments], capture_output=True, timeout=20, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return None
+    return done.stdout if done.returncode == 0 else None
+
+
+def _pinned_version(place: Path, name: str, digest: str) -> str | None:
+    commits = _git(place, "log", f"-{_HISTORY}", "--format=%H", "--", name)
+    for commit in (commits or b"").decode("ascii", "replace").split():
+        content = _git(place, "show", f"{commit}:./{name}")
+        if content is not None and hashlib.sha256(content).hexdigest() == digest:
+            return content.decode("utf-8", "replace")
+    return None
+
+
+def ask_reason(given: str | None, ask: Callable[[str], str] = input) -> str:
+    """The reason for moving pins: as given on the command line, else asked for on the terminal.
+
+    Raises Unjudged without one.
+    """
+    reason = given
+    if reason is None:
+        if not sys.stdin.isatty():
+            raise Unjudged("--repin needs a reason: give --reason TEXT")
+        try:
+            reason = ask("reason for moving these pins: ")
+        except EOFError:
+            reason = ""
+    reason = " ".join(reason.split())
+    if not reason:
+        raise Unjudged("--repin needs a reason; nothing was changed")
+    return reason
+
+
+def apply(place: Path, changes: dict[str, dict[str, tuple[Move, ...]]], reason: str) -> None:
+    """Write the moves into runs.toml, per document and run id. Comments and layout stay as they are.
+
+    Raises Unjudged when a file cannot be read or written; each file is replaced whole or not at all.
+    """
+    note = f"{time.strftime('%Y-%m-%d', time.gmtime())}: {reason}"
+    for document, of_run in changes.items():
+        path = place / "spec" / document / "runs.toml"
+        try:
+            data = tomlkit.parse(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, TOMLKitError) as error:
+            raise Unjudged(f"spec/{document}/runs.toml: {error}") from None
+        tables: Any = data["run"]
+        for table in tables:
+            for move in of_run.get(str(table["id"]), ()):
+                target = table[move.table] if move.table else table
+                if move.key in target:
+                    target[move.key] = move.new
+                else:
+                    _insert(target, move)
+                if move.key == "cfg_sha256":
+                    target[move.key].comment(note)
+            if of_run.get(str(table["id"])) and "cfg_sha256" in table:
+                table["cfg_sha256"].comment(note)
+        text = tomlkit.dumps(data)
+        _refuse_damage(document, path.read_text(encoding="utf-8"), text, of_run)
+        write_whole(path, text.encode("utf-8"))
+
+
+def _refuse_damage(document: str, old: str, new: str, of_run: dict[str, tuple[Move, ...]]) -> None:
+    """The new text must differ from the old one in the moved pins alone."""
+    wanted = tomllib.loads(old)
+    for table in wanted["run"]:
+        for move in of_run.get(table["id"], ()):
+            (table[move.table] if move.table else table)[move.key] = move.new
+    if tomllib.loads(new) != wanted:
+        raise Unjudged(f"spec/{document}/runs.toml: the pins cannot be moved here; edit the file by hand")
+
+
+def _insert(target: Any, move: Move) -> None:
+    """Add a key that is not there yet: after the last plain key, before any sub-table."""
+    plain = [key for key, value in target.items() if not isinstance(value, tomlkit.items.Table)]
+    container = target.value if hasattr(target, "value") else target
+    if plain and hasattr(container, "_insert_after"):
+        container._insert_after(plain[-1], move.key, tomlkit.item(move.new))
+    else:
+        target.add(move.key, tomlkit.item(move.new))

@@ -1,0 +1,163 @@
+"""`modeproof verify`: registers, proofs, TLC and conformance of every document, then one screen."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from modeproof import evidence
+from modeproof.errors import Unjudged
+from modeproof.progress import Progress
+from modeproof.summary import PropertyRow, failures, property_lines, render, status_of
+from modeproof.tlc.check import Checked, check_all, register_problems, select
+from modeproof.tlc.runs import load_runs
+from modeproof.tlc.toolchain import find_toolchain
+
+Records = list[dict[str, Any]]
+Stage = Callable[[Path, str, str, Progress], Records]
+"""(root, document, lane, progress) -> evidence; may raise Unjudged."""
+
+REGISTERS = "registers"
+
+
+def check_registers(place: Path, document: str, lane: str, progress: Progress) -> Records:
+    """Load all registers of a document and compare them with one another and with the tree.
+
+    The verdict is EQUAL or DIFFERS; a register that cannot be read is UNJUDGED.
+    """
+    from modeproof import registers
+
+    evidence.discard(place, document, REGISTERS)
+    started = time.time()
+    problems: list[str] = []
+    result: dict[str, Any] = {}
+    verdict, reason = "EQUAL", ""
+    try:
+        problems += register_problems(place, document)
+        judgement = registers.judge(registers.load_document(place, document))
+        problems += [str(problem) for problem in (*judgement.problems, *registers.judge_tree(place))]
+        if not judgement.rows:
+            problems.append("the matrix has no row")
+        result = {
+            "clauses": len(judgement.rows),
+            "citations": judgement.citations,
+            "unresolved": judgement.unresolved,
+        }
+        if problems:
+            verdict = "DIFFERS"
+            reason = problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
+    except Unjudged as error:
+        verdict, reason = "UNJUDGED", error.message
+    paths = sorted((place / "spec" / document).glob("*.toml"))
+    record = evidence.make(
+        kind="registers",
+        id=REGISTERS,
+        document=document,
+        verdict=verdict,
+        expected="EQUAL",
+        as_expected=verdict == "EQUAL",
+        strength="registers, specification, implementation and proofs cite and name the same things",
+        command=f"modeproof verify --lane {lane}",
+        started=started,
+        seconds=time.time() - started,
+        inputs=evidence.hashes(place, paths),
+        result={"problems": problems, **result},
+        reason=reason,
+    )
+    evidence.write(place, record)
+    return [record]
+
+
+def check_lane(place: Path, document: str, lane: str, progress: Progress) -> Records:
+    """Every TLC run of the lane. Raises Unjudged when the lane has none, or Java or the jar is missing."""
+    runs = select(place, lane=lane, document=document)
+    tools = find_toolchain()
+    done = check_all(place, runs, tools, progress, lambda checked: progress.say(line_of(checked)))
+    missing = {run.id for run in runs} - {one.run.id for one in done}
+    if missing:
+        raise Unjudged(f"{document}: runs were not executed: {', '.join(sorted(missing))}")
+    return [one.record for one in done]
+
+
+def line_of(checked: Checked) -> str:
+    """One line that says how a run went."""
+    counts = checked.outcome.log.counts if checked.outcome is not None else None
+    seconds = checked.outcome.seconds if checked.outcome is not None else 0.0
+    parts = [f"{'ok ' if checked.status == 0 else 'NOT'} {checked.run.name}: {checked.judgement.words}"]
+    if checked.judgement.violated:
+        parts[0] += f" ({checked.judgement.violated})"
+    if counts is not None:
+        parts.append(f"{counts.distinct:,} distinct, {counts.generated:,} generated")
+    if checked.outcome is not None and checked.outcome.log.trace:
+        parts.append(f"{len(checked.outcome.log.trace)} states in the counterexample")
+    parts.append(f"{seconds:.1f} s")
+    if checked.judgement.reason:
+        parts.append(checked.judgement.reason)
+    return "; ".join(parts)
+
+
+def property_rows(place: Path, document: str) -> list[PropertyRow]:
+    """The declared properties. Raises Unjudged when the register cannot be read."""
+    from modeproof import registers
+
+    loaded = registers.load_document(place, document)
+    return [PropertyRow(row.id, row.tla, row.environments) for row in loaded.properties]
+
+
+def declared_pairs(place: Path, document: str) -> dict[str, set[tuple[str, str]]]:
+    """For each run that must hold: the pairs (property, environment) that it checks."""
+    return {
+        run.id: {(name, run.environment) for name in run.properties}
+        for run in load_runs(place, document)
+        if run.kind in ("MC", "LIVE", "OPEN")
+    }
+
+
+def verify(
+    place: Path, names: Sequence[str], lane: str, stages: Sequence[tuple[str, Stage]], progress: Progress
+) -> tuple[int, Records]:
+    """Run all stages for each document and print the summary; the status is the worst of all.
+
+    A stage that cannot be judged is reported and does not keep the others from running.
+    """
+    status = 0
+    everything: Records = []
+    screens: list[str] = []
+    bad: list[str] = []
+    if not names:
+        raise Unjudged("spec/ holds no document; there is nothing to verify")
+    for document in names:
+        records: Records = []
+        for title, stage in stages:
+            progress.say(f"-- {document}: {title}")
+            try:
+                made = stage(place, document, lane, progress)
+            except Unjudged as error:
+                bad.append(f"{document}, {title}: UNJUDGED: {error.message}")
+                status = 2
+                continue
+            if not made:
+                bad.append(f"{document}, {title}: UNJUDGED: nothing was done")
+                status = 2
+            records += made
+        try:
+            lines = property_lines(property_rows(place, document), records, declared_pairs(place, document))
+        except Unjudged as error:
+            lines = []
+            bad.append(f"{document}, summary of properties: UNJUDGED: {error.message}")
+            status = 2
+        status = max([status, *map(status_of, records), *(line.status for line in lines)])
+        screens.append(render(document, lines, records))
+        bad += failures(records, lines)
+        everything += records
+    progress.say("")
+    for screen in screens:
+        progress.say(screen)
+    for line in dict.fromkeys(bad):
+        progress.say(f"NOT AS EXPECTED  {line}")
+    progress.say(f"{'evidence':<12} build/evidence/ ({len(everything)} files)")
+    word = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}[status]
+    progress.say(f"{'result':<12} {word} (exit status {status})")
+    return status, everything
