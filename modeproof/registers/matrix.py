@@ -163,5 +163,5 @@ def _function_orphans(document: Document, cited: Sequence[Citation], sources: So
 
 
 def snake(name: str) -> str:
-    """`CopyMW03` -> `copy_mw03`, `AwaitSelection` -> `await_selection`."""
+    """The name of a state as functions spell it: `TwoWords3` -> `two_words3`."""
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", name).lower()
