@@ -11,7 +11,7 @@ import pytest
 
 from refimpl.errors import InputError, ParameterError, StateError, checked
 from refimpl.mode_selection import fplc
-from refimpl.mode_selection.code_tables import CH, RE, SE, SW
+from refimpl.mode_selection.code_tables import CH, RE, SE, SW, decode
 from refimpl.mode_selection.fplc import Inputs, Params, State, Step
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -38,7 +38,7 @@ WITH_SELECTION = IN_FLOW[3:8]
 WITH_ACKNOWLEDGMENT = IN_FLOW[5:8]
 
 
-def at(step: Step, elapsed_ms: int = 0, level: int = 3, selection: int = 2, mode: int = -1) -> State:
+def at(step: Step, elapsed_ms: int = 0, level: int = 3, selection: int = 2, mode: int = 1) -> State:
     """The state of an insertion of ``level`` that has come as far as ``step``, with ``selection`` latched."""
     accepted = level if step in IN_FLOW else -1
     authority = level if step in IN_FLOW[1:] else -1
@@ -150,9 +150,20 @@ ROWS = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "before", "i", "expected"), ROWS, ids=[f"{n}-{b.state.value}" for n, b, _, _ in ROWS]
+ROW_IDS = [f"{name}-{before.state.value}" for name, before, _, _ in ROWS]
+TIMED = (
+    Step.START,
+    Step.PULSE_ONES,
+    Step.PULSE_ZEROS,
+    Step.ONE_OUTPUT,
+    Step.SETTLE,
+    Step.CLEAR,
+    Step.AWAIT_ZEROS,
+    Step.ERROR,
 )
+
+
+@pytest.mark.parametrize(("name", "before", "i", "expected"), ROWS, ids=ROW_IDS)
 def test_step_leads_to_the_state_that_the_procedure_names(
     name: str, before: State, i: Inputs, expected: Step
 ) -> None:
@@ -344,31 +355,32 @@ def test_accepting_an_output_remembers_its_level_and_publishing_makes_it_the_aut
         assert (published.authority, row.MW01) == (level, RE[level])
 
 
-FORWARD = [(name, before, i) for name, before, i, _ in ROWS if before.state in IN_FLOW]
-
-
-@pytest.mark.parametrize(
-    ("name", "before", "i"), FORWARD, ids=[f"{n}-{b.state.value}" for n, b, _ in FORWARD]
-)
-def test_the_accepted_output_and_the_authority_stay_while_the_flow_goes_on(
-    name: str, before: State, i: Inputs
+@pytest.mark.parametrize(("name", "before", "i", "to"), ROWS, ids=ROW_IDS)
+def test_a_step_changes_only_the_memory_that_belongs_to_it(
+    name: str, before: State, i: Inputs, to: Step
 ) -> None:
+    """What the step is about changes; what the new state does not need is dropped; all else stays."""
     state = after(before, i)
-    if state.state in IN_FLOW:
-        assert state.accepted == 3
-        assert state.authority == 3
-        assert state.selection in ({2} if before.state != Step.CHECK_SELECTION else {3, -1}) | {-1}
-        assert (state.selection != -1) == (state.state in WITH_SELECTION)
-        assert state.elapsed_ms == 0 or state.state == before.state == Step.SETTLE
+    accepted = fplc.output_signalled(i) if name == "AcceptOutput" else before.accepted
+    authority = before.accepted if name == "PublishAuthority" else before.authority
+    selection = decode(SE, i.MW03) if name == "AcceptSelection" else before.selection
+    assert state.accepted == (accepted if to in IN_FLOW else -1)
+    assert state.authority == (authority if to in IN_FLOW[1:] else -1)
+    assert state.selection == (selection if to in WITH_SELECTION else -1)
+    assert state.mode == (before.selection if name == "SwitchMode" else before.mode)
+    assert state.params == PARAMS
 
 
-def test_idle_has_forgotten_the_insertion() -> None:
-    for before in (
-        at(Step.START, 400, mode=1),
-        at(Step.ERROR, 400, mode=1),
-        at(Step.AWAIT_ZEROS, 400, mode=1),
-    ):
-        assert after(before, inputs(False, "")) == State(PARAMS, Step.IDLE, -1, -1, -1, 1, 0)
+@pytest.mark.parametrize(("name", "before", "i", "to"), ROWS, ids=ROW_IDS)
+def test_a_timer_starts_anew_on_entering_a_state_and_stands_still_where_none_is_needed(
+    name: str, before: State, i: Inputs, to: Step
+) -> None:
+    elapsed = 0
+    if name in ("SeePulseZeros", "ClearWords") or (to == before.state and to in TIMED):
+        elapsed = before.elapsed_ms + i.dt_ms
+    if to in (Step.START, Step.SETTLE, Step.ERROR):
+        elapsed = min(elapsed, 400)
+    assert after(before, i).elapsed_ms == elapsed
 
 
 @pytest.mark.parametrize("step", WITH_SELECTION)
