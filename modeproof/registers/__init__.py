@@ -10,7 +10,7 @@ from __future__ import annotations
 from modeproof.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.crosscheck import cross_check, value_fault
-from modeproof.registers.judge import Judgement, judge, judge_tree, matrix
+from modeproof.registers.judge import Judgement, check_document, judge, judge_tree, matrix
 from modeproof.registers.load import documents, load_document, load_interface, read_register
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import (
@@ -46,6 +46,7 @@ __all__ = [
     "Run",
     "Signal",
     "Unjudged",
+    "check_document",
     "citations",
     "cross_check",
     "documents",

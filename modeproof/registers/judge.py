@@ -57,6 +57,14 @@ def judge_tree(root: Path) -> list[Problem]:
     ]
 
 
+def check_document(root: Path, name: str) -> list[Problem]:
+    """Load and judge one document and the tree around it; an empty list when nothing is wrong.
+
+    Raises Unjudged with one line when a register or a file that it names cannot be read.
+    """
+    return [*judge(load_document(root, name)).problems, *judge_tree(root)]
+
+
 def matrix(document: Document) -> tuple[Row, ...]:
     """The matrix alone."""
     return matrix_of(document, citations(document, read_sources(document)))

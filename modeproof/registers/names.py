@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from modeproof.registers.citations import Sources
 from modeproof.registers.python_source import PythonModule
@@ -41,10 +41,13 @@ def _in_spec(document: Document, device: Device, sources: Sources) -> Iterator[P
     for state in device.states:
         if state not in strings:
             yield Problem(own.file, state, "declared as a state, but the string does not occur")
-    for name in _missing(
-        device.memory.values(), frozenset().union(*(module.variables for module in modules))
-    ):
-        yield Problem(own.file, name, "declared as memory, but not a VARIABLE")
+    variables = frozenset().union(*(module.variables for module in modules))
+    for signal in device.memory.values():
+        allowed = (signal.tla, device.id + signal.tla[:1].upper() + signal.tla[1:])
+        if signal.tla and not variables.intersection(allowed):
+            yield Problem(
+                own.file, signal.name, f"declared as memory, but no VARIABLE {' or '.join(allowed)}"
+            )
     constants = frozenset().union(*(module.constants for module in modules))
     for signal in device.parameters.values():
         name = _constant(signal)
@@ -52,14 +55,11 @@ def _in_spec(document: Document, device: Device, sources: Sources) -> Iterator[P
             yield Problem(own.file, name, f"declared as the parameter {signal.name}, but not a CONSTANT")
     users = [module for module in sources.modules.values() if _uses(module, device.module, sources)]
     words = frozenset().union(*(module.words | module.strings for module in (*modules, *users)))
-    for name in _missing([*device.inputs.values(), *device.outputs.values()], words):
-        yield Problem(
-            own.file, name, "declared as an input or output, but nothing in the specification has that name"
-        )
-
-
-def _missing(signals: Iterable[Signal], present: frozenset[str]) -> list[str]:
-    return [signal.tla for signal in signals if signal.tla and signal.tla not in present]
+    passed = {output for run in document.runs if run.graph is not None for output in run.graph.passed}
+    for signal in (*device.inputs.values(), *device.outputs.values()):
+        if signal.tla and signal.tla not in words and signal.name not in passed:
+            text = "declared as an input or output, but nothing in the specification has that name"
+            yield Problem(own.file, signal.tla, text)
 
 
 def _constant(signal: Signal) -> str:
@@ -106,11 +106,15 @@ def _in_python(device: Device, module: PythonModule) -> Iterator[Problem]:
 
 
 def _fields(signals: Mapping[str, Signal]) -> dict[str, str]:
-    """The fields of a dataclass with their annotation, empty where more than one is right."""
-    return {
-        one.python: "" if one.python != one.name and one.type != "ms" else ANNOTATIONS.get(one.type, "")
-        for one in signals.values()
-    }
+    """The fields of a dataclass with their annotation, empty where more than one is right.
+
+    An integer without a range is a number that stands for something; the implementation may hold the thing.
+    """
+    fields = {}
+    for one in signals.values():
+        stands_for = one.type == "int" and one.maximum is None
+        fields[one.python] = "" if stands_for else ANNOTATIONS.get(one.type, "")
+    return fields
 
 
 def _states(device: Device, module: PythonModule, classes: Mapping[str, ast.ClassDef]) -> Iterator[Problem]:
