@@ -161,8 +161,7 @@ def a_straddled_address_can_pass_for_a_selection_but_never_for_the_acknowledgmen
 
 @theorem(clauses=["EKS-KS-9", "EKS-SD-15"], findings=["E-18"])
 def two_different_code_words_and_ed_or_ored_are_never_accepted() -> Queries:
-    """AND and OR of two different code words are neither code words nor zero; with zero they give zero and
-    the word.
+    """AND and OR of two different code words are neither code words nor zero, in any range.
 
     So two writers on a wired-AND or wired-OR path are seen, if each writes a different code.
     """

@@ -125,8 +125,8 @@ def the_first_term_alone_rounds_to_the_printed_figure_too() -> Queries:
     """C(16,8) p^8 (1-p)^8 with p = 1/100 is 1.1876e-12 and also rounds to 1.2e-12; C(16,8) p^8 is 1.287e-12
     and does not.
 
-    So the printed figure fixes the length, the distance and the bit-error rate, but not whether the whole
-    tail or only its first term was meant.
+    For words of 16 bits at distance eight the printed figure fixes the bit-error rate, but not whether the
+    whole tail or only its first term was meant.
     """
     rate, result = z3.Reals("p R")
     one_percent = rate == _real(BIT_ERROR_RATE)

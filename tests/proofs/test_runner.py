@@ -1,5 +1,8 @@
 """How a theorem is judged: only two solvers that both give every expected answer make it PROVED."""
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +13,7 @@ from proofs.runner import TheoremResult, prove, prove_all
 from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3
 from proofs.theorem import Queries, Query, Theorem, claim, control, theorem
 
+ROOT = Path(__file__).resolve().parents[2]
 X = z3.BitVec("x", 16)
 SMALL = {"x is small": z3.ULT(X, 10)}
 
@@ -224,6 +228,24 @@ def test_a_place_that_cannot_be_written_is_unjudged(tmp_path: Path) -> None:
 
 def test_the_theorems_of_mode_selection_can_be_asked_by_name_of_the_document(tmp_path: Path) -> None:
     lines: list[str] = []
-    results = prove("mode_selection", tmp_path, lines.append, z3_solver=_always("unknown"))
+    silent = _always("unknown")
+    results = prove("mode_selection", tmp_path, lines.append, z3_solver=silent, cvc5_solver=silent)
     assert len(results) == len(lines) >= 25
     assert {result.verdict for result in results} == {"INCONCLUSIVE"}
+
+
+EXPORT = """
+from proofs.smtlib import to_smtlib
+from proofs.theorem import theorems_of
+item = next(t for t in theorems_of("mode_selection") if t.name.startswith("the_undetected"))
+print("".join(to_smtlib(item, query) for query in item.queries()))
+"""
+
+
+def test_the_exported_text_is_the_same_in_every_run() -> None:
+    def text(seed: str) -> str:
+        environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(ROOT)}
+        command = [sys.executable, "-c", EXPORT]
+        return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+
+    assert text("1") == text("2") != ""
