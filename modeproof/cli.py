@@ -46,6 +46,10 @@ def main(argv: list[str] | None = None) -> int:
         # Whoever read our output has gone; Python would complain once more while flushing at exit.
         with contextlib.suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        if args.debug:
+            raise
+        _complain(f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}")
     except Exception as error:  # a defect of ours: still one line, and never a pass
         if args.debug:
             raise
@@ -222,8 +226,11 @@ def _check(args: argparse.Namespace) -> int:
 
 
 def _show_trace(one: Any, args: argparse.Namespace) -> None:
-    from modeproof.tlc.messages import format_trace
+    from modeproof.tlc.messages import essence, format_trace
 
+    if one.outcome is not None and not one.judgement.judged:
+        for _, text in one.outcome.log.errors[:4]:
+            print("\n".join(f"    {line}" for line in essence(text)[:12]))
     if one.outcome is None or not one.outcome.log.trace:
         return
     if one.judgement.as_expected and not args.trace:

@@ -21,12 +21,12 @@ def root() -> Path:
 
 
 def documents(place: Path) -> tuple[str, ...]:
-    """The names of all document folders: those in `spec` that carry a runs.toml or a document.toml."""
+    """The names of all document folders: those in `spec` that carry one of the registers."""
     folders = sorted(folder for folder in (place / "spec").iterdir() if folder.is_dir())
     return tuple(
         folder.name
         for folder in folders
-        if (folder / "runs.toml").is_file() or (folder / "document.toml").is_file()
+        if any((folder / f"{register}.toml").is_file() for register in ("document", "interface", "runs"))
     )
 
 

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, replace
 
 from modeproof.tlc.cfg import Cfg
-from modeproof.tlc.messages import OUT_OF_MEMORY
+from modeproof.tlc.messages import OUT_OF_MEMORY, essence
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.runs import Run
 
@@ -22,6 +22,7 @@ INCONCLUSIVE = "INCONCLUSIVE"
 UNJUDGED = "UNJUDGED"
 
 _EXIT = {"invariant": (12,), "property": (12, 13), "temporal": (13,), "deadlock": (11,)}
+_MEMORY_SIGNS = ("OutOfMemoryError", "Too small maximum heap", "Could not reserve enough space")
 _REACHED = re.compile(r'^<<"REACHED", "([^"]+)">>$')
 
 
@@ -60,8 +61,7 @@ def _unjudged(reason: str) -> Judgement:
 
 
 def _first_line(text: str) -> str:
-    lines = [line.strip() for line in text.splitlines() if line.strip()]
-    return " ".join(lines[:3])[:300]
+    return " ".join(line.strip() for line in essence(text)[:3])[:300]
 
 
 def _verdict(run: Run, cfg: Cfg, outcome: Outcome) -> Judgement:
@@ -76,9 +76,8 @@ def _verdict(run: Run, cfg: Cfg, outcome: Outcome) -> Judgement:
         code, text = log.errors[0]
         return _unjudged(f"TLC error {code}: {_first_line(text)}")
     if not log.version or not log.started:
-        return _unjudged(
-            f"TLC did not start (exit status {outcome.status}): {_first_line(outcome.stderr) or 'no output'}"
-        )
+        said = _first_line("\n".join([outcome.stderr, *log.unframed])) or "no output"
+        return _unjudged(f"TLC did not start (exit status {outcome.status}): {said}")
     if log.broken:
         return _unjudged(f"TLC's log cannot be read: {log.broken}")
     if not log.finished:
@@ -98,7 +97,8 @@ def _out_of_memory(outcome: Outcome) -> bool:
     return outcome.status != 0 and (
         any(code in OUT_OF_MEMORY for code, _ in outcome.log.errors)
         or outcome.status == 3
-        or "OutOfMemoryError" in outcome.stderr
+        or any(sign in text for sign in _MEMORY_SIGNS for text in (outcome.stderr, *outcome.log.unframed))
+        or any(sign in text for sign in _MEMORY_SIGNS for _, text in outcome.log.errors)
     )
 
 

@@ -83,6 +83,8 @@ class Log:
     printed: int = 0
     tags: dict[str, int] = field(default_factory=dict)
     broken: str = ""
+    unframed: list[str] = field(default_factory=list)
+    """The first lines outside of any message that are not TLC's: Java complains like this."""
 
 
 def _number(text: str) -> int:
@@ -130,6 +132,8 @@ class LogReader:
                 self._open[-1][2].append(text)
             elif parsed := _PARSED.match(text):
                 self.log.files.append(parsed.group(1))
+            elif text.strip() and not text.startswith("Semantic processing") and len(self.log.unframed) < 20:
+                self.log.unframed.append(text)
             return
         rest = line
         while match := _FRAME.search(rest):
@@ -232,6 +236,20 @@ class LogReader:
                 name, value = variables[-1]
                 variables[-1] = (name, f"{value} {line.strip()}")
         self.log.trace.append(TraceState(int(head.group(1)), action, module, tuple(variables)))
+
+
+_BOILERPLATE = (
+    "TLC threw an unexpected exception.",
+    "This was probably caused by an error in the spec or model.",
+    "See the User Output or TLC Console for clues to what happened.",
+)
+
+
+def essence(text: str) -> list[str]:
+    """The lines of an error message that say something: no boilerplate, no Java stack."""
+    lines = [line.rstrip() for line in text.splitlines()]
+    kept = [line for line in lines if line.strip() and not line.startswith("\tat ")]
+    return [line for line in kept if line.strip() not in _BOILERPLATE]
 
 
 def format_trace(

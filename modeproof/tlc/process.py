@@ -54,6 +54,7 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, library: Path | None
         str(tools.java),
         "-XX:+UseParallelGC",
         "-XX:+ExitOnOutOfMemoryError",
+        "-Xss16m",
         f"-Xmx{run.heap_mb}m",
         f"-Djava.io.tmpdir={metadir / 'tmp'}",
     ]

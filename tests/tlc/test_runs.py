@@ -1,0 +1,90 @@
+"""runs.toml is read strictly: every mistake is one line with place and cause."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof.errors import Unjudged
+from modeproof.tlc.check import register_problems, select
+from modeproof.tlc.runs import load_runs
+from tests.toy_tree import CFGS, declaration, toy_tree
+
+
+def with_runs(root: Path, text: str) -> Path:
+    toy_tree(root)
+    (root / "spec" / "toy" / "runs.toml").write_text(text)
+    return root
+
+
+def test_every_kind_of_run_is_read(tmp_path: Path) -> None:
+    runs = {run.id: run for run in load_runs(toy_tree(tmp_path, *CFGS), "toy")}
+    assert set(runs) == set(CFGS)
+    assert runs["NEG_small"].violates == "Small" and runs["NEG_small"].expect == "VIOLATED"
+    assert runs["WIT_toy"].witnesses == ("top", "down") and runs["WIT_toy"].expect == "REACHED"
+    graph = runs["OPEN_toy"].graph
+    assert graph is not None and (graph.states, graph.edges, graph.tick_ms) == (9, 18, 250)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "no run is declared"),
+        ("run = 3", "run must be list"),
+        ("[[run]\n", "runs.toml: "),
+        (declaration("MC_toy") * 2, "MC_toy is declared twice"),
+        (declaration("MC_toy", kind="MX"), "kind must be one of"),
+        (declaration("MC_toy", kind="LIVE"), "starts with LIVE_"),
+        (declaration("MC_toy", expect="VIOLATED"), "a run of kind MC expects HOLDS"),
+        (declaration("MC_toy", workers=0), "workers must be at least 1"),
+        (declaration("MC_toy", timeout_s=0), "timeout_s"),
+        (declaration("MC_toy", distinct="many"), "distinct must be int"),
+        (declaration("MC_toy", wokers=2), "unknown field 'wokers'"),
+        (declaration("NEG_small").replace('property = "Small"\n', ""), "must name what is violated"),
+        (declaration("NEG_small", workers=2), "trace_length is exact with workers = 1"),
+        (declaration("WIT_toy").replace('["top", "down"]', "[]"), "witnesses is empty"),
+        (declaration("OPEN_toy", workers=2), "needs workers = 1"),
+        (declaration("OPEN_toy").split("[run.graph]")[0], "[run.graph] belongs to"),
+        (declaration("MC_toy").replace('"full"', '"fulll"'), "lanes must name some of"),
+    ],
+)
+def test_a_mistake_in_runs_toml_names_place_and_cause(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(Unjudged) as caught:
+        load_runs(with_runs(tmp_path, text), "toy")
+    assert caught.value.message.startswith("spec/toy/runs.toml") and words in caught.value.message
+    assert "\n" not in caught.value.message
+
+
+def test_a_register_without_a_fault_has_no_problem(tmp_path: Path) -> None:
+    assert register_problems(toy_tree(tmp_path, *CFGS), "toy") == ()
+
+
+def test_an_unlisted_cfg_is_a_problem(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path)
+    (root / "spec/toy/models/MC_forgotten.cfg").write_text("INVARIANT TypeOK\n")
+    assert register_problems(root, "toy") == ("models/MC_forgotten.cfg is in no run",)
+
+
+def test_a_listed_run_without_its_cfg_is_a_problem(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path)
+    (root / "spec/toy/models/MC_toy.cfg").unlink()
+    assert register_problems(root, "toy") == ("run MC_toy: models/MC_toy.cfg is missing",)
+
+
+def test_an_emptied_property_list_is_a_problem(tmp_path: Path) -> None:
+    root = with_runs(tmp_path, declaration("MC_toy").replace('properties = ["TypeOK"]', "properties = []"))
+    assert register_problems(root, "toy") == ("run MC_toy: the property list is empty",)
+
+
+def test_a_selection_that_matches_nothing_is_refused(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_toy", "NEG_small")
+    assert [run.id for run in select(root, ["NEG_*"])] == ["NEG_small"]
+    assert [run.id for run in select(root, ["toy/MC_toy"], "smoke")] == ["MC_toy"]
+    for arguments in (["MC_tyo"], ["MC_toy", "nothing*"]):
+        with pytest.raises(Unjudged, match="no run "):
+            select(root, arguments)
+    with pytest.raises(Unjudged, match="no run to check in the lane exhaustive"):
+        select(root, lane="exhaustive")
+    with pytest.raises(Unjudged, match="no document 'tyo'"):
+        select(root, document="tyo")
