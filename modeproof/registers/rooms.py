@@ -114,12 +114,10 @@ def declared_names(interfaces: list[Interface], documents: list[Document]) -> fr
     for interface in interfaces:
         names.add(interface.document)
         for device in interface.devices.values():
-            names.add(device.id)
+            names |= {device.id, device.module}
             groups = (device.memory, device.inputs, device.outputs, device.parameters)
             inner = {name for group in groups for name in group}
-            names |= {
-                name for name in {*inner, *device.states, *device.steps, device.module} if _peculiar(name)
-            }
+            names |= {name for name in {*inner, *device.states, *device.steps} if _peculiar(name)}
     for document in documents:
         names.add(document.about.prefix)
         names |= {one.id for one in document.properties if _peculiar(one.id)}

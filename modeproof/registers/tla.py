@@ -22,6 +22,7 @@ OTHER_START = re.compile(
 DECLARATION = re.compile(r"^(CONSTANTS?|VARIABLES?)\b", re.MULTILINE)
 EXTENDS = re.compile(r"^EXTENDS\b((?:\s*\w+\s*,)*\s*\w+)", re.MULTILINE)
 INSTANCE = re.compile(r"\bINSTANCE\s+([A-Za-z_]\w*)")
+END = re.compile(r"^={4,}", re.MULTILINE)
 MODULE = re.compile(r"^-{4,}\s*MODULE\s+(\w+)\s*-{4,}", re.MULTILINE)
 
 
@@ -81,10 +82,14 @@ def closure(modules: dict[str, Module], name: str) -> tuple[Module, ...]:
 
 
 def scan(text: str, name: str, file: str) -> Module:
-    """Read one module."""
+    """Read one module; what stands before its header or after its end is not part of it."""
     code, bare, comments = _split(text)
     header = MODULE.search(bare)
     body_start = header.end() if header else 0
+    last = END.search(bare, body_start)
+    if last:
+        text, code, bare = text[: last.end()], code[: last.end()], bare[: last.end()]
+    comments = [(begin, stop) for begin, stop in comments if begin < len(text)]
     spans = _spans(bare, body_start)
     owned: dict[int, list[str]] = {n: [] for n in range(len(spans))}
     stray: list[str] = []

@@ -1,0 +1,90 @@
+"""The command: exit status, tables, and pages whose tables may not drift."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from modeproof.registers import Unjudged, load_document, render_properties_table
+from modeproof.registers.tables import check_pages
+
+Command = Callable[..., int]
+
+
+def test_a_sound_tree_gives_status_0_and_the_counts(
+    tree: Any, registers_command: Command, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert registers_command(tree.root, "--matrix") == 0
+    shown = capsys.readouterr().out
+    assert (
+        "door: 4 clauses (1 with action, 1 with step, 1 with property, 1 with theorem, 1 with vector)"
+        in shown
+    )
+    assert "0 unresolved; 0 problems" in shown
+    assert "Latch!CloseLatch +1" in shown and "latch/tour:CloseLatch +1" in shown
+
+
+def test_a_problem_gives_status_1_and_its_line(
+    tree: Any, registers_command: Command, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tree.edit("spec/door/assumptions.toml", "DR-1-3", "DR-1-9")
+    assert registers_command(tree.root) == 1
+    assert "spec/door/assumptions.toml: A-01: cites DR-1-9" in capsys.readouterr().out
+
+
+def test_what_cannot_be_read_is_never_a_pass(tree: Any, registers_command: Command) -> None:
+    tree.write("spec/door/runs.toml", "")
+    with pytest.raises(Unjudged):
+        registers_command(tree.root)
+
+
+def test_an_unknown_document_and_an_empty_tree_are_refused(tree: Any, registers_command: Command) -> None:
+    with pytest.raises(Unjudged, match="did you mean 'door'"):
+        registers_command(tree.root, "--document", "dooor")
+    (tree.root / "spec/door/document.toml").unlink()
+    with pytest.raises(Unjudged, match="nothing to judge"):
+        registers_command(tree.root)
+
+
+def test_json_and_csv_hold_every_clause_in_full(tree: Any, registers_command: Command) -> None:
+    out = tree.root / "build"
+    assert registers_command(tree.root, "--json", str(out / "m.json"), "--csv", str(out / "m.csv")) == 0
+    record = json.loads((out / "m.json").read_text(encoding="utf-8"))
+    rows = record["documents"][0]["matrix"]
+    assert [row["clause"] for row in rows] == ["DR-1-1", "DR-1-2", "DR-1-3", "DR-1-4"]
+    assert rows[0]["vector"] == ["latch/tour:CloseLatch", "latch/tour:OpenLatch"]
+    table = list(csv.DictReader((out / "m.csv").read_text(encoding="utf-8").splitlines()))
+    assert len(table) == 4 and table[0]["vector"] == "latch/tour:CloseLatch latch/tour:OpenLatch"
+    assert sorted(path.name for path in out.iterdir()) == ["m.csv", "m.json"]
+
+
+def test_a_place_that_cannot_be_written_is_one_line(tree: Any, registers_command: Command) -> None:
+    with pytest.raises(Unjudged, match="cannot be written"):
+        registers_command(tree.root, "--json", str(tree.root / "README.md" / "m.json"))
+
+
+@pytest.mark.parametrize("marker", ["<!-- begin properties -->", "<!-- begin properties door -->"])
+def test_a_drifted_table_is_found_and_rendered_anew(
+    tree: Any, registers_command: Command, marker: str
+) -> None:
+    tree.write("docs/page.md", f"before\n{marker}\nold\n<!-- end -->\nafter\n")
+    assert registers_command(tree.root) == 1
+    assert registers_command(tree.root, "--render") == 0
+    text = (tree.root / "docs/page.md").read_text(encoding="utf-8")
+    table = render_properties_table(load_document(tree.root, "door"))
+    assert text == f"before\n{marker}\n{table}<!-- end -->\nafter\n"
+    assert "| `OpenIsUnlocked` | While the door is open the bolt is in. |" in table
+    tree.edit("spec/door/properties.toml", "the bolt is in", "the bolt is out")
+    assert registers_command(tree.root) == 1
+
+
+def test_a_block_without_end_is_found(tree: Any) -> None:
+    tree.write("README.md", "<!-- begin properties -->\n")
+    problems = check_pages(tree.root, [load_document(tree.root, "door")])
+    assert [str(problem) for problem in problems] == [
+        "README.md: a block `begin properties` has no end, or is malformed"
+    ]

@@ -1,0 +1,106 @@
+"""The walls between rooms hold, and each planted breach is found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof.registers import judge_tree, load_interface
+from modeproof.registers.rooms import RULES, check_imports, check_no_document_known
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "expected"),
+    [
+        ("refimpl/door/x.py", "import modeproof", "imports modeproof; refimpl may import refimpl"),
+        ("refimpl/door/x.py", "from proofs.door import bolt", "imports proofs.door"),
+        ("refimpl/door/x.py", "import z3", "imports z3"),
+        ("proofs/door/x.py", "from modeproof.tlc import runs", "imports modeproof.tlc"),
+        ("proofs/door/x.py", "from modeproof import tlc", "imports modeproof.tlc"),
+        ("proofs/door/x.py", "import tests.door", "imports tests.door"),
+        ("modeproof/kit/x.py", "import jsonschema", "imports jsonschema"),
+        ("modeproof/kit/x.py", "from modeproof.errors import Unjudged", "imports modeproof.errors"),
+        ("modeproof/kit/x.py", "from ..errors import Unjudged", "imports modeproof.errors"),
+        ("modeproof/kit/x.py", "from .. import errors", "imports modeproof.errors"),
+        ("modeproof/kit/x.py", "def f():\n    import refimpl.door", "line 2: imports refimpl.door"),
+        ("modeproof/report/x.py", "from modeproof.tlc.judge import judge", "imports modeproof.tlc.judge"),
+        ("modeproof/tlc/x.py", "import proofs.runner", "only modeproof.cli reaches proofs"),
+        ("modeproof/registers/x.py", "from modeproof.evidence import write", "imports modeproof.evidence"),
+    ],
+)
+def test_a_breach_is_found(tree: Any, file: str, line: str, expected: str) -> None:
+    assert check_imports(tree.root) == []
+    tree.write(file, line + "\n")
+    found = [str(problem) for problem in check_imports(tree.root)]
+    assert len(found) == 1 and found[0].startswith(f"{file}: ") and expected in found[0]
+
+
+@pytest.mark.parametrize(
+    ("file", "line"),
+    [
+        ("refimpl/door/x.py", "from refimpl.errors import InputError"),
+        ("refimpl/door/x.py", "from . import latch"),
+        ("proofs/door/x.py", "from modeproof.registers import load_document"),
+        ("proofs/door/x.py", "from modeproof import registers"),
+        ("proofs/door/x.py", "import z3"),
+        ("modeproof/kit/x.py", "from modeproof.kit import protocol\nimport json"),
+        ("modeproof/kit/x.py", "from . import protocol"),
+        ("modeproof/report/x.py", "from modeproof.evidence import files"),
+        ("modeproof/cli.py", "import proofs.runner"),
+    ],
+)
+def test_what_is_allowed_is_not_reported(tree: Any, file: str, line: str) -> None:
+    tree.write(file, line + "\n")
+    assert check_imports(tree.root) == []
+
+
+@pytest.mark.parametrize(
+    "word",
+    [
+        "door",
+        "latch",
+        "Latch",
+        "DR",
+        "LOCK_1",
+        "door_closed",
+        "T_HOLD_ms",
+        "CloseLatch",
+        "OpenIsUnlocked",
+        "MC_Latch",
+    ],
+)
+@pytest.mark.parametrize("file", ["modeproof/kit/x.py", "modeproof/kit/x.json"])
+def test_the_tool_may_not_know_a_declared_name(tree: Any, file: str, word: str) -> None:
+    assert judge_tree(tree.root) == []
+    tree.write(file, f'["{word}"]\n')
+    assert [str(problem) for problem in judge_tree(tree.root)] == [
+        f"{file}: line 1: knows {word!r}, which a register declares; take it from the register"
+    ]
+
+
+@pytest.mark.parametrize("word", ["doors", "Open", "state", "latched", "UNDER", "MC_Latch2", "CODED"])
+def test_ordinary_words_are_free(tree: Any, word: str) -> None:
+    tree.write("modeproof/kit/x.py", f"# {word}\n")
+    assert judge_tree(tree.root) == []
+
+
+def test_every_rule_reads_python_files_of_this_repository_once_the_room_exists(real_root: Path) -> None:
+    for rule in RULES:
+        folder = real_root / rule.folder
+        assert not folder.exists() or list(folder.rglob("*.py")), f"{rule.folder} holds no Python"
+    assert len(list((real_root / "refimpl").rglob("*.py"))) > 4
+    assert len(list((real_root / "proofs").rglob("*.py"))) > 4
+
+
+def test_the_rooms_of_this_repository_keep_their_walls(real_root: Path) -> None:
+    assert [str(problem) for problem in check_imports(real_root)] == []
+
+
+def test_the_tool_of_this_repository_knows_no_document(real_root: Path) -> None:
+    interfaces = [
+        load_interface(real_root, path.parent.name) for path in real_root.glob("spec/*/interface.toml")
+    ]
+    assert interfaces
+    assert [str(problem) for problem in check_no_document_known(real_root, interfaces, [])] == []
