@@ -400,7 +400,7 @@ def test_removal_and_error_forget_the_insertion_and_hold_the_mode(step: Step, i:
 def test_error_drops_the_mode_where_the_parameter_says_so_and_removal_still_does_not() -> None:
     dropping = replace(PARAMS, ON_ERROR="none")
     state = replace(at(Step.AWAIT_SELECTION, mode=1), params=dropping)
-    assert after(state, inputs(True, ALL)).mode == -1
+    assert after(state, inputs(True, ALL)) == State(dropping, Step.ERROR, -1, -1, -1, -1, 0)
     assert after(state, inputs(False, "")).mode == 1
 
 

@@ -98,6 +98,10 @@ def test_step_leads_where_the_procedure_says(name: str, before: State, i: Inputs
     assert hmi.step(before, i)[0] == expected
 
 
+def test_power_up_is_inhibited_with_nothing_remembered() -> None:
+    assert hmi.power_up(Params()) == State(Params(), Step.INHIBITED, -1, -1)
+
+
 def test_the_rows_above_cover_every_step_and_every_state_of_the_register() -> None:
     assert {name for name, *_ in ROWS} == set(HMI["steps"])
     assert {before.state.value for _, before, *_ in ROWS} == set(HMI["states"])
@@ -209,6 +213,15 @@ def test_a_control_state_that_is_none_of_the_states_is_refused() -> None:
 def test_the_default_layout_keeps_the_rule() -> None:
     hmi.check_layout(DEFAULT_LAYOUT)
     assert hmi.layout_record(DEFAULT_LAYOUT)["confirm"] == [560, 380, 220, 80]
+
+
+def test_fields_may_touch_each_other_without_sharing_a_coordinate() -> None:
+    fields_in_column = tuple(Rectangle(300, 100 + 50 * mode, 200, 50) for mode in range(5))
+    for confirm in (Rectangle(500, 350, 100, 50), Rectangle(200, 50, 100, 50)):
+        layout = replace(
+            DEFAULT_LAYOUT, selection=fields_in_column, confirm=confirm, reject=Rectangle(0, 0, 9, 9)
+        )
+        hmi.check_layout(layout)
 
 
 SAME_COLUMN = replace(
