@@ -168,7 +168,7 @@ def _follow(
     errors = metadir / "stderr"
     expired = threading.Event()
     began = time.monotonic()
-    with errors.open("wb") as stderr, (logs / f"{run.id}.log").open("wb") as log_file:
+    with errors.open("wb") as stderr, (logs / f"{run.id}.log").open("wb", buffering=0) as log_file:
         with _GUARD:
             process = subprocess.Popen(
                 command,

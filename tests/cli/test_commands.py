@@ -1,0 +1,151 @@
+"""The command line: exit status 0, 1, 2, and one clear line for every expected error."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from modeproof.cli import main
+from modeproof.lock import only_one
+from tests.toy_tree import CFGS, toy_tree
+
+
+@pytest.fixture
+def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
+    monkeypatch.delenv("CI", raising=False)
+    return toy_tree(tmp_path, "MC_toy", "NEG_small", "MC_big")
+
+
+def only_line(capsys: pytest.CaptureFixture[str]) -> str:
+    captured = capsys.readouterr()
+    lines = captured.err.splitlines()
+    assert len(lines) == 1 and "Traceback" not in captured.err + captured.out
+    return lines[0]
+
+
+def test_a_run_as_expected_ends_with_0_and_can_be_had_as_json(
+    toy: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = toy / "out.json"
+    assert main(["check", "MC_toy", "--quiet", "--json", str(target)]) == 0
+    assert "ok  toy/MC_toy: HOLDS; 16 distinct, 33 generated" in capsys.readouterr().out
+    written = json.loads(target.read_text())
+    assert written["status"] == 0 and written["runs"][0]["verdict"] == "HOLDS"
+
+
+def test_a_count_that_differs_ends_with_1_and_a_repin_mends_it(
+    toy: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = toy / "spec/toy/runs.toml"
+    path.write_text(path.read_text().replace("distinct = 16", "distinct = 18"))
+    assert main(["check", "MC_toy", "--quiet", "--repin", "--reason", "planted"]) == 0
+    out = capsys.readouterr().out
+    assert "distinct states: 16, pinned 18" in out and "distinct: 18 -> 16" in out
+    assert "distinct = 16" in path.read_text() and "planted" in path.read_text()
+    monkeypatch.setenv("CI", "1")
+    before = path.read_text()
+    assert main(["check", "MC_toy", "--repin", "--reason", "planted"]) == 2
+    assert "refused in CI" in only_line(capsys) and path.read_text() == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["check", "MC_tyo"], "no run 'MC_tyo'"),
+        (["check", "--document", "none"], "no document 'none'"),
+        (["check", "--lane", "exhaustive"], "no run to check in the lane exhaustive"),
+        (["check", "--repin"], "--repin needs the runs by name"),
+        (["check", "MC_toy", "--reason", "x"], "--reason belongs to --repin"),
+        (["prove", "--document", "toy"], "proofs of toy"),
+        (["verify", "--document", "none"], "no document 'none'"),
+    ],
+)
+def test_what_cannot_be_judged_is_one_line_and_status_2(
+    toy: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    assert main(arguments) == 2
+    assert words in only_line(capsys)
+
+
+def test_a_root_without_a_specification_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
+    assert main(["check"]) == 2
+    assert "no folder `spec` here" in only_line(capsys)
+
+
+def test_a_missing_java_is_one_line(
+    toy: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MODEPROOF_JAVA", str(toy / "no-java"))
+    assert main(["check", "MC_toy"]) == 2
+    assert "Java is missing" in only_line(capsys)
+
+
+def test_a_second_run_at_once_is_one_line(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with only_one(toy):
+        assert main(["check", "MC_toy"]) == 2
+    assert "another modeproof is running here" in only_line(capsys)
+
+
+def test_an_unlisted_cfg_spoils_a_lane(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = toy / "spec/toy/runs.toml"
+    path.write_text(path.read_text().split('[[run]]\nid = "NEG_small"')[0])
+    (toy / "spec/toy/models/MC_big.cfg").unlink()
+    assert main(["check", "--lane", "smoke", "--quiet"]) == 1
+    assert only_line(capsys) == "modeproof: toy: models/NEG_small.cfg is in no run"
+
+
+def test_ctrl_c_ends_tlc_too_and_is_one_line(toy: Path) -> None:
+    command = [sys.executable, "-m", "modeproof", "check", "MC_big", "--quiet"]
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    log = toy / "build/tlc/toy/MC_big.log"
+    for _ in range(400):
+        if log.is_file() and "2185" in log.read_text():
+            break
+        time.sleep(0.05)
+    else:
+        time.sleep(1)
+    running.terminate()
+    _, err = running.communicate(timeout=30)
+    assert running.returncode == 2
+    assert err == "modeproof: interrupted; nothing was judged\n"
+    for _ in range(100):
+        alive = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+        if str(toy) not in alive:
+            break
+        time.sleep(0.05)
+    assert str(toy) not in alive
+    assert not (toy / "build/evidence/toy/MC_big.json").exists()
+
+
+def test_a_defect_of_ours_is_one_line_and_never_a_pass(
+    toy: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken() -> None:
+        raise ZeroDivisionError("planted")
+
+    monkeypatch.setattr("modeproof.cli.root", broken)
+    assert main(["check"]) == 2
+    assert "internal error: ZeroDivisionError: planted" in only_line(capsys)
+    with pytest.raises(ZeroDivisionError):
+        main(["--debug", "check"])
+
+
+@pytest.mark.parametrize("command", ["verify", "check", "prove", "conform", "doctor"])
+def test_each_command_has_help(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([command, "--help"])
+    assert ended.value.code == 0 and "usage: modeproof" in capsys.readouterr().out
+
+
+def test_the_runs_can_be_listed(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "--list"]) == 0
+    assert len(capsys.readouterr().out.splitlines()) == 3 <= len(CFGS)

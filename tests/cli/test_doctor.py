@@ -1,0 +1,38 @@
+"""The doctor names what is missing and how to mend it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof import doctor
+
+
+def test_what_is_missing_is_named_with_its_remedy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MODEPROOF_JAVA", str(tmp_path / "java"))
+    monkeypatch.setenv("TLA2TOOLS_JAR", str(tmp_path / "jar"))
+    monkeypatch.setenv("PATH", "/nowhere")
+    monkeypatch.setattr(doctor, "DISK_MB", 1 << 40)
+    findings = {one.name: one for one in doctor.examine(tmp_path)}
+    for name in ("packages (.venv)", "Java", "TLC jar", "make", "gcc", "free disk"):
+        assert not findings[name].good and findings[name].mend, name
+    text, status = doctor.report(list(findings.values()))
+    assert status == 1 and "MISSING  gcc" in text and "apt install gcc" in text
+    assert text.splitlines()[-1].startswith("missing: packages (.venv), Java, TLC jar")
+
+
+def test_a_whole_machine_lacks_nothing() -> None:
+    text, status = doctor.report([doctor.Finding("Python", True, "3.11")])
+    assert (text, status) == ("ok       Python  3.11\nnothing is missing", 0)
+
+
+def test_little_memory_is_a_note_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "MEMORY_MB", 1 << 40)
+    text, status = doctor.report([doctor._memory()])
+    assert status == 0 and "note" in text and "MODEPROOF_HEAP_MB" in text
+
+
+def test_a_package_that_is_missing_is_named() -> None:
+    found = doctor._module("no_such_module", "no-such-package")
+    assert not found.good and found.mend == "run `make venv`"

@@ -1,0 +1,102 @@
+"""The summary says what the evidence says, never more."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+from modeproof.progress import Progress
+from modeproof.summary import ASIDE, PropertyRow, failures, property_lines, render, status_of
+
+
+def tlc(id: str, **changes: Any) -> dict[str, Any]:
+    result = {"run": id.split("_")[0], "properties": ["Safe"], "distinct": 16, **changes.pop("result", {})}
+    base = {
+        "kind": "tlc",
+        "id": id,
+        "document": "toy",
+        "verdict": "HOLDS",
+        "as_expected": True,
+        "environment": "honest",
+        "strength": "all levels",
+        "seconds": 2.0,
+        "reason": "",
+        "result": result,
+    }
+    return {**base, **changes}
+
+
+SAFE = PropertyRow("Safety", "Safe", ("honest",))
+DECLARED = {"MC_a": {("Safe", "honest")}}
+
+
+def test_a_property_has_the_verdict_of_its_run() -> None:
+    (line,) = property_lines([SAFE], [tlc("MC_a")], DECLARED)
+    assert (line.verdict, line.environment, line.distinct, line.status) == ("HOLDS", "honest", 16, 0)
+
+
+def test_a_property_that_no_run_checks_is_unjudged() -> None:
+    (line,) = property_lines([SAFE], [tlc("MC_a", environment="arbitrary")], {})
+    assert (line.verdict, line.status) == ("UNJUDGED", 2)
+    assert "no run checks it" in failures([], [line])[0]
+
+
+def test_a_property_that_another_lane_checks_is_named_and_not_counted() -> None:
+    (line,) = property_lines([SAFE], [], DECLARED)
+    assert (line.verdict, line.status) == (ASIDE, 0)
+
+
+def test_the_weakest_of_several_runs_counts() -> None:
+    weak = tlc("MC_b", verdict="INCONCLUSIVE", as_expected=False, reason="time limit")
+    (line,) = property_lines([SAFE], [tlc("MC_a"), weak], DECLARED)
+    assert (line.verdict, line.status) == ("INCONCLUSIVE", 2)
+
+
+def test_a_run_that_held_with_other_counts_is_no_clean_holds() -> None:
+    other = tlc("MC_a", as_expected=False, reason="distinct states: 16, pinned 17")
+    (line,) = property_lines([SAFE], [other], DECLARED)
+    assert (line.verdict, line.status) == ("HOLDS?", 1)
+
+
+def test_another_propertys_violation_tells_nothing_about_this_one() -> None:
+    other = tlc("MC_a", verdict="VIOLATED", as_expected=False, reason="x", result={"violated": "Other"})
+    assert property_lines([SAFE], [other], DECLARED)[0].verdict == "INCONCLUSIVE"
+    own = tlc("MC_a", verdict="VIOLATED", as_expected=False, reason="x", result={"violated": "Safe"})
+    assert property_lines([SAFE], [own], DECLARED)[0].verdict == "VIOLATED"
+
+
+def test_negatives_do_not_stand_for_a_property() -> None:
+    (line,) = property_lines([SAFE], [tlc("NEG_a", verdict="VIOLATED")], {})
+    assert line.verdict == "UNJUDGED"
+
+
+def test_the_screen_has_a_line_per_property_and_counts_the_rest() -> None:
+    records = [
+        tlc("MC_a"),
+        tlc("NEG_a", verdict="VIOLATED"),
+        tlc("NEG_b", verdict="HOLDS", as_expected=False, reason="x"),
+        tlc("WIT_a", verdict="REACHED"),
+    ]
+    lines = property_lines([SAFE], records, DECLARED)
+    screen = render("toy", lines, records, width=100)
+    assert "Safety   HOLDS   honest" in screen and all(len(line) <= 100 for line in screen.splitlines())
+    assert "negatives    1 of 2 VIOLATED, as expected, by the named property, 4.0 s; NOT: NEG_b" in screen
+    assert "witnesses    1 of 1 REACHED" in screen
+
+
+def test_status_follows_the_verdict() -> None:
+    assert status_of(tlc("MC_a")) == 0
+    assert status_of(tlc("MC_a", as_expected=False)) == 1
+    assert status_of(tlc("MC_a", as_expected=False, verdict="UNJUDGED")) == 2
+
+
+def test_progress_elsewhere_than_on_a_terminal_is_whole_lines() -> None:
+    stream = io.StringIO()
+    progress = Progress(stream)
+    progress.expect(1)
+    progress.begin("MC_a")
+    progress._last -= 60
+    progress.update("MC_a", "12 distinct")
+    progress.update("MC_a", "13 distinct")
+    progress.end("MC_a")
+    assert stream.getvalue() == "[0/1] MC_a 0 s, 12 distinct\n"

@@ -1,0 +1,210 @@
+"""Real TLC on a small model: every kind of run is as expected, and each planted fault turns the verdict."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from modeproof import evidence
+from modeproof.progress import Progress
+from modeproof.tlc import process
+from modeproof.tlc.check import Checked, check_all, check_one, select
+from modeproof.tlc.toolchain import find_toolchain
+from tests.toy_tree import CFGS, declaration, sha256, toy_tree
+
+ALL = [name for name in CFGS if name != "MC_big"]
+
+
+def check(root: Path, *names: str) -> dict[str, Checked]:
+    done = check_all(root, select(root, names), find_toolchain(), Progress(quiet=True))
+    return {one.run.id: one for one in done}
+
+
+def edit(root: Path, old: str, new: str) -> None:
+    path = root / "spec/toy/Toy.tla"
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+@pytest.fixture(scope="module")
+def good(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, Checked]]:
+    root = toy_tree(tmp_path_factory.mktemp("a root with spaces"), *ALL)
+    return root, check(root)
+
+
+def test_each_kind_of_run_is_as_expected(good: tuple[Path, dict[str, Checked]]) -> None:
+    _, done = good
+    assert {name: one.judgement.reason for name, one in done.items()} == dict.fromkeys(ALL, "")
+    assert done["OPEN_toy"].judgement.verdict == "HOLDS"
+    assert done["WIT_toy"].judgement.reached == ("down", "top")
+
+
+def test_the_evidence_names_inputs_and_tools(good: tuple[Path, dict[str, Checked]]) -> None:
+    root, done = good
+    records = {record["id"]: record for record in evidence.read_document(root, "toy")}
+    assert set(records) == set(ALL)
+    record = records["NEG_small"]
+    assert record == done["NEG_small"].record
+    assert set(record["inputs"]) == {
+        "spec/toy/Toy.tla",
+        "spec/toy/models/NEG_small.cfg",
+        "spec/toy/runs.toml",
+    }
+    assert record["inputs"]["spec/toy/models/NEG_small.cfg"] == sha256(CFGS["NEG_small"])
+    assert record["tools"]["tlc"]["sha256"] and "2.15" in record["tools"]["tlc"]["version"]
+    assert record["result"]["trace"][-1]["variables"]["count"] == "3"
+    assert str(root) not in str(record["result"])
+
+
+def test_the_graph_of_an_open_run_is_complete_and_unquoted(good: tuple[Path, dict[str, Checked]]) -> None:
+    root, done = good
+    lines = (root / "build/graphs/toy/OPEN_toy.txt").read_text().splitlines()
+    assert [
+        sum(line.startswith(f'<<"{tag}"') for line in lines) for tag in ("INPUT", "INIT", "STATE", "EDGE")
+    ] == [
+        2,
+        1,
+        9,
+        18,
+    ]
+    assert '<<"EDGE", <<3, FALSE>>, "Up", 1, <<4, TRUE>>>>' in lines
+    assert done["OPEN_toy"].record["result"]["graph"]["file"] == "build/graphs/toy/OPEN_toy.txt"
+
+
+def test_no_working_files_are_left(good: tuple[Path, dict[str, Checked]]) -> None:
+    root, _ = good
+    assert sorted(path.name for path in (root / "build/tlc/toy").iterdir()) == sorted(f"{n}.log" for n in ALL)
+    assert not list((root / "build").rglob("*.part"))
+
+
+# ------------------------------------------------------------------ planted faults
+
+
+def hide_variable(root: Path) -> None:
+    edit(root, "View == <<count, top>>", "View == <<count>>")
+
+
+def lose_an_edge(root: Path) -> None:
+    edit(root, "PrintEdge == PRINT =>", "PrintEdge == (PRINT /\\ count # 2) =>")
+
+
+@pytest.mark.parametrize(
+    ("plant", "words"),
+    [
+        (hide_variable, r"distinct states: \d, pinned 9"),
+        (lose_an_edge, "edges were printed, but TLC took 18 transitions"),
+    ],
+)
+def test_a_fault_in_a_printed_graph_is_noticed(
+    tmp_path: Path, plant: Callable[[Path], None], words: str
+) -> None:
+    root = toy_tree(tmp_path, "OPEN_toy")
+    plant(root)
+    judgement = check(root)["OPEN_toy"].judgement
+    assert not judgement.as_expected and re.search(words, judgement.reason)
+
+
+def test_a_deleted_action_turns_its_witness_red(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "WIT_toy")
+    edit(root, "Next == Up \\/ Stay \\/ Down", "Next == Up \\/ Stay")
+    judgement = check(root)["WIT_toy"].judgement
+    assert (judgement.verdict, judgement.reason) == ("UNREACHED", "not reached: down")
+
+
+def test_a_shrunk_constant_changes_the_counts(tmp_path: Path) -> None:
+    text = CFGS["MC_toy"].replace("N = 4", "N = 3")
+    root = toy_tree(tmp_path, "MC_toy", cfg_sha256=sha256(text))
+    (root / "spec/toy/models/MC_toy.cfg").write_text(text)
+    judgement = check(root)["MC_toy"].judgement
+    assert judgement.verdict == "HOLDS" and not judgement.as_expected
+    assert re.fullmatch(r"distinct states: \d+, pinned 16", judgement.reason)
+
+
+def test_a_model_that_tlc_refuses_is_unjudged_with_its_words(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_toy")
+    edit(root, "TypeOK ==", "TypeOk ==")
+    judgement = check(root)["MC_toy"].judgement
+    assert judgement.verdict == "UNJUDGED" and "TypeOK" in judgement.reason
+
+
+def test_a_missing_module_is_unjudged_and_leaves_evidence(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_toy")
+    (root / "spec/toy/Toy.tla").unlink()
+    one = check(root)["MC_toy"]
+    assert (one.status, one.outcome) == (2, None) and "Toy.tla is missing" in one.judgement.reason
+    assert evidence.read(evidence.evidence_path(root, "toy", "MC_toy"))["verdict"] == "UNJUDGED"
+
+
+def test_a_tlc_killed_halfway_is_unjudged(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_big")
+
+    def kill() -> None:
+        log = root / "build/tlc/toy/MC_big.log"
+        for _ in range(600):
+            if process._RUNNING and log.is_file():
+                time.sleep(0.5)
+                os.killpg(next(iter(process._RUNNING)), signal.SIGKILL)
+                return
+            time.sleep(0.05)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    judgement = check(root)["MC_big"].judgement
+    killer.join()
+    assert (judgement.verdict, judgement.reason) == ("UNJUDGED", "TLC was killed by signal 9")
+
+
+def test_a_time_limit_ends_tlc_and_is_inconclusive(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_big", timeout_s=1)
+    one = check(root)["MC_big"]
+    assert one.judgement.verdict == "INCONCLUSIVE" and one.status == 2
+    assert one.judgement.reason == "time limit of 1 s reached"
+    assert not process._RUNNING
+
+
+def test_a_heap_that_java_refuses_is_inconclusive(tmp_path: Path) -> None:
+    judgement = check(toy_tree(tmp_path, "MC_toy", heap_mb=1))["MC_toy"].judgement
+    assert judgement.verdict == "INCONCLUSIVE" and "heap_mb = 1" in judgement.reason
+
+
+def test_old_evidence_is_gone_before_a_run_begins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    root = toy_tree(tmp_path, "MC_toy")
+    path = evidence.evidence_path(root, "toy", "MC_toy")
+    path.parent.mkdir(parents=True)
+    path.write_text("{}")
+
+    def crash(*_: object) -> None:
+        assert not path.exists()
+        raise RuntimeError("crash")
+
+    monkeypatch.setattr("modeproof.tlc.check.run_tlc", crash)
+    (run,) = select(root)
+    with pytest.raises(RuntimeError):
+        check_one(root, run, find_toolchain(), Progress(quiet=True))
+    assert not path.exists()
+
+
+def test_a_full_disk_while_the_graph_is_written_leaves_no_graph(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = toy_tree(tmp_path, "OPEN_toy")
+
+    def full(self: process._Sink, line: bytes) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(process._Sink, "take", full)
+    one = check(root)["OPEN_toy"]
+    assert one.judgement.verdict == "UNJUDGED" and "No space left on device" in one.judgement.reason
+    assert list((root / "build/graphs/toy").iterdir()) == [] and not process._RUNNING
+
+
+def test_declaration_and_tree_agree() -> None:
+    assert sha256(CFGS["MC_toy"]) in declaration("MC_toy")
