@@ -52,13 +52,13 @@ def read_sources(document: Document) -> Sources:
 
 
 class Ids:
-    """The ids that a document declares, and how to find them in a text."""
+    """Declared ids, and how to find them in a text. `prefix` is that of the clause ids."""
 
-    def __init__(self, document: Document) -> None:
-        self.clauses = {clause.id for clause in document.clauses}
-        self.findings = {finding.id for finding in document.findings}
-        self.assumptions = {assumption.id for assumption in document.assumptions}
-        self.clause_form = re.compile(rf"\b{re.escape(document.about.prefix)}(?:-[A-Z0-9]+)+\b")
+    def __init__(
+        self, prefix: str, clauses: Iterable[str], findings: Iterable[str], assumptions: Iterable[str]
+    ) -> None:
+        self.clauses, self.findings, self.assumptions = set(clauses), set(findings), set(assumptions)
+        self.clause_form = re.compile(rf"\b{re.escape(prefix)}(?:-[A-Z0-9]+)+\b")
         letters = {one.rsplit("-", 1)[0] for one in self.findings | self.assumptions}
         names = "|".join(sorted(map(re.escape, letters))) or r"(?!)"
         self.other_form = re.compile(rf"(?<![\w-])(?:{names})-\d+[a-z]?\b")
@@ -82,13 +82,23 @@ class Ids:
         return _once(clauses), _once(findings), _once(unknown)
 
 
+def ids_of(document: Document) -> Ids:
+    """The ids of a document."""
+    return Ids(
+        document.about.prefix,
+        (clause.id for clause in document.clauses),
+        (finding.id for finding in document.findings),
+        (assumption.id for assumption in document.assumptions),
+    )
+
+
 def _once(names: Iterable[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
 def citations(document: Document, sources: Sources) -> tuple[Citation, ...]:
     """Every citation of the document's clauses and findings."""
-    ids = Ids(document)
+    ids = ids_of(document)
     return (
         *_in_tla(document, sources, ids),
         *_in_python(document, sources, ids),

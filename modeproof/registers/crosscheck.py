@@ -142,8 +142,7 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("findings")
     known = _evidence_names(document, sources)
     clauses = {clause.id for clause in document.clauses}
-    constants = {name for module in sources.modules.values() for name in module.constants}
-    strings = {text for module in sources.modules.values() for text in module.strings}
+    switches = _switches(sources)
     for one in document.findings:
         for name in one.evidence:
             if name not in known and name not in clauses:
@@ -152,13 +151,21 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
                 )
         if not one.evidence and not one.evidence_open.strip():
             yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
-        if one.switch and one.switch not in constants and one.switch not in strings:
-            yield Problem(
-                file,
-                one.id,
-                f"switch {one.switch!r} is no CONSTANT of the specification and no value that one can hold; "
-                f"{suggestion_of(one.switch, sorted(constants | strings))}",
-            )
+        if one.switch and one.switch not in switches:
+            yield Problem(file, one.id, _unknown_switch(one.switch, switches))
+
+
+def _switches(sources: Sources) -> list[str]:
+    """What can be a switch: a CONSTANT, or a string that a constant can hold."""
+    modules = sources.modules.values()
+    return sorted({name for module in modules for name in module.constants | module.strings})
+
+
+def _unknown_switch(name: str, switches: list[str]) -> str:
+    return (
+        f"switch {name!r} is no CONSTANT of the specification and no value that one can hold; "
+        f"{suggestion_of(name, switches)}"
+    )
 
 
 def _evidence_names(document: Document, sources: Sources) -> list[str]:
@@ -193,6 +200,9 @@ def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
                 yield Problem(
                     file, run.id, f"{name} is in no row of properties.toml; {suggestion_of(name, known)}"
                 )
+        switches = _switches(sources)
+        if run.switch and run.switch not in switches:
+            yield Problem(file, run.id, _unknown_switch(run.switch, switches))
         if run.graph is not None:
             for text in _graph_faults(document, run):
                 yield Problem(file, run.id, text)

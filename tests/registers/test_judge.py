@@ -111,6 +111,12 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
         ),
         (SPEC + "runs.toml", 'module = "Latch"', 'module = "Lach"', "MC_Latch: module Lach does not exist"),
         (SPEC + "runs.toml", '"MC_Latch"', '"LIVE_Latch"', "the id of a run of kind MC begins with MC_"),
+        (
+            SPEC + "runs.toml",
+            'kind = "NEG"',
+            'kind = "NEG"\nswitch = "LITRAL"',
+            "switch 'LITRAL' is no CONSTANT",
+        ),
         (SPEC + "runs.toml", 'device = "latch"', 'device = "lach"', "graph.device: did you mean 'latch'?"),
         (SPEC + "runs.toml", "T_HOLD_ms = 20", "T_HLD_ms = 20", "graph.params: unknown parameter 'T_HLD_ms'"),
         (
