@@ -1,0 +1,156 @@
+"""Which other values an input of the alphabet stands for, and a sample of them.
+
+An OPEN_ model tries one representative of a class of inputs, such as one word for all words that are no code.
+spec/<document>/classes.toml says which letters are representatives:
+
+    [[class]]
+    device = "fplc"
+    rule = "words"                      every word that the alphabet does not name for this field
+    field = "MW03"
+    representative = "0001"
+
+    [[class]]
+    device = "fplc"
+    rule = "count"                      every combination with so many of the fields set
+    fields = ["A", "B", "C"]
+    representative = ["A", "B"]
+    at_least = 2
+    at_most = 3
+
+Members of `words`: all one-bit neighbours of the words that the alphabet names for the field, and 64 random
+words (seeded, so always the same). A document without the file has no classes.
+"""
+
+from __future__ import annotations
+
+import itertools
+import random
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import Unjudged
+
+RANDOM_WORDS = 64
+_FIELDS = {
+    "words": {"device", "rule", "field", "representative"},
+    "count": {"device", "rule", "fields", "representative", "at_least", "at_most"},
+}
+
+
+@dataclass(frozen=True)
+class InputClass:
+    """One class: an input whose values include `representative` stands for those with each of `members`."""
+
+    name: str
+    representative: Mapping[str, Any]
+    members: tuple[Mapping[str, Any], ...]
+
+
+def load_classes(
+    place: Path, document: str, device: str, alphabet: Sequence[Mapping[str, Any]]
+) -> tuple[InputClass, ...]:
+    """The classes of one device; `alphabet` holds the inputs in Python form.
+
+    Raises Unjudged with file and row for a row that is not of one of the forms above, that names an input which
+    does not exist, or whose representative does not occur in the alphabet.
+    """
+    path = place / "spec" / document / "classes.toml"
+    if not path.is_file():
+        return ()
+    try:
+        rows = tomllib.loads(path.read_text(encoding="utf-8")).get("class", [])
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise Unjudged(f"{path.name} of {document}: {error}") from None
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        raise Unjudged(f"{path.name} of {document}: [[class]] tables were expected")
+    return tuple(
+        _class(f"spec/{document}/classes.toml: class {n + 1}", row, alphabet)
+        for n, row in enumerate(rows)
+        if row.get("device") == device
+    )
+
+
+def _class(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, Any]]) -> InputClass:
+    rule = row.get("rule")
+    if rule not in _FIELDS:
+        raise Unjudged(f"{place}: rule must be words or count, not {rule!r}")
+    if set(row) != _FIELDS[rule]:
+        odd = sorted(set(row) ^ _FIELDS[rule])[0]
+        raise Unjudged(f"{place}: field {odd!r} is missing or unknown for the rule {rule}")
+    fields = [row["field"]] if rule == "words" else row["fields"]
+    for field in fields:
+        if not isinstance(field, str) or field not in alphabet[0]:
+            raise Unjudged(f"{place}: {field!r} is no input")
+    made = _words(place, row, alphabet) if rule == "words" else _count(place, row)
+    if not any(made.representative.items() <= letter.items() for letter in alphabet):
+        raise Unjudged(f"{place}: the representative {row['representative']!r} is not in the alphabet")
+    if not made.members:
+        raise Unjudged(f"{place}: the class has no other member")
+    return made
+
+
+def _words(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, Any]]) -> InputClass:
+    field = row["field"]
+    try:
+        representative = int(row["representative"], 16)
+    except (ValueError, TypeError):
+        raise Unjudged(f"{place}: representative must be four hex digits") from None
+    named = sorted({letter[field] for letter in alphabet})
+    found = [word ^ (1 << bit) for word in named if word != representative for bit in range(16)]
+    source = random.Random(f"{field} {representative}")
+    found += [source.randrange(1 << 16) for _ in range(RANDOM_WORDS)]
+    members = [word for word in dict.fromkeys(found) if word not in named]
+    return InputClass(f"{field} other", {field: representative}, tuple({field: word} for word in members))
+
+
+def _count(place: str, row: Mapping[str, Any]) -> InputClass:
+    fields, chosen = row["fields"], row["representative"]
+    low, high = row["at_least"], row["at_most"]
+    if not isinstance(chosen, list) or not set(chosen) <= set(fields):
+        raise Unjudged(f"{place}: representative must list some of the fields")
+    if type(low) is not int or type(high) is not int or not low <= len(chosen) <= high:
+        raise Unjudged(f"{place}: the representative must have at_least to at_most fields set")
+    members = [
+        dict(zip(fields, values, strict=True))
+        for values in itertools.product((False, True), repeat=len(fields))
+        if low <= sum(values) <= high
+    ]
+    representative = {field: field in chosen for field in fields}
+    members.remove(representative)
+    return InputClass(f"{low}..{high} of {' '.join(fields)}", representative, tuple(members))
+
+
+class Members:
+    """Hands out other members of an input's classes, each in turn, so that all are used sooner or later."""
+
+    def __init__(self, classes: Sequence[InputClass], alphabet: Sequence[Mapping[str, Any]]) -> None:
+        self._alphabet = alphabet
+        self._of = [
+            [n for n, one in enumerate(classes) if one.representative.items() <= letter.items()]
+            for letter in alphabet
+        ]
+        self._classes = classes
+        self._next = [0] * len(classes)
+
+    def any_of(self, letter: int) -> bool:
+        """Whether this letter of the alphabet stands for others."""
+        return bool(self._of[letter])
+
+    def another(self, letter: int) -> dict[str, Any]:
+        """The inputs of the letter, with the next member of each of its classes in place."""
+        values = dict(self._alphabet[letter])
+        for n in self._of[letter]:
+            members = self._classes[n].members
+            values.update(members[self._next[n] % len(members)])
+            self._next[n] += 1
+        return values
+
+    def used(self) -> dict[str, tuple[int, int]]:
+        """For each class how many of its members were handed out, and how many there are."""
+        return {
+            one.name: (min(self._next[n], len(one.members)), len(one.members))
+            for n, one in enumerate(self._classes)
+        }
