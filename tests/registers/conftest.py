@@ -16,8 +16,8 @@ publisher = "nobody"
 prefix = "DR"
 seed = "none"
 sha256 = "0000000000000000000000000000000000000000000000000000000000000000"
-available = "the text"
-not_available = "the drawings"
+available = ["the text"]
+not_available = ["the drawings"]
 not_endorsed = "nobody endorses this"
 """,
     "spec/door/clauses.toml": """
@@ -107,7 +107,7 @@ kind = "assumption"
 clauses = ["DR-1-3"]
 who = "the builder"
 check = "count"
-breaks = "NEG_Latch"
+breaks = ["NEG_Latch"]
 """,
     "spec/door/runs.toml": """
 [[run]]

@@ -101,7 +101,7 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
         (SPEC + "findings.toml", '"LITERAL"', '"LITRAL"', "switch 'LITRAL' is no CONSTANT"),
         (SPEC + "findings.toml", '["NEG_Latch", "the_bolt_moves"]', "[]", "E-01: names no evidence, and"),
         (SPEC + "assumptions.toml", '"NEG_Latch"', '"NEG_Lach"', "breaks: unknown run 'NEG_Lach'; did you"),
-        (SPEC + "assumptions.toml", '"NEG_Latch"', '""', "A-01: names no run that breaks it, and"),
+        (SPEC + "assumptions.toml", '["NEG_Latch"]', "[]", "A-01: names no run that breaks it, and"),
         (SPEC + "runs.toml", ', "OpenIsUnlocked"]', "]", "OpenIsUnlocked: no run checks OpenIsUnlocked"),
         (
             SPEC + "runs.toml",
