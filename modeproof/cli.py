@@ -392,15 +392,13 @@ def _version(package: str) -> str:
 
 def _verify(args: argparse.Namespace) -> int:
     from modeproof import evidence
+    from modeproof.conformance import compare_reference
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.verify import Stage, check_lane, check_registers, verify
 
     place = root()
     progress = Progress(quiet=args.quiet)
-
-    def conform(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
-        return conform_builtins(place, document, lane, progress)
 
     def prove(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
         return prove_document(place, document, progress)
@@ -409,7 +407,7 @@ def _verify(args: argparse.Namespace) -> int:
         ("registers", check_registers),
         ("proofs", prove),
         ("TLC", check_lane),
-        ("conformance", conform),
+        ("conformance", compare_reference),
     ]
     names = _chosen(place, args.document)
     with only_one(place):
@@ -418,11 +416,6 @@ def _verify(args: argparse.Namespace) -> int:
             evidence.read_document(place, name)
     _write_json(args, status, records=records)
     return status
-
-
-def conform_builtins(place: Path, document: str, lane: str, progress: Any) -> list[dict[str, Any]]:
-    """Compare each device graph of the lane with the reference implementation, both ways."""
-    raise Unjudged("conformance is not there yet")
 
 
 # ------------------------------------------------------------------------------------------------ doctor

@@ -127,6 +127,7 @@ def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Ch
             run,
             tools,
             lambda c: progress.update(run.id, f"{c.distinct:,} distinct, {c.generated:,} generated"),
+            lambda lines: progress.update(run.id, f"{lines:,} lines of the graph"),
         )
         judgement = judge(run, cfg, digest, outcome)
         if read_cfg(place, run)[1] != digest:

@@ -24,6 +24,8 @@ from modeproof.tlc.toolchain import Toolchain
 FINGERPRINT = 1
 SEED = 1
 WITNESS_LIMIT = 100_000
+LINES_A_WORD = 20_000
+"""So many printed lines of a graph are worth a word of progress."""
 
 _RUNNING: dict[int, subprocess.Popen[bytes]] = {}
 _GUARD = threading.Lock()
@@ -82,14 +84,19 @@ def _kill(process: subprocess.Popen[bytes]) -> None:
 class _Sink:
     """Where printed lines go: a file for OPEN runs, a bounded set otherwise."""
 
-    def __init__(self, stream: BinaryIO | None) -> None:
+    def __init__(self, stream: BinaryIO | None, on_lines: Callable[[int], None] | None = None) -> None:
         self.lines: set[bytes] = set()
         self.complete = True
+        self.written = 0
         self._stream = stream
+        self._on_lines = on_lines
 
     def take(self, line: bytes) -> None:
         if self._stream is not None:
             self._stream.write(line + b"\n")
+            self.written += 1
+            if self.written % LINES_A_WORD == 0 and self._on_lines is not None:
+                self._on_lines(self.written)
         elif line not in self.lines:
             if len(self.lines) < WITNESS_LIMIT:
                 self.lines.add(line)
@@ -102,6 +109,7 @@ def run_tlc(
     run: Run,
     tools: Toolchain,
     on_progress: Callable[[Counts], None] | None = None,
+    on_lines: Callable[[int], None] | None = None,
 ) -> Outcome:
     """Run TLC on `run` and read its log to the end.
 
@@ -129,7 +137,7 @@ def run_tlc(
             graph.unlink(missing_ok=True)
             part = graph.with_suffix(".txt.part")
             with part.open("wb", buffering=1 << 20) as stream:
-                outcome = _follow(run, command, folder, metadir, logs, stream, on_progress)
+                outcome = _follow(run, command, folder, metadir, logs, stream, on_progress, on_lines)
                 stream.flush()
                 os.fsync(stream.fileno())
             if (
@@ -142,7 +150,7 @@ def run_tlc(
                 return _with_graph(outcome, graph)
             part.unlink(missing_ok=True)
             return outcome
-        return _follow(run, command, folder, metadir, logs, None, on_progress)
+        return _follow(run, command, folder, metadir, logs, None, on_progress, None)
     except OSError as error:
         graph.with_suffix(".txt.part").unlink(missing_ok=True)
         raise Unjudged(f"{run.name}: {error.strerror or error} ({error.filename or logs})") from None
@@ -162,8 +170,9 @@ def _follow(
     logs: Path,
     stream: BinaryIO | None,
     on_progress: Callable[[Counts], None] | None,
+    on_lines: Callable[[int], None] | None,
 ) -> Outcome:
-    sink = _Sink(stream)
+    sink = _Sink(stream, on_lines)
     reader = LogReader(on_printed=sink.take, on_progress=on_progress)
     errors = metadir / "stderr"
     expired = threading.Event()
