@@ -1,13 +1,14 @@
 """Evidence: one JSON file a run, written atomically, checked by one schema on writing and on reading."""
 
 from modeproof.evidence.files import discard, evidence_path, read, read_document, write
-from modeproof.evidence.record import SCHEMA_VERSION, hashes, make, tool
+from modeproof.evidence.record import SCHEMA_VERSION, hashes, machine, make, tool
 
 __all__ = [
     "SCHEMA_VERSION",
     "discard",
     "evidence_path",
     "hashes",
+    "machine",
     "make",
     "read",
     "read_document",

@@ -63,7 +63,8 @@ def _own_tools() -> dict[str, dict[str, str | None]]:
 
 
 @cache
-def _machine() -> dict[str, Any]:
+def machine() -> dict[str, Any]:
+    """What this computer is: system, architecture, processor, cores, memory in MiB (0: unknown)."""
     cpu = platform.processor()
     memory = 0
     try:
@@ -121,7 +122,7 @@ def make(
         "seconds": round(seconds, 3),
         "inputs": dict(inputs or {}),
         "tools": {**_own_tools(), **{name: dict(entry) for name, entry in (tools or {}).items()}},
-        "machine": _machine(),
+        "machine": machine(),
         "result": dict(result or {}),
         "reason": " ".join(reason.split()),
     }
