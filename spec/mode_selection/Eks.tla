@@ -48,7 +48,7 @@ LOCAL Bit(word, b) == (word \div (2^b)) % 2 = 1
 \* EKS-KS-1, EKS-KS-3, EKS-KS-4, E-48: state 6 wants equal codes, state 7 one common bit
 AccessCodeAccepted(code) ==
     IF OPERATING_STATE = 6 THEN code = DIP_SWITCHES
-    ELSE code \in 0..1023 /\ \E b \in 0..9 : Bit(code, b) /\ Bit(DIP_SWITCHES, b)
+    ELSE code \in 0..1023 /\ {b \in 0..9 : Bit(code, b) /\ Bit(DIP_SWITCHES, b)} # {}
 \* EKS-KS-2, EKS-KS-5, EKS-KS-8, EKS-2-4, EKS-T1, E-25e
 Accepted(k) ==
     /\ KEY[k].operating_state = OPERATING_STATE
@@ -102,7 +102,7 @@ SeeRemoval(i) ==
     /\ IF eksState = "Signal" THEN GoTo("ClearOutputs")
        ELSE eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None
     /\ Did("SeeRemoval")
-\* EKS-8-5, EKS-SD-2, E-26: first cleared, then checked
+\* EKS-8-5, EKS-SD-8, E-26: first cleared, then checked
 ResetOutputs(i) ==
     eksState = "ClearOutputs" /\ eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None /\ Did("ResetOutputs")
 \* EKS-8-4, E-26

@@ -24,7 +24,7 @@ CONSTANTS
     ON_ERROR,   \* "hold" or "none": what Error does to the active mode (E-24)
     LITERAL     \* literal readings that are switched on
 
-Readings == {"LITERAL_FIG7", "LIVE_MW03", "NO_SETTLE", "INSERT_DURING_REMOVAL", "NO_LA_AT_SWITCH", "NO_DWELL"}
+Readings == {"LITERAL_FIG7", "LIVE_MW03", "NO_SETTLE", "INSERT_DURING_REMOVAL", "NO_LA_AT_SWITCH", "NO_DWELL", "SETTLE_KEEPS_MW01"}
 
 ASSUME T_ON \in Nat \ {0} /\ T_SEQ \in Nat \ {0}
 ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
@@ -41,8 +41,8 @@ VARIABLES
 fplc == <<fplcState, accepted, authority, fplcSelection, mode, fplcElapsed>>
 
 Transaction == {"EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
-Authorized == {"AwaitSelection", "CheckSelection", "Settle"} \cup Transaction
-Holding == {"Authorize"} \cup Authorized                  \* states in which an output vector has been accepted
+Authorized == {"AwaitSelection", "CheckSelection"} \cup Transaction
+Holding == {"Authorize", "Settle"} \cup Authorized        \* states in which an output vector has been accepted
 Pulse == {"PulseOnes", "PulseZeros"}
 Removing == {"Clear", "AwaitZeros"}
 OwnRules == {"Start", "Idle", "Error"}                    \* states that the check before every step leaves alone
@@ -64,8 +64,10 @@ FplcInit ==
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
-\* EKS-2-12, EKS-8-6, E-05: the level is published from AwaitSelection to Settle and is zero in every other state
-MW01 == IF fplcState \in Authorized THEN RE[authority] ELSE 0
+Literal(reading) == reading \in LITERAL
+\* EKS-2-12, EKS-8-6, E-05: the level is published from AwaitSelection to Switch and is zero in every other state.
+\* E-59: also in Settle, so that the panel closes and the next selection cannot overtake the return to zero.
+MW01 == IF fplcState \in Authorized \/ (fplcState = "Settle" /\ Literal("SETTLE_KEEPS_MW01")) THEN RE[authority] ELSE 0
 \* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-16, E-27: the echo is there only while an acknowledgment may come
 MW05 == IF fplcState \in Transaction \ {"EchoSelection"} THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
@@ -74,7 +76,6 @@ ERROR == fplcState = "Error"
 ----------------------------------------------------------------------------
 (* What a scan sees.                                                       *)
 
-Literal(reading) == reading \in LITERAL
 LOCAL Now(i) == fplcElapsed + i.dt
 LOCAL Min(a, b) == IF a < b THEN a ELSE b
 
@@ -320,7 +321,7 @@ LeaveAwaitZeros(i) == fplcState = "AwaitZeros" /\ ZerosReturned(i) /\ Proceed("I
 InsertDuringRemoval(i) ==
     fplcState = "AwaitZeros" /\ ~ZerosReturned(i) /\ Reinserted(i) /\ Proceed("PulseOnes") /\ Did("InsertDuringRemoval")
 
-\* EKS-3-0, EKS-9-0, EKS-SD-5, E-22, E-23
+\* EKS-3-0, EKS-9-0, EKS-SD-9, E-22, E-23
 StayInError(i) == fplcState = "Error" /\ ~ZerosReturned(i) /\ Stay(i, T_DWELL) /\ Did("StayInError")
 \* EKS-3-0, EKS-9-0, EKS-GP-4, E-23, E-52: the key is out and zeros went round; never back into a pending transaction
 LeaveError(i) == fplcState = "Error" /\ ZerosReturned(i) /\ Proceed("Idle") /\ Did("LeaveError")

@@ -16,7 +16,7 @@ CONSTANTS
 VARIABLES
           in,         \* the input of the last scan, by its number; hidden by VIEW
           \* What an observer of the wires alone has seen in this insertion; nothing of the F-PLC reads it:
-          cleared,    \* one output, LA and both words zero, since LA was last off
+          cleared,    \* one output, LA and both words zero, since LA was last off and the last echo was taken back
           selected,   \* then MW03 showed this mode, with MW07 still zero
           echoed      \* then MW05 showed it
 
@@ -62,11 +62,12 @@ Observe(i) ==
     LET present == i.LA /\ Cardinality(i.vec) = 1
         zeros   == present /\ i.MW03 = 0 /\ i.MW07 = 0
         chosen  == ModeOf(SE, i.MW03)
+        ended   == MW05 # 0 /\ MW05' = 0          \* a transaction is over: the next one needs zeros of its own
         standing == present /\ selected # None /\ i.MW03 = SE[selected]
-    IN  /\ cleared' = (zeros \/ (present /\ cleared))
-        /\ selected' = IF standing THEN selected
+    IN  /\ cleared' = (~ended /\ (zeros \/ (present /\ cleared)))
+        /\ selected' = IF ended THEN None ELSE IF standing THEN selected
                        ELSE IF cleared /\ present /\ i.MW07 = 0 THEN chosen ELSE None
-        /\ echoed' = (standing /\ (echoed \/ MW05 = CH[selected]))
+        /\ echoed' = (~ended /\ standing /\ (echoed \/ MW05 = CH[selected]))
 
 \* Where the clock stands the graph still tries every time; the properties need only one
 TimesToTry == IF PRINT_GRAPH \/ fplcState \in Clocked THEN 0..N - 1 ELSE 0..(98 * NV) - 1

@@ -67,7 +67,7 @@ EnableScreen(i) ==
     /\ hmiState' = "Select" /\ offered' = Level(i) /\ UNCHANGED hmiSelection
     /\ Did("EnableScreen")
 \* EKS-8-8, EKS-9-1-HMI, EKS-9-2
-StayInhibited(i) == hmiState = "Inhibited" /\ (Level(i) = None \/ i.CM # 0) /\ Stay /\ Did("StayInhibited")
+StayInhibited(i) == hmiState = "Inhibited" /\ ~(Level(i) # None /\ i.CM = 0) /\ Stay /\ Did("StayInhibited")
 
 \* EKS-2-14, EKS-2-15, EKS-3-2
 TouchSelection(i) ==

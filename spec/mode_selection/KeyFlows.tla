@@ -104,7 +104,7 @@ FplcInput(dt) == [LA |-> LA, vec |-> Vector, MW03 |-> MW03, MW07 |-> MW07, dt |-
 \* A-06, E-52: what the F-PLC wrote has reached the panel, and the panel has begun to react
 WordsArrived ==
     /\ ReadAuthorization = MW01 /\ CheckMSO = MW05
-    /\ fplcState # "Settle" => hmiState = "Inhibited"
+    /\ hmiState = "Inhibited" \/ MW01 # 0
 \* A-09: time is only let pass in a scan that it makes leave its state; any other time can be put off until then.
 \* A deadline may pass whatever has arrived, the dwell time only with the words.
 Times == {0} \cup

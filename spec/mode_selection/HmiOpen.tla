@@ -1,0 +1,46 @@
+------------------------------ MODULE HmiOpen -------------------------------
+(***************************************************************************)
+(* The panel alone, with any words on the bus and any touch in every scan: *)
+(* the graph that implementations of target hmi are compared with.         *)
+(* Leaves out every other device.                                          *)
+(***************************************************************************)
+EXTENDS Sequences, TLC, Hmi
+
+CONSTANT PRINT_GRAPH    \* TRUE: print inputs, states and edges
+VARIABLE in             \* the number of the last scan's input; hidden by VIEW
+
+View == hmi
+
+Words == <<0, RE[0], RE[1], RE[2], RE[3], RE[4], OtherWord>>
+TouchSeq == <<"", "select:0", "select:1", "select:2", "select:3", "select:4", "confirm", "reject">>
+Modes == <<None, 0, 1, 2, 3, 4>>      \* EKS-8-8: the active mode is displayed, it decides nothing
+N == 7 * 7 * 8 * 6
+Alphabet == [n \in 0..N - 1 |->
+    [RA |-> Words[(n % 7) + 1], CM |-> Words[((n \div 7) % 7) + 1], touch |-> TouchSeq[((n \div 49) % 8) + 1],
+     ActiveMSO |-> Modes[(n \div 392) + 1]]]
+
+Wire(i) == [ReadAuthorization |-> i.RA, CheckMSO |-> i.CM, ActiveMSO |-> i.ActiveMSO, touch |-> i.touch, dt |-> 1]
+Row == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled, shown |-> Shown]
+
+ASSUME \A t \in Touches : \E n \in 1..8 : TouchSeq[n] = t
+ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
+PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
+PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
+
+OpenInit == HmiInit /\ step = "" /\ in = 0 /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : HmiScan(i) /\ in' = n
+OpenSpec == OpenInit /\ [][OpenNext]_<<hmi, step, in>>
+
+Scanned == Alphabet[in']
+\* EKS-2-14, EKS-8-8, EKS-SD-3, EKS-SD-4: no selection without authorization on the bus, none beyond it
+SelectionNeedsEnable ==
+    [][SelectMSO' # 0 => Permitted(ModeOf(RE, Scanned.RA), ModeOf(SE, SelectMSO'))]_View
+\* EKS-2-22, EKS-2-23, EKS-2-24, EKS-SD-5: the acknowledgment is sent after the echo was on the screen and was touched
+AcknowledgmentNeedsConfirm ==
+    [][(SwitchMSO = 0 /\ SwitchMSO' # 0) =>
+        /\ hmiState = "Confirm" /\ Scanned.touch = "confirm"
+        /\ ModeOf(CH, Scanned.CM) = ModeOf(SW, SwitchMSO')]_View
+\* EKS-3-1-HMI, EKS-3-4-HMI, EKS-8-9, EKS-8-16: without authorization both words are zero in that very scan
+InhibitAtOnce ==
+    [][ModeOf(RE, Scanned.RA) = None => (SelectMSO' = 0 /\ SwitchMSO' = 0 /\ Enabled' = {})]_View
+=============================================================================

@@ -1,0 +1,104 @@
+---------------------------- MODULE KeyFlowsLive ----------------------------
+(***************************************************************************)
+(* What must happen in the end.  Fairness: every device keeps scanning.    *)
+(* Three questions, each a specification of its own:                       *)
+(*  GoalSpec     from any state that the honest devices can reach, a user  *)
+(*               who from now on has a goal, on a machine that from now on *)
+(*               keeps its deadlines, gets the mode.                       *)
+(*  RemovalSpec  a key that stays out leads back to Idle, whatever the     *)
+(*               user did and whatever deadline passed before.             *)
+(*  FaultSpec    the same after words that were corrupted on the way.      *)
+(* Leaves out: how long it takes (proofs of bounded response: see proofs). *)
+(***************************************************************************)
+EXTENDS KeyFlows
+
+CONSTANT FAULTS     \* how many words may be corrupted (FaultSpec)
+
+VARIABLES
+    goal,           \* the mode that the user wants, or None while the user does anything
+    faults          \* words corrupted so far
+
+liveVars == <<View, goal, faults>>
+
+LiveInit == Init /\ goal = None /\ faults = 0
+
+----------------------------------------------------------------------------
+(* A user with a goal.                                                     *)
+
+\* From some moment on the user wants one mode and has a key that permits it
+TakeGoal == goal = None /\ goal' \in {m \in MSO : \E l \in LEVELS : m <= l} /\ UNCHANGED <<View, step, faults>>
+
+KeyFits == reader \in LEVELS /\ Permitted(reader, goal)
+\* EKS-2-1, EKS-8-1, E-23: takes out a key that does not fit, and any key when the error lamp is on or the machine does not answer it
+EarnestRemove == (~KeyFits \/ fplcState \in {"Start", "Clear", "AwaitZeros", "Error"}) /\ RemoveKey
+\* EKS-2-1: inserts a fitting key when the machine is ready
+EarnestInsert == \E k \in LEVELS : Permitted(k, goal) /\ fplcState = "Idle" /\ SwapNoticed /\ InsertKey(k)
+\* EKS-2-14, EKS-2-23, EKS-2-25: touches the goal, confirms it when it is shown, rejects anything else
+EarnestTouch ==
+    CASE hmiState = "Select" /\ goal \in Enabled -> Field(goal)
+      [] hmiState = "Confirm" -> (IF Shown = goal THEN "confirm" ELSE "reject")
+      [] OTHER -> ""
+EarnestUser == EarnestRemove \/ EarnestInsert
+EarnestPanel == HmiScan(HmiInput(EarnestTouch)) /\ Remember /\ UNCHANGED <<reader, eks, fplc, plc>>
+
+----------------------------------------------------------------------------
+(* Deadlines that are kept.                                                *)
+
+\* A-08: the F-PLC scans faster than the halves of the test pulse last
+PulseSeen ==
+    /\ eksState = "TestOnes" /\ reader = key => fplcState \notin {"Idle", "PulseOnes"}
+    /\ eksState = "TestZeros" /\ reader = key => fplcState # "PulseZeros"
+\* A deadline passes only where what is waited for cannot come any more
+DeadlineIsDue ==
+    CASE fplcState = "PulseOnes" -> eksState \in {"TestZeros", "Signal", "Rejected"}
+      [] fplcState = "PulseZeros" -> eksState \in {"Signal", "Rejected"}
+      [] fplcState = "AwaitZeros" -> reader # None
+      [] OTHER -> FALSE
+PromptTimes == {0} \cup
+    (IF fplcState \in Timed /\ DeadlineIsDue THEN {T_REM} ELSE {}) \cup
+    (IF fplcState \in {"Start", "Settle", "AwaitZeros", "Error"} /\ WordsArrived THEN {T_DWELL} ELSE {})
+PromptFplc ==
+    /\ \E dt \in PromptTimes : FplcScan(FplcInput(dt)) /\ (dt > 0 => fplcState' # fplcState)
+    /\ UNCHANGED <<reader, eks, plc, hmi, history>>
+PromptEks == EksRuns /\ (eksState' # eksState => PulseSeen)
+
+----------------------------------------------------------------------------
+\* Zero, a word that is no code, a selection and an acknowledgment: enough for every way in which a word can be wrong
+FaultWords == {0, OtherWord, SE[1], SW[1]}
+\* One word on its way to the F-PLC becomes any other
+Corrupt ==
+    /\ faults < FAULTS /\ faults' = faults + 1
+    /\ \/ \E w \in FaultWords \ {MW03} : MW03' = w /\ UNCHANGED MW07
+       \/ \E w \in FaultWords \ {MW07} : MW07' = w /\ UNCHANGED MW03
+    /\ UNCHANGED <<reader, eks, fplc, hmi, history, turn, ReadAuthorization, CheckMSO, goal>>
+    /\ Did("Corrupt")
+
+Same == UNCHANGED <<goal, faults>>
+GoalNext ==
+    \/ TakeGoal
+    \/ goal = None /\ Next /\ Same
+    \/ goal # None /\ (EarnestUser \/ EarnestPanel \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same
+FaultNext == (Next /\ Same) \/ Corrupt
+
+\* Each of the four copies is made again and again
+Copied(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history>> /\ Same
+FairPlc ==
+    /\ WF_liveVars(Copied(CopyReadAuthorization(PlcInput))) /\ WF_liveVars(Copied(CopyMW03(PlcInput)))
+    /\ WF_liveVars(Copied(CopyCheckMSO(PlcInput))) /\ WF_liveVars(Copied(CopyMW07(PlcInput)))
+
+GoalSpec ==
+    /\ LiveInit /\ [][GoalNext]_<<liveVars, step>> /\ FairPlc
+    /\ WF_liveVars(goal # None /\ EarnestUser /\ Same) /\ WF_liveVars(goal # None /\ EarnestPanel /\ Same)
+    /\ WF_liveVars(goal # None /\ PromptFplc /\ Same) /\ WF_liveVars(goal # None /\ PromptEks /\ Same)
+
+\* EKS-2-29, EKS-FD-2, EKS-T2-2: every permitted mode can be activated, from whatever state
+GoalReached == (goal # None) ~> (mode = {goal})
+
+FairDevices ==
+    FairPlc /\ WF_liveVars(EksRuns /\ Same) /\ WF_liveVars(FplcRuns /\ Same) /\ WF_liveVars(PanelRuns /\ Same)
+RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step>> /\ FairDevices
+FaultSpec == LiveInit /\ [][FaultNext]_<<liveVars, step>> /\ FairDevices
+
+\* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle stays
+RemovalLeadsToIdle == <>[](reader = None) => <>[](fplcState = "Idle")
+=============================================================================

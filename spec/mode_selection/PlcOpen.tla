@@ -1,0 +1,40 @@
+------------------------------ MODULE PlcOpen -------------------------------
+(***************************************************************************)
+(* The PLC alone, with any words at its inputs: the graph that             *)
+(* implementations of target plc are compared with.  The order of the      *)
+(* copies is fixed here; KeyFlows allows any.                              *)
+(* Leaves out every other device, and all words but three: the PLC decides *)
+(* nothing by a word, so zero, one code and one other word stand for all   *)
+(* (A-10).                                                                 *)
+(***************************************************************************)
+EXTENDS Sequences, TLC, Plc
+
+CONSTANT PRINT_GRAPH    \* TRUE: print inputs, states and edges
+VARIABLE in             \* the number of the last scan's input; hidden by VIEW
+
+View == plc
+
+Words == <<0, RE[3], OtherWord>>
+WordSet == {0, RE[3], OtherWord}
+N == 81
+Alphabet == [n \in 0..N - 1 |->
+    [MW01 |-> Words[(n % 3) + 1], MW05 |-> Words[((n \div 3) % 3) + 1],
+     SelectMSO |-> Words[((n \div 9) % 3) + 1], SwitchMSO |-> Words[(n \div 27) + 1]]]
+
+Wire(i) == [MW01 |-> i.MW01, MW05 |-> i.MW05, SelectMSO |-> i.SelectMSO, SwitchMSO |-> i.SwitchMSO, dt |-> 1]
+Row == [ReadAuthorization |-> ReadAuthorization, CheckMSO |-> CheckMSO, MW03 |-> MW03, MW07 |-> MW07]
+
+ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
+PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
+PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
+
+OpenInit == PlcInit /\ step = "" /\ in = 0 /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : PlcScan(i) /\ in' = n
+OpenSpec == OpenInit /\ [][OpenNext]_<<plc, step, in>>
+
+Scanned == Alphabet[in']
+\* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26: a word only ever becomes what its source is in that scan
+CopiesUnchanged ==
+    [][/\ ReadAuthorization' \in {ReadAuthorization, Scanned.MW01} /\ MW03' \in {MW03, Scanned.SelectMSO}
+       /\ CheckMSO' \in {CheckMSO, Scanned.MW05} /\ MW07' \in {MW07, Scanned.SwitchMSO}]_View
+=============================================================================
