@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import importlib
+import importlib.util
 import json
 import os
 import signal
@@ -53,6 +54,9 @@ def main(argv: list[str] | None = None) -> int:
     except Exception as error:  # a defect of ours: still one line, and never a pass
         if args.debug:
             raise
+        if type(error).__module__ == "modeproof.kit.errors":  # the kit has an Unjudged of its own
+            _complain(" ".join(str(error).split()))
+            return EXIT_UNJUDGED
         text = " ".join(str(error).split())[:300]
         _complain(f"internal error: {type(error).__name__}: {text} (--debug shows where)")
     finally:
@@ -102,17 +106,21 @@ def make_parser() -> argparse.ArgumentParser:
         "--limit", type=int, default=20_000, metavar="MS", help="time limit a query (default 20000)"
     )
 
-    for name, room in (("conform", "kit"), ("registers", "registers")):
-        _plug_in(commands, name, f"modeproof.{room}.command")
+    _plug_in(commands, "conform", "modeproof.suites.command", "modeproof.kit.command")
+    _plug_in(commands, "registers", "modeproof.registers.command")
 
     _command(commands, "doctor", _doctor, "tell what this machine lacks, and how to mend it")
     return parser
 
 
-def _plug_in(commands: Any, name: str, module: str) -> None:
-    """A command that another room brings along. If its packages are missing, it says so when it is called."""
+def _plug_in(commands: Any, name: str, *modules: str) -> None:
+    """A command that another room brings along; the first module that exists.
+
+    If its packages are missing, the command says so when it is called.
+    """
     try:
-        importlib.import_module(module).add_parser(commands)
+        there = [module for module in modules if importlib.util.find_spec(module) is not None]
+        importlib.import_module((there or modules)[0]).add_parser(commands)
     except ImportError as error:
         cause = str(error)
 

@@ -139,6 +139,8 @@ def render(document: str, lines: Sequence[Line], records: Sequence[Record], widt
         for r in records
         if r["kind"] == "conformance"
     ]
+    if notes := {r["result"]["jar_note"] for r in tlc if "jar_note" in r["result"]}:
+        out.append(f"{'note':<12} {'; '.join(sorted(notes))}")
     proofs = [r for r in records if r["kind"] == "proof"]
     if proofs:
         out.append(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))

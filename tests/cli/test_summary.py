@@ -84,6 +84,11 @@ def test_the_screen_has_a_line_per_property_and_counts_the_rest() -> None:
     assert "witnesses    1 of 1 REACHED" in screen
 
 
+def test_another_jar_than_the_pinned_one_is_said() -> None:
+    note = "pinned counts were taken with another jar"
+    assert f"note         {note}" in render("toy", [], [tlc("MC_a", result={"jar_note": note})], width=100)
+
+
 def test_status_follows_the_verdict() -> None:
     assert status_of(tlc("MC_a")) == 0
     assert status_of(tlc("MC_a", as_expected=False)) == 1
