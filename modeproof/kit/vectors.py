@@ -1,0 +1,190 @@
+"""Reads a vector file: a header line, then one test case a line (JSON Lines).
+
+The header names target, suite, relation, inputs, outputs and steps, and holds for each graph the rows of outputs
+and a shortest way to each state. In a case `in` and `out` of a scan hold what differs from the scan before; in
+the first scan they are whole. `to` is the state after the scan, `step` the number of its step, `column` the
+number of the merged input column.
+"""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.signals import Signal, loads, read_signals
+
+KIND, VERSION = "modeproof-vectors", 1
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the specification: what it cites, and how many transitions of the suite take it."""
+
+    name: str
+    clauses: tuple[str, ...]
+    findings: tuple[str, ...]
+    transitions: int
+
+
+@dataclass(frozen=True)
+class Scan:
+    """One scan: whole inputs, whole expected outputs, and where the specification is after it."""
+
+    dt_ms: int
+    inputs: Mapping[str, Any]
+    outputs: Mapping[str, Any]
+    step: int
+    to: int
+    column: int
+
+
+@dataclass(frozen=True)
+class Case:
+    """One test case: reset with `params`, then the scans. `graph` is the number of the graph it walks in."""
+
+    id: str
+    why: str
+    basis: str
+    clauses: tuple[str, ...]
+    params: Mapping[str, Any]
+    graph: int
+    initial: int
+    scans: tuple[Scan, ...]
+
+
+@dataclass(frozen=True)
+class Suite:
+    """A vector file that was opened; `header` is its first line."""
+
+    path: Path
+    header: Mapping[str, Any]
+    target: str
+    document: str
+    name: str
+    relation: str
+    inputs: Mapping[str, Signal]
+    outputs: Mapping[str, Signal]
+    steps: tuple[Step, ...]
+    case_count: int
+    scan_count: int
+
+    def cases(self) -> Iterator[Case]:
+        """All cases in order. Raises Unjudged with line and cause for a line that cannot be used."""
+        count = 0
+        for number, row in _rows(self.path):
+            if number == 1:
+                continue
+            count += 1
+            try:
+                yield self._case(row)
+            except (KeyError, TypeError, ValueError, IndexError) as error:
+                cause = f"{type(error).__name__} {error}"
+                raise Unjudged(f"{self.path.name}: line {number}: not a test case: {cause}") from None
+        if count != self.case_count:
+            raise Unjudged(f"{self.path.name}: {count} cases, the header says {self.case_count}")
+
+    def _case(self, row: Mapping[str, Any]) -> Case:
+        inputs: dict[str, Any] = {}
+        outputs: dict[str, Any] = {}
+        scans = []
+        for scan in row["scans"]:
+            inputs = {**inputs, **scan["in"]}
+            outputs = {**outputs, **scan["out"]}
+            scans.append(Scan(scan["dt_ms"], inputs, outputs, scan["step"], scan["to"], scan["column"]))
+        if not scans or set(inputs) != set(self.inputs) or set(outputs) != set(self.outputs):
+            raise ValueError("inputs or outputs are not those of the header, or there is no scan")
+        if row["id"] != case_id(self.target, row["params"], scans):
+            raise ValueError(f"id {row['id']} does not belong to these inputs (was the file edited?)")
+        return Case(
+            id=row["id"],
+            why=row["why"],
+            basis=row["basis"],
+            clauses=tuple(row["clauses"]),
+            params=row["params"],
+            graph=row["graph"],
+            initial=self.header["graphs"][row["graph"]]["initial"],
+            scans=tuple(scans),
+        )
+
+    def shortest(self, case: Case, scan: int) -> Case:
+        """A shortest case that ends with the same inputs in the same state as scan number `scan` of `case`."""
+        graph = self.header["graphs"][case.graph]
+        state = case.scans[scan - 1].to if scan else case.initial
+        way: list[Scan] = []
+        while state != graph["initial"]:
+            before, dt_ms, inputs, outputs, step, column = graph["ways"][state]
+            way.append(Scan(dt_ms, inputs, outputs, step, state, column))
+            state = before
+        scans = (*reversed(way), case.scans[scan])
+        return Case(
+            id=case_id(self.target, case.params, scans),
+            why=f"shortest way to scan {scan + 1} of {case.id}",
+            basis=case.basis,
+            clauses=self.steps[case.scans[scan].step].clauses,
+            params=case.params,
+            graph=case.graph,
+            initial=graph["initial"],
+            scans=scans,
+        )
+
+
+def open_suite(path: Path) -> Suite:
+    """Read the header. Raises Unjudged for a missing file, another format, a header that lacks something, or a
+    suite without cases."""
+    try:
+        _, header = next(iter(_rows(path)))
+    except StopIteration:
+        raise Unjudged(f"{path.name}: the file is empty") from None
+    place = f"{path.name}: header"
+    if header.get("kind") != KIND or header.get("version") != VERSION:
+        raise Unjudged(f"{place}: not a vector file of version {VERSION}")
+    try:
+        suite = Suite(
+            path=path,
+            header=header,
+            target=header["target"],
+            document=header["document"],
+            name=header["suite"],
+            relation=header["relation"],
+            inputs=read_signals(header["inputs"], place),
+            outputs=read_signals(header["outputs"], place),
+            steps=tuple(
+                Step(row["name"], tuple(row["clauses"]), tuple(row["findings"]), row["transitions"])
+                for row in header["steps"]
+            ),
+            case_count=header["cases"],
+            scan_count=header["scans"],
+        )
+    except (KeyError, TypeError) as error:
+        raise Unjudged(f"{place}: {type(error).__name__} {error}") from None
+    if suite.case_count < 1:
+        raise Unjudged(f"{path.name}: the suite has no cases, so it shows nothing")
+    return suite
+
+
+def case_id(target: str, params: Mapping[str, Any], scans: Sequence[Scan]) -> str:
+    """The id of a case: a hash of what goes in, so that it survives when expectations or order change."""
+    going_in = [params, [[scan.dt_ms, scan.inputs] for scan in scans]]
+    text = json.dumps(going_in, sort_keys=True, separators=(",", ":"))
+    return f"{target}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
+
+
+def _rows(path: Path) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    try:
+        with gzip.open(path, "rb") if path.suffix == ".gz" else path.open("rb") as stream:
+            for number, line in enumerate(stream, 1):
+                try:
+                    row = loads(line) if number == 1 else json.loads(line)
+                except ValueError as error:
+                    raise Unjudged(f"{path.name}: line {number}: not JSON: {error}") from None
+                if not isinstance(row, dict):
+                    raise Unjudged(f"{path.name}: line {number}: an object was expected")
+                yield number, row
+    except (OSError, EOFError) as error:
+        raise Unjudged(f"{path}: {getattr(error, 'strerror', None) or error}") from None

@@ -1,0 +1,1 @@
+"""Builds test suites from graphs and writes them as vector files."""

@@ -1,0 +1,124 @@
+"""The suite `tour`: walks from power-up that take every transition of the merged graph at least once.
+
+Greedy: while the current state has a transition that was not taken, take it (those that stay in the state come
+first); otherwise go a shortest way to the nearest state that has one, or start a new case when that is no longer
+from power-up. Nothing here is random, so the same graph gives the same walks. The walks are not the shortest
+possible.
+"""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from modeproof.graph.columns import Columns
+
+CASE_SCANS = 400
+"""A case of at least this length ends as soon as its state has nothing left to take."""
+
+
+@dataclass(frozen=True)
+class Move:
+    """One scan of a walk: in `state` an input of `column`."""
+
+    state: int
+    column: int
+
+
+def transition_tour(columns: Columns, initial: int) -> list[list[Move]]:
+    """Walks from `initial`, each one a case, that take every transition of every state that can be reached."""
+    return _Tour(columns, initial).walks()
+
+
+class _Tour:
+    def __init__(self, columns: Columns, initial: int) -> None:
+        self.next_of = columns.next_of
+        self.initial = initial
+        self.by_next: list[dict[int, list[int]]] = []
+        self.left: list[list[int]] = []
+        for state, row in enumerate(columns.next_of):
+            ways: dict[int, list[int]] = {}
+            for column, after in enumerate(row):
+                ways.setdefault(after, []).append(column)
+            self.by_next.append(ways)
+            # popped from the end: loops first, then the others in the order of the columns
+            self.left.append(sorted(range(len(row)), key=lambda c, s=state, r=row: (r[c] == s, -c)))  # type: ignore[misc]
+        self.turn: dict[tuple[int, int], int] = {}
+        self.trees: dict[int, tuple[array[int], list[int]]] = {}
+        self.near: dict[int, int] = {}
+
+    def walks(self) -> list[list[Move]]:
+        cases: list[list[Move]] = []
+        walk: list[Move] = []
+        state = self.initial
+        while True:
+            while self.left[state]:
+                column = self.left[state].pop()
+                walk.append(Move(state, column))
+                state = self.next_of[state][column]
+            here = self._way_to_nearest(state)
+            fresh = self._way_to_nearest(self.initial)
+            if fresh is None and here is None:
+                break
+            if here is None or len(walk) >= CASE_SCANS or (fresh is not None and len(fresh) <= len(here)):
+                if fresh is None:
+                    break
+                cases.append(walk)
+                walk, state, here = [], self.initial, fresh
+            for after in here:
+                walk.append(Move(state, self._column(state, after)))
+                state = after
+        if walk:
+            cases.append(walk)
+        return [case for case in cases if case]
+
+    def _column(self, state: int, after: int) -> int:
+        """A column that leads from `state` to `after`; the possible ones take turns."""
+        ways = self.by_next[state][after]
+        turn = self.turn.get((state, after), 0)
+        self.turn[state, after] = turn + 1
+        return ways[turn % len(ways)]
+
+    def _way_to_nearest(self, state: int) -> list[int] | None:
+        """The states on a shortest way to the nearest state with something left; None when there is none."""
+        before, order = self._tree(state)
+        at = self.near.get(state, 0)
+        while at < len(order) and not self.left[order[at]]:
+            at += 1
+        self.near[state] = at
+        if at == len(order):
+            return None
+        way = []
+        to = order[at]
+        while to != state:
+            way.append(to)
+            to = before[to]
+        return way[::-1]
+
+    def _tree(self, root: int) -> tuple[array[int], list[int]]:
+        """Breadth-first tree from `root`: the state before each state, and all states by distance."""
+        if root not in self.trees:
+            before = array("l", [-1]) * len(self.next_of)
+            before[root] = root
+            order = [root]
+            for state in order:
+                for after in self.by_next[state]:
+                    if before[after] == -1:
+                        before[after] = state
+                        order.append(after)
+            self.trees[root] = (before, order)
+        return self.trees[root]
+
+
+def covers_all(columns: Columns, initial: int, walks: Sequence[Sequence[Move]]) -> bool:
+    """Whether the walks begin in `initial`, hang together, and take every transition of the merged graph."""
+    taken = set()
+    for walk in walks:
+        state = initial
+        for move in walk:
+            if move.state != state:
+                return False
+            taken.add((move.state, move.column))
+            state = columns.next_of[move.state][move.column]
+    return len(taken) == columns.transitions
