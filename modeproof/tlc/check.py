@@ -86,7 +86,11 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
         for run in runs
         if not (folder / f"{run.module}.tla").is_file()
     ]
-    problems += [f"run {run.id}: the property list is empty" for run in runs if not run.properties]
+    problems += [
+        f"run {run.id}: the property list is empty"
+        for run in runs
+        if not run.properties and run.kind != "WIT"
+    ]
     listed = {run.cfg for run in runs}
     problems += [
         f"{cfg.relative_to(folder).as_posix()} is in no run"
