@@ -202,7 +202,7 @@ class Outputs:
 
 
 def power_up(params: Params) -> State:
-    """The state after power-up: no key seen."""
+    """The state after power-up: no key seen. EKS-8-1"""
     return State(params, Step.EMPTY, NO_KEY, 0)
 
 

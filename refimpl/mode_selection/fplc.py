@@ -169,8 +169,9 @@ def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
 def outputs(s: State) -> Outputs:
     """The row of outputs that belongs to a state.
 
-    MW01 carries the authorization level from the end of step 12 until removal or error (EKS-2-12, EKS-8-6);
-    zero is the word of no key (EKS-KS-8).
+    MW01 carries the authorization level from the end of step 12 until the switchover, removal or error
+    (EKS-2-12, EKS-8-6); zero is the word of no key (EKS-KS-8). It is zero in Settle too, so that the panel closes
+    and a quick next touch cannot overtake the return to zero (E-59).
     MW05 carries the echo from step 20 until the switchover (Figure 6, from the latched selection), and is
     zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). The mode outputs are one of five, none before
     the first switchover; removal does not touch them (EKS-2-29, EKS-8-8). ERROR is the one error mode (E-22).
@@ -181,7 +182,7 @@ def outputs(s: State) -> Outputs:
     if c == AWAIT_ACKNOWLEDGMENT or c == CHECK_ACKNOWLEDGMENT or c == MATCH or c == SWITCH:
         MW01 = encode(RE, s.authority)
         MW05 = echo(encode(SE, s.selection))
-    elif c == AWAIT_SELECTION or c == CHECK_SELECTION or c == ECHO_SELECTION or c == SETTLE:
+    elif c == AWAIT_SELECTION or c == CHECK_SELECTION or c == ECHO_SELECTION:
         MW01 = encode(RE, s.authority)
     m = s.mode
     return Outputs(MW01, MW05, m == 0, m == 1, m == 2, m == 3, m == 4, c == ERROR)

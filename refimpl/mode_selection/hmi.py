@@ -93,7 +93,7 @@ NO_FIELDS = (False, False, False, False, False)
 
 
 def power_up(params: Params) -> State:
-    """The state after power-up: access to the screen is inhibited, nothing is selected."""
+    """The state after power-up: access to the screen is inhibited, nothing is selected. EKS-8-8"""
     return State(params, Step.INHIBITED, NONE, NONE)
 
 
@@ -355,7 +355,7 @@ def _check_field(name: str, field: Rectangle, screen: Rectangle) -> None:
 
 
 def layout_record(layout: Layout) -> dict[str, list[int] | list[list[int]]]:
-    """The layout as the panel tells it in the adapter protocol: x, y, width, height of each field."""
+    """The layout as the panel tells it in the adapter protocol: x, y, width, height of each field. EKS-2-22"""
     return {
         "screen": _sides(layout.screen),
         "selection": [_sides(field) for field in layout.selection],

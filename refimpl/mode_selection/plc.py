@@ -74,7 +74,7 @@ class Outputs:
 
 
 def power_up(params: Params) -> State:
-    """The state after power-up: all words zero, the first copy is ReadAuthorization."""
+    """The state after power-up: all words zero, the first copy is ReadAuthorization. EKS-KS-8, EKS-GP-3"""
     return State(params, Step.COPY_READ_AUTHORIZATION, ZERO, ZERO, ZERO, ZERO)
 
 

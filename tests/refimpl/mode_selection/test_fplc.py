@@ -310,7 +310,7 @@ def test_step_27_lets_any_acknowledgment_word_pass_and_no_other() -> None:
 @pytest.mark.parametrize("step", list(Step))
 def test_outputs_are_the_row_of_the_state(step: Step) -> None:
     row = fplc.outputs(at(step, level=3, selection=2, mode=1))
-    assert (RE[3] if step in IN_FLOW[1:] else 0) == row.MW01
+    assert (RE[3] if step in IN_FLOW[1:8] else 0) == row.MW01
     assert (CH[2] if step in WITH_SELECTION[1:] else 0) == row.MW05
     assert (row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4) == (False, True, False, False, False)
     assert (step == Step.ERROR) == row.ERROR

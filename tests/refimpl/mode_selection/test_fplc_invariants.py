@@ -130,7 +130,6 @@ def test_words_are_zero_outside_their_states(scans: list[Inputs]) -> None:
             Step.CHECK_ACKNOWLEDGMENT,
             Step.MATCH,
             Step.SWITCH,
-            Step.SETTLE,
         )
         echoing = after.state in (
             Step.AWAIT_ACKNOWLEDGMENT,
