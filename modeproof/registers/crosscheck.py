@@ -143,6 +143,7 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
     known = _evidence_names(document, sources)
     clauses = {clause.id for clause in document.clauses}
     switches = _switches(sources)
+    negatives = {run.id for run in document.runs if run.kind == "NEG"}
     for one in document.findings:
         for name in one.evidence:
             if name not in known and name not in clauses:
@@ -153,6 +154,9 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
         if one.switch and one.switch not in switches:
             yield Problem(file, one.id, _unknown_switch(one.switch, switches))
+        negative = negatives.intersection(one.evidence)
+        if one.switch and not negative and not one.evidence_open.strip():
+            yield Problem(file, one.id, "has a switch, but its evidence names no run of kind NEG")
 
 
 def _switches(sources: Sources) -> list[str]:
@@ -187,12 +191,17 @@ def _assumptions(document: Document) -> Iterator[Problem]:
 def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("runs")
     known = [one.tla for one in document.properties]
+    shown = {name for one in document.findings for name in one.evidence}
+    shown |= {name for one in document.assumptions for name in one.breaks}
+    yield from _steps_never_seen(document)
     for run in document.runs:
         modules = closure(sources.modules, run.module)
         if not modules:
             yield Problem(
                 file, run.id, f"module {run.module} does not exist; {suggestion(run.module, sources.modules)}"
             )
+        if run.kind == "NEG" and run.id not in shown:
+            yield Problem(file, run.id, "no finding and no assumption names this negative run")
         if not run.id.startswith(f"{run.kind}_"):
             yield Problem(file, run.id, f"the id of a run of kind {run.kind} begins with {run.kind}_")
         for name in (*run.properties, *([run.property] if run.property else [])):
@@ -206,6 +215,17 @@ def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
         if run.graph is not None:
             for text in _graph_faults(document, run):
                 yield Problem(file, run.id, text)
+
+
+def _steps_never_seen(document: Document) -> Iterator[Problem]:
+    """Steps of which no run shows that they fire: neither a witness nor a printed graph of the device."""
+    witnesses = {name for run in document.runs for name in run.witnesses}
+    printed = {run.graph.device for run in document.runs if run.graph is not None}
+    for device in document.interface.devices.values():
+        missing = [step for step in device.steps if step not in witnesses]
+        if missing and device.id not in printed:
+            text = f"no run shows that these steps of {device.id} fire: {', '.join(missing)}"
+            yield Problem(document.source("runs"), "", text)
 
 
 def _graph_faults(document: Document, run: Run) -> Iterator[str]:

@@ -131,6 +131,12 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "pass = { LCK = 'door_closed' }\nparams = {",
             "unknown output 'LCK'",
         ),
+        (
+            SPEC + "findings.toml",
+            '"NEG_Latch", ',
+            "",
+            "E-01: has a switch, but its evidence names no run of kind",
+        ),
         # names
         (LATCH, "\nCloseLatch(i)", "\nShutLatch(i)", "CloseLatch: declared as a step, but not defined"),
         (SPEC + "interface.toml", '"Shut"]', '"Shut", "Ajar"]', "Ajar: declared as a state, but the string"),
@@ -182,6 +188,9 @@ def test_a_clause_of_two_devices_needs_both(tree: Any) -> None:
     tree.write(
         "refimpl/door/bell.py", (tree.root / CODE).read_text(encoding="utf-8").replace("DR-1-1", "E-01")
     )
+    runs = (tree.root / "spec/door/runs.toml").read_text(encoding="utf-8")
+    opened = runs[runs.index('[[run]]\nid = "OPEN_Latch"') :]
+    tree.write("spec/door/runs.toml", runs + opened.replace("Latch", "Bell").replace("latch", "bell"))
     assert problems(tree) == []
     tree.edit("spec/door/clauses.toml", '["latch"]', '["latch", "bell"]')
     assert problems(tree) == [
@@ -199,6 +208,22 @@ def test_a_property_clause_without_property_or_theorem_is_an_orphan(tree: Any) -
 def test_a_device_that_is_not_published_or_not_printed_has_no_vectors(tree: Any) -> None:
     tree.edit("spec/door/interface.toml", "published = true", "published = false")
     assert all(row.vector == () for row in judge(load_document(tree.root, "door")).rows)
+
+
+def test_a_negative_run_that_nothing_names_shows_nothing(tree: Any) -> None:
+    tree.edit("spec/door/findings.toml", '"NEG_Latch", ', "")
+    tree.edit("spec/door/findings.toml", 'switch = "LITERAL"', 'switch = ""')
+    tree.edit("spec/door/assumptions.toml", '["NEG_Latch"]', '[]\nbreaks_open = "later"')
+    assert problems(tree) == [
+        "spec/door/runs.toml: NEG_Latch: no finding and no assumption names this negative run"
+    ]
+
+
+def test_a_step_that_no_run_shows_to_fire_is_found(tree: Any) -> None:
+    text = (tree.root / "spec/door/runs.toml").read_text(encoding="utf-8")
+    tree.write("spec/door/runs.toml", text[: text.index('[[run]]\nid = "OPEN_Latch"')])
+    tree.edit("spec/door/runs.toml", '["open_seen"]', '["open_seen", "OpenLatch"]')
+    assert problems(tree) == ["spec/door/runs.toml: no run shows that these steps of latch fire: CloseLatch"]
 
 
 def test_ids_of_theorems_that_need_code_to_run_are_refused(tree: Any) -> None:
