@@ -39,7 +39,11 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
     try:
         found = _compare(place, run, name, progress)
         verdict = found.verdict
-        strength = f"{found.states:,} states, {found.transitions:,} transitions, both ways, in process"
+        strength = (
+            f"{found.states:,} states, {found.replayed:,} of {found.transitions:,} transitions, "
+            f"{sum(done == total for done, total in found.covered.values())} of {len(found.covered)} steps "
+            "in full, both ways, in process"
+        )
         result |= asdict(found)
         reason = "" if found.equal else found.summary()
         if found.differences:

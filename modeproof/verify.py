@@ -73,6 +73,8 @@ def check_registers(place: Path, document: str, lane: str, progress: Progress) -
 def check_lane(place: Path, document: str, lane: str, progress: Progress) -> Records:
     """Every TLC run of the lane. Raises Unjudged when the lane has none, or Java or the jar is missing."""
     runs = select(place, lane=lane, document=document)
+    declared = {run.id for run in load_runs(place, document)}
+    evidence.discard_undeclared(place, document, "tlc", declared)
     tools = find_toolchain()
     done = check_all(place, runs, tools, progress, lambda checked: progress.say(line_of(checked)))
     missing = {run.id for run in runs} - {one.run.id for one in done}

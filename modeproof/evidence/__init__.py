@@ -1,11 +1,12 @@
 """Evidence: one JSON file a run, written atomically, checked by one schema on writing and on reading."""
 
-from modeproof.evidence.files import discard, evidence_path, read, read_document, write
+from modeproof.evidence.files import discard, discard_undeclared, evidence_path, read, read_document, write
 from modeproof.evidence.record import SCHEMA_VERSION, hashes, machine, make, tool
 
 __all__ = [
     "SCHEMA_VERSION",
     "discard",
+    "discard_undeclared",
     "evidence_path",
     "hashes",
     "machine",

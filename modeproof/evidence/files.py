@@ -9,7 +9,7 @@ import contextlib
 import json
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -83,6 +83,18 @@ def discard(place: Path, document: str, id: str) -> None:
         evidence_path(place, document, id).unlink(missing_ok=True)
     except OSError as error:
         raise Unjudged(f"evidence {document}/{id} cannot be removed: {error.strerror or error}") from None
+
+
+def discard_undeclared(place: Path, document: str, kind: str, declared: Set[str]) -> None:
+    """Remove the evidence of one kind whose runs are declared no more; what cannot be read goes too."""
+    for path in sorted((build(place) / "evidence" / document).glob("*.json")):
+        try:
+            if read(path)["kind"] != kind:
+                continue
+        except Unjudged:
+            pass
+        if path.stem not in declared:
+            discard(place, document, path.stem)
 
 
 def read(path: Path) -> dict[str, Any]:

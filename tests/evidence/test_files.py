@@ -139,6 +139,16 @@ def test_discarded_evidence_is_gone(tmp_path: Path) -> None:
     assert not path.exists()
 
 
+def test_evidence_of_runs_that_are_declared_no_more_is_removed(tmp_path: Path) -> None:
+    kept = evidence.write(tmp_path, record())
+    stale = evidence.write(tmp_path, record(id="MC_gone"))
+    proof = evidence.write(tmp_path, record(id="theorem", kind="proof"))
+    broken = stale.with_name("broken.json")
+    broken.write_text("{")
+    evidence.discard_undeclared(tmp_path, "toy", "tlc", {"MC_toy"})
+    assert [path.exists() for path in (kept, stale, proof, broken)] == [True, False, True, False]
+
+
 def test_inputs_are_hashed_by_their_path_in_the_repository(tmp_path: Path) -> None:
     (tmp_path / "a b").write_bytes(b"")
     empty = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"

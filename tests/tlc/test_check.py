@@ -128,6 +128,13 @@ def test_a_shrunk_constant_changes_the_counts(tmp_path: Path) -> None:
     assert re.fullmatch(r"distinct states: \d+, pinned 16", judgement.reason)
 
 
+def test_an_emptied_environment_changes_the_counts(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_toy")
+    edit(root, "Next == Up \\/ Stay \\/ Down", "Next == Stay \\/ (Down /\\ FALSE)")
+    judgement = check(root)["MC_toy"].judgement
+    assert judgement.verdict == "HOLDS" and judgement.reason == "distinct states: 1, pinned 16"
+
+
 def test_a_model_that_tlc_refuses_is_unjudged_with_its_words(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_toy")
     edit(root, "TypeOK ==", "TypeOk ==")
