@@ -1,4 +1,7 @@
-"""The suite `tour`: walks from power-up that take every transition of the merged graph at least once.
+"""Walks from power-up through a merged graph.
+
+Suite `tour` takes every transition (state and column) at least once. Suite `brief` takes from every state every
+step to every next state once, with one column for each, and is much shorter.
 
 Greedy: while the current state has a transition that was not taken, take it (those that stay in the state come
 first); otherwise go a shortest way to the nearest state that has one, or start a new case when that is no longer
@@ -26,13 +29,32 @@ class Move:
     column: int
 
 
-def transition_tour(columns: Columns, initial: int) -> list[list[Move]]:
-    """Walks from `initial`, each one a case, that take every transition of every state that can be reached."""
-    return _Tour(columns, initial).walks()
+def every_transition(columns: Columns) -> list[list[int]]:
+    """For each state all columns: what the suite `tour` must take."""
+    return [list(range(len(row))) for row in columns.next_of]
+
+
+def every_step(columns: Columns) -> list[list[int]]:
+    """For each state one column for each step and next state: what the suite `brief` must take.
+
+    Where several columns do, states choose different ones.
+    """
+    wanted = []
+    for state, (steps, nexts) in enumerate(zip(columns.step_of, columns.next_of, strict=True)):
+        groups: dict[tuple[int, int], list[int]] = {}
+        for column, pair in enumerate(zip(steps, nexts, strict=True)):
+            groups.setdefault(pair, []).append(column)
+        wanted.append([group[state * 7 % len(group)] for group in groups.values()])
+    return wanted
+
+
+def walks(columns: Columns, initial: int, wanted: Sequence[Sequence[int]]) -> list[list[Move]]:
+    """Walks from `initial`, each one a case, that take the wanted columns of every state that can be reached."""
+    return _Tour(columns, initial, wanted).walks()
 
 
 class _Tour:
-    def __init__(self, columns: Columns, initial: int) -> None:
+    def __init__(self, columns: Columns, initial: int, wanted: Sequence[Sequence[int]]) -> None:
         self.next_of = columns.next_of
         self.initial = initial
         self.by_next: list[dict[int, list[int]]] = []
@@ -43,7 +65,9 @@ class _Tour:
                 ways.setdefault(after, []).append(column)
             self.by_next.append(ways)
             # popped from the end: loops first, then the others in the order of the columns
-            self.left.append(sorted(range(len(row)), key=lambda c, s=state, r=row: (r[c] == s, -c)))  # type: ignore[misc]
+            loops = [column for column in reversed(wanted[state]) if row[column] == state]
+            others = [column for column in reversed(wanted[state]) if row[column] != state]
+            self.left.append(others + loops)
         self.turn: dict[tuple[int, int], int] = {}
         self.trees: dict[int, tuple[array[int], list[int]]] = {}
         self.near: dict[int, int] = {}
@@ -111,14 +135,16 @@ class _Tour:
         return self.trees[root]
 
 
-def covers_all(columns: Columns, initial: int, walks: Sequence[Sequence[Move]]) -> bool:
-    """Whether the walks begin in `initial`, hang together, and take every transition of the merged graph."""
-    taken = set()
-    for walk in walks:
+def covers(
+    columns: Columns, initial: int, wanted: Sequence[Sequence[int]], cases: Sequence[Sequence[Move]]
+) -> bool:
+    """Whether the cases begin in `initial`, hang together, and take all that is wanted."""
+    left = {(state, column) for state, row in enumerate(wanted) for column in row}
+    for case in cases:
         state = initial
-        for move in walk:
+        for move in case:
             if move.state != state:
                 return False
-            taken.add((move.state, move.column))
-            state = columns.next_of[move.state][move.column]
-    return len(taken) == columns.transitions
+            left.discard((state, move.column))
+            state = columns.next_of[state][move.column]
+    return not left

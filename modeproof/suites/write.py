@@ -18,7 +18,21 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import KIND, VERSION, Scan, case_id
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites.tour import Move, covers_all, transition_tour
+from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
+
+SUITES = {
+    "tour": (
+        every_transition,
+        "every transition of the specification's graph with merged input columns is taken",
+        "the program treats all inputs of a column alike; members take turns, not all are tried",
+    ),
+    "brief": (
+        every_step,
+        "from every state of the specification every step to every next state is taken",
+        "the program treats all inputs alike that lead from one state by one step to one state",
+    ),
+}
+"""For each suite: what it wants, what it guarantees, and under which hypothesis."""
 
 Citations = Callable[[str], tuple[tuple[str, ...], tuple[str, ...]]]
 """From the name of a step to the clauses and the findings that it cites."""
@@ -50,22 +64,25 @@ def no_citations(step: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
     return (), ()
 
 
-def write_tour(
+def write_suite(
     path: Path,
+    suite: str,
     devices: Sequence[DeviceGraph],
     *,
     citations: Citations = no_citations,
     sources: Mapping[str, str] | None = None,
     generator: str = "modeproof",
 ) -> Stats:
-    """Build the suite `tour` from all graphs of one target and write it as a whole or not at all.
+    """Build a suite of `SUITES` from all graphs of one target and write it as a whole or not at all.
 
     `sources` are hashes of what the graphs were made from, by relative path. Raises Unjudged when the graphs
-    belong to several targets, when the walks do not cover every transition, or when the file cannot be written.
+    belong to several targets, when the walks do not cover what they must, or when the file cannot be written.
     """
+    if suite not in SUITES:
+        raise Unjudged(f"no suite {suite!r}; there are: {', '.join(SUITES)}")
     if not devices or len({(one.document, one.device.id) for one in devices}) != 1:
         raise Unjudged("a suite is built from the graphs of one target")
-    writer = _Writer(devices, citations)
+    writer = _Writer(suite, devices, citations)
     for number, device in enumerate(devices):
         writer.add(number, device)
     if not writer.cases:
@@ -76,7 +93,8 @@ def write_tour(
 
 
 class _Writer:
-    def __init__(self, devices: Sequence[DeviceGraph], citations: Citations) -> None:
+    def __init__(self, suite: str, devices: Sequence[DeviceGraph], citations: Citations) -> None:
+        self.suite = suite
         self.device = devices[0]
         self.citations = citations
         self.steps = {name: n for n, name in enumerate(self.device.device.steps)}
@@ -88,15 +106,17 @@ class _Writer:
     def add(self, number: int, device: DeviceGraph) -> None:
         """Walk through one graph."""
         columns = merge_columns(device)
-        walks = transition_tour(columns, device.graph.initial)
-        if not covers_all(columns, device.graph.initial, walks):
-            raise Unjudged(f"{device.name}: the tour does not cover every transition")
-        for row in columns.step_of:
-            self.transitions.update(device.graph.steps[step] for step in row)
+        wanted = SUITES[self.suite][0](columns)
+        cases = walks(columns, device.graph.initial, wanted)
+        if not covers(columns, device.graph.initial, wanted, cases):
+            raise Unjudged(f"{device.name}: the suite {self.suite} does not cover what it must")
+        for steps, row in zip(columns.step_of, wanted, strict=True):
+            self.transitions.update(device.graph.steps[steps[column]] for column in row)
         self.graphs.append(self._graph(device, columns))
         letters = _Letters(device, columns)
-        for walk in walks:
-            self._case(number, device, columns, letters, walk)
+        rows: dict[tuple[Any, ...], dict[str, Any]] = {}
+        for case in cases:
+            self._case(number, device, columns, letters, case, rows)
         self.states += len(columns.next_of)
         self.columns += len(columns.members)
         self.inputs += len(device.alphabet)
@@ -131,18 +151,26 @@ class _Writer:
         }
 
     def _case(
-        self, number: int, device: DeviceGraph, columns: Columns, letters: _Letters, walk: Sequence[Move]
+        self,
+        number: int,
+        device: DeviceGraph,
+        columns: Columns,
+        letters: _Letters,
+        walk: Sequence[Move],
+        known: dict[tuple[Any, ...], dict[str, Any]],
     ) -> None:
         scans, rows, cited = [], [], set()
         inputs: dict[str, Any] = {}
         outputs: dict[str, Any] = {}
         for move in walk:
-            values = letters.next(move.column)
+            values, now_in = letters.next(move.column)
             to = columns.next_of[move.state][move.column]
             name = device.graph.steps[columns.step_of[move.state][move.column]]
             cited.add(name)
-            now_in = device.wire_inputs(values)
-            now_out = device.wire_outputs(device.expected(to, values))
+            key = (to, *(values[one] for one in device.passed.values()))
+            if key not in known:
+                known[key] = device.wire_outputs(device.expected(to, values))
+            now_out = known[key]
             scans.append(Scan(values["dt_ms"], now_in, now_out, self.steps[name], to, move.column))
             rows.append(
                 {
@@ -184,10 +212,10 @@ class _Writer:
             "target": device.id,
             "document": self.device.document,
             "protocol": 1,
-            "suite": "tour",
+            "suite": self.suite,
             "relation": "exact",
-            "guarantees": "every transition of the specification's graph with merged input columns is taken",
-            "hypothesis": "the program treats all inputs of a column alike; members take turns, not all are tried",
+            "guarantees": SUITES[self.suite][1],
+            "hypothesis": SUITES[self.suite][2],
             "generator": generator,
             "sources": dict(sorted(sources.items())),
             "cases": len(self.cases),
@@ -236,17 +264,22 @@ class _Letters:
         self._members = Members(device.classes, device.alphabet)
         self._turn = [0] * len(columns.members)
         self.used: set[int] = set()
+        self._wire: dict[int, dict[str, Any]] = {}
 
-    def next(self, column: int) -> Mapping[str, Any]:
+    def next(self, column: int) -> tuple[Mapping[str, Any], dict[str, Any]]:
+        """The values of the next member, in Python and in wire form."""
+        device = self._device
         members = self._columns.members[column]
         letter = members[self._turn[column] % len(members)]
         self._turn[column] += 1
-        if letter not in self.used:
-            self.used.add(letter)
-            return self._device.alphabet[letter]
-        if self._members.any_of(letter):
-            return self._members.another(letter)
-        return self._device.alphabet[letter]
+        values = device.alphabet[letter]
+        if letter in self.used and self._members.any_of(letter):
+            values = self._members.another(letter)
+            return values, device.wire_inputs(values)
+        if letter not in self._wire:
+            self._wire[letter] = device.wire_inputs(values)
+        self.used.add(letter)
+        return values, self._wire[letter]
 
 
 def _changed(before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,0 +1,109 @@
+"""Keeps vector files up to date: build/vectors/<document>/<target>/<suite>.jsonl."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from modeproof import evidence, kit
+from modeproof.errors import Unjudged
+from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.kit.vectors import Suite, open_suite
+from modeproof.places import build, documents
+from modeproof.registers.citations import citations, read_sources
+from modeproof.registers.load import load_document, load_interface
+from modeproof.registers.rows import Device
+from modeproof.suites.write import Citations, write_suite
+
+
+def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
+    """The document and the device of a target. Raises Unjudged when there is none, or more than one."""
+    known: list[str] = []
+    found = []
+    for name in documents(place):
+        if not (place / "spec" / name / "interface.toml").is_file():
+            continue
+        devices = load_interface(place, name).devices
+        known += devices
+        if target in devices and document in (None, name):
+            found.append((name, devices[target]))
+    if not found:
+        where = f" in {document}" if document else ""
+        raise Unjudged(f"no target {target!r}{where}; there are: {', '.join(known) or 'none'}")
+    if len(found) > 1:
+        raise Unjudged(f"{target} is in {' and '.join(name for name, _ in found)}; choose with --document")
+    return found[0]
+
+
+def ready_suite(
+    place: Path, document: str, target: str, suite: str, on_built: Callable[[str], None] = lambda line: None
+) -> Suite:
+    """Open a suite of a target, and build it before when it is missing or older than its sources.
+
+    `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when graphs are missing
+    or not complete.
+    """
+    path = build(place) / "vectors" / document / target / f"{suite}.jsonl"
+    runs = open_runs(place, document, target)
+    if not runs:
+        raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
+    sources = _sources(place, document, [graph_file(place, run) for run in runs])
+    if path.is_file():
+        try:
+            there = open_suite(path)
+            if there.header.get("sources") == sources:
+                return there
+        except KitUnjudged:
+            pass  # a leftover of another version is built anew
+    stats = write_suite(
+        path,
+        suite,
+        [load_device_graph(place, run) for run in runs],
+        citations=step_citations(place, document, target, on_built),
+        sources=sources,
+    )
+    on_built(f"{target} {suite}: {stats}")
+    return open_suite(path)
+
+
+def step_citations(
+    place: Path, document: str, target: str, on_trouble: Callable[[str], None] = lambda line: None
+) -> Citations:
+    """What the specification's step actions cite. Nothing, and a line that says so, without sound registers."""
+    try:
+        registers = load_document(place, document)
+        found = citations(registers, read_sources(registers))
+    except Unjudged as error:
+        on_trouble(f"{target}: no clauses are cited: {error}")
+        return lambda step: ((), ())
+    module = registers.interface.devices[target].module
+    table = {
+        one.name: (one.clauses, one.findings)
+        for one in found
+        if one.kind == "definition" and one.room == "spec"
+    }
+    return lambda step: table.get(f"{module}!{step}", ((), ()))
+
+
+def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
+    folder = place / "spec" / document
+    own = Path(__file__).resolve().parent
+    code = [*own.glob("*.py"), *(own.parent / "graph").glob("*.py"), Path(kit.__file__).parent / "vectors.py"]
+    for graph in graphs:
+        if not graph.is_file():
+            raise Unjudged(
+                f"no graph at {graph.relative_to(place).as_posix()}; `modeproof check {graph.stem}` makes it"
+            )
+    registers = [
+        folder / "interface.toml",
+        folder / "classes.toml",
+        folder / "runs.toml",
+        folder / "clauses.toml",
+    ]
+    paths = [*graphs, *(path for path in registers if path.is_file()), *folder.glob("*.tla")]
+    hashes = evidence.hashes(place, paths)
+    for path in code:  # by name: the package may be installed elsewhere
+        name = f"modeproof/{path.parent.name}/{path.name}"
+        hashes[name] = next(iter(evidence.hashes(path.parent, [path]).values()))
+    return dict(sorted(hashes.items()))

@@ -1,0 +1,197 @@
+"""The command `conform` with everything at hand: graphs, suites built when they are missing, built-in programs."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from modeproof import evidence
+from modeproof.errors import Unjudged
+from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.graph.equal import Comparison, Difference, compare
+from modeproof.graph.implementation import load_implementation
+from modeproof.kit import command as kit_command
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.kit.text import as_record, write_json
+from modeproof.kit.vectors import open_suite
+from modeproof.lock import only_one
+from modeproof.places import root
+from modeproof.progress import Progress
+from modeproof.suites.build import find_target, ready_suite
+from modeproof.tlc.runs import Run
+
+
+def add_parser(commands: Any) -> argparse.ArgumentParser:
+    """Add `conform` to the commands."""
+    return kit_command.add_parser(commands, run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run `conform`; the exit status is that of the verdict."""
+    try:
+        if args.builtin is not None:
+            return _builtin(args)
+        return _adapter(args)
+    except KitUnjudged as error:
+        raise Unjudged(str(error)) from None
+
+
+# ----------------------------------------------------------------------------------------------- adapter
+
+
+def _adapter(args: argparse.Namespace) -> int:
+    place = root()
+    document, device = find_target(place, args.target, args.document)
+    if not device.published:
+        raise Unjudged(f"{args.target} is no published target: nobody builds one; --builtin compares ours")
+    if args.vectors is not None:
+        suite = open_suite(args.vectors)
+        if suite.target != args.target:
+            raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")
+    else:
+        with only_one(place):
+            _make_graphs(place, open_runs(place, document, args.target), args.quiet)
+            suite = ready_suite(place, document, args.target, args.suite, _say)
+    started = time.time()
+    verdict = kit_command.judge(args, suite)
+    if args.case is None and args.vectors is None:
+        record = evidence.make(
+            kind="conformance",
+            id=f"adapter_{args.target}_{args.suite}",
+            document=document,
+            verdict=verdict.word,
+            expected="CONFORMS",
+            as_expected=verdict.status == 0,
+            strength=f"relation {verdict.relation}, suite {verdict.suite}: {verdict.scans:,} scans",
+            command=f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
+            started=started,
+            seconds=verdict.seconds,
+            inputs=evidence.hashes(place, [suite.path]),
+            result=as_record(verdict),
+            reason="" if verdict.status == 0 else verdict.reason or "the program differs",
+        )
+        evidence.write(place, record)
+    return verdict.status
+
+
+# ----------------------------------------------------------------------------------------------- builtin
+
+
+def _builtin(args: argparse.Namespace) -> int:
+    place = root()
+    document, device = find_target(place, args.target, args.document)
+    runs = open_runs(place, document, args.target)
+    if not runs:
+        raise Unjudged(f"{document}: no OPEN run prints a graph of {args.target}")
+    if args.case is not None or args.vectors is not None:
+        raise Unjudged("--case and --vectors belong to --adapter; --builtin replays every transition")
+    code = load_implementation(args.builtin, document, device.id)
+    progress = Progress(quiet=args.quiet)
+    found: list[tuple[Run, Comparison]] = []
+    with only_one(place):
+        _make_graphs(place, runs, args.quiet)
+        for one in runs:
+            found.append((one, _compare(place, one, code, args.builtin, progress)))
+    for one, result in found:
+        print(_text(one, result))
+    status = max(0 if result.equal else 1 for _, result in found)
+    if args.json is not None:
+        rows = [{"run": one.id, "verdict": result.verdict, **asdict(result)} for one, result in found]
+        write_json(args.json, {"command": "conform", "status": status, "builtin": args.builtin, "runs": rows})
+    return status
+
+
+def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress) -> Comparison:
+    name = f"{builtin}_{run.id}"
+    evidence.discard(place, run.document, name)
+    started = time.time()
+    progress.begin(name)
+    try:
+        graph = load_device_graph(place, run)
+        found = compare(
+            graph, code, lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions")
+        )
+    finally:
+        progress.end(name)
+    folders = [place / builtin, place / builtin / run.document]
+    paths = [path for folder in folders for path in sorted(folder.glob("*.py"))]
+    paths += [place / "spec" / run.document / "interface.toml", graph_file(place, run)]
+    record = evidence.make(
+        kind="conformance",
+        id=name,
+        document=run.document,
+        verdict=found.verdict,
+        expected="EQUAL",
+        as_expected=found.equal,
+        environment=run.environment,
+        strength=f"{found.states:,} states, {found.transitions:,} transitions, both ways, in process",
+        command=f"modeproof conform {graph.device.id} --builtin {builtin} --document {run.document}",
+        started=started,
+        seconds=time.time() - started,
+        inputs=evidence.hashes(place, paths),
+        result={
+            "run": run.id,
+            "device": graph.device.id,
+            "implementation": builtin,
+            **asdict(found),
+        },
+        reason="" if found.equal else found.summary(),
+    )
+    evidence.write(place, record)
+    return found
+
+
+def _text(run: Run, found: Comparison) -> str:
+    lines = [f"{run.name} and {found.implementation}"]
+    width = max(len(step) for step in found.covered)
+    for step, (have, total) in found.covered.items():
+        lines.append(f"  {step:<{width}} {have:>10,} / {total:,}")
+    for name, (used, members) in found.classes.items():
+        lines.append(f"  class {name}: {used} of {members} other members tried")
+    lines.append(
+        f"  {found.scans:,} scans, {found.class_scans:,} more with other members of classes; "
+        f"{found.implementation_states:,} states of the implementation"
+    )
+    for difference in found.differences[:1]:
+        lines += _shown(difference)
+    lines.append(found.summary())
+    return "\n".join(lines)
+
+
+def _shown(difference: Difference) -> list[str]:
+    lines = [f"  first difference: {difference}", "  shortest inputs from power-up:"]
+    before: Mapping[str, Any] = {}
+    for n, scan in enumerate(difference.scans, 1):
+        changed = {name: value for name, value in scan.items() if n == 1 or before[name] != value}
+        lines.append(f"    scan {n}: " + ", ".join(f"{name}={value}" for name, value in changed.items()))
+        before = scan
+    return lines
+
+
+# ------------------------------------------------------------------------------------------------ graphs
+
+
+def _make_graphs(place: Path, runs: tuple[Run, ...], quiet: bool) -> None:
+    """Let TLC make the graphs that are missing. Raises Unjudged when one of them does not come as declared."""
+    missing = [run for run in runs if not graph_file(place, run).is_file()]
+    if not missing:
+        return
+    from modeproof.tlc.check import check_all
+    from modeproof.tlc.toolchain import find_toolchain
+
+    _say(f"TLC makes {', '.join(run.id for run in missing)} first")
+    done = check_all(place, missing, find_toolchain(), Progress(quiet=quiet))
+    for run, checked in zip(missing, done, strict=True):
+        if not graph_file(place, run).is_file():
+            raise Unjudged(f"{run.name}: TLC left no graph: {checked.record['reason']}")
+        if checked.status != 0:
+            _say(f"note: {run.name} is not as expected: {checked.record['reason']}")
+
+
+def _say(line: str) -> None:
+    print(line, file=sys.stderr, flush=True)
