@@ -17,8 +17,10 @@ COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
 """The columns of the text table; JSON and CSV have all fields."""
 
 BLOCK = re.compile(
-    r"(<!-- begin properties(?: ([a-z][a-z0-9_]*))? -->\n)(.*?)(<!-- end(?: properties)? -->)", re.DOTALL
+    r"(<!-- begin (properties|picture)(?: ([a-z][a-z0-9_]*))? -->\n)(.*?)(<!-- end(?: (?:properties|picture))? -->)",
+    re.DOTALL,
 )
+BEGIN = re.compile(r"<!-- begin (?:properties|picture)")
 
 
 def matrix_text(rows: Sequence[Row]) -> str:
@@ -71,15 +73,39 @@ def render_properties_table(document: Document) -> str:
     return "\n".join(lines) + "\n"
 
 
-def render_blocks(text: str, documents: Sequence[Document]) -> str:
-    """The page with each block `<!-- begin properties [DOCUMENT] --> .. <!-- end -->` rendered anew.
+def render_picture(document: Document) -> str:
+    """Devices and the signals between them as a Mermaid chart; a signal flows to where an input has its name.
 
-    Without a name the block holds the tables of all documents.
+    What no device sends comes from the user and the machine, and what no device reads goes there.
+    """
+    devices = document.interface.devices
+    flows: dict[tuple[str, str], list[str]] = {}
+    for one in devices.values():
+        for name in one.outputs:
+            readers = [other.id for other in devices.values() if name in other.inputs]
+            for reader in readers or ["outside"]:
+                flows.setdefault((one.id, reader), []).append(name)
+        sent = {name for other in devices.values() for name in other.outputs}
+        for name in (name for name in one.inputs if name not in sent):
+            flows.setdefault(("outside", one.id), []).append(name)
+    lines = ["```mermaid", "flowchart LR", '    outside(["user and machine"])']
+    lines += [f'    {one.id}["{one.title.replace(": ", "<br>", 1)}"]' for one in devices.values()]
+    lines += [f'    {a} -- "{"<br>".join(names)}" --> {b}' for (a, b), names in flows.items()]
+    return "\n".join([*lines, "```"]) + "\n"
+
+
+RENDERERS = {"properties": render_properties_table, "picture": render_picture}
+
+
+def render_blocks(text: str, documents: Sequence[Document]) -> str:
+    """The page with each block `<!-- begin properties|picture [DOCUMENT] --> .. <!-- end -->` rendered anew.
+
+    Without a name the block holds those of all documents.
     """
 
     def block(match: re.Match[str]) -> str:
-        chosen = [one for one in documents if match.group(2) in (None, one.name)]
-        return match.group(1) + "\n".join(map(render_properties_table, chosen)) + match.group(4)
+        chosen = [one for one in documents if match.group(3) in (None, one.name)]
+        return match.group(1) + "\n".join(map(RENDERERS[match.group(2)], chosen)) + match.group(5)
 
     return BLOCK.sub(block, text)
 
@@ -94,16 +120,14 @@ def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
     problems = []
     for path in pages(root):
         text = read_text(root, path)
-        if text.count("<!-- begin properties") != len(BLOCK.findall(text)):
-            problems.append(
-                Problem(shown(root, path), "", "a block `begin properties` has no end, or is malformed")
-            )
+        if len(BEGIN.findall(text)) != len(BLOCK.findall(text)):
+            problems.append(Problem(shown(root, path), "", "a rendered block has no end, or is malformed"))
         elif render_blocks(text, documents) != text:
             problems.append(
                 Problem(
                     shown(root, path),
                     "",
-                    "a table of properties has drifted; run modeproof registers --render",
+                    "a rendered table or picture has drifted; run modeproof registers --render",
                 )
             )
     return problems

@@ -86,5 +86,17 @@ def test_a_block_without_end_is_found(tree: Any) -> None:
     tree.write("README.md", "<!-- begin properties -->\n")
     problems = check_pages(tree.root, [load_document(tree.root, "door")])
     assert [str(problem) for problem in problems] == [
-        "README.md: a block `begin properties` has no end, or is malformed"
+        "README.md: a rendered block has no end, or is malformed"
     ]
+
+
+def test_a_picture_that_lost_a_signal_is_found_and_drawn_anew(tree: Any, registers_command: Command) -> None:
+    tree.write("README.md", "<!-- begin picture door -->\n<!-- end picture -->\n")
+    assert registers_command(tree.root) == 1
+    assert registers_command(tree.root, "--render") == 0
+    text = (tree.root / "README.md").read_text(encoding="utf-8")
+    latch = load_document(tree.root, "door").interface.devices["latch"]
+    assert text.startswith("<!-- begin picture door -->\n```mermaid\nflowchart LR\n")
+    assert all(name in text for name in [*latch.inputs, *latch.outputs])
+    tree.write("README.md", text.replace(next(iter(latch.inputs)), "lost"))
+    assert registers_command(tree.root) == 1
