@@ -17,7 +17,8 @@ COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
 """The columns of the text table; JSON and CSV have all fields."""
 
 BLOCK = re.compile(
-    r"(<!-- begin (properties|picture)(?: ([a-z][a-z0-9_]*))? -->\n)(.*?)(<!-- end(?: (?:properties|picture))? -->)",
+    r"(<!-- begin (properties|picture)(?: ([a-z][a-z0-9_]*))? -->\n)"
+    r"(.*?)(<!-- end(?: (?:properties|picture))? -->)",
     re.DOTALL,
 )
 BEGIN = re.compile(r"<!-- begin (?:properties|picture)")
