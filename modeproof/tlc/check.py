@@ -23,7 +23,7 @@ from modeproof.tlc.schedule import Job, cores, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
 _STATES_A_SECOND = {"LIVE": 8_000, "OPEN": 50_000}
-"""Generated states a second, roughly, where it is far from the usual 200,000; only the order depends on it."""
+"""Generated states a second where it is far from the usual 200,000; only the order depends on it."""
 
 
 @dataclass(frozen=True)
