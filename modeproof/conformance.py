@@ -1,7 +1,12 @@
-"""The stage of `verify` that compares each device graph with the reference implementation, both ways."""
+"""The stage of `verify` for conformance: each device graph against the reference implementation.
+
+In process every transition is compared, both ways. Over the adapter protocol each published target runs
+through a suite of the lane, as a foreign program would.
+"""
 
 from __future__ import annotations
 
+import sys
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -13,10 +18,15 @@ from modeproof.progress import Progress
 from modeproof.tlc.runs import Run, load_runs
 
 REFERENCE = "refimpl"
+ADAPTER = "examples/adapters/refimpl_adapter.py"
+SUITES = {"smoke": "brief", "full": "tour", "exhaustive": "tour"}
+"""The suite that runs over the adapter protocol, by lane."""
+ANSWER_SECONDS = 30.0
 
 
 def compare_reference(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
-    """One piece of evidence for each OPEN run of the lane: EQUAL or DIFFERS, with what was covered.
+    """Evidence for each OPEN run of the lane, and for each published target all of whose graphs are in the
+    lane.
 
     A graph that is missing or incomplete, or an implementation that cannot be loaded, is UNJUDGED. Raises
     Unjudged when the lane has no graph at all.
@@ -24,8 +34,10 @@ def compare_reference(place: Path, document: str, lane: str, progress: Progress)
     runs = [run for run in load_runs(place, document) if run.graph is not None and lane in run.lanes]
     if not runs:
         raise Unjudged(f"{document}: the lane {lane} has no OPEN run, so nothing is compared")
-    progress.expect(len(runs))
-    return [_one(place, run, lane, progress) for run in runs]
+    targets = _targets(place, document, lane)
+    progress.expect(len(runs) + len(targets))
+    records = [_one(place, run, lane, progress) for run in runs]
+    return records + [_over_protocol(place, document, target, SUITES[lane], progress) for target in targets]
 
 
 def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]:
@@ -69,11 +81,14 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
         result=result,
         reason=reason,
     )
+    return _finish(place, record, progress)
+
+
+def _finish(place: Path, record: dict[str, Any], progress: Progress) -> dict[str, Any]:
     evidence.write(place, record)
-    progress.say(
-        f"{'ok ' if good else 'NOT'} {run.document}/{name}: {verdict}; {strength}; {record['seconds']:.1f} s"
-        + (f"; {reason}" if reason else "")
-    )
+    line = f"{record['document']}/{record['id']}: {record['verdict']}; {record['strength']}"
+    reason = f"; {record['reason']}" if record["reason"] else ""
+    progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")
     return record
 
 
@@ -98,3 +113,77 @@ def _inputs(place: Path, run: Run) -> dict[str, str]:
     paths.append(place / "spec" / run.document / "interface.toml")
     graph = graph_file(place, run)
     return evidence.hashes(place, [path for path in [*paths, graph] if path.is_file()])
+
+
+def _targets(place: Path, document: str, lane: str) -> list[str]:
+    """Published devices whose graphs are all made in this lane."""
+    from modeproof.registers import load_interface
+
+    runs = [run for run in load_runs(place, document) if run.graph is not None]
+    return [
+        name
+        for name, device in load_interface(place, document).devices.items()
+        if device.published
+        and (own := [run for run in runs if run.graph is not None and run.graph.device == name])
+        and all(lane in run.lanes for run in own)
+    ]
+
+
+def _over_protocol(
+    place: Path, document: str, target: str, suite_name: str, progress: Progress
+) -> dict[str, Any]:
+    from modeproof.kit.adapter import Adapter
+    from modeproof.kit.command import quoted
+    from modeproof.kit.errors import Unjudged as KitUnjudged
+    from modeproof.kit.judge import run_suite
+    from modeproof.kit.text import as_record
+    from modeproof.suites.build import ready_suite
+
+    name = f"adapter_{target}_{suite_name}"
+    evidence.discard(place, document, name)
+    started = time.time()
+    script = place / ADAPTER
+    adapter = quoted(f"python {ADAPTER} {target}")
+    verdict, reason, strength = "UNJUDGED", "", f"suite {suite_name} over the adapter protocol"
+    inputs: dict[str, str] = {}
+    result: dict[str, Any] = {"device": target, "implementation": REFERENCE}
+    progress.begin(name)
+    try:
+        inputs = evidence.hashes(place, [script, *sorted((place / REFERENCE / document).glob("*.py"))])
+        suite = ready_suite(place, document, target, suite_name)
+        inputs |= evidence.hashes(place, [suite.path])
+        found = run_suite(
+            suite,
+            lambda: Adapter([sys.executable, str(script), target], ANSWER_SECONDS),
+            on_progress=lambda done, total: progress.update(name, f"{done:,} of {total:,} scans"),
+        )
+        verdict, reason = found.word, found.reason
+        done, total = (sum(counts) for counts in zip(*found.covered.values(), strict=True))
+        strength = (
+            f"relation {found.relation}, suite {found.suite} over the adapter protocol: "
+            f"{found.scans:,} scans, {done:,} of {total:,} merged transitions"
+        )
+        result |= as_record(found)
+        if found.word == "DIFFERS" and not reason:
+            reason = f"the program differs: {found.difference}"
+    except (Unjudged, KitUnjudged) as error:
+        reason = str(error)
+    finally:
+        progress.end(name)
+    good = verdict == "CONFORMS"
+    record = evidence.make(
+        kind="conformance",
+        id=name,
+        document=document,
+        verdict=verdict,
+        expected="CONFORMS",
+        as_expected=good,
+        strength=strength,
+        command=f"modeproof conform {target} --adapter {adapter} --suite {suite_name}",
+        started=started,
+        seconds=time.time() - started,
+        inputs=inputs,
+        result=result,
+        reason="" if good else reason or "the program could not be judged",
+    )
+    return _finish(place, record, progress)

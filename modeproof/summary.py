@@ -124,7 +124,11 @@ def counted(label: str, records: Sequence[Record], words: str) -> str:
 def render(document: str, lines: Sequence[Line], records: Sequence[Record], width: int | None = None) -> str:
     """The summary of one document."""
     columns = width if width is not None else min(160, shutil.get_terminal_size((120, 40)).columns)
-    out = [f"== {document}", *table(lines, columns)]
+    aside = [line for line in lines if line.verdict == ASIDE]
+    out = [f"== {document}", *table([line for line in lines if line.verdict != ASIDE], columns)]
+    if aside:
+        names = ", ".join(f"{line.property} ({line.environment})" for line in aside)
+        out.append(_fit(f"{len(aside)} more {ASIDE}: {names}", columns))
     tlc = [r for r in records if r["kind"] == "tlc"]
     for kind, label, words in (
         ("NEG", "negatives", "VIOLATED, as expected, by the named property"),

@@ -44,6 +44,7 @@ def test_a_property_that_no_run_checks_is_unjudged() -> None:
 def test_a_property_that_another_lane_checks_is_named_and_not_counted() -> None:
     (line,) = property_lines([SAFE], [], DECLARED)
     assert (line.verdict, line.status) == (ASIDE, 0)
+    assert render("toy", [line], [], width=100) == "== toy\n1 more not in this lane: Safety (honest)"
 
 
 def test_the_weakest_of_several_runs_counts() -> None:
