@@ -54,8 +54,8 @@ def load_classes(
 ) -> tuple[InputClass, ...]:
     """The classes of one device; `alphabet` holds the inputs in Python form.
 
-    Raises Unjudged with file and row for a row that is not of one of the forms above, that names an input which
-    does not exist, or whose representative does not occur in the alphabet.
+    Raises Unjudged with file and row for a row that is not of one of the forms above, that names an input
+    which does not exist, or whose representative does not occur in the alphabet.
     """
     path = place / "spec" / document / "classes.toml"
     if not path.is_file():
@@ -147,10 +147,3 @@ class Members:
             values.update(members[self._next[n] % len(members)])
             self._next[n] += 1
         return values
-
-    def used(self) -> dict[str, tuple[int, int]]:
-        """For each class how many of its members were handed out, and how many there are."""
-        return {
-            one.name: (min(self._next[n], len(one.members)), len(one.members))
-            for n, one in enumerate(self._classes)
-        }

@@ -25,9 +25,9 @@ TIME = "dt"
 class DeviceGraph:
     """A graph whose values are in Python form.
 
-    `alphabet` holds for each input of the graph the values of all inputs and `dt_ms`; `rows` for each state the
-    outputs that depend on the state alone; `passed` names the output that repeats an input of the same scan;
-    `params` are wire values, as the run declares them.
+    `alphabet` holds for each input of the graph the values of all inputs and `dt_ms`; `rows` for each state
+    the outputs that depend on the state alone; `passed` names the output that repeats an input of the same
+    scan; `params` are wire values, as the run declares them.
     """
 
     document: str
@@ -88,7 +88,8 @@ def load_device_graph(place: Path, run: Run) -> DeviceGraph:
     path = graph_file(place, run)
     if not path.is_file():
         raise Unjudged(
-            f"{run.name}: no graph at {path.relative_to(place).as_posix()}; `modeproof check {run.id}` makes it"
+            f"{run.name}: no graph at {path.relative_to(place).as_posix()}; "
+            f"`modeproof check {run.id}` makes it"
         )
     interface = load_interface(place, run.document)
     device = interface.devices.get(run.graph.device)

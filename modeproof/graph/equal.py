@@ -1,23 +1,22 @@
 """Compares a graph with an implementation in this process, both ways.
 
-Forwards: from power-up, every transition of the graph is replayed on the implementation, and its outputs must be
-those of the graph. Backwards: every state of the implementation that is found this way meets every input, so a
-transition that the graph lacks would be seen. States are paired while going along; the two are EQUAL when every
-transition was replayed without a difference and the pairs are one to one. The pairs are visited breadth first,
-so the first difference comes with a shortest sequence of inputs that shows it.
+Forwards: from power-up, every transition of the graph is replayed on the implementation, and its outputs must
+be those of the graph. Backwards: every state of the implementation that is found this way meets every input,
+so a transition that the graph lacks would be seen. States are paired while going along; the two are EQUAL
+when every transition was replayed without a difference and the pairs are one to one. The pairs are visited
+breadth first, so the first difference comes with a shortest sequence of inputs that shows it.
 
-Each input that stands for a class (see `classes`) is also tried with another member of the class; which one
-changes from scan to scan. It must do what its representative does.
+An input may stand for a class (see `classes`). In every state, for every step and next state that such inputs
+lead to, all members of the class are tried in place of the representative, and must do what it does.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from modeproof.errors import Unjudged
-from modeproof.graph.classes import Members
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.implementation import Implementation
 
@@ -30,8 +29,8 @@ DIFFERENCES_SHOWN = 20
 class Difference:
     """One transition that differs, with the shortest inputs that lead to it; values in wire form.
 
-    `scans` are whole inputs with `dt_ms`, the last one being the scan that shows it. `expected` and `got` hold
-    only what differs.
+    `scans` are whole inputs with `dt_ms`, the last one being the scan that shows it. `expected` and `got`
+    hold only what differs.
     """
 
     kind: str
@@ -52,7 +51,7 @@ class Comparison:
     """What a comparison found.
 
     `covered` counts for each step the transitions of the graph that were replayed, and how many there are.
-    `classes` counts for each input class the members that were tried, and how many there are. `problem` says
+    `classes` counts for each input class the members, all of which were tried. `problem` says
     why the two are not EQUAL though no difference was seen.
     """
 
@@ -66,7 +65,7 @@ class Comparison:
     scans: int
     class_scans: int
     covered: Mapping[str, tuple[int, int]]
-    classes: Mapping[str, tuple[int, int]]
+    classes: Mapping[str, int]
     difference_count: int
     differences: tuple[Difference, ...]
     problem: str = ""
@@ -125,8 +124,8 @@ def compare(
 ) -> Comparison:
     """Compare the graph with the code. `on_progress` gets transitions replayed and the number there are.
 
-    Raises Unjudged when the code refuses the parameters or an input of the alphabet, or when its states have no
-    end.
+    Raises Unjudged when the code refuses the parameters or an input of the alphabet, or when its states have
+    no end.
     """
     return _Walk(device, code, on_progress).run()
 
@@ -136,9 +135,12 @@ class _Walk:
         self, device: DeviceGraph, code: Implementation, on_progress: Callable[[int, int], None] | None
     ) -> None:
         self.device, self.code, self.on_progress = device, code, on_progress
-        self.members = Members(device.classes, device.alphabet)
+        self.class_letters = [
+            [n for n, values in enumerate(device.alphabet) if one.representative.items() <= values.items()]
+            for one in device.classes
+        ]
         self.letters = [self._inputs(values) for values in device.alphabet]
-        self.varied = [self.members.any_of(n) for n in range(len(self.letters))]
+        self.class_inputs: list[dict[tuple[int, int], Any]] = [{} for _ in device.classes]
         self.rows = self._expected_rows()
         self.pairs = _Pairs()
         self.count = 0
@@ -202,7 +204,7 @@ class _Walk:
             scans=self.scans,
             class_scans=self.class_scans,
             covered={step: (covered[step], totals[step]) for step in totals},
-            classes=self.members.used(),
+            classes={one.name: len(one.members) for one in device.classes},
             difference_count=self.count,
             differences=tuple(self.shown),
             problem=self._problem(),
@@ -211,7 +213,9 @@ class _Walk:
     def _visit(self, n: int, spec: int, state: Any) -> None:
         """All inputs at one pair of states. The hot loop of the whole comparison."""
         step, pairs, of_spec = self.code.step, self.pairs, self.pairs.of_spec
-        rows, varied, members = self.rows, self.varied, self.members
+        rows = self.rows
+        afters: list[Any] = [None] * len(self.letters)
+        outs: list[Any] = [None] * len(self.letters)
         nexts = self.device.graph.next_of[spec]
         for letter, inputs in enumerate(self.letters):
             to = nexts[letter]
@@ -230,20 +234,50 @@ class _Walk:
                     self._outputs_differ("type", n, spec, letter, None, wanted, out)
                     continue
                 pairs.add(to, after, (n, self.device.alphabet[letter]))
-            if varied[letter]:
-                values = members.another(letter)
-                self.class_scans += 1
+            afters[letter], outs[letter] = after, out
+        self.scans += len(self.letters)
+        for one, letters in enumerate(self.class_letters):
+            self._visit_class(n, spec, state, one, letters, afters, outs)
+
+    def _visit_class(
+        self,
+        n: int,
+        spec: int,
+        state: Any,
+        one: int,
+        letters: Sequence[int],
+        afters: Sequence[Any],
+        outs: Sequence[Any],
+    ) -> None:
+        """All members of one class, once for each step and next state; the letters of a group take turns."""
+        device, step = self.device, self.code.step
+        steps, nexts = device.graph.step_of[spec], device.graph.next_of[spec]
+        groups: dict[tuple[int, int], list[int]] = {}
+        for letter in letters:
+            if outs[letter] is not None:
+                groups.setdefault((steps[letter], nexts[letter]), []).append(letter)
+        known = self.class_inputs[one]
+        for group in groups.values():
+            self.class_scans += len(device.classes[one].members)
+            for turn, member in enumerate(device.classes[one].members):
+                letter = group[turn % len(group)]
+                inputs = known.get((letter, turn))
+                if inputs is None:
+                    inputs = known[letter, turn] = self._inputs({**device.alphabet[letter], **member})
                 try:
-                    after_member, out_member = step(state, self._inputs(values))
+                    after, out = step(state, inputs)
                 except Exception as error:
+                    values = {**device.alphabet[letter], **member}
                     self._differs("error", n, spec, letter, values, {"error": None}, {"error": repr(error)})
                     continue
-                if out_member != out:
-                    self._outputs_differ("class member", n, spec, letter, values, out, out_member)
-                elif after_member != after:
-                    shown = {"state": repr(after)}, {"state": repr(after_member)}
+                if out == outs[letter] and after == afters[letter]:
+                    continue
+                values = {**device.alphabet[letter], **member}
+                if out != outs[letter]:
+                    self._outputs_differ("class member", n, spec, letter, values, outs[letter], out)
+                else:
+                    shown = {"state": repr(afters[letter])}, {"state": repr(after)}
                     self._differs("class member", n, spec, letter, values, *shown)
-        self.scans += len(self.letters)
 
     def _same_types(self, out: Any, wanted: Any) -> bool:
         names = (of.python for of in self.device.device.outputs.values())

@@ -1,4 +1,4 @@
-"""The complete graph of one device: from every state, with every input of the alphabet, one step to one state."""
+"""The complete graph of one device: from every state, with every input, one step to one state."""
 
 from __future__ import annotations
 

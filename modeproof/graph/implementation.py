@@ -16,7 +16,7 @@ Step = Callable[[Any, Any], tuple[Any, Any]]
 
 @dataclass(frozen=True)
 class Implementation:
-    """Build `params` and `inputs` from named Python values, then `power_up(params)` and `step(state, inputs)`."""
+    """Build `params` and `inputs` from named values, then `power_up(params)` and `step(state, inputs)`."""
 
     name: str
     params: Callable[..., Any]
@@ -41,7 +41,7 @@ class Implementation:
 
 
 def load_implementation(package: str, document: str, device: str) -> Implementation:
-    """The module `<package>.<document>.<device>`. Raises Unjudged when it cannot be imported or lacks a name."""
+    """The module `<package>.<document>.<device>`. Raises Unjudged when it cannot be used."""
     name = f"{package}.{document}.{device}"
     try:
         module = importlib.import_module(name)

@@ -1,8 +1,8 @@
-"""Talks to one adapter process: a request, one answer, each within a time limit. No POSIX-only call is needed.
+"""Talks to one adapter process: a request, one answer, each within a time limit.
 
 A thread reads standard output and hands over whole lines, another drains standard error; so an adapter that
 hangs, floods or never ends a line cannot hold us up. The process is ended in every case, with what it started
-where the system allows it.
+where the system allows it. No POSIX-only call is needed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from modeproof.kit.signals import loads, shown
 LONGEST_LINE = 1 << 20
 """Bytes of one answer; a longer line is refused while it is still coming in."""
 SAFE_WRITE = 4000
-"""Bytes that surely fit into an empty pipe; a longer request is guarded against an adapter that does not read."""
+"""Bytes that surely fit into an empty pipe; a longer request is guarded by a timer."""
 GRACE_S = 0.2
 """How long an answer too many is waited for before a difference is believed."""
 ENDING_S = 1.0
@@ -157,7 +157,7 @@ class Adapter:
         raise Unjudged(self._how_it_ended())
 
     def quiet(self) -> None:
-        """Wait a moment and raise Unjudged if one more line comes: then answers and requests are out of step."""
+        """Wait a moment and raise Unjudged if one more line comes: an answer too many."""
         try:
             found = self._lines.get(timeout=GRACE_S)
         except queue.Empty:

@@ -20,7 +20,7 @@ EXIT_UNJUDGED = 2
 def add_parser(
     commands: Any, run: Callable[[argparse.Namespace], int] | None = None
 ) -> argparse.ArgumentParser:
-    """Add `conform`. `run` takes its place where more than the kit is at hand; the kit's own needs --vectors."""
+    """Add `conform`. `run` takes its place where more is at hand; the kit's own needs --vectors."""
     text = "judge a program by the specification: your own behind an adapter, or a built-in one"
     parser: argparse.ArgumentParser = commands.add_parser(
         "conform",

@@ -35,7 +35,8 @@ class Hello:
 class Difference:
     """The first scan that came out wrong. `scan` counts from 1; `expected` and `got` hold what differs only.
 
-    `shortest` is the shortest case that leads to the same scan, `confirmed` whether it showed a difference too.
+    `shortest` is the shortest case that leads to the same scan, `confirmed` whether it showed a difference
+    too.
     """
 
     case: Case
@@ -154,6 +155,7 @@ class _Run:
         if answer != {"ok": True}:
             raise Unjudged(f"reset was answered with {shown(answer)}")
         compared = self.compared
+        by_column = self.suite.header.get("counted_by") == "column"
         before = case.initial
         for n, got in enumerate(self._answers(adapter, hello, case)):
             scan = case.scans[n]
@@ -163,7 +165,7 @@ class _Run:
             if any(got[name] != wanted[name] for name in compared):
                 return n, got
             if counted:
-                self.seen[scan.step].add((case.graph, before, scan.column))
+                self.seen[scan.step].add((case.graph, before, scan.column if by_column else scan.to))
                 before = scan.to
         if counted:
             self._tell()
@@ -267,7 +269,7 @@ def _scan_line(scan: Scan) -> bytes:
 
 
 def read_hello(answer: Mapping[str, Any], suite: Suite) -> Hello:
-    """Check the answer to hello. Raises Unjudged when the relation `exact` is not possible with this adapter."""
+    """Check the answer to hello. Raises Unjudged when the relation is not possible with it."""
     if answer.get("ok") is not True:
         raise Unjudged(f"hello was answered with {shown(answer, 200)}")
     relations = answer.get("relations", ["exact"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import re
 from collections.abc import Mapping
@@ -40,7 +41,7 @@ class Signal:
             good = (
                 type(value) is list
                 and all(type(one) is int and one in self.modes for one in value)
-                and all(a < b for a, b in zip(value, value[1:], strict=False))
+                and all(a < b for a, b in itertools.pairwise(value))
             )
             wanted = f"an ascending list of {', '.join(map(str, self.modes))}"
         elif kind == "text":

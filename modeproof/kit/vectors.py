@@ -1,9 +1,9 @@
 """Reads a vector file: a header line, then one test case a line (JSON Lines).
 
-The header names target, suite, relation, inputs, outputs and steps, and holds for each graph the rows of outputs
-and a shortest way to each state. In a case `in` and `out` of a scan hold what differs from the scan before; in
-the first scan they are whole. `to` is the state after the scan, `step` the number of its step, `column` the
-number of the merged input column.
+The header names target, suite, relation, inputs, outputs and steps, and holds for each graph the rows of
+outputs and a shortest way to each state. In a case `in` and `out` of a scan hold what differs from the scan
+before; in the first scan they are whole. `to` is the state after the scan, `step` the number of its step,
+`column` the number of the merged input column.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ class Suite:
         )
 
     def shortest(self, case: Case, scan: int) -> Case:
-        """A shortest case that ends with the same inputs in the same state as scan number `scan` of `case`."""
+        """A shortest case that ends with the inputs and in the state of scan number `scan` of `case`."""
         graph = self.header["graphs"][case.graph]
         state = case.scans[scan - 1].to if scan else case.initial
         way: list[Scan] = []
@@ -135,8 +135,10 @@ class Suite:
 
 
 def open_suite(path: Path) -> Suite:
-    """Read the header. Raises Unjudged for a missing file, another format, a header that lacks something, or a
-    suite without cases."""
+    """Read the header.
+
+    Raises Unjudged for a missing file, another format, a header that lacks something, a suite without cases.
+    """
     try:
         _, header = next(iter(_rows(path)))
     except StopIteration:

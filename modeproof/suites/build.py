@@ -70,7 +70,7 @@ def ready_suite(
 def step_citations(
     place: Path, document: str, target: str, on_trouble: Callable[[str], None] = lambda line: None
 ) -> Citations:
-    """What the specification's step actions cite. Nothing, and a line that says so, without sound registers."""
+    """What the specification's step actions cite. Nothing, and a line says so, without registers."""
     try:
         registers = load_document(place, document)
         found = citations(registers, read_sources(registers))

@@ -1,4 +1,4 @@
-"""The command `conform` with everything at hand: graphs, suites built when they are missing, built-in programs."""
+"""The command `conform` with everything at hand: graphs, suites built when missing, built-in programs."""
 
 from __future__ import annotations
 
@@ -151,8 +151,8 @@ def _text(run: Run, found: Comparison) -> str:
     width = max(len(step) for step in found.covered)
     for step, (have, total) in found.covered.items():
         lines.append(f"  {step:<{width}} {have:>10,} / {total:,}")
-    for name, (used, members) in found.classes.items():
-        lines.append(f"  class {name}: {used} of {members} other members tried")
+    for name, members in found.classes.items():
+        lines.append(f"  class {name}: {members} other members tried at every step of every state")
     lines.append(
         f"  {found.scans:,} scans, {found.class_scans:,} more with other members of classes; "
         f"{found.implementation_states:,} states of the implementation"
@@ -177,7 +177,7 @@ def _shown(difference: Difference) -> list[str]:
 
 
 def _make_graphs(place: Path, runs: tuple[Run, ...], quiet: bool) -> None:
-    """Let TLC make the graphs that are missing. Raises Unjudged when one of them does not come as declared."""
+    """Let TLC make the graphs that are missing. Raises Unjudged when one does not come."""
     missing = [run for run in runs if not graph_file(place, run).is_file()]
     if not missing:
         return

@@ -1,12 +1,12 @@
 """Walks from power-up through a merged graph.
 
-Suite `tour` takes every transition (state and column) at least once. Suite `brief` takes from every state every
-step to every next state once, with one column for each, and is much shorter.
+Suite `tour` takes every transition (state and column) at least once. Suite `brief` takes from every state
+every step to every next state once, with one column for each, and is much shorter.
 
-Greedy: while the current state has a transition that was not taken, take it (those that stay in the state come
-first); otherwise go a shortest way to the nearest state that has one, or start a new case when that is no longer
-from power-up. Nothing here is random, so the same graph gives the same walks. The walks are not the shortest
-possible.
+Greedy: while the current state has a transition that was not taken, take it (those that stay in the state
+come first); otherwise go a shortest way to the nearest state that has one, or start a new case when that is
+no longer from power-up. Nothing here is random, so the same graph gives the same walks. The walks are not the
+shortest possible.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def every_step(columns: Columns) -> list[list[int]]:
 
 
 def walks(columns: Columns, initial: int, wanted: Sequence[Sequence[int]]) -> list[list[Move]]:
-    """Walks from `initial`, each one a case, that take the wanted columns of every state that can be reached."""
+    """Walks from `initial`, each one a case, that take the wanted columns of every state."""
     return _Tour(columns, initial, wanted).walks()
 
 

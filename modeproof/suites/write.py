@@ -23,16 +23,18 @@ from modeproof.suites.tour import Move, covers, every_step, every_transition, wa
 SUITES = {
     "tour": (
         every_transition,
+        "column",
         "every transition of the specification's graph with merged input columns is taken",
         "the program treats all inputs of a column alike; members take turns, not all are tried",
     ),
     "brief": (
         every_step,
+        "next state",
         "from every state of the specification every step to every next state is taken",
         "the program treats all inputs alike that lead from one state by one step to one state",
     ),
 }
-"""For each suite: what it wants, what it guarantees, and under which hypothesis."""
+"""For each suite: what it takes, what besides state and step makes a transition, guarantee, hypothesis."""
 
 Citations = Callable[[str], tuple[tuple[str, ...], tuple[str, ...]]]
 """From the name of a step to the clauses and the findings that it cites."""
@@ -214,8 +216,9 @@ class _Writer:
             "protocol": 1,
             "suite": self.suite,
             "relation": "exact",
-            "guarantees": SUITES[self.suite][1],
-            "hypothesis": SUITES[self.suite][2],
+            "counted_by": SUITES[self.suite][1],
+            "guarantees": SUITES[self.suite][2],
+            "hypothesis": SUITES[self.suite][3],
             "generator": generator,
             "sources": dict(sorted(sources.items())),
             "cases": len(self.cases),
