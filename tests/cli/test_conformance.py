@@ -1,0 +1,69 @@
+"""The conformance stage of verify: nothing to compare, no graph and a difference are each noticed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof import conformance, evidence
+from modeproof.errors import Unjudged
+from modeproof.progress import Progress
+from tests.toy_tree import toy_tree
+
+
+@dataclass
+class Found:
+    """What a comparison gives, as far as the stage reads it."""
+
+    verdict: str
+    equal: bool
+    states: int = 9
+    transitions: int = 18
+    replayed: int = 18
+    covered: dict[str, tuple[int, int]] = field(default_factory=lambda: {"Up": (9, 9), "Down": (8, 9)})
+    differences: tuple[str, ...] = ()
+
+    def summary(self) -> str:
+        return "9 states, 18 transitions, DIFFERS: 1 differences"
+
+
+@pytest.fixture
+def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(conformance, "_targets", lambda place, document, lane: [])
+    root = toy_tree(tmp_path, "OPEN_toy")
+    (root / "spec/toy/interface.toml").write_text("")
+    return root
+
+
+def compare(root: Path, lane: str = "smoke") -> dict[str, Any]:
+    (record,) = conformance.compare_reference(root, "toy", lane, Progress(quiet=True))
+    assert evidence.read(evidence.evidence_path(root, "toy", record["id"])) == record
+    return record
+
+
+def test_a_lane_without_a_graph_is_no_pass(toy: Path) -> None:
+    with pytest.raises(Unjudged, match="the lane exhaustive has no OPEN run, so nothing is compared"):
+        compare(toy, "exhaustive")
+
+
+def test_a_missing_graph_is_unjudged(toy: Path) -> None:
+    record = compare(toy)
+    assert (record["verdict"], record["as_expected"]) == ("UNJUDGED", False)
+    assert "no graph at build/graphs/toy/OPEN_toy.txt" in record["reason"]
+
+
+def test_a_difference_is_named(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    found = Found("DIFFERS", False, differences=("outputs in Up after 3 scans: expected MW01='0000'",))
+    monkeypatch.setattr(conformance, "_compare", lambda *_: found)
+    record = compare(toy)
+    assert (record["verdict"], record["as_expected"]) == ("DIFFERS", False)
+    assert "first: outputs in Up after 3 scans" in record["reason"]
+
+
+def test_equal_says_how_much_was_covered(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(conformance, "_compare", lambda *_: Found("EQUAL", True))
+    record = compare(toy)
+    assert record["as_expected"] and "18 of 18 transitions, 1 of 2 steps in full" in record["strength"]
