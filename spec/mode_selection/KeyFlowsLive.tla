@@ -63,8 +63,8 @@ PromptFplc ==
 PromptEks == EksRuns /\ (eksState' # eksState => PulseSeen)
 
 ----------------------------------------------------------------------------
-\* Zero, a word that is no code, a selection and an acknowledgment: enough for every way in which a word can be wrong
-FaultWords == {0, OtherWord, SE[1], SW[1]}
+\* A word that is no code, and one that is a code in each range: as MW03 a selection beyond the key, as MW07 an acknowledgment
+FaultWords == {OtherWord, SW[1]}
 \* One word on its way to the F-PLC becomes any other
 Corrupt ==
     /\ faults < FAULTS /\ faults' = faults + 1
