@@ -32,6 +32,7 @@ GRACE_S = 0.2
 """How long an answer too many is waited for before a difference is believed."""
 ENDING_S = 1.0
 _TAIL = 2000
+_ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 _END, _TOO_LONG = 1, 2
 _WINDOWS = sys.platform == "win32"
 
@@ -108,7 +109,7 @@ class Adapter:
 
     def ask(self, request: Mapping[str, Any]) -> bytes:
         """Send a request and return the line that answers it."""
-        return self.ask_line(json.dumps(request, separators=(",", ":")).encode() + b"\n")
+        return self.ask_line(_ENCODE(request).encode() + b"\n")
 
     def ask_line(self, line: bytes) -> bytes:
         """As `ask`, for a line that is ready to be sent."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import marshal
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -19,6 +20,7 @@ EXIT = {CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
 BATCH = 64
 """Scans in one `scans` request."""
 _REMEMBERED = 20_000
+_ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 
 
 @dataclass(frozen=True)
@@ -113,6 +115,7 @@ class _Run:
         self.place = ""
         self.compared: tuple[str, ...] = ()
         self.known: dict[bytes, Mapping[str, Any]] = {}
+        self.good: set[bytes] = set()
         self.seen: list[set[tuple[int, int, int]]] = [set() for _ in suite.steps]
         self.reported = time.monotonic()
 
@@ -162,7 +165,7 @@ class _Run:
             wanted = scan.outputs
             if counted:
                 self.verdict.scans += 1
-            if any(got[name] != wanted[name] for name in compared):
+            if got != wanted and any(got[name] != wanted[name] for name in compared):
                 return n, got
             if counted:
                 self.seen[scan.step].add((case.graph, before, scan.column if by_column else scan.to))
@@ -212,6 +215,10 @@ class _Run:
         outputs = self.suite.outputs
         if not isinstance(out, dict):
             raise Unjudged(f"out must be an object, got {shown(out)}")
+        # Most answers repeat an earlier one; marshal tells true from 1 and 1 from 1.0, which == does not.
+        key = marshal.dumps(out)
+        if key in self.good:
+            return out
         for name in out:
             if name not in outputs:
                 raise Unjudged(f"an output {name!r} that the target does not have")
@@ -221,6 +228,8 @@ class _Run:
             fault = outputs[name].fault(out[name])
             if fault:
                 raise Unjudged(fault)
+        if len(self.good) < _REMEMBERED:
+            self.good.add(key)
         return out
 
     def _explain(
@@ -265,7 +274,7 @@ def _hello(target: str) -> dict[str, Any]:
 
 def _scan_line(scan: Scan) -> bytes:
     request = {"op": "scan", "dt_ms": scan.dt_ms, "in": scan.inputs}
-    return json.dumps(request, separators=(",", ":")).encode() + b"\n"
+    return _ENCODE(request).encode() + b"\n"
 
 
 def read_hello(answer: Mapping[str, Any], suite: Suite) -> Hello:

@@ -19,6 +19,7 @@ from typing import Any
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal, loads, read_signals
 
+_ENCODE = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 KIND, VERSION = "modeproof-vectors", 1
 
 
@@ -99,7 +100,8 @@ class Suite:
             scans.append(Scan(scan["dt_ms"], inputs, outputs, scan["step"], scan["to"], scan["column"]))
         if not scans or set(inputs) != set(self.inputs) or set(outputs) != set(self.outputs):
             raise ValueError("inputs or outputs are not those of the header, or there is no scan")
-        if row["id"] != case_id(self.target, row["params"], scans):
+        going_in = [(scan["dt_ms"], scan["in"]) for scan in row["scans"]]
+        if row["id"] != case_id(self.target, row["params"], going_in):
             raise ValueError(f"id {row['id']} does not belong to these inputs (was the file edited?)")
         return Case(
             id=row["id"],
@@ -123,7 +125,7 @@ class Suite:
             state = before
         scans = (*reversed(way), case.scans[scan])
         return Case(
-            id=case_id(self.target, case.params, scans),
+            id=case_id(self.target, case.params, changes(scans)),
             why=f"shortest way to scan {scan + 1} of {case.id}",
             basis=case.basis,
             clauses=self.steps[case.scans[scan].step].clauses,
@@ -170,10 +172,29 @@ def open_suite(path: Path) -> Suite:
     return suite
 
 
-def case_id(target: str, params: Mapping[str, Any], scans: Sequence[Scan]) -> str:
-    """The id of a case: a hash of what goes in, so that it survives when expectations or order change."""
-    going_in = [params, [[scan.dt_ms, scan.inputs] for scan in scans]]
-    text = json.dumps(going_in, sort_keys=True, separators=(",", ":"))
+def changes(scans: Sequence[Scan]) -> list[tuple[int, dict[str, Any]]]:
+    """For each scan the time and the inputs that differ from the scan before; all of them in the first."""
+    before: Mapping[str, Any] = {}
+    found = []
+    for scan in scans:
+        found.append(
+            (scan.dt_ms, {k: v for k, v in scan.inputs.items() if k not in before or before[k] != v})
+        )
+        before = scan.inputs
+    return found
+
+
+def case_id(target: str, params: Mapping[str, Any], going_in: Sequence[tuple[int, Mapping[str, Any]]]) -> str:
+    """The id of a case: a hash of what goes in, so that it survives when expectations or order change.
+
+    `going_in` holds for each scan the time and the inputs that change.
+    """
+    return id_of_text(target, params, _ENCODE(going_in)[1:-1])
+
+
+def id_of_text(target: str, params: Mapping[str, Any], going_in: str) -> str:
+    """As `case_id`, for changes that are written already: `[10,{"A":true}],[10,{}]`."""
+    text = f"[{_ENCODE(params)},[{going_in}]]"
     return f"{target}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
 
 

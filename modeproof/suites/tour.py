@@ -5,7 +5,7 @@ every step to every next state once, with one column for each, and is much short
 
 Greedy: while the current state has a transition that was not taken, take it (those that stay in the state
 come first); otherwise go a shortest way to the nearest state that has one, or start a new case when that is
-no longer from power-up. Nothing here is random, so the same graph gives the same walks. The walks are not the
+shorter from power-up. Nothing here is random, so the same graph gives the same walks. The walks are not the
 shortest possible.
 """
 
@@ -19,6 +19,9 @@ from modeproof.graph.columns import Columns
 
 CASE_SCANS = 400
 """A case of at least this length ends as soon as its state has nothing left to take."""
+
+RESET_SCANS = 1
+"""What a reset costs, in scans."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +88,8 @@ class _Tour:
             fresh = self._way_to_nearest(self.initial)
             if fresh is None and here is None:
                 break
-            if here is None or len(walk) >= CASE_SCANS or (fresh is not None and len(fresh) <= len(here)):
+            nearer = fresh is not None and here is not None and len(fresh) + RESET_SCANS < len(here)
+            if here is None or nearer or len(walk) >= CASE_SCANS:
                 if fresh is None:
                     break
                 cases.append(walk)

@@ -16,9 +16,11 @@ from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
-from modeproof.kit.vectors import KIND, VERSION, Scan, case_id
+from modeproof.kit.vectors import KIND, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
+
+_ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 
 SUITES = {
     "tour": (
@@ -35,6 +37,9 @@ SUITES = {
     ),
 }
 """For each suite: what it takes, what besides state and step makes a transition, guarantee, hypothesis."""
+
+Pieces = tuple[str, ...]
+"""Signals as they are written, `"name":value` each, in the order of the names."""
 
 Citations = Callable[[str], tuple[tuple[str, ...], tuple[str, ...]]]
 """From the name of a step to the clauses and the findings that it cites."""
@@ -116,7 +121,7 @@ class _Writer:
             self.transitions.update(device.graph.steps[steps[column]] for column in row)
         self.graphs.append(self._graph(device, columns))
         letters = _Letters(device, columns)
-        rows: dict[tuple[Any, ...], dict[str, Any]] = {}
+        rows: dict[tuple[Any, ...], Pieces] = {}
         for case in cases:
             self._case(number, device, columns, letters, case, rows)
         self.states += len(columns.next_of)
@@ -159,49 +164,49 @@ class _Writer:
         columns: Columns,
         letters: _Letters,
         walk: Sequence[Move],
-        known: dict[tuple[Any, ...], dict[str, Any]],
+        known: dict[tuple[Any, ...], Pieces],
     ) -> None:
-        scans, rows, cited = [], [], set()
-        inputs: dict[str, Any] = {}
-        outputs: dict[str, Any] = {}
+        rows: list[str] = []
+        going_in: list[str] = []
+        cited: set[int] = set()
+        inputs: Pieces = ()
+        outputs: Pieces = ()
+        numbers = [self.steps[name] for name in device.graph.steps]
+        passed = tuple(device.passed.values())
         for move in walk:
-            values, now_in = letters.next(move.column)
-            to = columns.next_of[move.state][move.column]
-            name = device.graph.steps[columns.step_of[move.state][move.column]]
-            cited.add(name)
-            key = (to, *(values[one] for one in device.passed.values()))
+            column = move.column
+            values, now_in = letters.next(column)
+            to = columns.next_of[move.state][column]
+            step = numbers[columns.step_of[move.state][column]]
+            cited.add(step)
+            key = (to, *[values[one] for one in passed])
             if key not in known:
-                known[key] = device.wire_outputs(device.expected(to, values))
+                known[key] = _pieces(device.wire_outputs(device.expected(to, values)))
             now_out = known[key]
-            scans.append(Scan(values["dt_ms"], now_in, now_out, self.steps[name], to, move.column))
+            dt_ms, change = values["dt_ms"], _changed(inputs, now_in)
+            going_in.append(f"[{dt_ms},{{{change}}}]")
             rows.append(
-                {
-                    "dt_ms": values["dt_ms"],
-                    "in": _changed(inputs, now_in),
-                    "out": _changed(outputs, now_out),
-                    "step": self.steps[name],
-                    "to": to,
-                    "column": move.column,
-                }
+                f'{{"dt_ms":{dt_ms},"in":{{{change}}},"out":{{{_changed(outputs, now_out)}}},'
+                f'"step":{step},"to":{to},"column":{column}}}'
             )
             inputs, outputs = now_in, now_out
         clauses: set[str] = set()
         findings: set[str] = set()
-        for name in cited:
-            of_step = self.citations(name)
+        names = self.device.device.steps
+        for step in cited:
+            of_step = self.citations(names[step])
             clauses.update(of_step[0])
             findings.update(of_step[1])
         case = {
-            "id": case_id(device.device.id, device.params, scans),
+            "id": id_of_text(device.device.id, device.params, ",".join(going_in)),
             "clauses": sorted(clauses),
             "basis": f"finding:{','.join(sorted(findings))}" if findings else "document",
             "why": f"a walk through {device.run} that takes transitions no earlier case has taken",
             "timing": "exact",
             "params": dict(device.params),
             "graph": number,
-            "scans": rows,
         }
-        self.cases.append(_line(case))
+        self.cases.append(f'{_ENCODE(case)[:-1]},"scans":[{",".join(rows)}]}}\n')
         self.scans += len(rows)
         self.longest = max(self.longest, len(rows))
 
@@ -267,10 +272,10 @@ class _Letters:
         self._members = Members(device.classes, device.alphabet)
         self._turn = [0] * len(columns.members)
         self.used: set[int] = set()
-        self._wire: dict[int, dict[str, Any]] = {}
+        self._wire: dict[int, Pieces] = {}
 
-    def next(self, column: int) -> tuple[Mapping[str, Any], dict[str, Any]]:
-        """The values of the next member, in Python and in wire form."""
+    def next(self, column: int) -> tuple[Mapping[str, Any], Pieces]:
+        """The values of the next member, in Python form and as they are written."""
         device = self._device
         members = self._columns.members[column]
         letter = members[self._turn[column] % len(members)]
@@ -278,15 +283,21 @@ class _Letters:
         values = device.alphabet[letter]
         if letter in self.used and self._members.any_of(letter):
             values = self._members.another(letter)
-            return values, device.wire_inputs(values)
+            return values, _pieces(device.wire_inputs(values))
         if letter not in self._wire:
-            self._wire[letter] = device.wire_inputs(values)
+            self._wire[letter] = _pieces(device.wire_inputs(values))
         self.used.add(letter)
         return values, self._wire[letter]
 
 
-def _changed(before: Mapping[str, Any], now: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in now.items() if name not in before or before[name] != value}
+def _pieces(values: Mapping[str, Any]) -> Pieces:
+    return tuple(f"{_ENCODE(name)}:{_ENCODE(values[name])}" for name in sorted(values))
+
+
+def _changed(before: Pieces, now: Pieces) -> str:
+    if not before:
+        return ",".join(now)
+    return ",".join([new for old, new in zip(before, now, strict=True) if old != new])
 
 
 def _declare(signals: Mapping[str, Signal], modes: Sequence[int]) -> dict[str, dict[str, Any]]:
@@ -306,7 +317,7 @@ def _declare(signals: Mapping[str, Signal], modes: Sequence[int]) -> dict[str, d
 
 
 def _line(row: Mapping[str, Any]) -> str:
-    return json.dumps(row, separators=(",", ":"), ensure_ascii=False) + "\n"
+    return _ENCODE(row) + "\n"
 
 
 def _write_lines(path: Path, lines: Sequence[str]) -> None:
