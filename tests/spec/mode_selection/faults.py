@@ -1,0 +1,402 @@
+"""Faults of the device specifications, each with the property that must fall to it. Data, no code.
+
+A fault is a slip that a programmer can make: a guard forgotten, a row of another table, one state too few.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tests.spec.mode_selection.planted import Base, Fault
+
+KEY_FLOWS = Base("MC_KeyFlows_smoke")
+FPLC = Base(
+    "MC_Fplc_arbitrary",
+    (("ALL_VECTORS = TRUE", "ALL_VECTORS = FALSE  TimesToTry <- SmallInputs"),),
+    module="FplcSmall",
+)
+EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
+HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
+PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
+GOAL = Base("LIVE_KeyFlows_goal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}")))
+REMOVAL = Base(
+    "LIVE_KeyFlows_removal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
+)
+
+
+@dataclass(frozen=True)
+class Falls:
+    """A fault, the property that it breaks, and the base on which this is seen."""
+
+    property: str
+    base: Base
+    fault: Fault
+
+
+FAULTS = (
+    # ------------------------------------------------------------------ F-PLC
+    Falls(
+        "AtMostOneModeOutput",
+        FPLC,
+        Fault(
+            "the new mode is set and the old one stays",
+            "Fplc.tla",
+            "mode' = {IF LITERAL",
+            "mode' = mode \\cup {IF LITERAL",
+        ),
+    ),
+    Falls(
+        "TwoOutputsLeadToError",
+        FPLC,
+        Fault(
+            "two outputs are not yet too many",
+            "Fplc.tla",
+            "Cardinality(i.vec) >= 2",
+            "Cardinality(i.vec) > 2",
+        ),
+    ),
+    Falls(
+        "TwoOutputsLeadToError",
+        FPLC,
+        Fault(
+            "two outputs are looked at only while LA is on",
+            "Fplc.tla",
+            "IsMany(i) == Many(i)",
+            "IsMany(i) == i.LA /\\ Many(i)",
+        ),
+    ),
+    Falls(
+        "SwitchNeedsMatchingPair",
+        FPLC,
+        Fault(
+            "any acknowledgment matches any selection",
+            "Fplc.tla",
+            "    \\/ i.MW07 = SW[fplcSelection]\n",
+            "    \\/ ModeOf(SW, i.MW07) # None\n",
+        ),
+    ),
+    Falls(
+        "SwitchNeedsMatchingPair",
+        FPLC,
+        Fault(
+            "the selection is not looked at again after the echo",
+            "Fplc.tla",
+            "    \\/ i.MW03 = SE[fplcSelection]\n",
+            '    \\/ i.MW03 = SE[fplcSelection] \\/ fplcState = "Switch"\n',
+        ),
+    ),
+    Falls(
+        "SwitchNeedsMatchingPair",
+        KEY_FLOWS,
+        Fault(
+            "the level is switched on, not the selection",
+            "Fplc.tla",
+            "ModeOf(SW, i.MW07) ELSE fplcSelection}",
+            "ModeOf(SW, i.MW07) ELSE authority}",
+        ),
+    ),
+    Falls(
+        "AuthorizationRespected",
+        FPLC,
+        Fault(
+            "the range of a selection is checked and the level is not",
+            "Fplc.tla",
+            "    /\\ Permitted(authority, ModeOf(SE, i.MW03))\n    /\\ fplcSelection'",
+            "    /\\ ModeOf(SE, i.MW03) # None\n    /\\ fplcSelection'",
+        ),
+    ),
+    Falls(
+        "AuthorizationRespected",
+        KEY_FLOWS,
+        Fault(
+            "every key is taken for one of the highest level",
+            "Fplc.tla",
+            "\\E a \\in i.vec : authority' = a",
+            "authority' = 4",
+        ),
+    ),
+    Falls(
+        "NoChangeWithoutLA",
+        FPLC,
+        Fault(
+            "LA is not looked at in the scan that switches",
+            "Fplc.tla",
+            "IsGone(i) == ~i.LA",
+            'IsGone(i) == ~i.LA /\\ fplcState # "Switch"',
+        ),
+    ),
+    Falls(
+        "NoChangeWithoutLA",
+        KEY_FLOWS,
+        Fault(
+            "LA is not looked at in the scan that switches",
+            "Fplc.tla",
+            "IsGone(i) == ~i.LA",
+            'IsGone(i) == ~i.LA /\\ fplcState # "Switch"',
+        ),
+    ),
+    Falls(
+        "NoChangeBesideSwitchover",
+        FPLC,
+        Fault(
+            "the error mode drops the mode although it is to be held",
+            "Fplc.tla",
+            'mode\' = IF ON_ERROR = "none"',
+            'mode\' = IF ON_ERROR = "hold"',
+        ),
+    ),
+    Falls(
+        "NoChangeBesideSwitchover",
+        KEY_FLOWS,
+        Fault(
+            "removal drops the mode",
+            "Fplc.tla",
+            'GoTo("Clear") /\\ DropKey /\\ UNCHANGED mode',
+            'GoTo("Clear") /\\ DropKey /\\ mode\' = {}',
+        ),
+    ),
+    Falls(
+        "EchoIsTheSelection",
+        FPLC,
+        Fault(
+            "the echo is taken from the table of the acknowledgments",
+            "Fplc.tla",
+            "THEN CH[fplcSelection]",
+            "THEN SW[fplcSelection]",
+        ),
+    ),
+    Falls(
+        "WordsZeroWithoutKey",
+        FPLC,
+        Fault(
+            "MW01 falls only when the removal is over",
+            "Fplc.tla",
+            "THEN RE[authority] ELSE 0",
+            "THEN RE[authority] ELSE IF fplcState \\in Removing THEN RE[0] ELSE 0",
+        ),
+    ),
+    Falls(
+        "SelectionWithinAuthority",
+        FPLC,
+        Fault(
+            "the selection is latched through the table of the echo",
+            "Fplc.tla",
+            "fplcSelection' = ModeOf(SE, i.MW03)",
+            "fplcSelection' = ModeOf(CH, i.MW03)",
+        ),
+    ),
+    Falls(
+        "IdleOnlyOverZeros",
+        FPLC,
+        Fault(
+            "MW07 need not return to zero",
+            "Fplc.tla",
+            "NoWords(i) == i.MW03 = 0 /\\ i.MW07 = 0",
+            "NoWords(i) == i.MW03 = 0",
+        ),
+    ),
+    Falls(
+        "IdleOnlyOverZeros",
+        FPLC,
+        Fault(
+            "a forgotten output does not keep the error mode",
+            "Fplc.tla",
+            "NoSignal(i) == ~i.LA /\\ i.vec = {}",
+            "NoSignal(i) == ~i.LA",
+        ),
+    ),
+    Falls(
+        "RemovalSeenAtOnce",
+        FPLC,
+        Fault(
+            "a lost output is not seen before the level is published, nor in Settle",
+            "Fplc.tla",
+            "IsChanged(i) == fplcState \\in Holding",
+            "IsChanged(i) == fplcState \\in Authorized",
+        ),
+    ),
+    # ------------------------------------------------------------------ the devices together
+    Falls(
+        "UserIntent",
+        KEY_FLOWS,
+        Fault(
+            "the panel acknowledges as soon as it shows the echo",
+            "Hmi.tla",
+            'SwitchMSO == IF hmiState = "AwaitSwitch"',
+            'SwitchMSO == IF hmiState \\in {"Confirm", "AwaitSwitch"}',
+        ),
+    ),
+    Falls(
+        "EchoIsTheTouch",
+        KEY_FLOWS,
+        Fault(
+            "the panel sends the selection in the words of the level",
+            "Hmi.tla",
+            "THEN SE[hmiSelection]",
+            "THEN RE[hmiSelection]",
+        ),
+    ),
+    Falls(
+        "IdleMeansZeros",
+        KEY_FLOWS,
+        Fault(
+            "zeros count as returned without the dwell time",
+            "Fplc.tla",
+            "NoSignal(i) /\\ NoWords(i) /\\ Dwelt(i)\n",
+            "NoSignal(i) /\\ NoWords(i)\n",
+        ),
+    ),
+    Falls(
+        "RefinesModeSelection",
+        KEY_FLOWS,
+        Fault(
+            "every level permits every mode",
+            "CodeTables.tla",
+            "m # None /\\ m <= level",
+            "m # None",
+        ),
+    ),
+    Falls(
+        "GoalReached",
+        GOAL,
+        Fault(
+            "the F-PLC waits for the ones of the pulse twice",
+            "Fplc.tla",
+            '    /\\ fplcState = "PulseZeros" /\\ i.vec = {}\n',
+            '    /\\ fplcState = "PulseZeros" /\\ i.vec = MSO\n',
+        ),
+    ),
+    Falls(
+        "RemovalLeadsToIdle",
+        REMOVAL,
+        Fault(
+            "zeros never count as returned after power-up",
+            "Fplc.tla",
+            "(LeaveStart(i) \\/ AwaitPowerUpZeros(i))",
+            "AwaitPowerUpZeros(i)",
+        ),
+    ),
+    # ------------------------------------------------------------------ panel
+    Falls(
+        "SelectionWithinOffer",
+        HMI,
+        Fault(
+            "all selection fields can be touched",
+            "Hmi.tla",
+            "{m \\in MSO : Permitted(offered, m)}",
+            "MSO",
+        ),
+    ),
+    Falls(
+        "InhibitedSendsZeros",
+        HMI,
+        Fault(
+            "the resting acknowledgment is not zero",
+            "Hmi.tla",
+            "SW[hmiSelection] ELSE 0",
+            "SW[hmiSelection] ELSE OtherWord",
+        ),
+    ),
+    Falls(
+        "SelectionNeedsEnable",
+        HMI,
+        Fault(
+            "another level on the bus leaves the screen open",
+            "Hmi.tla",
+            "Level(i) # None /\\ Level(i) = offered",
+            "Level(i) # None",
+        ),
+    ),
+    Falls(
+        "AcknowledgmentNeedsConfirm",
+        HMI,
+        Fault(
+            "whatever is not a rejection confirms",
+            "Hmi.tla",
+            'Echoed(i) /\\ i.touch = "confirm"',
+            'Echoed(i) /\\ i.touch # "reject"',
+        ),
+    ),
+    Falls(
+        "InhibitAtOnce",
+        HMI,
+        Fault(
+            "any word but zero keeps the screen open",
+            "Hmi.tla",
+            "Level(i) # None /\\ Level(i) = offered",
+            "i.RA # 0",
+        ),
+    ),
+    # ------------------------------------------------------------------ PLC
+    Falls(
+        "CopiesUnchanged",
+        PLC,
+        Fault(
+            "the acknowledgment is copied to where the selection belongs",
+            "Plc.tla",
+            "MW03' = i.SelectMSO",
+            "MW03' = i.SwitchMSO",
+        ),
+    ),
+    # ------------------------------------------------------------------ EKS
+    Falls(
+        "OneOutputOutsideThePulse",
+        EKS,
+        Fault(
+            "a level sets the outputs of all lower levels too",
+            "Eks.tla",
+            '{"Signal", "ClearOutputs"} -> {KeyLevel(key)}',
+            '{"Signal", "ClearOutputs"} -> 0..KeyLevel(key)',
+        ),
+    ),
+    Falls(
+        "NoOutputWithoutLA",
+        EKS,
+        Fault(
+            "LA is on in the pulse only",
+            "Eks.tla",
+            '{"StartTest", "TestOnes", "TestZeros", "Signal"}',
+            '{"StartTest", "TestOnes", "TestZeros"}',
+        ),
+    ),
+    Falls(
+        "LAOnlyForAcceptedKeys",
+        EKS,
+        Fault(
+            "the checksum is calculated and not compared",
+            "Eks.tla",
+            "/\\ KEY[key].KEYCRC = CHECKSUM[key] /\\ GoTo",
+            "/\\ GoTo",
+        ),
+    ),
+    Falls(
+        "LAOnlyForAcceptedKeys",
+        EKS,
+        Fault(
+            "the level is looked at and not judged",
+            "Eks.tla",
+            'At("CheckLevel", i) /\\ Accepted(key)',
+            'At("CheckLevel", i)',
+        ),
+    ),
+    Falls(
+        "LADropsAtOnce",
+        EKS,
+        Fault(
+            "a swapped key is not noticed",
+            "Eks.tla",
+            "Taken(i) == eksState \\in Working /\\ i.key # key",
+            "Taken(i) == eksState \\in Working /\\ i.key = None",
+        ),
+    ),
+    Falls(
+        "PulseBeforeOutput",
+        EKS,
+        Fault(
+            "the one output is set without a pulse",
+            "Eks.tla",
+            'GoTo("TestOnes")',
+            'GoTo("Signal")',
+        ),
+    ),
+)
