@@ -1,0 +1,153 @@
+"""`conform` from the registers to the verdict, on a document that modeproof has never heard of."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+from modeproof import evidence
+from modeproof.cli import main
+from modeproof.kit.__main__ import main as kit_main
+from tests.graph.printed import WORDS, lines, write
+from tests.kit.programs import program
+
+INTERFACE = """
+document = "toy"
+[devices.lamp]
+title = "a lamp"
+module = "Lamp"
+published = true
+states = ["Off", "On"]
+steps = ["StayOff", "SwitchOn", "StayOn", "Expire"]
+[devices.lamp.memory]
+[devices.lamp.inputs]
+press = { type = "bool", clauses = ["TOY-1"], why = "the button" }
+word = { type = "word", clauses = ["TOY-1"], why = "the code" }
+[devices.lamp.outputs]
+LAMP = { type = "bool", clauses = ["TOY-1"], why = "the light" }
+MW = { type = "word", clauses = ["TOY-1"], why = "the echo" }
+[devices.lamp.parameters]
+T_ms = { type = "ms", min = 1, max = 60000, default = 500, clauses = ["TOY-1"], why = "how long it shines" }
+"""
+
+RUNS = """
+[[run]]
+id = "OPEN_Lamp"
+module = "Lamp"
+cfg = "models/OPEN_Lamp.cfg"
+kind = "OPEN"
+lane = "full"
+environment = "arbitrary"
+strength = "all of it"
+workers = 1
+properties = ["PrintState"]
+[run.graph]
+device = "lamp"
+tick_ms = 250
+params = { T_ms = 500 }
+states = 3
+edges = 54
+"""
+
+
+@pytest.fixture
+def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    room = tmp_path / "spec" / "toy"
+    room.mkdir(parents=True)
+    (room / "interface.toml").write_text(INTERFACE)
+    (room / "runs.toml").write_text(RUNS)
+    (room / "classes.toml").write_text(WORDS)
+    graphs = tmp_path / "build" / "graphs" / "toy"
+    graphs.mkdir(parents=True)
+    write(graphs / "OPEN_Lamp.txt", lines())
+    for package, limit in (("toyimpl", "params.T_ms"), ("brokenimpl", "params.T_ms + 1")):
+        code = tmp_path / package / "toy"
+        code.mkdir(parents=True)
+        source = Path(__file__).parents[1].joinpath("graph", "printed.py").read_text(encoding="utf-8")
+        source = source.replace("elapsed < state.params.T_ms", f"elapsed < state.{limit}")
+        (code / "lamp.py").write_text(source, encoding="utf-8")
+        monkeypatch.delitem(sys.modules, package, raising=False)
+    monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    for name in [name for name in sys.modules if name.startswith(("toyimpl", "brokenimpl"))]:
+        monkeypatch.delitem(sys.modules, name)
+    return tmp_path
+
+
+def test_a_builtin_is_compared_both_ways(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet", "--json", str(toy / "v.json")]) == 0
+    said = capsys.readouterr().out
+    assert "3 states, 54 transitions, EQUAL" in said and "SwitchOn          3 / 3" in said
+    assert json.loads((toy / "v.json").read_text())["runs"][0]["verdict"] == "EQUAL"
+    record = evidence.read(evidence.evidence_path(toy, "toy", "toyimpl_OPEN_Lamp"))
+    assert record["kind"] == "conformance" and record["as_expected"] is True
+
+
+def test_a_wrong_builtin_differs(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["conform", "lamp", "--builtin", "brokenimpl", "--quiet"]) == 1
+    said = capsys.readouterr().out
+    assert "DIFFERS" in said and "first difference: outputs in Expire after 2 scans" in said
+    assert evidence.read(evidence.evidence_path(toy, "toy", "brokenimpl_OPEN_Lamp"))["verdict"] == "DIFFERS"
+
+
+def test_an_adapter_is_judged_by_a_suite_that_is_built_once(
+    toy: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = " ".join(f'"{word}"' for word in program(toy))
+    assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
+    first = capsys.readouterr()
+    assert "CONFORMS(exact, tour)" in first.out and "cases," in first.err
+    vectors = toy / "build" / "vectors" / "toy" / "lamp" / "tour.jsonl"
+    stamp = vectors.stat().st_mtime_ns
+    assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
+    assert vectors.stat().st_mtime_ns == stamp
+    assert evidence.read(evidence.evidence_path(toy, "toy", "adapter_lamp_tour"))["verdict"] == "CONFORMS"
+
+    (toy / "spec" / "toy" / "classes.toml").write_text("")
+    assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
+    assert vectors.stat().st_mtime_ns != stamp, "a suite older than its sources is built anew"
+    assert kit_main(["conform", "lamp", "--adapter", command, "--vectors", str(vectors), "--quiet"]) == 0
+
+
+def test_a_wrong_adapter_differs_and_the_command_given_repeats_it(
+    toy: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    command = " ".join(f'"{word}"' for word in program(toy, "LIMIT = 501"))
+    assert main(["conform", "lamp", "--adapter", command, "--quiet", "--json", str(toy / "v.json")]) == 1
+    assert "again:   modeproof conform lamp --adapter" in capsys.readouterr().out
+    case = json.loads((toy / "v.json").read_text())["difference"]["case"]
+    assert main(["conform", "lamp", "--adapter", command, "--quiet", "--case", case]) == 1
+
+
+def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    command = " ".join(f'"{word}"' for word in program(toy, "sys.exit('no licence')"))
+    assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 2
+    assert "UNJUDGED: hello: the adapter ended with status 1; it said: no licence" in capsys.readouterr().out
+    assert evidence.read(evidence.evidence_path(toy, "toy", "adapter_lamp_tour"))["verdict"] == "UNJUDGED"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["lmap", "--builtin", "toyimpl"], "no target 'lmap'; there are: lamp"),
+        (["lamp", "--builtin", "noimpl"], "noimpl.toy.lamp cannot be imported"),
+        (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
+        (["lamp", "--adapter", "x", "--suite", "toru"], "no suite 'toru'; there are: tour, brief"),
+        (["lamp", "--adapter", "x", "--vectors", "none.jsonl"], "No such file"),
+    ],
+)
+def test_what_cannot_be_judged_is_one_line(
+    toy: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+) -> None:
+    assert main(["conform", *arguments, "--quiet"]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_graph_that_lost_an_edge_is_no_basis(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    write(toy / "build" / "graphs" / "toy" / "OPEN_Lamp.txt", lines()[:-1])
+    assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet"]) == 2
+    assert "OPEN_Lamp.txt: 1 edges are missing" in capsys.readouterr().err
+    assert not evidence.evidence_path(toy, "toy", "toyimpl_OPEN_Lamp").exists()
