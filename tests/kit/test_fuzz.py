@@ -1,0 +1,75 @@
+"""No answer, however odd, makes the kit fail or pass: it is right, wrong, or UNJUDGED in one line."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from modeproof.kit.adapter import Adapter
+from modeproof.kit.judge import run_suite
+from modeproof.kit.vectors import Suite, open_suite
+from modeproof.suites.write import write_suite
+from tests.graph.printed import lamp_graph
+
+HELLO = {"ok": True, "name": "x", "version": "1", "time": "virtual", "relations": ["exact"]}
+
+json_values = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.sampled_from(["0FF0", "0000", "ok", ""]),
+    lambda inner: (
+        st.lists(inner, max_size=3)
+        | st.dictionaries(st.sampled_from(["out", "ok", "error", "LAMP", "MW", "list"]), inner, max_size=3)
+    ),
+    max_leaves=10,
+)
+outs = st.fixed_dictionaries({"LAMP": json_values, "MW": json_values}).map(lambda out: {"out": out})
+answers = st.binary(max_size=60) | (json_values | outs).map(lambda value: json.dumps(value).encode())
+
+
+class Scripted(Adapter):
+    """Answers as the suite expects, and once with what was given; no process is behind it."""
+
+    def __init__(self, suite: Suite, at: int, odd: bytes) -> None:
+        self.right = [{"out": dict(scan.outputs)} for case in suite.cases() for scan in case.scans]
+        self.at, self.odd, self.count, self.scans = at, odd, 0, 0
+
+    def ask_line(self, line: bytes) -> bytes:
+        request = json.loads(line)
+        answer: dict[str, Any] = HELLO if request["op"] == "hello" else {"ok": True}
+        if request["op"] == "scan":
+            answer = self.right[self.scans]
+            self.scans += 1
+        self.count += 1
+        return self.odd if self.count == self.at else json.dumps(answer).encode()
+
+    def quiet(self) -> None: ...
+
+    def close(self) -> None: ...
+
+    def bye(self) -> None: ...
+
+
+@pytest.fixture(scope="module")
+def suite(tmp_path_factory: pytest.TempPathFactory) -> Suite:
+    folder = tmp_path_factory.mktemp("fuzz")
+    write_suite(folder / "tour.jsonl", "tour", [lamp_graph(folder)])
+    return open_suite(folder / "tour.jsonl")
+
+
+@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(at=st.integers(1, 8), odd=answers)
+def test_an_odd_answer_never_passes_and_never_breaks_the_kit(suite: Suite, at: int, odd: bytes) -> None:
+    verdict = run_suite(suite, lambda: Scripted(suite, at, odd))
+    if verdict.word == "CONFORMS":
+        said = json.loads(odd)  # it happened to say the right thing
+        assert at == 1 or said == {"ok": True} or set(said) == {"out"}
+        if at == 1:
+            assert said["ok"] is True
+    elif verdict.word == "UNJUDGED":
+        assert verdict.reason and "\n" not in verdict.reason and verdict.status == 2
+    else:
+        assert verdict.word == "DIFFERS" and verdict.difference is not None and verdict.status == 1
+        assert type(json.loads(odd)["out"]["LAMP"]) is bool
