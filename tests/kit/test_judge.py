@@ -95,7 +95,6 @@ MISBEHAVIOURS = {
     "answers a key twice": ('say(\'{"out":{},"out":{}}\\n\')', "a key twice"),
     "answers a line without end": ("[sys.stdout.write('x' * 1000000) for _ in range(100)]", "longer than"),
     "closes its output": ("import os; os.close(1); time.sleep(60)", "closed its output"),
-    "answers twice": ("say({'out': out}); say({'out': out})", "nobody asked for"),
     "refuses": ("say({'error': 'no such word'})", 'refused: "no such word"'),
     "leaves an output out": ("say({'out': {'LAMP': False}})", "output MW is missing"),
     "adds an output": ("say({'out': {**out, 'X': 1}})", "'X' that the target does not have"),
@@ -128,6 +127,11 @@ def test_an_answer_too_many_is_no_difference(suite: Suite, tmp_path: Path) -> No
     )
     verdict = judged(suite, tmp_path, late)
     assert verdict.word == "UNJUDGED" and "nobody asked for" in verdict.reason
+
+
+def test_an_adapter_that_always_answers_twice_is_unjudged(suite: Suite, tmp_path: Path) -> None:
+    verdict = judged(suite, tmp_path, LATER + "say({'out': out}); say({'out': out})")
+    assert verdict.word == "UNJUDGED" and verdict.difference is None
 
 
 def test_a_late_answer_is_unjudged(suite: Suite, tmp_path: Path) -> None:
