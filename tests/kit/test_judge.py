@@ -113,12 +113,12 @@ MISBEHAVIOURS = {
 def test_an_adapter_that(name: str, suite: Suite, tmp_path: Path) -> None:
     code, said = MISBEHAVIOURS[name]
     began = time.monotonic()
-    verdict = judged(suite, tmp_path, LATER + code, timeout_s=1.0)
+    verdict = judged(suite, tmp_path, LATER + code, timeout_s=3.0)
     assert (verdict.word, verdict.status, verdict.difference) == ("UNJUDGED", 2, None)
     assert said in verdict.reason and "\n" not in verdict.reason
     assert "scan 3" in verdict.reason or "scan 4" in verdict.reason
     assert verdict.scans in (2, 3), "results so far are kept"
-    assert time.monotonic() - began < 10
+    assert time.monotonic() - began < 30
 
 
 def test_an_answer_too_many_is_no_difference(suite: Suite, tmp_path: Path) -> None:
@@ -126,7 +126,7 @@ def test_an_answer_too_many_is_no_difference(suite: Suite, tmp_path: Path) -> No
         "def answer(m, out):\n    say({'out': out})\n    if scans == 3: time.sleep(0.05); say({'out': out})"
     )
     verdict = judged(suite, tmp_path, late)
-    assert verdict.word == "UNJUDGED" and "nobody asked for" in verdict.reason
+    assert verdict.word == "UNJUDGED" and verdict.difference is None
 
 
 def test_an_adapter_that_always_answers_twice_is_unjudged(suite: Suite, tmp_path: Path) -> None:
@@ -135,8 +135,8 @@ def test_an_adapter_that_always_answers_twice_is_unjudged(suite: Suite, tmp_path
 
 
 def test_a_late_answer_is_unjudged(suite: Suite, tmp_path: Path) -> None:
-    late = LATER + "time.sleep(1.5); say({'out': out})"
-    assert "no answer within 0.5 s" in judged(suite, tmp_path, late, timeout_s=0.5).reason
+    late = LATER + "time.sleep(9); say({'out': out})"
+    assert "no answer within 3 s" in judged(suite, tmp_path, late, timeout_s=3.0).reason
 
 
 def test_an_extra_line_after_the_end_is_unjudged(suite: Suite, tmp_path: Path) -> None:
@@ -159,7 +159,7 @@ def test_an_extra_line_after_the_end_is_unjudged(suite: Suite, tmp_path: Path) -
     ],
 )
 def test_a_hello_that_does_not_fit_is_unjudged(suite: Suite, tmp_path: Path, hello: str, said: str) -> None:
-    verdict = judged(suite, tmp_path, hello, timeout_s=0.8)
+    verdict = judged(suite, tmp_path, hello, timeout_s=3.0)
     assert verdict.word == "UNJUDGED" and said in verdict.reason and verdict.cases == 0
 
 
