@@ -120,7 +120,8 @@ def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress)
         progress.end(name)
     folders = [place / builtin, place / builtin / run.document]
     paths = [path for folder in folders for path in sorted(folder.glob("*.py"))]
-    paths += [place / "spec" / run.document / "interface.toml", graph_file(place, run)]
+    registers = [place / "spec" / run.document / f"{name}.toml" for name in ("interface", "classes", "runs")]
+    paths += [graph_file(place, run), *(path for path in registers if path.is_file())]
     record = evidence.make(
         kind="conformance",
         id=name,
