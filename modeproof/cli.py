@@ -326,6 +326,7 @@ def prove_document(
     out = build(place) / "proofs" / document
     sources = [*(place / "proofs").glob("*.py"), *(place / "proofs" / document).glob("*.py")]
     sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
+    sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
     inputs = evidence.hashes(place, sources)
     tools = {
         name: evidence.tool(_version(package)) for name, package in (("z3", "z3-solver"), ("cvc5", "cvc5"))

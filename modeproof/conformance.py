@@ -110,7 +110,7 @@ def _inputs(place: Path, run: Run) -> dict[str, str]:
 
     folders = [place / REFERENCE, place / REFERENCE / run.document]
     paths = [path for folder in folders for path in sorted(folder.glob("*.py"))]
-    paths.append(place / "spec" / run.document / "interface.toml")
+    paths += [place / "spec" / run.document / name for name in ("interface.toml", "classes.toml")]
     graph = graph_file(place, run)
     return evidence.hashes(place, [path for path in [*paths, graph] if path.is_file()])
 

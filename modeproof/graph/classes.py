@@ -4,13 +4,13 @@ An OPEN_ model tries one representative of a class of inputs, such as one word f
 spec/<document>/classes.toml says which letters are representatives:
 
     [[class]]
-    device = "fplc"
+    device = "latch"
     rule = "words"                      every word that the alphabet does not name for this field
-    field = "MW03"
+    field = "W1"
     representative = "0001"
 
     [[class]]
-    device = "fplc"
+    device = "latch"
     rule = "count"                      every combination with so many of the fields set
     fields = ["A", "B", "C"]
     representative = ["A", "B"]

@@ -1,8 +1,8 @@
 """Reads the graph that an OPEN_ model printed: lines INPUT, INIT, STATE and EDGE, each one TLA+ tuple.
 
-    <<"INPUT", 17, [LA |-> TRUE, MW03 |-> 4080, dt |-> 1]>>       one letter of the input alphabet
+    <<"INPUT", 17, [LA |-> TRUE, W1 |-> 4080, dt |-> 1]>>       one letter of the input alphabet
     <<"INIT", <<"Start", {}, 0>>>>                                the view of the power-up state
-    <<"STATE", <<"Start", {}, 0>>, [MW01 |-> 0]>>                 a view and its row of outputs
+    <<"STATE", <<"Start", {}, 0>>, [W2 |-> 0]>>                 a view and its row of outputs
     <<"EDGE", <<..view..>>, "StepName", 17, <<..view..>>>>        one transition
 
 TLC prints them as strings; both that form, with quotes and escapes, and the unquoted one are read.

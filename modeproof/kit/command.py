@@ -28,7 +28,9 @@ def add_parser(
         description=text[0].upper() + text[1:] + ".",
         epilog="exit status: 0 CONFORMS or EQUAL, 1 DIFFERS, 2 UNJUDGED",
     )
-    parser.add_argument("target", metavar="TARGET", help="what the program claims to be, such as fplc")
+    parser.add_argument(
+        "target", metavar="TARGET", help="what the program claims to be: a device of the interface register"
+    )
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--adapter", metavar="CMD", help="command that speaks adapter protocol 1")
     which.add_argument(

@@ -45,7 +45,7 @@ class Checked:
 def select(
     place: Path, names: Sequence[str] = (), lane: str | None = None, document: str | None = None
 ) -> tuple[Run, ...]:
-    """The runs to check: by id or pattern (`MC_*`, `mode_selection/MC_*`), else all of a lane, else of all
+    """The runs to check: by id or pattern (`MC_*`, `DOCUMENT/MC_*`), else all of a lane, else of all
     lanes.
 
     Raises Unjudged when a name or the whole selection matches nothing.

@@ -451,7 +451,7 @@ def _idle(s: State, i: Inputs, output: int) -> State:
     EKS-2-6, EKS-9-1-FPLC, EKS-9-2, EKS-9-4-FPLC, EKS-GP-5
 
     The outputs may already be switching when LA is seen, so any of them is taken with LA; without LA one
-    output alone is ignored (E-36) and several are an error.
+    output alone is ignored (E-73) and several are an error.
     """
     if i.LA:
         return _enter(s, PULSE_ONES)  # DetectKey
@@ -512,7 +512,7 @@ def _authorize(s: State, i: Inputs) -> State:
 def _await_selection(s: State, i: Inputs) -> State:
     """Step 17: wait for a selection, which is any word but zero in MW03. EKS-2-17
 
-    An acknowledgment may only appear after the echo was shown; one that is there already is refused (E-15).
+    An acknowledgment may only appear after the echo was shown; one that is there already is refused (E-65).
     """
     if i.MW07 != ZERO:
         return _enter_error(s)  # UnexpectedAcknowledgment

@@ -111,7 +111,7 @@ def outputs(s: State, active: int = NONE) -> Outputs:
 
     SelectMSO goes out from the touch until the end or withdrawal (EKS-2-15, EKS-8-9, EKS-8-16), SwitchMSO
     only after the confirmation (EKS-2-24); the fields above the authorization level stay closed (EKS-2-14,
-    EKS-SD-4); the active mode is displayed always, also when the screen is inhibited (EKS-8-8, E-25b).
+    EKS-SD-4); the active mode is displayed always, also when the screen is inhibited (EKS-8-8, E-25).
     """
     c = s.state
     if c == Step.INHIBITED:
@@ -153,7 +153,7 @@ def _next_state(s: State, i: Inputs) -> State:
     EKS-3-1-HMI, EKS-3-4-HMI, EKS-9-1-HMI, EKS-9-4-HMI
 
     A level is one of the five words of RE (EKS-T2); zero is none (EKS-KS-8). Whenever the level is gone or
-    is another one, the screen closes and the selection goes (EKS-8-8, EKS-SD-3, E-17), also while nothing is
+    is another one, the screen closes and the selection goes (EKS-8-8, EKS-SD-3, E-55), also while nothing is
     going on (EKS-GP-5).
     """
     level = decode(RE, i.ReadAuthorization)
@@ -190,7 +190,7 @@ def _withdraw(s: State) -> State:
 def _inhibited(s: State, i: Inputs, level: int) -> State:
     """Wait for a level, and for an old echo to be gone; then open the screen.
 
-    EKS-2-14, EKS-9-1-HMI, EKS-9-4-HMI, E-46, E-52
+    EKS-2-14, EKS-9-1-HMI, EKS-9-4-HMI, E-46, E-57
     """
     if level != NONE and i.CheckMSO == ZERO:
         return State(s.params, Step.SELECT, level, NONE)  # EnableScreen

@@ -5,7 +5,7 @@ wrote, and of what the user does; each ``scan_`` function lets one device take o
 alone. In which order and how often is for the caller to choose: the devices are asynchronous (E-43).
 
 EKS --LA, A..STR--> F-PLC --MW01, MW05--> PLC --ReadAuthorization, CheckMSO--> HMI F-PLC <--MW03, MW07-- PLC
-<--SelectMSO, SwitchMSO--------- HMI F-PLC --active mode, for display only (E-25b)------------> HMI
+<--SelectMSO, SwitchMSO--------- HMI F-PLC --active mode, for display only (E-25)------------> HMI
 """
 
 from __future__ import annotations
