@@ -12,7 +12,7 @@ from tests.spec.mode_selection.planted import Base, Fault
 KEY_FLOWS = Base("MC_KeyFlows_smoke")
 FPLC = Base(
     "MC_Fplc_arbitrary",
-    (("ALL_VECTORS = TRUE", "ALL_VECTORS = FALSE  TimesToTry <- SmallInputs"),),
+    (("ALL_VECTORS = TRUE", "ALL_VECTORS = FALSE  InputsToTry <- SmallInputs"),),
     module="FplcSmall",
 )
 EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
@@ -71,8 +71,8 @@ FAULTS = (
         Fault(
             "any acknowledgment matches any selection",
             "Fplc.tla",
-            "    \\/ i.MW07 = SW[fplcSelection]\n",
-            "    \\/ ModeOf(SW, i.MW07) # None\n",
+            "i.MW07 = SW[fplcSelection]",
+            "ModeOf(SW, i.MW07) # None",
         ),
     ),
     Falls(
@@ -213,6 +213,36 @@ FAULTS = (
             "Fplc.tla",
             "IsChanged(i) == fplcState \\in Holding",
             "IsChanged(i) == fplcState \\in Authorized",
+        ),
+    ),
+    Falls(
+        "EchoNeedsSelection",
+        FPLC,
+        Fault(
+            "while MW07 is awaited MW03 is not looked at",
+            "Fplc.tla",
+            'AwaitMW07(i) == Unchanged("AwaitAcknowledgment", i)',
+            'AwaitMW07(i) == fplcState = "AwaitAcknowledgment"',
+        ),
+    ),
+    Falls(
+        "LevelNeedsPulse",
+        FPLC,
+        Fault(
+            "any output counts as the ones of the pulse",
+            "Fplc.tla",
+            'i.vec = MSO /\\ Proceed("PulseZeros")',
+            'i.vec # {} /\\ Proceed("PulseZeros")',
+        ),
+    ),
+    Falls(
+        "NoWaitBeyondDeadline",
+        FPLC,
+        Fault(
+            "a deadline passes one tick too late",
+            "Fplc.tla",
+            "Now(i) >= Deadline",
+            "Now(i) > Deadline",
         ),
     ),
     # ------------------------------------------------------------------ the devices together

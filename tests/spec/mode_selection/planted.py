@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from modeproof.places import build, root
-from modeproof.tlc.cfg import parse_cfg
+from modeproof.tlc.cfg import Cfg, parse_cfg
 from modeproof.tlc.judge import Judgement, judge
 from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.runs import Run, load_runs
@@ -71,6 +71,7 @@ class Finding:
     """What came of a TLC run on a copy."""
 
     run: Run
+    cfg: Cfg
     judgement: Judgement
     outcome: Outcome
     log: str
@@ -142,9 +143,10 @@ def run_copy(place: Path, run: Run, cfg_text: str) -> Finding:
     digest = hashlib.sha256(cfg_text.encode()).hexdigest()
     run = replace(run, workers=1, heap_mb=1024, timeout_s=180.0, cfg_sha256=digest)
     outcome = run_tlc(place, run, find_toolchain())
-    found = judge(run, parse_cfg(cfg_text, run.cfg), digest, outcome)
+    cfg = parse_cfg(cfg_text, run.cfg)
+    found = judge(run, cfg, digest, outcome)
     log = (build(place) / "tlc" / DOCUMENT / f"{run.id}.log").read_text()
-    return Finding(run, found, outcome, log)
+    return Finding(run, cfg, found, outcome, log)
 
 
 def pinned(control: Finding) -> Run:
