@@ -3,8 +3,8 @@
 Adapter protocol 1 is JSON Lines over standard input and output; one answer for each request, in order:
 
     > {"op":"hello","protocol":1,"target":"NAME"}
-    < {"ok":true,"name":"my program","version":"1.2","time":"virtual","relations":["exact"],"max_latency_scans":0,
-       "unobserved":[],"scans":true}
+    < {"ok":true,"name":"my program","version":"1.2","time":"virtual","relations":["exact"],
+       "max_latency_scans":0,"unobserved":[],"scans":true}
     > {"op":"reset","params":{"T_ms":1000}}              < {"ok":true}
     > {"op":"scan","dt_ms":10,"in":{..all inputs..}}         < {"out":{..all outputs..}}
     > {"op":"scans","list":[{"dt_ms":10,"in":{..}},..]}      < {"list":[{"out":{..}},..]}

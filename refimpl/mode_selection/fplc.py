@@ -170,8 +170,8 @@ def outputs(s: State) -> Outputs:
     """The row of outputs that belongs to a state.
 
     MW01 carries the authorization level from the end of step 12 until the switchover, removal or error
-    (EKS-2-12, EKS-8-6); zero is the word of no key (EKS-KS-8). It is zero in Settle too, so that the panel closes
-    and a quick next touch cannot overtake the return to zero (E-59).
+    (EKS-2-12, EKS-8-6); zero is the word of no key (EKS-KS-8). It is zero in Settle too, so that the panel
+    closes and a quick next touch cannot overtake the return to zero (E-59).
     MW05 carries the echo from step 20 until the switchover (Figure 6, from the latched selection), and is
     zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). The mode outputs are one of five, none before
     the first switchover; removal does not touch them (EKS-2-29, EKS-8-8). ERROR is the one error mode (E-22).

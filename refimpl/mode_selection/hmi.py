@@ -355,7 +355,7 @@ def _check_field(name: str, field: Rectangle, screen: Rectangle) -> None:
 
 
 def layout_record(layout: Layout) -> dict[str, list[int] | list[list[int]]]:
-    """The layout as the panel tells it in the adapter protocol: x, y, width, height of each field. EKS-2-22"""
+    """The layout as the panel tells it in the protocol: x, y, width, height of each field. EKS-2-22"""
     return {
         "screen": _sides(layout.screen),
         "selection": [_sides(field) for field in layout.selection],

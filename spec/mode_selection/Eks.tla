@@ -49,7 +49,7 @@ LOCAL Bit(word, b) == (word \div (2^b)) % 2 = 1
 AccessCodeAccepted(code) ==
     IF OPERATING_STATE = 6 THEN code = DIP_SWITCHES
     ELSE code \in 0..1023 /\ {b \in 0..9 : Bit(code, b) /\ Bit(DIP_SWITCHES, b)} # {}
-\* EKS-KS-2, EKS-KS-5, EKS-KS-8, EKS-2-4, EKS-T1, E-25e
+\* EKS-KS-2, EKS-KS-5, EKS-KS-8, EKS-2-4, EKS-T1, E-25e, E-67
 Accepted(k) ==
     /\ KEY[k].operating_state = OPERATING_STATE
     /\ AccessCodeAccepted(KEY[k].access_code)
@@ -102,7 +102,7 @@ SeeRemoval(i) ==
     /\ IF eksState = "Signal" THEN GoTo("ClearOutputs")
        ELSE eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None
     /\ Did("SeeRemoval")
-\* EKS-8-5, EKS-SD-8, E-26: first cleared, then checked
+\* EKS-8-5, EKS-SD-8, E-26, E-62: first cleared, then checked
 ResetOutputs(i) ==
     eksState = "ClearOutputs" /\ eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None /\ Did("ResetOutputs")
 \* EKS-8-4, E-26
@@ -132,6 +132,8 @@ EksScan(i) ==
 OneOutputOutsideThePulse == eksState # "TestOnes" => \A a, b \in Vector : a = b
 \* EKS-2-3, EKS-2-9, EKS-8-5, EKS-SD-2: without LA no output, but for the one scan between removal steps 2 and 5
 NoOutputWithoutLA == ~LA /\ eksState # "ClearOutputs" => Vector = {}
-\* EKS-2-4, EKS-2-5, EKS-KS-7, EKS-T1: LA says that the key passed every check
-LAOnlyForAcceptedKeys == LA => KEY[key].KEYCRC = CHECKSUM[key] /\ Accepted(key)
+\* EKS-2-4, EKS-2-5, EKS-2-7, EKS-KS-7, EKS-T1, EKS-T2: LA says that the key passed every check, the output what is written on it
+LAOnlyForAcceptedKeys ==
+    /\ LA => KEY[key].KEYCRC = CHECKSUM[key] /\ Accepted(key)
+    /\ eksState = "Signal" => \A l \in MSO : (l \in Vector) = (RE[l] = KEY[key].authorization_level)
 =============================================================================

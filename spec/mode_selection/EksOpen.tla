@@ -8,7 +8,8 @@
 EXTENDS Sequences, FiniteSets, TLC, Eks
 
 CONSTANT PRINT_GRAPH    \* TRUE: print inputs, states and edges
-VARIABLE in             \* the number of the last scan's input; hidden by VIEW
+VARIABLES in,           \* the number of the last scan's input; hidden by VIEW
+          beat          \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
 
 View == eks
 
@@ -45,13 +46,20 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alp
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == EksInit /\ step = "" /\ in = 0 /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
-OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : EksScan(i) /\ in' = n
-OpenSpec == OpenInit /\ [][OpenNext]_<<eks, step, in>>
+OpenInit == EksInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : EksScan(i) /\ in' = n /\ beat' = ~beat
+OpenSpec == OpenInit /\ [][OpenNext]_<<eks, step, in, beat>>
 
 Scanned == Alphabet[in']
-\* EKS-8-2, EKS-SD-2: LA is off in the scan in which the key is gone or another one is there
-LADropsAtOnce == [][(LA /\ Scanned.key # key) => ~LA']_View
+\* The keys of the table that are right, told apart from the guard that accepts them
+RightKeys == 0..5 \cup (IF OPERATING_STATE = 7 THEN {10} ELSE {})
+\* EKS-8-2, EKS-8-5, EKS-SD-2: LA is on only with a right key, and off in the scan in which it is gone or another one is there
+LADropsAtOnce ==
+    [][/\ LA' => (Scanned.key \in RightKeys /\ Scanned.key = key')
+       /\ (LA /\ Scanned.key # key) => ~LA'
+       /\ (~LA /\ Vector # {}) => Vector' = {}]_beat
 \* EKS-2-10, EKS-4-1, EKS-4-3, E-10: the single output comes only after all outputs and none, with LA
-PulseBeforeOutput == [][(Cardinality(Vector') = 1 /\ Vector # Vector') => eksState = "TestZeros" /\ LA /\ LA']_View
+PulseBeforeOutput ==
+    [][/\ (Cardinality(Vector') = 1 /\ Vector # Vector') => (eksState = "TestZeros" /\ Vector = {} /\ LA /\ LA')
+       /\ (eksState # "TestZeros" /\ eksState' = "TestZeros") => Vector = MSO]_beat
 =============================================================================

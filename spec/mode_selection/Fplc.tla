@@ -24,11 +24,12 @@ CONSTANTS
     ON_ERROR,   \* "hold" or "none": what Error does to the active mode (E-24)
     LITERAL     \* literal readings that are switched on
 
-Readings == {"LITERAL_FIG7", "LIVE_MW03", "NO_SETTLE", "INSERT_DURING_REMOVAL", "NO_LA_AT_SWITCH", "NO_DWELL", "SETTLE_KEEPS_MW01"}
+Readings == {"LITERAL_FIG7", "LIVE_MW03", "NO_SETTLE", "INSERT_DURING_REMOVAL", "NO_LA_AT_SWITCH", "NO_DWELL", "SETTLE_KEEPS_MW01", "ATOMIC_COPY"}
 
 ASSUME T_ON \in Nat \ {0} /\ T_SEQ \in Nat \ {0}
 ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
 ASSUME ON_ERROR \in {"hold", "none"}
+ASSUME LITERAL \subseteq Readings
 
 VARIABLES
     fplcState,      \* the step that is executed next
@@ -56,7 +57,7 @@ FplcTypeOK ==
     /\ mode \subseteq MSO
     /\ fplcElapsed \in 0..T_ON + T_SEQ + T_REM
 
-\* EKS-8-6, E-25c: at power-up no mode is active and nothing is authorized
+\* E-25c: at power-up no mode is active and nothing is authorized
 FplcInit ==
     /\ fplcState = "Start" /\ accepted = None /\ authority = None /\ fplcSelection = None
     /\ mode = {} /\ fplcElapsed = 0
@@ -90,7 +91,7 @@ LOCAL ZerosReturned(i) == NoSignal(i) /\ NoWords(i) /\ Dwelt(i)
 
 Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Removing -> T_REM [] OTHER -> T_SEQ
 
-\* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority
+\* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority (E-63)
 UnguardedSwitch == fplcState = "Switch" /\ Literal("NO_LA_AT_SWITCH")
 IsMany(i) == Many(i) /\ fplcState \notin OwnRules /\ fplcState \notin Pulse
 IsGone(i) == ~i.LA /\ fplcState \notin OwnRules /\ fplcState \notin Removing /\ ~UnguardedSwitch
@@ -131,13 +132,13 @@ KeyGone(i) ==
     /\ EnterClear
     /\ Did("KeyGone")
 
-\* EKS-3-1-FPLC, EKS-3-4-FPLC, E-28, E-41: once an output is accepted it must stay
+\* EKS-3-1-FPLC, EKS-3-4-FPLC, E-28, E-41, E-68: once an output is accepted it must stay
 VectorChanged(i) ==
     /\ ~IsMany(i) /\ ~IsGone(i) /\ IsChanged(i)
     /\ EnterClear
     /\ Did("VectorChanged")
 
-\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-25d, E-30, E-32: expiry is tested before success
+\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-25d, E-30, E-32, E-64: expiry is tested before success
 DeadlineExpired(i) ==
     /\ ~IsMany(i) /\ ~IsGone(i) /\ IsExpired(i)
     /\ EnterError
@@ -154,7 +155,7 @@ AwaitPowerUpZeros(i) ==
 
 \* EKS-9-1-FPLC, EKS-9-2, EKS-9-3, E-35, E-36
 AwaitKey(i) == fplcState = "Idle" /\ ~i.LA /\ ~Many(i) /\ Untimed /\ Did("AwaitKey")
-\* EKS-2-6, EKS-9-4-FPLC, E-17, E-40: the deadline for the pulse starts with LA, whatever the outputs show
+\* EKS-2-6, EKS-9-4-FPLC, E-17, E-40, E-73: the deadline for the pulse starts with LA, whatever the outputs show
 DetectKey(i) == fplcState = "Idle" /\ i.LA /\ Proceed("PulseOnes") /\ Did("DetectKey")
 
 ----------------------------------------------------------------------------
@@ -207,7 +208,7 @@ LOCAL Stands(i) ==
     \/ Literal("LIVE_MW03") /\ ModeOf(SE, i.MW03) # None
 LOCAL Unchanged(s, i) == fplcState = s /\ Stands(i)
 
-\* E-11, E-15: an acknowledgment that nobody asked for
+\* E-11, E-15, E-65: an acknowledgment that nobody asked for
 UnexpectedAcknowledgment(i) ==
     /\ \/ fplcState = "AwaitSelection"
        \/ fplcState = "CheckSelection"
@@ -235,7 +236,7 @@ RefuseSelection(i) ==
 ----------------------------------------------------------------------------
 (* Echo, acknowledgment, switchover.                                       *)
 
-\* EKS-2-25, E-16, E-21: the panel took the selection back or changed it
+\* EKS-2-25, E-16, E-21, E-61: the panel took the selection back or changed it
 WithdrawSelection(i) ==
     /\ \/ fplcState = "CheckSelection" /\ i.MW07 = 0 /\ i.MW03 = 0
        \/ fplcState \in Transaction /\ ~Stands(i)
@@ -264,7 +265,7 @@ RefuseAcknowledgment(i) ==
     /\ EnterError
     /\ Did("RefuseAcknowledgment")
 
-\* E-21: the acknowledgment went away again
+\* E-21, E-66: the acknowledgment went away again
 WithdrawAcknowledgment(i) ==
     /\ \E s \in {"CheckAcknowledgment", "Match", "Switch"} : Unchanged(s, i)
     /\ i.MW07 = 0
@@ -274,7 +275,7 @@ WithdrawAcknowledgment(i) ==
 \* Figure 7 as printed has the word of MSO 3 in the row of MSO 2; in a chain that falls through, MSO 3 confirms MSO 2 (E-01)
 LOCAL PrintedMatch(i) == i.MW07 = SW[3] /\ fplcSelection = 2
 LOCAL Matches(i) ==
-    \/ i.MW07 = SW[fplcSelection]
+    \/ i.MW07 = SW[fplcSelection] /\ ~(Literal("LITERAL_FIG7") /\ fplcSelection = 2)
     \/ Literal("LITERAL_FIG7") /\ PrintedMatch(i)
     \/ Literal("LIVE_MW03") /\ ModeOf(SW, i.MW07) # None /\ ModeOf(SW, i.MW07) = ModeOf(SE, i.MW03)
 
@@ -287,7 +288,7 @@ RefuseMatch(i) ==
     /\ EnterError
     /\ Did("RefuseMatch")
 
-\* EKS-2-29, EKS-SD-2, E-01, E-16, E-18, E-42: every guard is evaluated again in the scan that switches
+\* EKS-2-29, EKS-SD-2, E-01, E-16, E-18, E-42, E-71: every guard is evaluated again in the scan that switches
 SwitchMode(i) ==
     /\ Unchanged("Switch", i) /\ Matches(i)
     /\ mode' = {IF LITERAL \cap {"LITERAL_FIG7", "LIVE_MW03"} # {} THEN ModeOf(SW, i.MW07) ELSE fplcSelection}

@@ -15,12 +15,14 @@ CONSTANTS
 
 VARIABLES
           in,         \* the input of the last scan, by its number; hidden by VIEW
+          beat,       \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
           \* What an observer of the wires alone has seen in this insertion; nothing of the F-PLC reads it:
           cleared,    \* one output, LA and both words zero, since LA was last off and the last echo was taken back
+          pulse,      \* with LA: 0 no pulse, 1 all outputs seen, 2 then none
           selected,   \* then MW03 showed this mode, with MW07 still zero
           echoed      \* then MW05 showed it
 
-observer == <<cleared, selected, echoed>>
+observer == <<cleared, pulse, selected, echoed>>
 View == fplc
 ObservedView == <<View, observer>>
 
@@ -54,7 +56,7 @@ PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>)
 ----------------------------------------------------------------------------
 OpenInit ==
     /\ FplcInit /\ step = "" /\ in = 0
-    /\ cleared = FALSE /\ selected = None /\ echoed = FALSE
+    /\ beat = FALSE /\ cleared = FALSE /\ pulse = 0 /\ selected = None /\ echoed = FALSE
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 \* The observer reads the wires i of a scan, and MW05 as it stood before it and after it
@@ -65,63 +67,76 @@ Observe(i) ==
         ended   == MW05 # 0 /\ MW05' = 0          \* a transaction is over: the next one needs zeros of its own
         standing == present /\ selected # None /\ i.MW03 = SE[selected]
     IN  /\ cleared' = (~ended /\ (zeros \/ (present /\ cleared)))
+        /\ pulse' = IF ~i.LA THEN 0 ELSE IF i.vec = MSO THEN 1 ELSE IF pulse = 1 /\ i.vec = {} THEN 2 ELSE pulse
         /\ selected' = IF ended THEN None ELSE IF standing THEN selected
                        ELSE IF cleared /\ present /\ i.MW07 = 0 THEN chosen ELSE None
         /\ echoed' = (~ended /\ standing /\ (echoed \/ MW05 = CH[selected]))
 
-\* Where the clock stands the graph still tries every time; the properties need only one
-TimesToTry == IF PRINT_GRAPH \/ fplcState \in Clocked THEN 0..N - 1 ELSE 0..(98 * NV) - 1
+\* The graph tries every time in every state; the properties need only those that the state can tell apart
+LongestTime == IF fplcState \in Removing THEN T_REM ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
+ASSUME PRINT_GRAPH \/ (T_ON = T_DWELL /\ T_SEQ = T_DWELL)
+InputsToTry == IF PRINT_GRAPH THEN 0..N - 1 ELSE 0..(98 * NV) * (LongestTime + 1) - 1
 
 OpenNext ==
-    \E n \in TimesToTry : \E i \in {Alphabet[n]} :
+    \E n \in InputsToTry : \E i \in {Alphabet[n]} :
         /\ FplcScan(i)
-        /\ in' = n
+        /\ in' = n /\ beat' = ~beat
         /\ IF PRINT_GRAPH THEN UNCHANGED observer ELSE Observe(i)
 
-OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in>>
+OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in, beat>>
 
 ----------------------------------------------------------------------------
-(* Action properties; Scanned is the input of the scan that is judged.     *)
+(* Action properties, judged in every scan; Scanned is that scan's input.  *)
 Scanned == Alphabet[in']
+\* E-71: also a switchover to the mode that is active already
+Switched == (step' = "SwitchMode" \/ mode' # mode) /\ mode' # {}
 PulseWindow == fplcState \in Pulse \/ (fplcState = "Idle" /\ Scanned.LA)
 
 \* EKS-2-28, EKS-2-29, EKS-SD-2, E-15, E-16: the pair stands on the wires in the scan that switches, and it came after zeros, in this insertion
 SwitchNeedsMatchingPair ==
-    [][mode' # mode /\ mode' # {} =>
+    [][Switched =>
         \E m \in MSO : /\ mode' = {m}
                        /\ Scanned.MW03 = SE[m] /\ Scanned.MW07 = SW[m]
-                       /\ cleared /\ selected = m /\ echoed]_ObservedView
+                       /\ cleared /\ selected = m /\ echoed]_beat
 
 \* EKS-2-18, EKS-5-10, EKS-T2-2, E-18: never beyond the level that the EKS signals in that very scan
 AuthorizationRespected ==
-    [][mode' # mode /\ mode' # {} =>
-        (\E m, a \in MSO : mode' = {m} /\ Scanned.vec = {a} /\ Permitted(a, m))]_ObservedView
+    [][Switched =>
+        (\E m, a \in MSO : mode' = {m} /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
 
 \* EKS-SD-2, E-42
-NoChangeWithoutLA == [][mode' # mode /\ mode' # {} => Scanned.LA]_ObservedView
+NoChangeWithoutLA == [][Switched => Scanned.LA]_beat
 
 \* EKS-8-8, EKS-SD-7, E-24: insertion, removal, error and deadline leave the mode; under ON_ERROR = "none" the error mode clears it
 NoChangeBesideSwitchover ==
     [][mode' # mode =>
-        \/ fplcState = "Switch" /\ fplcState' = "Settle"
-        \/ ON_ERROR = "none" /\ fplcState' = "Error" /\ mode' = {}]_ObservedView
+        \/ step' = "SwitchMode" /\ mode' # {}
+        \/ ON_ERROR = "none" /\ fplcState' = "Error" /\ mode' = {}]_beat
 
 \* EKS-KS-6, EKS-2-11, E-09: two outputs outside the pulse window lead to the error mode in that scan, and nothing switches
 TwoOutputsLeadToError ==
     [][Cardinality(Scanned.vec) >= 2 /\ ~PulseWindow =>
-        fplcState' = "Error" /\ (mode' = mode \/ (ON_ERROR = "none" /\ mode' = {}))]_ObservedView
+        ERROR' /\ fplcState' = "Error" /\ (mode' = mode \/ (ON_ERROR = "none" /\ mode' = {}))]_beat
 
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-17, E-23, E-29: the way to a new insertion leads over zeros everywhere
 IdleOnlyOverZeros ==
     [][fplcState # "Idle" /\ fplcState' = "Idle" =>
         /\ ~Scanned.LA /\ Scanned.vec = {} /\ Scanned.MW03 = 0 /\ Scanned.MW07 = 0
-        /\ fplcElapsed + Scanned.dt >= T_DWELL]_ObservedView
+        /\ fplcElapsed + Scanned.dt >= T_DWELL]_beat
 
-\* EKS-GP-3, EKS-3-1-FPLC: a transaction is left in the scan in which the key is not signalled
+\* EKS-GP-4, EKS-3-1-FPLC: a transaction is left in the scan in which the key is not signalled
 RemovalSeenAtOnce ==
     [][(fplcState \in Holding /\ (~Scanned.LA \/ Scanned.vec # {accepted})) =>
-        MW01' = 0 /\ MW05' = 0 /\ fplcState' \in {"Clear", "Error"}]_ObservedView
+        MW01' = 0 /\ MW05' = 0 /\ fplcState' \in {"Clear", "Error"}]_beat
 
-\* EKS-GP-3: every scan has exactly one step (the guards overlap nowhere and leave no gap)
-ExactlyOneStep == \A n \in 0..N - 1 : ENABLED (in' = n /\ FplcScan(Alphabet[n]) /\ UNCHANGED observer)
+\* EKS-2-20, EKS-6-12: what MW05 shows stands in MW03 in the scan that shows it, and the signalled level permits it
+EchoNeedsSelection ==
+    [][MW05' # 0 =>
+        (\E a, m \in MSO : MW05' = CH[m] /\ Scanned.MW03 = SE[m] /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
+
+\* EKS-2-10, EKS-4-1, EKS-4-3, E-10: no level is published without the test pulse of this insertion
+LevelNeedsPulse == [][(MW01 = 0 /\ MW01' # 0) => pulse = 2]_beat
+
+\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11, E-03, E-30: no wait outlasts its deadline
+NoWaitBeyondDeadline == fplcState \in Timed => fplcElapsed < Deadline
 =============================================================================

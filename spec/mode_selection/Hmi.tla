@@ -55,7 +55,7 @@ LOCAL GoTo(s) == hmiState' = s /\ UNCHANGED <<offered, hmiSelection>>
 LOCAL Stay == UNCHANGED hmi
 LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
 
-\* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55; from Select also when an echo shows that nobody asked for
+\* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55, E-60; from Select also when an echo shows that nobody asked for
 InhibitScreen(i) ==
     /\ \/ hmiState # "Inhibited" /\ ~Enable(i)
        \/ At("Select", i) /\ i.CM # 0
@@ -94,7 +94,7 @@ AbandonSelection(i) ==
 \* EKS-2-22, EKS-2-23
 AskConfirmation(i) ==
     At("Confirm", i) /\ Echoed(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
-\* EKS-2-23, EKS-2-24, EKS-SD-5
+\* EKS-2-23, EKS-2-24, EKS-SD-5, E-69
 TouchConfirm(i) ==
     At("Confirm", i) /\ Echoed(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
 \* EKS-2-25, E-21, E-53: the negative acknowledgment takes the selection back; after the confirmation there is none

@@ -7,7 +7,8 @@
 EXTENDS Sequences, TLC, Hmi
 
 CONSTANT PRINT_GRAPH    \* TRUE: print inputs, states and edges
-VARIABLE in             \* the number of the last scan's input; hidden by VIEW
+VARIABLES in,           \* the number of the last scan's input; hidden by VIEW
+          beat          \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
 
 View == hmi
 
@@ -27,20 +28,21 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alp
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == HmiInit /\ step = "" /\ in = 0 /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
-OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : HmiScan(i) /\ in' = n
-OpenSpec == OpenInit /\ [][OpenNext]_<<hmi, step, in>>
+OpenInit == HmiInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : HmiScan(i) /\ in' = n /\ beat' = ~beat
+OpenSpec == OpenInit /\ [][OpenNext]_<<hmi, step, in, beat>>
 
 Scanned == Alphabet[in']
-\* EKS-2-14, EKS-8-8, EKS-SD-3, EKS-SD-4: no selection without authorization on the bus, none beyond it
+\* EKS-2-14, EKS-8-8, EKS-SD-3, EKS-SD-4, E-57: the screen opens without an old echo; no selection without authorization on the bus, none beyond it
 SelectionNeedsEnable ==
-    [][SelectMSO' # 0 => Permitted(ModeOf(RE, Scanned.RA), ModeOf(SE, SelectMSO'))]_View
+    [][/\ SelectMSO' # 0 => Permitted(ModeOf(RE, Scanned.RA), ModeOf(SE, SelectMSO'))
+       /\ (hmiState = "Inhibited" /\ hmiState' # "Inhibited") => Scanned.CM = 0]_beat
 \* EKS-2-22, EKS-2-23, EKS-2-24, EKS-SD-5: the acknowledgment is sent after the echo was on the screen and was touched
 AcknowledgmentNeedsConfirm ==
-    [][(SwitchMSO = 0 /\ SwitchMSO' # 0) =>
+    [][(SwitchMSO' # 0 /\ SwitchMSO' # SwitchMSO) =>
         /\ hmiState = "Confirm" /\ Scanned.touch = "confirm"
-        /\ ModeOf(CH, Scanned.CM) = ModeOf(SW, SwitchMSO')]_View
+        /\ ModeOf(CH, Scanned.CM) = ModeOf(SW, SwitchMSO') /\ Shown = ModeOf(SW, SwitchMSO')]_beat
 \* EKS-3-1-HMI, EKS-3-4-HMI, EKS-8-9, EKS-8-16: without authorization both words are zero in that very scan
 InhibitAtOnce ==
-    [][ModeOf(RE, Scanned.RA) = None => (SelectMSO' = 0 /\ SwitchMSO' = 0 /\ Enabled' = {})]_View
+    [][ModeOf(RE, Scanned.RA) = None => (SelectMSO' = 0 /\ SwitchMSO' = 0 /\ Enabled' = {})]_beat
 =============================================================================

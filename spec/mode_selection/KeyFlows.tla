@@ -4,7 +4,7 @@
 (* own scans at its own pace.  Insert steps 1 to 29, removal steps 1 to    *)
 (* 18, Figures 2 to 9.  Environment `honest`: every device as in its       *)
 (* module, any interleaving, a key that comes, goes or is swapped at any   *)
-(* moment.                                                                 *)
+(* moment, not faster than A-07.                                           *)
 (*                                                                         *)
 (* Leaves out: how long a scan takes.  A deadline of the F-PLC may expire  *)
 (* in any scan (A-09), except that the dwell time is only over when the    *)
@@ -119,7 +119,7 @@ FplcRuns ==
 (* The PLC: four copies in any order, each a step of its own.              *)
 
 PlcInput == [MW01 |-> MW01, MW05 |-> MW05, SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO]
-\* One copy of all four words, the merge that hides E-52
+\* One copy of all four words at once; with NO_DWELL it does not close the hole of E-52
 AtomicCopy ==
     /\ ReadAuthorization' = MW01 /\ MW03' = SelectMSO /\ CheckMSO' = MW05 /\ MW07' = SwitchMSO
     /\ UNCHANGED turn
@@ -139,7 +139,7 @@ Fields == {""} \cup {Field(m) : m \in Enabled} \cup (IF hmiState = "Confirm" THE
 \* An echo of what somebody touched before this key went in is not seen as an answer, and confirming it confirms nothing.
 Remember ==
     LET begins == hmiState = "Select" /\ hmiState' = "AwaitEcho"
-        shown == hmiState' = "Confirm" /\ touched = hmiSelection'
+        shown == hmiState' = "Confirm" /\ touched = Shown'
         confirms == hmiState = "Confirm" /\ hmiState' = "AwaitSwitch"
     IN  /\ touched' = IF begins THEN hmiSelection' ELSE touched
         /\ seen' = IF begins THEN None ELSE IF shown THEN touched ELSE seen
@@ -162,10 +162,11 @@ Spec == Init /\ [][Next]_vars
 Signalled == IF LA /\ Cardinality(Vector) = 1 THEN CHOOSE l \in Vector : TRUE ELSE None
 Switched(m) == step' = "SwitchMode" /\ mode' = {m}      \* also where the mode was active before
 
-\* EKS-2-28, EKS-2-29
+\* EKS-2-28, EKS-2-29: here the pair alone; that it came after zeros and an echo is judged in FplcOpen, for any inputs
 SwitchNeedsMatchingPair == [][\A m \in MSO : Switched(m) => MW03 = SE[m] /\ MW07 = SW[m]]_View
-\* EKS-2-18, EKS-T2-2
-AuthorizationRespected == [][\A m \in MSO : Switched(m) => Permitted(Signalled, m)]_View
+\* EKS-2-18, EKS-T2-2: by the level signalled, which is the one written on the key that the EKS has read
+AuthorizationRespected ==
+    [][\A m \in MSO : Switched(m) => Permitted(Signalled, m) /\ KEY[key].authorization_level = RE[Signalled]]_View
 \* EKS-SD-2, E-42
 NoChangeWithoutLA == [][step' = "SwitchMode" \/ mode' # mode => LA]_View
 \* EKS-8-8, EKS-SD-7, E-24

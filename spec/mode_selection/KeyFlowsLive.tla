@@ -8,7 +8,7 @@
 (*  RemovalSpec  a key that stays out leads back to Idle, whatever the     *)
 (*               user did and whatever deadline passed before.             *)
 (*  FaultSpec    the same after words that were corrupted on the way.      *)
-(* Leaves out: how long it takes (proofs of bounded response: see proofs). *)
+(* Leaves out: how long it takes; no bound on any response is shown.      *)
 (***************************************************************************)
 EXTENDS KeyFlows
 
@@ -65,7 +65,7 @@ PromptEks == EksRuns /\ (eksState' # eksState => PulseSeen)
 ----------------------------------------------------------------------------
 \* A word that is no code, and one that is a code in each range: as MW03 a selection beyond the key, as MW07 an acknowledgment
 FaultWords == {OtherWord, SW[1]}
-\* One word on its way to the F-PLC becomes any other
+\* MW03 or MW07 becomes one of the two words
 Corrupt ==
     /\ faults < FAULTS /\ faults' = faults + 1
     /\ \/ \E w \in FaultWords \ {MW03} : MW03' = w /\ UNCHANGED MW07

@@ -27,7 +27,7 @@ Situations ==
     \cup Case("ModeHeldInError", fplcState' = "Error" /\ mode' # {})
     \* E-15: a second selection on one insertion
     \cup Case("SecondSelectionOnOneInsertion", step' = "TouchSelection" /\ confirmed # None)
-    \cup Case("RejectedAndSelectedAgain", step' = "TouchSelection" /\ step = "FinishSelection" /\ hmiState = "Select" /\ confirmed = None)
+    \cup Case("WithdrawnAndSelectedAgain", step' = "TouchSelection" /\ step = "FinishSelection" /\ hmiState = "Select" /\ confirmed = None)
 
 Met == {step'} \cup Switchover \cup Situations
 Report(name) == IF name \in TLCGet(1) THEN TRUE ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))

@@ -10,7 +10,8 @@
 EXTENDS Sequences, TLC, Plc
 
 CONSTANT PRINT_GRAPH    \* TRUE: print inputs, states and edges
-VARIABLE in             \* the number of the last scan's input; hidden by VIEW
+VARIABLES in,           \* the number of the last scan's input; hidden by VIEW
+          beat          \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
 
 View == plc
 
@@ -28,13 +29,13 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alp
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == PlcInit /\ step = "" /\ in = 0 /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
-OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : PlcScan(i) /\ in' = n
-OpenSpec == OpenInit /\ [][OpenNext]_<<plc, step, in>>
+OpenInit == PlcInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : PlcScan(i) /\ in' = n /\ beat' = ~beat
+OpenSpec == OpenInit /\ [][OpenNext]_<<plc, step, in, beat>>
 
 Scanned == Alphabet[in']
 \* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26: a word only ever becomes what its source is in that scan
 CopiesUnchanged ==
     [][/\ ReadAuthorization' \in {ReadAuthorization, Scanned.MW01} /\ MW03' \in {MW03, Scanned.SelectMSO}
-       /\ CheckMSO' \in {CheckMSO, Scanned.MW05} /\ MW07' \in {MW07, Scanned.SwitchMSO}]_View
+       /\ CheckMSO' \in {CheckMSO, Scanned.MW05} /\ MW07' \in {MW07, Scanned.SwitchMSO}]_beat
 =============================================================================

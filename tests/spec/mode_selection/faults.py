@@ -34,6 +34,116 @@ class Falls:
 
 
 FAULTS = (
+    Falls(
+        "AuthorizationRespected",
+        KEY_FLOWS,
+        Fault(
+            "a key of level 1 signals level 2",
+            "Eks.tla",
+            "-> {KeyLevel(key)}",
+            "-> {KeyLevel(key) + 1}",
+        ),
+    ),
+    Falls(
+        "LADropsAtOnce",
+        EKS,
+        Fault(
+            "the access code is not compared",
+            "Eks.tla",
+            "IF OPERATING_STATE = 6 THEN code = DIP_SWITCHES",
+            "IF OPERATING_STATE = 6 THEN TRUE",
+        ),
+    ),
+    Falls(
+        "LADropsAtOnce",
+        EKS,
+        Fault(
+            "the operating state on the key is not compared",
+            "Eks.tla",
+            "    /\\ KEY[k].operating_state = OPERATING_STATE\n",
+            "    /\\ TRUE\n",
+        ),
+    ),
+    Falls(
+        "LADropsAtOnce",
+        EKS,
+        Fault(
+            "a removed key is not noticed while its output stands (a scan that changes nothing)",
+            "Eks.tla",
+            '"TestOnes", "TestZeros", "Signal", "Rejected"}',
+            '"TestOnes", "TestZeros", "Rejected"}',
+        ),
+    ),
+    Falls(
+        "LAOnlyForAcceptedKeys",
+        EKS,
+        Fault(
+            "a key of every level sets STR",
+            "Eks.tla",
+            "-> {KeyLevel(key)}",
+            "-> {4}",
+        ),
+    ),
+    Falls(
+        "UserIntent",
+        KEY_FLOWS,
+        Fault(
+            "another mode is shown than the one that is confirmed",
+            "Hmi.tla",
+            'Shown == IF hmiState = "Confirm" THEN hmiSelection',
+            'Shown == IF hmiState = "Confirm" THEN offered',
+        ),
+    ),
+    Falls(
+        "AcknowledgmentNeedsConfirm",
+        HMI,
+        Fault(
+            "another mode is shown than the one that is confirmed",
+            "Hmi.tla",
+            'Shown == IF hmiState = "Confirm" THEN hmiSelection',
+            'Shown == IF hmiState = "Confirm" THEN offered',
+        ),
+    ),
+    Falls(
+        "SelectionNeedsEnable",
+        HMI,
+        Fault(
+            "the screen opens over an old echo",
+            "Hmi.tla",
+            '/\\ hmiState = "Inhibited" /\\ Level(i) # None /\\ i.CM = 0',
+            '/\\ hmiState = "Inhibited" /\\ Level(i) # None',
+        ),
+    ),
+    Falls(
+        "InhibitAtOnce",
+        HMI,
+        Fault(
+            "the panel may miss that the level is gone while it waits for the echo (no state changes)",
+            "Hmi.tla",
+            'AwaitCheckMSO(i) == At("AwaitEcho", i)',
+            'AwaitCheckMSO(i) == hmiState = "AwaitEcho"',
+        ),
+    ),
+    Falls(
+        "TwoOutputsLeadToError",
+        FPLC,
+        Fault(
+            "two outputs without LA may go unnoticed in Idle (a scan that changes nothing)",
+            "Fplc.tla",
+            'AwaitKey(i) == fplcState = "Idle" /\\ ~i.LA /\\ ~Many(i)',
+            'AwaitKey(i) == fplcState = "Idle" /\\ ~i.LA',
+        ),
+    ),
+    Falls(
+        "TwoOutputsLeadToError",
+        FPLC,
+        Fault(
+            "the error lamp is never lit",
+            "Fplc.tla",
+            'ERROR == fplcState = "Error"',
+            "ERROR == FALSE",
+        ),
+    ),
     # ------------------------------------------------------------------ F-PLC
     Falls(
         "AtMostOneModeOutput",
