@@ -47,8 +47,10 @@ def property_lines(
     """A line per property and environment, from the runs that must hold.
 
     `declared` gives for each run id the pairs (property, environment) that any lane checks: a pair that no
-    run of any lane checks is UNJUDGED; one that only another lane checks is shown and not counted.
+    run of any lane checks is UNJUDGED; one that only another lane checks is shown and not counted. Runs stand
+    in the order of runs.toml, the strongest first.
     """
+    order = {run: place for place, run in enumerate(declared)}
     anywhere = set().union(*declared.values()) if declared else set()
     positive = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in ("MC", "LIVE", "OPEN")]
     lines = []
@@ -68,8 +70,8 @@ def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere:
         word, status = (ASIDE, 0) if elsewhere else ("UNJUDGED", 2)
         why = "" if elsewhere else "no run checks it"
         return Line(row.id, word, environment, why, None, None, status)
-    # The weakest verdict counts; among equals the biggest run is shown.
-    worst = max(runs, key=lambda r: (status_of(r), r["result"].get("distinct") or 0))
+    # The weakest verdict counts; among equals the run that is declared first is shown.
+    worst = max(runs, key=status_of)
     status = status_of(worst)
     verdict = str(worst["verdict"])
     if status and verdict == "VIOLATED" and worst["result"].get("violated") not in (row.tla, ""):

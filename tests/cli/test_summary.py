@@ -53,6 +53,13 @@ def test_the_weakest_of_several_runs_counts() -> None:
     assert (line.verdict, line.status) == ("INCONCLUSIVE", 2)
 
 
+def test_among_equals_the_run_that_is_declared_first_is_shown() -> None:
+    declared = {"MC_strong": {("Safe", "honest")}, "MC_small": {("Safe", "honest")}}
+    small = tlc("MC_small", strength="two levels", result={"distinct": 99})
+    (line,) = property_lines([SAFE], [small, tlc("MC_strong")], declared)
+    assert (line.strength, line.distinct, line.seconds) == ("all levels", 16, 4.0)
+
+
 def test_a_run_that_held_with_other_counts_is_no_clean_holds() -> None:
     other = tlc("MC_a", as_expected=False, reason="distinct states: 16, pinned 17")
     (line,) = property_lines([SAFE], [other], DECLARED)
