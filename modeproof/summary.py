@@ -61,6 +61,7 @@ def property_lines(
                 for r in positive
                 if r["environment"] == environment and row.tla in r["result"].get("properties", ())
             ]
+            runs.sort(key=lambda r: order.get(r["id"], len(order)))
             lines.append(_line(row, environment, runs, (row.tla, environment) in anywhere))
     return lines
 
