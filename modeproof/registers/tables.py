@@ -84,15 +84,30 @@ def render_picture(document: Document) -> str:
     for one in devices.values():
         for name in one.outputs:
             readers = [other.id for other in devices.values() if name in other.inputs]
-            for reader in readers or ["outside"]:
+            for reader in readers or ["sink"]:
                 flows.setdefault((one.id, reader), []).append(name)
         sent = {name for other in devices.values() for name in other.outputs}
         for name in (name for name in one.inputs if name not in sent):
-            flows.setdefault(("outside", one.id), []).append(name)
-    lines = ["```mermaid", "flowchart LR", '    outside(["user and machine"])']
+            flows.setdefault(("source", one.id), []).append(name)
+    lines = [
+        "```mermaid",
+        "flowchart TB",
+        '    source(["from the user and the machine"])',
+        '    sink(["to the user and the machine"])',
+    ]
     lines += [f'    {one.id}["{one.title.replace(": ", "<br>", 1)}"]' for one in devices.values()]
-    lines += [f'    {a} -- "{"<br>".join(names)}" --> {b}' for (a, b), names in flows.items()]
+    for (a, b), names in flows.items():
+        back = flows.get((b, a))
+        if back is None:
+            lines.append(f'    {a} -- "{_rows(names)}" --> {b}')
+        elif (b, a) > (a, b):
+            lines.append(f'    {a} <-- "to {b}: {_rows(names)}<br>to {a}: {_rows(back)}" --> {b}')
     return "\n".join([*lines, "```"]) + "\n"
+
+
+def _rows(names: Sequence[str]) -> str:
+    """Three names a row, so that labels stay small."""
+    return "<br>".join(", ".join(names[n : n + 3]) for n in range(0, len(names), 3))
 
 
 RENDERERS = {"properties": render_properties_table, "picture": render_picture}

@@ -96,7 +96,7 @@ def test_a_picture_that_lost_a_signal_is_found_and_drawn_anew(tree: Any, registe
     assert registers_command(tree.root, "--render") == 0
     text = (tree.root / "README.md").read_text(encoding="utf-8")
     latch = load_document(tree.root, "door").interface.devices["latch"]
-    assert text.startswith("<!-- begin picture door -->\n```mermaid\nflowchart LR\n")
+    assert text.startswith("<!-- begin picture door -->\n```mermaid\nflowchart TB\n")
     assert all(name in text for name in [*latch.inputs, *latch.outputs])
     tree.write("README.md", text.replace(next(iter(latch.inputs)), "lost"))
     assert registers_command(tree.root) == 1
