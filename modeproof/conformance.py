@@ -41,6 +41,8 @@ def compare_reference(place: Path, document: str, lane: str, progress: Progress)
 
 
 def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]:
+    from modeproof.graph.device import compared_files
+
     assert run.graph is not None
     name = f"{REFERENCE}_{run.id}"
     evidence.discard(place, run.document, name)
@@ -77,7 +79,7 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
         command=f"modeproof verify --document {run.document} --lane {lane}",
         started=started,
         seconds=time.time() - started,
-        inputs=_inputs(place, run),
+        inputs=evidence.hashes(place, compared_files(place, run, REFERENCE)),
         result=result,
         reason=reason,
     )
@@ -103,16 +105,6 @@ def _compare(place: Path, run: Run, name: str, progress: Progress) -> Any:
     return compare(
         graph, code, lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions")
     )
-
-
-def _inputs(place: Path, run: Run) -> dict[str, str]:
-    from modeproof.graph.device import graph_file
-
-    folders = [place / REFERENCE, place / REFERENCE / run.document]
-    paths = [path for folder in folders for path in sorted(folder.glob("*.py"))]
-    paths += [place / "spec" / run.document / name for name in ("interface.toml", "classes.toml")]
-    graph = graph_file(place, run)
-    return evidence.hashes(place, [path for path in [*paths, graph] if path.is_file()])
 
 
 def _targets(place: Path, document: str, lane: str) -> list[str]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
-from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.graph.device import compared_files, graph_file, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
 from modeproof.graph.implementation import load_implementation
 from modeproof.kit import command as kit_command
@@ -118,10 +118,6 @@ def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress)
         )
     finally:
         progress.end(name)
-    folders = [place / builtin, place / builtin / run.document]
-    paths = [path for folder in folders for path in sorted(folder.glob("*.py"))]
-    registers = [place / "spec" / run.document / f"{name}.toml" for name in ("interface", "classes", "runs")]
-    paths += [graph_file(place, run), *(path for path in registers if path.is_file())]
     record = evidence.make(
         kind="conformance",
         id=name,
@@ -134,7 +130,7 @@ def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress)
         command=f"modeproof conform {graph.device.id} --builtin {builtin} --document {run.document}",
         started=started,
         seconds=time.time() - started,
-        inputs=evidence.hashes(place, paths),
+        inputs=evidence.hashes(place, compared_files(place, run, builtin)),
         result={
             "run": run.id,
             "device": graph.device.id,
