@@ -78,11 +78,14 @@ def _signal_faults(signal: Signal, group: str) -> Iterator[str]:
 
 
 def value_fault(signal: Signal, value: object) -> str:
-    """Why a parameter cannot have this value (integers, texts and booleans as in TOML); empty when it can."""
+    """Why a parameter cannot have this value (integers, texts, booleans and lists as in TOML); empty when it can."""
     if signal.type == "bool":
         return "" if isinstance(value, bool) else "is not true or false"
     if signal.type == "text":
         return "" if value in signal.values else f"is not one of {', '.join(map(repr, signal.values))}"
+    if signal.type == "modes":
+        good = isinstance(value, list) and all(type(one) is int and one >= 0 for one in value)
+        return "" if good and value == sorted(set(value)) else "is not an ascending list of modes"
     if isinstance(value, str) and signal.type in ("word", "function"):
         return "" if re.fullmatch(r"[0-9A-F]{4}", value) else "is not a word of four upper-case hex digits"
     if not isinstance(value, int) or isinstance(value, bool):

@@ -69,7 +69,7 @@ class Signal:
     minimum: int | None = None
     maximum: int | None = None
     values: tuple[str, ...] = ()
-    default: int | str | bool | None = None
+    default: int | str | bool | list[int] | None = None
     required: bool = False
     project: bool = False
 

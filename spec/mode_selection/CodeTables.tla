@@ -7,6 +7,8 @@
 (***************************************************************************)
 EXTENDS Integers, TLC
 
+CONSTANT PERMITS   \* the modes that each level permits (E-47)
+
 MSO == 0..4    \* modes of safe operation; the authorization levels have the same numbers (EKS-T2)
 None == -1     \* no mode, no level
 
@@ -24,8 +26,13 @@ ModeOf(range, word) ==
     IF word = range[0] THEN 0 ELSE IF word = range[1] THEN 1 ELSE IF word = range[2] THEN 2
     ELSE IF word = range[3] THEN 3 ELSE IF word = range[4] THEN 4 ELSE None
 
-\* EKS-T2-2, E-47: the levels are totally ordered; a level permits its own mode and all lower ones
-Permitted(level, m) == level # None /\ m # None /\ m <= level
+\* EKS-T2-2, EKS-5-1, E-47: Figure 5 orders the levels totally: a level permits its own mode and all lower ones
+TotalOrder == [l \in MSO |-> 0..l]
+\* EKS-T2-2, E-47: the stricter reading: what the text says, and each level its own mode
+TextOrder == [l \in MSO |-> IF l = 3 THEN {1, 2, 3} ELSE {l}]
+\* E-47: a machine may permit less, never more
+ASSUME \A l \in MSO : l \in PERMITS[l] /\ PERMITS[l] \subseteq TotalOrder[l]
+Permitted(level, m) == level # None /\ m # None /\ m \in PERMITS[level]
 
 \* EKS-KS-8: zero is in no range; it says that no key is there
 Codes == {RE[m] : m \in MSO}

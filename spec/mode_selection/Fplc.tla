@@ -18,7 +18,8 @@ EXTENDS Integers, FiniteSets, CodeTables, StepName
 
 CONSTANTS
     T_ON,       \* ticks from LA to all outputs set (EKS-2-6)
-    T_SEQ,      \* ticks from all outputs set to the one output (EKS-4-2)
+    T_SEQ,      \* ticks of the sequence of outputs (EKS-4-2)
+    T_SEQ_FROM, \* "LA" or "ones": what T_SEQ counts from (E-38)
     T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11)
     T_DWELL,    \* least ticks before returned zeros count (E-52)
     ON_ERROR,   \* "hold" or "none": what Error does to the active mode (E-24)
@@ -27,6 +28,7 @@ CONSTANTS
 Readings == {"LITERAL_FIG7", "LIVE_MW03", "NO_SETTLE", "INSERT_DURING_REMOVAL", "NO_LA_AT_SWITCH", "NO_DWELL", "SETTLE_KEEPS_MW01", "ATOMIC_COPY"}
 
 ASSUME T_ON \in Nat \ {0} /\ T_SEQ \in Nat \ {0}
+ASSUME T_SEQ_FROM \in {"LA", "ones"} /\ (T_SEQ_FROM = "LA" => T_ON <= T_SEQ)
 ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
 ASSUME ON_ERROR \in {"hold", "none"}
 ASSUME LITERAL \subseteq Readings
@@ -163,8 +165,12 @@ DetectKey(i) == fplcState = "Idle" /\ i.LA /\ Proceed("PulseOnes") /\ Did("Detec
 
 \* EKS-2-6, EKS-2-10, EKS-4-1, E-10: patterns between are waited out
 AwaitOnes(i) == fplcState = "PulseOnes" /\ i.vec # MSO /\ Stay(i, T_ON) /\ Did("AwaitOnes")
-\* EKS-2-10, EKS-4-1, EKS-4-2, E-38: the sequence timer is started
-SeeOnes(i) == fplcState = "PulseOnes" /\ i.vec = MSO /\ Proceed("PulseZeros") /\ Did("SeeOnes")
+\* EKS-2-6, EKS-2-10, EKS-4-1, EKS-4-2, E-38: the sequence timer goes on from LA, or is started here
+SeeOnes(i) ==
+    /\ fplcState = "PulseOnes" /\ i.vec = MSO
+    /\ fplcState' = "PulseZeros" /\ fplcElapsed' = IF T_SEQ_FROM = "LA" THEN Now(i) ELSE 0
+    /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
+    /\ Did("SeeOnes")
 \* EKS-4-3, EKS-4-4, E-39
 AwaitPulseZeros(i) == fplcState = "PulseZeros" /\ i.vec # {} /\ Stay(i, T_SEQ) /\ Did("AwaitPulseZeros")
 \* EKS-4-3, EKS-4-5: the timer goes on

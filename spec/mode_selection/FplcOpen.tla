@@ -10,7 +10,7 @@
 EXTENDS Sequences, TLC, Fplc
 
 CONSTANTS
-          ALL_VECTORS,    \* TRUE: all 32 output vectors; FALSE: none, one, two, all
+          VECTORS,        \* "all" 32 output vectors; "classes": none, each one, two, all five; "few": of the ones only levels 2 to 4
           PRINT_GRAPH     \* TRUE: print inputs, states and edges
 
 VARIABLES
@@ -29,9 +29,10 @@ ObservedView == <<View, observer>>
 ----------------------------------------------------------------------------
 (* The input alphabet, numbered.                                           *)
 
-Vectors == IF ALL_VECTORS
-           THEN [n \in 1..32 |-> {l \in MSO : (((n - 1) \div (2^l)) % 2) = 1}]
-           ELSE <<{}, {0}, {1}, {2}, {3}, {4}, {0, 1}, MSO>>
+ASSUME VECTORS \in {"all", "classes", "few"}
+Vectors == CASE VECTORS = "all" -> [n \in 1..32 |-> {l \in MSO : (((n - 1) \div (2^l)) % 2) = 1}]
+             [] VECTORS = "classes" -> <<{}, {0}, {1}, {2}, {3}, {4}, {0, 1}, MSO>>
+             [] OTHER -> <<{}, {2}, {3}, {4}, {2, 4}, MSO>>
 Words == <<0, RE[0], RE[1], RE[2], RE[3], RE[4], OtherWord>>
 Times == <<0, 1, 2>>
 NV == Len(Vectors)

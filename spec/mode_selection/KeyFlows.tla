@@ -21,6 +21,7 @@ CONSTANTS
 
 VARIABLES
     reader,        \* user: number of the key in the reader, or None
+    took,          \* ticks of the scan that was just executed, for readers of a trace; hidden by VIEW
     touched, seen, confirmed    \* history: only the user and the panel set them
 
 ASSUME LEVELS \subseteq MSO
@@ -36,7 +37,9 @@ history == <<touched, seen, confirmed>>
 View == <<reader, eks, fplc, plc, hmi, history>>
 \* For five levels the active mode is hidden too: one step writes it and none reads it (A-17; with fewer levels it is not hidden)
 ViewWithoutMode == <<reader, eks, fplcState, accepted, authority, fplcSelection, fplcElapsed, plc, hmi, history>>
-vars == <<View, step>>
+vars == <<View, step, took>>
+\* Liveness runs have no VIEW and record nothing
+Took(dt) == took' = IF RECORD_STEPS THEN dt ELSE 0
 
 TypeOK ==
     /\ reader \in DOMAIN KEY \cup {None}
@@ -47,7 +50,7 @@ Init ==
     /\ reader = None
     /\ EksInit /\ FplcInit /\ PlcInit /\ HmiInit
     /\ touched = None /\ seen = None /\ confirmed = None
-    /\ step = ""
+    /\ step = "" /\ took = 0
 
 ----------------------------------------------------------------------------
 (* The user.                                                               *)
@@ -58,13 +61,13 @@ InsertKey(k) ==
     /\ reader' = k
     /\ touched' = None /\ seen' = None /\ confirmed' = None
     /\ UNCHANGED <<eks, fplc, plc, hmi>>
-    /\ Did("InsertKey")
+    /\ Took(0) /\ Did("InsertKey")
 \* EKS-8-1
 RemoveKey ==
     /\ reader # None
     /\ reader' = None
     /\ UNCHANGED <<eks, fplc, plc, hmi, history>>
-    /\ Did("RemoveKey")
+    /\ Took(0) /\ Did("RemoveKey")
 
 ----------------------------------------------------------------------------
 (* The EKS.                                                                *)
@@ -91,8 +94,8 @@ CanMerge ==
     \/ eksState = "ClearOutputs"
     \/ eksState \in Working \ {"Signal"} /\ reader # key
 EksRuns ==
-    /\ IF MERGE_READING /\ CanMerge THEN ReadInOneStep \/ ClearInOneStep
-       ELSE \E dt \in (IF eksState \in {"TestOnes", "TestZeros"} THEN {0, T_PULSE} ELSE {0}) : EksScan(EksInput(dt))
+    /\ IF MERGE_READING /\ CanMerge THEN (ReadInOneStep \/ ClearInOneStep) /\ Took(0)
+       ELSE \E dt \in (IF eksState \in {"TestOnes", "TestZeros"} THEN {0, T_PULSE} ELSE {0}) : EksScan(EksInput(dt)) /\ Took(dt)
     /\ eksState' = "StartTest" /\ eksState # "StartTest" => RemovalNoticed
     /\ UNCHANGED <<reader, fplc, plc, hmi, history>>
 
@@ -112,7 +115,7 @@ Times == {0} \cup
     (IF fplcState \in {"Start", "Settle", "AwaitZeros", "Error"} /\ (WordsArrived \/ LATE_WORDS) THEN {T_DWELL} ELSE {})
 
 FplcRuns ==
-    /\ \E dt \in Times : FplcScan(FplcInput(dt)) /\ (dt > 0 => fplcState' # fplcState)
+    /\ \E dt \in Times : FplcScan(FplcInput(dt)) /\ (dt > 0 => fplcState' # fplcState) /\ Took(dt)
     /\ UNCHANGED <<reader, eks, plc, hmi, history>>
 
 ----------------------------------------------------------------------------
@@ -126,6 +129,7 @@ AtomicCopy ==
     /\ Did("AtomicCopy")
 PlcRuns ==
     /\ IF "ATOMIC_COPY" \in LITERAL THEN AtomicCopy ELSE PlcScan(PlcInput)
+    /\ Took(0)
     /\ UNCHANGED <<reader, eks, fplc, hmi, history>>
 
 ----------------------------------------------------------------------------
@@ -147,6 +151,7 @@ Remember ==
 
 PanelRuns ==
     /\ \E touch \in Fields : HmiScan(HmiInput(touch))
+    /\ Took(0)
     /\ Remember
     /\ UNCHANGED <<reader, eks, fplc, plc>>
 

@@ -26,7 +26,7 @@ LiveInit == Init /\ goal = None /\ faults = 0
 (* A user with a goal.                                                     *)
 
 \* From some moment on the user wants one mode and has a key that permits it
-TakeGoal == goal = None /\ goal' \in {m \in MSO : \E l \in LEVELS : m <= l} /\ UNCHANGED <<View, step, faults>>
+TakeGoal == goal = None /\ goal' \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)} /\ UNCHANGED <<vars, faults>>
 
 KeyFits == reader \in LEVELS /\ Permitted(reader, goal)
 \* EKS-2-1, EKS-8-1, E-23: takes out a key that does not fit, and any key when the error lamp is on or the machine does not answer it
@@ -39,7 +39,7 @@ EarnestTouch ==
       [] hmiState = "Confirm" -> (IF Shown = goal THEN "confirm" ELSE "reject")
       [] OTHER -> ""
 EarnestUser == EarnestRemove \/ EarnestInsert
-EarnestPanel == HmiScan(HmiInput(EarnestTouch)) /\ Remember /\ UNCHANGED <<reader, eks, fplc, plc>>
+EarnestPanel == HmiScan(HmiInput(EarnestTouch)) /\ Took(0) /\ Remember /\ UNCHANGED <<reader, eks, fplc, plc>>
 
 ----------------------------------------------------------------------------
 (* Deadlines that are kept.                                                *)
@@ -58,7 +58,7 @@ PromptTimes == {0} \cup
     (IF fplcState \in Timed /\ DeadlineIsDue THEN {T_REM} ELSE {}) \cup
     (IF fplcState \in {"Start", "Settle", "AwaitZeros", "Error"} /\ WordsArrived THEN {T_DWELL} ELSE {})
 PromptFplc ==
-    /\ \E dt \in PromptTimes : FplcScan(FplcInput(dt)) /\ (dt > 0 => fplcState' # fplcState)
+    /\ \E dt \in PromptTimes : FplcScan(FplcInput(dt)) /\ (dt > 0 => fplcState' # fplcState) /\ Took(dt)
     /\ UNCHANGED <<reader, eks, plc, hmi, history>>
 PromptEks == EksRuns /\ (eksState' # eksState => PulseSeen)
 
@@ -71,7 +71,7 @@ Corrupt ==
     /\ \/ \E w \in FaultWords \ {MW03} : MW03' = w /\ UNCHANGED MW07
        \/ \E w \in FaultWords \ {MW07} : MW07' = w /\ UNCHANGED MW03
     /\ UNCHANGED <<reader, eks, fplc, hmi, history, turn, ReadAuthorization, CheckMSO, goal>>
-    /\ Did("Corrupt")
+    /\ Took(0) /\ Did("Corrupt")
 
 Same == UNCHANGED <<goal, faults>>
 GoalNext ==
@@ -87,7 +87,7 @@ FairPlc ==
     /\ WF_liveVars(Copied(CopyCheckMSO(PlcInput))) /\ WF_liveVars(Copied(CopyMW07(PlcInput)))
 
 GoalSpec ==
-    /\ LiveInit /\ [][GoalNext]_<<liveVars, step>> /\ FairPlc
+    /\ LiveInit /\ [][GoalNext]_<<liveVars, step, took>> /\ FairPlc
     /\ WF_liveVars(goal # None /\ EarnestUser /\ Same) /\ WF_liveVars(goal # None /\ EarnestPanel /\ Same)
     /\ WF_liveVars(goal # None /\ PromptFplc /\ Same) /\ WF_liveVars(goal # None /\ PromptEks /\ Same)
 
@@ -96,8 +96,8 @@ GoalReached == (goal # None) ~> (mode = {goal})
 
 FairDevices ==
     FairPlc /\ WF_liveVars(EksRuns /\ Same) /\ WF_liveVars(FplcRuns /\ Same) /\ WF_liveVars(PanelRuns /\ Same)
-RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step>> /\ FairDevices
-FaultSpec == LiveInit /\ [][FaultNext]_<<liveVars, step>> /\ FairDevices
+RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step, took>> /\ FairDevices
+FaultSpec == LiveInit /\ [][FaultNext]_<<liveVars, step, took>> /\ FairDevices
 
 \* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle stays
 RemovalLeadsToIdle == <>[](reader = None) => <>[](fplcState = "Idle")

@@ -12,7 +12,7 @@ from tests.spec.mode_selection.planted import Base, Fault
 KEY_FLOWS = Base("MC_KeyFlows_smoke")
 FPLC = Base(
     "MC_Fplc_arbitrary",
-    (("ALL_VECTORS = TRUE", "ALL_VECTORS = FALSE  InputsToTry <- SmallInputs"),),
+    (('VECTORS = "all"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
 EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
