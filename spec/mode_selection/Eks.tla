@@ -9,7 +9,7 @@
 (* a right or a wrong KEYCRC (assumption A-14).  What KEY[n] holds is told *)
 (* by whoever instantiates this module.                                    *)
 (***************************************************************************)
-EXTENDS Integers, CodeTables, StepName
+EXTENDS Integers, CodeTables, StepName, Readings
 
 CONSTANTS
     KEY,       \* number -> [operating_state, authorization_level, access_code, KEYCRC, KeyID]

@@ -14,7 +14,7 @@
 (* Leaves out: hardware faults of the F-PLC itself.  LITERAL names the     *)
 (* readings of the note that are restored for a trial; {} is our reading.  *)
 (***************************************************************************)
-EXTENDS Integers, FiniteSets, CodeTables, StepName
+EXTENDS Integers, FiniteSets, CodeTables, StepName, Readings
 
 CONSTANTS
     T_ON,       \* ticks from LA to all outputs set (EKS-2-6)
@@ -22,16 +22,12 @@ CONSTANTS
     T_SEQ_FROM, \* "LA" or "ones": what T_SEQ counts from (E-38)
     T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11)
     T_DWELL,    \* least ticks before returned zeros count (E-52)
-    ON_ERROR,   \* "hold" or "none": what Error does to the active mode (E-24)
-    LITERAL     \* literal readings that are switched on
-
-Readings == {"LITERAL_FIG7", "LIVE_MW03", "NO_SETTLE", "INSERT_DURING_REMOVAL", "NO_LA_AT_SWITCH", "NO_DWELL", "SETTLE_KEEPS_MW01", "ATOMIC_COPY"}
+    ON_ERROR    \* "hold" or "none": what Error does to the active mode (E-24)
 
 ASSUME T_ON \in Nat \ {0} /\ T_SEQ \in Nat \ {0}
 ASSUME T_SEQ_FROM \in {"LA", "ones"} /\ (T_SEQ_FROM = "LA" => T_ON <= T_SEQ)
 ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
 ASSUME ON_ERROR \in {"hold", "none"}
-ASSUME LITERAL \subseteq Readings
 
 VARIABLES
     fplcState,      \* the step that is executed next
@@ -67,7 +63,6 @@ FplcInit ==
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
-Literal(reading) == reading \in LITERAL
 \* EKS-2-12, EKS-8-6, E-05: the level is published from AwaitSelection to Switch and is zero in every other state.
 \* E-59: also in Settle, so that the panel closes and the next selection cannot overtake the return to zero.
 MW01 == IF fplcState \in Authorized \/ (fplcState = "Settle" /\ Literal("SETTLE_KEEPS_MW01")) THEN RE[authority] ELSE 0

@@ -8,7 +8,7 @@
 (* Leaves out: the layout (data of the implementation, checked there) and  *)
 (* the display of the active mode, which decides nothing (E-25).           *)
 (***************************************************************************)
-EXTENDS Integers, CodeTables, StepName
+EXTENDS Integers, CodeTables, StepName, Readings
 
 VARIABLES
     hmiState,      \* the screen and what it waits for

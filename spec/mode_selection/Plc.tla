@@ -7,7 +7,7 @@
 (* i = [MW01, MW05, SelectMSO, SwitchMSO], four words.                     *)
 (* Leaves out: the PLC's own step counter (E-08, E-43).                    *)
 (***************************************************************************)
-EXTENDS Integers, CodeTables, StepName
+EXTENDS Integers, CodeTables, StepName, Readings
 
 CONSTANTS
     WORDS,        \* the words that can occur
