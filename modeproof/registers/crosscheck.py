@@ -78,7 +78,7 @@ def _signal_faults(signal: Signal, group: str) -> Iterator[str]:
 
 
 def value_fault(signal: Signal, value: object) -> str:
-    """Why a parameter cannot have this value (integers, texts, booleans and lists as in TOML); empty when it can."""
+    """Why a parameter cannot have this value (as TOML has it); empty when it can."""
     if signal.type == "bool":
         return "" if isinstance(value, bool) else "is not true or false"
     if signal.type == "text":
@@ -155,10 +155,13 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
                 )
         if not one.evidence and not one.evidence_open.strip():
             yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
-        if one.switch and one.switch not in switches:
-            yield Problem(file, one.id, _unknown_switch(one.switch, switches))
+        for name in dict.fromkeys(one.switches):
+            if name not in switches:
+                yield Problem(file, one.id, _unknown_switch(name, switches))
+            if one.switches.count(name) > 1:
+                yield Problem(file, one.id, f"names the switch {name!r} twice")
         negative = negatives.intersection(one.evidence)
-        if one.switch and not negative and not one.evidence_open.strip():
+        if one.switches and not negative and not one.evidence_open.strip():
             yield Problem(file, one.id, "has a switch, but its evidence names no run of kind NEG")
 
 

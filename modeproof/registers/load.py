@@ -178,7 +178,7 @@ def _finding(row: Table) -> Finding:
         decision=row["decision"],
         severity=row["class"],
         drawing_could_settle=row["drawing_could_settle"],
-        switch=row.get("switch", ""),
+        switches=(*_names(row, "switch"), *_names(row, "switches")),
         evidence=_names(row, "evidence"),
         evidence_open=row.get("evidence_open", ""),
     )

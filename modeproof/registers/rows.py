@@ -131,7 +131,8 @@ class Finding:
     severity: str
     """The key `class` of the register: safety, availability or wording."""
     drawing_could_settle: bool
-    switch: str = ""
+    switches: tuple[str, ...] = ()
+    """The keys `switch` and `switches` of the register: one for each reading that can be restored."""
     evidence: tuple[str, ...] = ()
     evidence_open: str = ""
 

@@ -99,6 +99,18 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "evidence 'NEG_Lach' is no run and no theorem; did",
         ),
         (SPEC + "findings.toml", '"LITERAL"', '"LITRAL"', "switch 'LITRAL' is no CONSTANT"),
+        (
+            SPEC + "findings.toml",
+            'switch = "LITERAL"',
+            'switches = ["LITERAL", "LITRAL"]',
+            "switch 'LITRAL' is no CONSTANT",
+        ),
+        (
+            SPEC + "findings.toml",
+            'switch = "LITERAL"',
+            'switch = "LITERAL"\nswitches = ["LITERAL"]',
+            "E-01: names the switch 'LITERAL' twice",
+        ),
         (SPEC + "findings.toml", '["NEG_Latch", "the_bolt_moves"]', "[]", "E-01: names no evidence, and"),
         (SPEC + "assumptions.toml", '"NEG_Latch"', '"NEG_Lach"', "breaks: unknown run 'NEG_Lach'; did you"),
         (SPEC + "assumptions.toml", '["NEG_Latch"]', "[]", "A-01: names no run that breaks it, and"),
@@ -208,6 +220,12 @@ def test_a_property_clause_without_property_or_theorem_is_an_orphan(tree: Any) -
 def test_a_device_that_is_not_published_or_not_printed_has_no_vectors(tree: Any) -> None:
     tree.edit("spec/door/interface.toml", "published = true", "published = false")
     assert all(row.vector == () for row in judge(load_document(tree.root, "door")).rows)
+
+
+def test_a_finding_may_have_several_switches(tree: Any) -> None:
+    tree.edit("spec/door/findings.toml", 'switch = "LITERAL"', 'switches = ["LITERAL", "T_HOLD"]')
+    assert load_document(tree.root, "door").findings[0].switches == ("LITERAL", "T_HOLD")
+    assert problems(tree) == []
 
 
 def test_a_negative_run_that_nothing_names_shows_nothing(tree: Any) -> None:
