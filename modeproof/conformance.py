@@ -8,7 +8,11 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
+from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +20,9 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
 from modeproof.tlc.runs import Run, load_runs
+from modeproof.tlc.schedule import cores
 
+Record = dict[str, Any]
 REFERENCE = "refimpl"
 ADAPTER = "examples/adapters/refimpl_adapter.py"
 SUITES = {"smoke": "brief", "full": "tour", "exhaustive": "tour"}
@@ -35,9 +41,51 @@ def compare_reference(place: Path, document: str, lane: str, progress: Progress)
     if not runs:
         raise Unjudged(f"{document}: the lane {lane} has no OPEN run, so nothing is compared")
     targets = _targets(place, document, lane)
-    progress.expect(len(runs) + len(targets))
-    records = [_one(place, run, lane, progress) for run in runs]
-    return records + [_over_protocol(place, document, target, SUITES[lane], progress) for target in targets]
+    comparisons = [(_one, (place, run, lane)) for run in runs]
+    return _all(
+        [*comparisons, *((_over_protocol, (place, document, one, SUITES[lane])) for one in targets)], progress
+    )
+
+
+def _all(tasks: Sequence[tuple[Callable[..., Record], tuple[Any, ...]]], progress: Progress) -> list[Record]:
+    """Do the tasks, each in a process of its own, as many at once as there are cores; say how each went.
+
+    Raises Unjudged when a process dies. However this ends, no process is left behind.
+    """
+    if len(tasks) < 2 or cores() < 2:
+        progress.expect(len(tasks))
+        return [_said(work(*given, progress), progress) for work, given in tasks]
+    executor = ProcessPoolExecutor(min(cores(), len(tasks)), mp_context=get_context("spawn"))
+    progress.expect(1)
+    progress.begin("conformance")
+    try:
+        # The last ones first: a suite over the protocol takes longer than a comparison in process.
+        futures = [executor.submit(_quietly, work, given) for work, given in reversed(tasks)]
+        waiting = set(futures)
+        while waiting:
+            done, waiting = wait(waiting, timeout=0.5, return_when=FIRST_COMPLETED)
+            for future in done:
+                _said(future.result(), progress)
+            progress.update("conformance", f"{len(tasks) - len(waiting)} of {len(tasks)}")
+        return [future.result() for future in reversed(futures)]
+    except BrokenProcessPool as error:
+        raise Unjudged(f"a process that compares an implementation died: {error}") from None
+    finally:
+        progress.end("conformance")
+        executor.shutdown(wait=False, cancel_futures=True)
+        for child in active_children():
+            child.terminate()
+
+
+def _quietly(work: Callable[..., Record], given: tuple[Any, ...]) -> Record:
+    return work(*given, Progress(quiet=True))
+
+
+def _said(record: Record, progress: Progress) -> Record:
+    line = f"{record['document']}/{record['id']}: {record['verdict']}; {record['strength']}"
+    reason = f"; {record['reason']}" if record["reason"] else ""
+    progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")
+    return record
 
 
 def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]:
@@ -83,14 +131,7 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
         result=result,
         reason=reason,
     )
-    return _finish(place, record, progress)
-
-
-def _finish(place: Path, record: dict[str, Any], progress: Progress) -> dict[str, Any]:
     evidence.write(place, record)
-    line = f"{record['document']}/{record['id']}: {record['verdict']}; {record['strength']}"
-    reason = f"; {record['reason']}" if record["reason"] else ""
-    progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")
     return record
 
 
@@ -178,4 +219,5 @@ def _over_protocol(
         result=result,
         reason="" if good else reason or "the program could not be judged",
     )
-    return _finish(place, record, progress)
+    evidence.write(place, record)
+    return record

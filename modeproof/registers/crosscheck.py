@@ -84,8 +84,8 @@ def value_fault(signal: Signal, value: object) -> str:
     if signal.type == "text":
         return "" if value in signal.values else f"is not one of {', '.join(map(repr, signal.values))}"
     if signal.type == "modes":
-        good = isinstance(value, list) and all(type(one) is int and one >= 0 for one in value)
-        return "" if good and value == sorted(set(value)) else "is not an ascending list of modes"
+        modes = [one for one in value if type(one) is int and one >= 0] if isinstance(value, list) else []
+        return "" if modes == value and modes == sorted(set(modes)) else "is not an ascending list of modes"
     if isinstance(value, str) and signal.type in ("word", "function"):
         return "" if re.fullmatch(r"[0-9A-F]{4}", value) else "is not a word of four upper-case hex digits"
     if not isinstance(value, int) or isinstance(value, bool):
