@@ -42,6 +42,8 @@ KeyLevel(k) == ModeOf(RE, KEY[k].authorization_level)
 Vector == CASE eksState = "TestOnes" -> MSO
             [] eksState \in {"Signal", "ClearOutputs"} -> {KeyLevel(key)}
             [] OTHER -> {}
+\* The outputs by their names
+EksOutputs == [LA |-> LA, A |-> 0 \in Vector, B |-> 1 \in Vector, C |-> 2 \in Vector, D |-> 3 \in Vector, STR |-> 4 \in Vector]
 
 ----------------------------------------------------------------------------
 LOCAL Bit(word, b) == (word \div (2^b)) % 2 = 1

@@ -40,7 +40,7 @@ Wire(i) ==
     IN  [inserted |-> i.key # None, operating_state |-> k.operating_state, authorization_level |-> k.authorization_level,
          access_code |-> k.access_code, KEYCRC |-> k.KEYCRC, KeyID |-> k.KeyID,
          registers_zero |-> i.registers_zero, dt |-> i.dt]
-Row == [LA |-> LA, A |-> 0 \in Vector, B |-> 1 \in Vector, C |-> 2 \in Vector, D |-> 3 \in Vector, STR |-> 4 \in Vector]
+Row == EksOutputs
 
 ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
@@ -51,6 +51,8 @@ OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : EksScan(i) /\ in' = n /
 OpenSpec == OpenInit /\ [][OpenNext]_<<eks, step, in, beat>>
 
 Scanned == Alphabet[in']
+\* For a reader of a trace: what a scan found in the reader and what stands on the wires after it
+Wires == Wire(Alphabet[in]) @@ EksOutputs
 \* The keys of the table that are right, told apart from the guard that accepts them
 RightKeys == 0..5 \cup (IF OPERATING_STATE = 7 THEN {10} ELSE {})
 \* EKS-8-2, EKS-8-5, EKS-SD-2: LA is on only with a right key, and off in the scan in which it is gone or another one is there

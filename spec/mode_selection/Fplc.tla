@@ -70,6 +70,9 @@ MW01 == IF fplcState \in Authorized \/ (fplcState = "Settle" /\ Literal("SETTLE_
 MW05 == IF fplcState \in Transaction \ {"EchoSelection"} THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
 ERROR == fplcState = "Error"
+\* The outputs by their names; a mode output for each mode
+FplcOutputs == [MW01 |-> MW01, MW05 |-> MW05, MSO_0 |-> 0 \in mode, MSO_1 |-> 1 \in mode, MSO_2 |-> 2 \in mode,
+                MSO_3 |-> 3 \in mode, MSO_4 |-> 4 \in mode, ERROR |-> ERROR]
 
 ----------------------------------------------------------------------------
 (* What a scan sees.                                                       *)

@@ -47,8 +47,7 @@ Alphabet == [n \in 0..N - 1 |->
 
 Wire(i) == [LA |-> i.LA, A |-> 0 \in i.vec, B |-> 1 \in i.vec, C |-> 2 \in i.vec, D |-> 3 \in i.vec, STR |-> 4 \in i.vec,
             MW03 |-> i.MW03, MW07 |-> i.MW07, dt |-> i.dt]
-Row == [MW01 |-> MW01, MW05 |-> MW05, MSO_0 |-> 0 \in mode, MSO_1 |-> 1 \in mode, MSO_2 |-> 2 \in mode,
-        MSO_3 |-> 3 \in mode, MSO_4 |-> 4 \in mode, ERROR |-> ERROR]
+Row == FplcOutputs
 
 ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
@@ -89,6 +88,8 @@ OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in, beat>>
 ----------------------------------------------------------------------------
 (* Action properties, judged in every scan; Scanned is that scan's input.  *)
 Scanned == Alphabet[in']
+\* For a reader of a trace: what a scan found on the wires and what stands on them after it
+Wires == Wire(Alphabet[in]) @@ FplcOutputs
 \* E-71: also a switchover to the mode that is active already
 Switched == (step' = "SwitchMode" \/ mode' # mode) /\ mode' # {}
 PulseWindow == fplcState \in Pulse \/ (fplcState = "Idle" /\ Scanned.LA)

@@ -44,6 +44,8 @@ Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "
 Enabled == IF hmiState = "Select" THEN {m \in MSO : Permitted(offered, m)} ELSE {}
 \* EKS-2-22
 Shown == IF hmiState = "Confirm" THEN hmiSelection ELSE None
+\* The outputs by their names
+HmiOutputs == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled, shown |-> Shown]
 
 ----------------------------------------------------------------------------
 LOCAL Level(i) == ModeOf(RE, i.RA)

@@ -21,7 +21,7 @@ Alphabet == [n \in 0..N - 1 |->
      ActiveMSO |-> Modes[(n \div 392) + 1]]]
 
 Wire(i) == [ReadAuthorization |-> i.RA, CheckMSO |-> i.CM, ActiveMSO |-> i.ActiveMSO, touch |-> i.touch, dt |-> 1]
-Row == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled, shown |-> Shown]
+Row == HmiOutputs
 
 ASSUME \A t \in Touches : \E n \in 1..8 : TouchSeq[n] = t
 ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
@@ -33,6 +33,8 @@ OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : HmiScan(i) /\ in' = n /
 OpenSpec == OpenInit /\ [][OpenNext]_<<hmi, step, in, beat>>
 
 Scanned == Alphabet[in']
+\* For a reader of a trace: what a scan found on the wires and what stands on them after it
+Wires == Wire(Alphabet[in]) @@ HmiOutputs
 \* EKS-2-14, EKS-8-8, EKS-SD-3, EKS-SD-4, E-57: the screen opens without an old echo; no selection without authorization on the bus, none beyond it
 SelectionNeedsEnable ==
     [][/\ SelectMSO' # 0 => Permitted(ModeOf(RE, Scanned.RA), ModeOf(SE, SelectMSO'))

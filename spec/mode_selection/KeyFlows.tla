@@ -156,6 +156,14 @@ PanelRuns ==
     /\ UNCHANGED <<reader, eks, fplc, plc>>
 
 ----------------------------------------------------------------------------
+(* For a reader of a trace; no run checks anything by these.               *)
+
+\* All that stands on the wires
+Wires == EksOutputs @@ FplcOutputs @@ PlcOutputs @@ HmiOutputs
+\* The field that was touched in the scan of the panel that was just executed
+TouchedField == IF HmiScan(HmiInput("")) THEN "" ELSE CHOOSE touch \in Touches : HmiScan(HmiInput(touch))
+
+----------------------------------------------------------------------------
 User == (\E k \in DOMAIN KEY : SwapNoticed /\ InsertKey(k)) \/ RemoveKey
 Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns
 Spec == Init /\ [][Next]_vars

@@ -22,6 +22,9 @@ VARIABLES
 
 plc == <<turn, ReadAuthorization, MW03, CheckMSO, MW07>>
 
+\* The outputs by their names
+PlcOutputs == [ReadAuthorization |-> ReadAuthorization, CheckMSO |-> CheckMSO, MW03 |-> MW03, MW07 |-> MW07]
+
 LOCAL Turns == {"CopyReadAuthorization", "CopyMW03", "CopyCheckMSO", "CopyMW07"}
 
 PlcTypeOK ==

@@ -23,7 +23,7 @@ Alphabet == [n \in 0..N - 1 |->
      SelectMSO |-> Words[((n \div 9) % 3) + 1], SwitchMSO |-> Words[(n \div 27) + 1]]]
 
 Wire(i) == [MW01 |-> i.MW01, MW05 |-> i.MW05, SelectMSO |-> i.SelectMSO, SwitchMSO |-> i.SwitchMSO, dt |-> 1]
-Row == [ReadAuthorization |-> ReadAuthorization, CheckMSO |-> CheckMSO, MW03 |-> MW03, MW07 |-> MW07]
+Row == PlcOutputs
 
 ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
@@ -34,6 +34,8 @@ OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : PlcScan(i) /\ in' = n /
 OpenSpec == OpenInit /\ [][OpenNext]_<<plc, step, in, beat>>
 
 Scanned == Alphabet[in']
+\* For a reader of a trace: what a scan found on the wires and what stands on them after it
+Wires == Wire(Alphabet[in]) @@ PlcOutputs
 \* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26: a word only ever becomes what its source is in that scan
 CopiesUnchanged ==
     [][/\ ReadAuthorization' \in {ReadAuthorization, Scanned.MW01} /\ MW03' \in {MW03, Scanned.SelectMSO}
