@@ -20,6 +20,16 @@ HELLO |= {"max_latency_scans": 0, "unobserved": [], "scans": True}
 BYE = {"ok": True}
 
 
+def parameters(wire):
+    values = dict(wire)
+    for name in [name for name in wire if name.startswith("PERMITS_")]:
+        permitted = [mode for mode in range(5) if isinstance(wire[name], list) and mode in wire[name]]
+        if json.dumps(permitted) != json.dumps(wire[name]):  # not [true], not [1.0], not [1, 0]
+            raise ValueError(f"{name}: an ascending list of modes 0..4 expected, got {wire[name]}")
+        values[name] = tuple(mode in permitted for mode in range(5))
+    return fplc.Params(**values)
+
+
 def scan(state, entry):
     if state is None:
         raise ValueError("scan before reset")
@@ -39,7 +49,7 @@ def answer(state, op, message):
     if op == "hello" and message == {"protocol": 1, "target": "fplc"} and sys.argv[1:] == ["fplc"]:
         return state, HELLO
     if op == "reset" and set(message) <= {"params"}:
-        return fplc.power_up(fplc.Params(**message.get("params", {}))), {"ok": True}  # <-- power-up
+        return fplc.power_up(parameters(message.get("params", {}))), {"ok": True}  # <-- power-up
     if op == "scan":
         state, out = scan(state, message)
         return state, {"out": out}

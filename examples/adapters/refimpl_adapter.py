@@ -50,9 +50,10 @@ def from_wire(field: str, signal: dict[str, Any], value: object) -> Any:
     if kind == "mode" and value is None:
         return NONE
     if kind == "modes":
-        if not isinstance(value, list) or value != sorted(set(value) & set(range(5))):
+        modes = [mode for mode in range(5) if isinstance(value, list) and mode in value]
+        if json.dumps(modes) != json.dumps(value):  # not [true], not [1.0], not [1, 0]
             raise InputError(field, value, "an ascending list of modes 0..4")
-        return tuple(mode in value for mode in range(5))
+        return tuple(mode in modes for mode in range(5))
     if kind == "mode" and value == NONE:
         raise InputError(field, value, "0..4 or null")
     if kind == "text" and "" in signal["values"]:

@@ -18,6 +18,16 @@ from enum import Enum
 
 from refimpl.errors import ParameterError, StateError, check_bool, check_int, check_text, check_word
 from refimpl.mode_selection.code_tables import CH, NONE, RE, SE, SW, ZERO, decode, encode
+from refimpl.mode_selection.permissions import (
+    UP_TO_0,
+    UP_TO_1,
+    UP_TO_2,
+    UP_TO_3,
+    UP_TO_4,
+    check_permits,
+    is_among,
+    permitted_modes,
+)
 
 # What the five EKS outputs say, besides a level 0..4 when exactly one is set.
 NO_OUTPUT = NONE
@@ -70,25 +80,42 @@ ERROR = Step.ERROR
 
 @dataclass(frozen=True, slots=True)
 class Params:
-    """Times in milliseconds, and what Error does to the active mode. Raises ParameterError.
+    """Times in milliseconds, what Error does to the active mode, and what a level permits.
 
-    T_ON_ms: deadline from LA to all outputs set (EKS-2-6, E-38). T_SEQ_ms: deadline from all outputs set to
-    the one output (EKS-4-2). T_REM_ms: deadline of the removal (EKS-8-3). T_DWELL_ms: least time before zeros
-    count as returned (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24).
+    T_ON_ms: deadline from LA to all outputs set (EKS-2-6). T_SEQ_ms: deadline of the sequence up to the one
+    output (EKS-4-2). T_SEQ_FROM: it counts from "LA", and is then at least T_ON_ms, or anew from all "ones"
+    (E-38). T_REM_ms: deadline of the removal (EKS-8-3). T_DWELL_ms: least time before zeros count as returned
+    (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24). PERMITS_0 to PERMITS_4: the
+    modes that a level permits, itself and none above it (E-47). Raises ParameterError.
     """
 
     T_ON_ms: int = 1000
     T_SEQ_ms: int = 1000
+    T_SEQ_FROM: str = "LA"
     T_REM_ms: int = 1000
     T_DWELL_ms: int = 500
     ON_ERROR: str = "hold"
+    PERMITS_0: tuple[bool, bool, bool, bool, bool] = UP_TO_0
+    PERMITS_1: tuple[bool, bool, bool, bool, bool] = UP_TO_1
+    PERMITS_2: tuple[bool, bool, bool, bool, bool] = UP_TO_2
+    PERMITS_3: tuple[bool, bool, bool, bool, bool] = UP_TO_3
+    PERMITS_4: tuple[bool, bool, bool, bool, bool] = UP_TO_4
 
     def __post_init__(self) -> None:
         check_int("T_ON_ms", self.T_ON_ms, 1, T_MAX_MS, ParameterError)
         check_int("T_SEQ_ms", self.T_SEQ_ms, 1, T_MAX_MS, ParameterError)
+        check_text("T_SEQ_FROM", self.T_SEQ_FROM, ("LA", "ones"), ParameterError)
         check_int("T_REM_ms", self.T_REM_ms, 1, T_MAX_MS, ParameterError)
         check_int("T_DWELL_ms", self.T_DWELL_ms, 0, T_MAX_MS, ParameterError)
         check_text("ON_ERROR", self.ON_ERROR, ("hold", "none"), ParameterError)
+        check_permits("PERMITS_0", self.PERMITS_0, 0)
+        check_permits("PERMITS_1", self.PERMITS_1, 1)
+        check_permits("PERMITS_2", self.PERMITS_2, 2)
+        check_permits("PERMITS_3", self.PERMITS_3, 3)
+        check_permits("PERMITS_4", self.PERMITS_4, 4)
+        if self.T_SEQ_FROM == "LA" and self.T_SEQ_ms < self.T_ON_ms:
+            expected = f"at least T_ON_ms ({self.T_ON_ms}), as T_SEQ_FROM is 'LA'"
+            raise ParameterError("T_SEQ_ms", self.T_SEQ_ms, expected)
         if self.T_DWELL_ms >= self.T_REM_ms:
             raise ParameterError("T_DWELL_ms", self.T_DWELL_ms, f"less than T_REM_ms ({self.T_REM_ms})")
 
@@ -244,6 +271,29 @@ def permitted(MW01: int, MW03: int) -> bool:
     if MW03 == SE[1]:  # EKS-5-8
         return False
     return MW01 == RE[0] and MW03 == SE[0]
+
+
+def within_authority(params: Params, authority: int, MW03: int) -> bool:
+    """Step 18: whether MW03 (0..65535) is a code and its mode permitted by ``authority`` (0..4, -1 none).
+
+    EKS-2-18, E-14. Figure 5 comes first and with the private authority (E-18); then the machine may permit
+    less by its parameters. They cannot permit more, and by default take nothing away (E-47).
+    """
+    if echo(MW03) == ZERO:
+        return False
+    if not permitted(encode(RE, authority), MW03):
+        return False
+    return is_among(
+        decode(SE, MW03),
+        permitted_modes(
+            authority,
+            params.PERMITS_0,
+            params.PERMITS_1,
+            params.PERMITS_2,
+            params.PERMITS_3,
+            params.PERMITS_4,
+        ),
+    )
 
 
 def echo(MW03: int) -> int:
@@ -466,11 +516,14 @@ def _pulse_ones(s: State, output: int, elapsed: int) -> State:
     EKS-2-6, EKS-2-8, EKS-2-10, EKS-4-1, EKS-4-2, E-10
 
     The deadline is judged before success, and ends in Error: the F-PLC cannot reset the EKS (EKS-2-9, E-25d).
+    By parameter the timer goes on from LA, so that T_SEQ_ms limits the whole sequence, or starts anew (E-38).
     """
     if elapsed >= s.params.T_ON_ms:
         return _enter_error(s)  # DeadlineExpired: EKS-2-8
     if output == ALL_OUTPUTS:
-        return _enter(s, PULSE_ZEROS)  # SeeOnes: the timer starts anew, EKS-4-2
+        if s.params.T_SEQ_FROM == "ones":
+            return _enter(s, PULSE_ZEROS)  # SeeOnes: the timer starts anew, EKS-4-2
+        return State(s.params, PULSE_ZEROS, NONE, NONE, NONE, s.mode, elapsed)  # SeeOnes: it goes on, EKS-2-6
     return _wait(s, elapsed)  # AwaitOnes
 
 
@@ -526,13 +579,13 @@ def _check_selection(s: State, i: Inputs) -> State:
 
     EKS-2-18, EKS-2-19, E-14, E-16
 
-    The check of Figure 5 uses the private authority, not MW01 as others may have left it (E-18).
+    The check uses the private authority, not MW01 as others may have left it (E-18).
     """
     if i.MW07 != ZERO:
         return _enter_error(s)  # UnexpectedAcknowledgment: E-15
     if i.MW03 == ZERO:
         return _enter_settle(s)  # WithdrawSelection: E-21
-    if echo(i.MW03) == ZERO or not permitted(encode(RE, s.authority), i.MW03):
+    if not within_authority(s.params, s.authority, i.MW03):
         return _enter_error(s)  # RefuseSelection
     selection = decode(SE, i.MW03)
     return State(s.params, ECHO_SELECTION, s.accepted, s.authority, selection, s.mode, 0)  # AcceptSelection

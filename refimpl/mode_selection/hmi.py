@@ -16,6 +16,17 @@ from enum import Enum
 
 from refimpl.errors import LayoutError, StateError, check_int, check_text, check_word
 from refimpl.mode_selection.code_tables import CH, NONE, RE, SE, SW, ZERO, decode, encode
+from refimpl.mode_selection.permissions import (
+    NO_MODES,
+    UP_TO_0,
+    UP_TO_1,
+    UP_TO_2,
+    UP_TO_3,
+    UP_TO_4,
+    check_permits,
+    is_among,
+    permitted_modes,
+)
 
 NO_TOUCH = ""
 CONFIRM = "confirm"
@@ -36,7 +47,24 @@ class Step(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Params:
-    """The HMI has no parameters; the layout of the screen is data of its own."""
+    """What a level permits, the same as in the F-PLC; the layout of the screen is data of its own.
+
+    PERMITS_0 to PERMITS_4: the modes that a level permits, one boolean a mode: itself and none above it
+    (EKS-T2-2, E-47). Raises ParameterError.
+    """
+
+    PERMITS_0: tuple[bool, bool, bool, bool, bool] = UP_TO_0
+    PERMITS_1: tuple[bool, bool, bool, bool, bool] = UP_TO_1
+    PERMITS_2: tuple[bool, bool, bool, bool, bool] = UP_TO_2
+    PERMITS_3: tuple[bool, bool, bool, bool, bool] = UP_TO_3
+    PERMITS_4: tuple[bool, bool, bool, bool, bool] = UP_TO_4
+
+    def __post_init__(self) -> None:
+        check_permits("PERMITS_0", self.PERMITS_0, 0)
+        check_permits("PERMITS_1", self.PERMITS_1, 1)
+        check_permits("PERMITS_2", self.PERMITS_2, 2)
+        check_permits("PERMITS_3", self.PERMITS_3, 3)
+        check_permits("PERMITS_4", self.PERMITS_4, 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,9 +117,6 @@ class Outputs:
     active: int
 
 
-NO_FIELDS = (False, False, False, False, False)
-
-
 def power_up(params: Params) -> State:
     """The state after power-up: access to the screen is inhibited, nothing is selected. EKS-8-8"""
     return State(params, Step.INHIBITED, NONE, NONE)
@@ -110,26 +135,27 @@ def outputs(s: State, active: int = NONE) -> Outputs:
     """What belongs to a state; ``active`` is passed through from this scan.
 
     SelectMSO goes out from the touch until the end or withdrawal (EKS-2-15, EKS-8-9, EKS-8-16), SwitchMSO
-    only after the confirmation (EKS-2-24); the fields above the authorization level stay closed (EKS-2-14,
-    EKS-SD-4); the active mode is displayed always, also when the screen is inhibited (EKS-8-8, E-25).
+    only after the confirmation (EKS-2-24); the fields that the level does not permit stay closed (EKS-2-14,
+    EKS-SD-4, E-47); the active mode is displayed always, also when the screen is inhibited (EKS-8-8, E-25).
     """
     c = s.state
     if c == Step.INHIBITED:
-        return Outputs(ZERO, ZERO, "inhibited", NO_FIELDS, NONE, active)
+        return Outputs(ZERO, ZERO, "inhibited", NO_MODES, NONE, active)
     if c == Step.SELECT:
-        return Outputs(ZERO, ZERO, "select", _fields_up_to(s.offered), NONE, active)
+        return Outputs(ZERO, ZERO, "select", _open_fields(s), NONE, active)
     if c == Step.AWAIT_ECHO:
-        return Outputs(encode(SE, s.selection), ZERO, "waiting", NO_FIELDS, NONE, active)
+        return Outputs(encode(SE, s.selection), ZERO, "waiting", NO_MODES, NONE, active)
     if c == Step.CONFIRM:
-        return Outputs(encode(SE, s.selection), ZERO, "confirm", NO_FIELDS, s.selection, active)
+        return Outputs(encode(SE, s.selection), ZERO, "confirm", NO_MODES, s.selection, active)
     if c == Step.AWAIT_SWITCH:
-        return Outputs(encode(SE, s.selection), encode(SW, s.selection), "waiting", NO_FIELDS, NONE, active)
-    return Outputs(ZERO, ZERO, "waiting", NO_FIELDS, NONE, active)
+        return Outputs(encode(SE, s.selection), encode(SW, s.selection), "waiting", NO_MODES, NONE, active)
+    return Outputs(ZERO, ZERO, "waiting", NO_MODES, NONE, active)
 
 
-def _fields_up_to(level: int) -> tuple[bool, bool, bool, bool, bool]:
-    """The modes that a level permits: itself and all below. EKS-2-14, EKS-T2-2, E-47"""
-    return (level >= 0, level >= 1, level >= 2, level >= 3, level >= 4)
+def _open_fields(s: State) -> tuple[bool, bool, bool, bool, bool]:
+    """The modes that the offered level permits on this machine. EKS-2-14, EKS-T2-2, E-47"""
+    p = s.params
+    return permitted_modes(s.offered, p.PERMITS_0, p.PERMITS_1, p.PERMITS_2, p.PERMITS_3, p.PERMITS_4)
 
 
 def _touched_mode(touch: str) -> int:
@@ -205,7 +231,7 @@ def _select(s: State, i: Inputs) -> State:
     if i.CheckMSO != ZERO:
         return _inhibit(s)  # InhibitScreen
     touched = _touched_mode(i.touch)
-    if touched != NONE and touched <= s.offered:
+    if is_among(touched, _open_fields(s)):
         return State(s.params, Step.AWAIT_ECHO, s.offered, touched)  # TouchSelection
     return s  # OfferModes
 

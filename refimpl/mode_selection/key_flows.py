@@ -40,11 +40,17 @@ class System:
 
 
 def power_up(eks_params: eks.Params, fplc_params: fplc.Params) -> System:
-    """All four devices just switched on, no key in the reader."""
+    """All four devices just switched on, no key in the reader.
+
+    The panel takes what a level permits from the F-PLC's parameters, for it must offer what the F-PLC accepts
+    (E-47).
+    """
     eks_state = eks.power_up(eks_params)
     fplc_state = fplc.power_up(fplc_params)
     plc_state = plc.power_up(plc.Params())
-    hmi_state = hmi.power_up(hmi.Params())
+    p = fplc_params
+    permits = hmi.Params(p.PERMITS_0, p.PERMITS_1, p.PERMITS_2, p.PERMITS_3, p.PERMITS_4)
+    hmi_state = hmi.power_up(permits)
     return System(
         eks_state,
         fplc_state,

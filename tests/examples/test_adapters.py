@@ -110,6 +110,36 @@ def test_reset_puts_the_target_back_to_power_up_and_takes_the_defaults(adapter: 
     assert [reply.get("out", {}).get("ERROR") for reply in replies] == [None, True, None, False]
 
 
+@BOTH
+def test_every_declared_parameter_is_taken_and_changes_what_the_program_does(
+    adapter: Path, tmp_path: Path
+) -> None:
+    to_selection = [
+        scan(500),
+        scan(LA=True),
+        scan(LA=True, on="A B C D STR"),
+        scan(LA=True),
+        scan(LA=True, on="C"),
+        scan(LA=True, on="C"),
+        scan(LA=True, on="C", MW03=f"{SE[1]:04X}"),
+        scan(LA=True, on="C", MW03=f"{SE[1]:04X}"),
+    ]
+    sequence = [scan(500), scan(LA=True), scan(900, LA=True, on="A B C D STR"), scan(900, LA=True)]
+
+    def ends_in_error(scans: list[dict[str, Any]], **params: Any) -> bool:
+        replies = talk(adapter, [RESET | {"params": params}, *scans], tmp_path)
+        assert replies[0] == {"ok": True}
+        error = replies[-1]["out"]["ERROR"]
+        assert isinstance(error, bool)
+        return error
+
+    declared = {name: own["default"] for name, own in INTERFACE["devices"]["fplc"]["parameters"].items()}
+    assert not ends_in_error(to_selection, **declared)
+    assert ends_in_error(to_selection, **declared | {"PERMITS_2": [0, 2]})
+    assert ends_in_error(sequence, **declared)
+    assert not ends_in_error(sequence, **declared | {"T_SEQ_FROM": "ones"})
+
+
 def without(name: str) -> dict[str, Any]:
     entry = scan()
     del entry["in"][name]
@@ -131,6 +161,13 @@ REFUSED = [
     ({"op": "reset", "params": {"T_HUH_ms": 1}}, "T_HUH_ms"),
     ({"op": "reset", "params": {"T_ON_ms": "1000"}}, "T_ON_ms"),
     ({"op": "reset", "params": {"T_REM_ms": 500}}, "T_DWELL_ms"),
+    ({"op": "reset", "params": {"T_ON_ms": 1001}}, "T_SEQ_ms"),
+    ({"op": "reset", "params": {"T_SEQ_FROM": "zeros"}}, "T_SEQ_FROM"),
+    *[
+        ({"op": "reset", "params": {"PERMITS_1": wrong}}, "PERMITS_1")
+        for wrong in ([1, 0], [0, 0, 1], [1, 5], [0], [1, 2], [], 1, None, "1", [True], [1.0], [None], [[1]])
+    ],
+    ({"op": "reset", "params": {"PERMITS_5": [1]}}, "PERMITS_5"),
     ({"op": "reset", "parameters": {}}, "parameters"),
     ({"op": "scan", "dt_ms": 10}, "in"),
     ({"op": "scan", "in": wire()}, "dt_ms"),

@@ -20,7 +20,7 @@ def _tables_by_tlc(text: str, folder: Path) -> dict[str, tuple[int, ...]]:
     prints = "\n".join(f'ASSUME PrintT(<<"{name}", {m}, {name}[{m}]>>)' for name in RANGES for m in range(5))
     probe = f"---- MODULE Probe ----\nEXTENDS CodeTables, TLC\n{prints}\n====\n"
     (folder / "Probe.tla").write_text(probe, encoding="utf-8")
-    (folder / "Probe.cfg").write_text("", encoding="utf-8")
+    (folder / "Probe.cfg").write_text("CONSTANT PERMITS <- TotalOrder", encoding="utf-8")
     tools = find_toolchain()
     command = [str(tools.java), "-XX:+UseSerialGC", "-Xmx256m", "-cp", str(tools.jar), "tlc2.TLC"]
     done = subprocess.run(

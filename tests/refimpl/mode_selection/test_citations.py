@@ -25,7 +25,7 @@ def test_every_behaviour_clause_of_a_device_is_cited_by_its_code(device: str) ->
     assert sorted(demanded - cited(device)) == []
 
 
-@pytest.mark.parametrize("name", [*DEVICES, "code_tables", "key_flows"])
+@pytest.mark.parametrize("name", [*DEVICES, "code_tables", "permissions", "key_flows"])
 def test_every_cited_clause_exists(name: str) -> None:
     assert cited(name)
     assert sorted(cited(name) - {c["id"] for c in CLAUSES}) == []

@@ -18,7 +18,16 @@ ROOT = Path(__file__).resolve().parents[3]
 INTERFACE = tomllib.loads((ROOT / "spec/mode_selection/interface.toml").read_text(encoding="utf-8"))
 FPLC = INTERFACE["devices"]["fplc"]
 
-PARAMS = Params(T_ON_ms=900, T_SEQ_ms=800, T_REM_ms=700, T_DWELL_ms=400)
+PARAMS = Params(T_ON_ms=800, T_SEQ_ms=900, T_REM_ms=700, T_DWELL_ms=400)
+FROM_ONES = replace(PARAMS, T_ON_ms=900, T_SEQ_ms=800, T_SEQ_FROM="ones")
+# A machine where no level permits a mode that the text does not say to be contained in it. E-47
+TEXT_ORDER = replace(
+    PARAMS,
+    PERMITS_1=(False, True, False, False, False),
+    PERMITS_2=(False, False, True, False, False),
+    PERMITS_3=(False, True, True, True, False),
+    PERMITS_4=(False, False, False, False, True),
+)
 OUTPUTS = ("A", "B", "C", "D", "STR")
 ALL = "A B C D STR"
 NOT_A_CODE = 0x0F0E
@@ -142,9 +151,9 @@ ROWS = [
         for s in IN_FLOW
         for on in ("", "C", "STR")
     ],
-    ("DeadlineExpired", at(Step.PULSE_ONES, 890), inputs(True, ALL), Step.ERROR),
-    ("DeadlineExpired", at(Step.PULSE_ZEROS, 790), inputs(True, ""), Step.ERROR),
-    ("DeadlineExpired", at(Step.ONE_OUTPUT, 790), inputs(True, "D"), Step.ERROR),
+    ("DeadlineExpired", at(Step.PULSE_ONES, 790), inputs(True, ALL), Step.ERROR),
+    ("DeadlineExpired", at(Step.PULSE_ZEROS, 890), inputs(True, ""), Step.ERROR),
+    ("DeadlineExpired", at(Step.ONE_OUTPUT, 890), inputs(True, "D"), Step.ERROR),
     ("DeadlineExpired", at(Step.CLEAR, 690), inputs(False, ""), Step.ERROR),
     ("DeadlineExpired", at(Step.AWAIT_ZEROS, 690), inputs(False, ""), Step.ERROR),
 ]
@@ -189,7 +198,10 @@ def test_names_are_those_of_the_register() -> None:
 
 def test_defaults_are_those_of_the_register() -> None:
     for name, entry in FPLC["parameters"].items():
-        assert getattr(Params(), name) == entry["default"]
+        default = entry["default"]
+        if entry["type"] == "modes":
+            default = tuple(mode in default for mode in range(5))
+        assert getattr(Params(), name) == default
 
 
 def test_every_step_of_the_register_is_named_in_the_code() -> None:
@@ -203,10 +215,10 @@ def test_every_step_of_the_register_is_named_in_the_code() -> None:
 @pytest.mark.parametrize(
     ("step", "limit", "i", "expected"),
     [
-        (Step.PULSE_ONES, 900, inputs(True, ALL, dt_ms=1), Step.PULSE_ZEROS),
-        (Step.PULSE_ONES, 900, inputs(True, "", dt_ms=1), Step.PULSE_ONES),
-        (Step.PULSE_ZEROS, 800, inputs(True, "", dt_ms=1), Step.ONE_OUTPUT),
-        (Step.ONE_OUTPUT, 800, inputs(True, "A", dt_ms=1), Step.AUTHORIZE),
+        (Step.PULSE_ONES, 800, inputs(True, ALL, dt_ms=1), Step.PULSE_ZEROS),
+        (Step.PULSE_ONES, 800, inputs(True, "", dt_ms=1), Step.PULSE_ONES),
+        (Step.PULSE_ZEROS, 900, inputs(True, "", dt_ms=1), Step.ONE_OUTPUT),
+        (Step.ONE_OUTPUT, 900, inputs(True, "A", dt_ms=1), Step.AUTHORIZE),
         (Step.CLEAR, 700, inputs(False, "", dt_ms=1), Step.AWAIT_ZEROS),
         (Step.AWAIT_ZEROS, 700, inputs(False, "", dt_ms=1), Step.IDLE),
     ],
@@ -238,11 +250,53 @@ def test_the_time_of_the_first_scan_after_power_up_counts() -> None:
     assert after(fplc.power_up(PARAMS), inputs(False, "", dt_ms=400)).state == Step.IDLE
 
 
-def test_the_timer_of_the_sequence_starts_at_all_ones_and_runs_on_through_zeros() -> None:
-    ones = after(at(Step.PULSE_ONES, 500), inputs(True, ALL))
-    assert ones.elapsed_ms == 0
-    zeros = after(after(ones, inputs(True, ALL, dt_ms=300)), inputs(True, "", dt_ms=100))
-    assert (zeros.state, zeros.elapsed_ms) == (Step.ONE_OUTPUT, 400)
+@pytest.mark.parametrize(("params", "at_ones"), [(PARAMS, 510), (FROM_ONES, 0)], ids=["LA", "ones"])
+def test_the_timer_of_the_sequence_goes_on_from_la_or_starts_at_all_ones_and_runs_on_through_zeros(
+    params: Params, at_ones: int
+) -> None:
+    ones = after(replace(at(Step.PULSE_ONES, 500), params=params), inputs(True, ALL))
+    assert (ones.state, ones.elapsed_ms) == (Step.PULSE_ZEROS, at_ones)
+    zeros = after(after(ones, inputs(True, ALL, dt_ms=200)), inputs(True, "", dt_ms=100))
+    assert (zeros.state, zeros.elapsed_ms) == (Step.ONE_OUTPUT, at_ones + 300)
+
+
+def sequence(params: Params, ones_ms: int, zeros_ms: int, output_ms: int) -> list[Step]:
+    """The states after the scans that see LA, all ones, zeros, one output, so long after the one before."""
+    state, states = State(params, Step.IDLE, -1, -1, -1, 1, 0), []
+    for on, dt_ms in (("", 77), (ALL, ones_ms), ("", zeros_ms), ("D", output_ms)):
+        state = after(state, inputs(True, on, dt_ms=dt_ms))
+        states.append(state.state)
+    return states
+
+
+COMPLETE = [Step.PULSE_ONES, Step.PULSE_ZEROS, Step.ONE_OUTPUT, Step.AUTHORIZE]
+
+
+@pytest.mark.parametrize(
+    ("params", "in_time", "late", "reached"),
+    [
+        (PARAMS, (799, 50, 50), (800, 50, 50), 1),
+        (PARAMS, (799, 100, 0), (799, 101, 0), 2),
+        (PARAMS, (799, 50, 50), (799, 50, 51), 3),
+        (PARAMS, (0, 0, 899), (0, 0, 900), 3),
+        (FROM_ONES, (899, 50, 50), (900, 50, 50), 1),
+        (FROM_ONES, (899, 799, 0), (899, 800, 0), 2),
+        (FROM_ONES, (899, 400, 399), (899, 400, 400), 3),
+    ],
+)
+def test_from_la_one_window_limits_the_sequence_and_from_ones_a_second_one_follows(
+    params: Params, in_time: tuple[int, int, int], late: tuple[int, int, int], reached: int
+) -> None:
+    assert sequence(params, *in_time) == COMPLETE
+    stopped = sequence(params, *late)
+    assert stopped[:reached] == COMPLETE[:reached]
+    assert stopped[reached] == Step.ERROR
+
+
+def test_with_one_window_the_wait_for_ones_may_last_as_long_as_the_window() -> None:
+    same = replace(PARAMS, T_ON_ms=900)
+    assert sequence(same, 899, 0, 0) == COMPLETE
+    assert sequence(same, 899, 1, 0)[2] == Step.ERROR
 
 
 def test_the_timer_of_the_removal_starts_on_entering_clear_and_runs_on_in_await_zeros() -> None:
@@ -277,6 +331,32 @@ def test_figure_5_permits_a_mode_up_to_the_level_and_no_other(level: int, mode: 
     expected = Step.ECHO_SELECTION if mode <= level else Step.ERROR
     output = OUTPUTS[level]
     assert after(at(Step.CHECK_SELECTION, level=level), inputs(on=output, MW03=SE[mode])).state == expected
+
+
+@pytest.mark.parametrize("level", range(-1, 5))
+def test_by_default_step_18_is_figure_5_for_every_word(level: int) -> None:
+    RE_word = RE[level] if level >= 0 else 0
+    for MW03 in range(0x10000):
+        by_figure = fplc.echo(MW03) != 0 and fplc.permitted(RE_word, MW03)
+        assert fplc.within_authority(Params(), level, MW03) == by_figure
+
+
+@pytest.mark.parametrize("level", range(5))
+@pytest.mark.parametrize("mode", range(5))
+def test_a_machine_may_permit_less_and_refuses_the_rest_with_error(level: int, mode: int) -> None:
+    permits = ([0], [1], [2], [1, 2, 3], [4])
+    before = replace(at(Step.CHECK_SELECTION, level=level), params=TEXT_ORDER)
+    reached = after(before, inputs(on=OUTPUTS[level], MW03=SE[mode]))
+    if mode in permits[level]:
+        assert (reached.state, reached.selection) == (Step.ECHO_SELECTION, mode)
+    else:
+        assert (reached.state, reached.selection) == (Step.ERROR, -1)
+
+
+def test_a_word_that_is_no_code_passes_on_no_machine() -> None:
+    for level in range(5):
+        for MW03 in set(range(0x10000)) - set(SE):
+            assert not fplc.within_authority(TEXT_ORDER, level, MW03)
 
 
 def test_figure_5_permits_nothing_to_a_word_that_is_no_level() -> None:
@@ -376,7 +456,7 @@ def test_a_timer_starts_anew_on_entering_a_state_and_stands_still_where_none_is_
     name: str, before: State, i: Inputs, to: Step
 ) -> None:
     elapsed = 0
-    if name in ("SeePulseZeros", "ClearWords") or (to == before.state and to in TIMED):
+    if name in ("SeeOnes", "SeePulseZeros", "ClearWords") or (to == before.state and to in TIMED):
         elapsed = before.elapsed_ms + i.dt_ms
     if to in (Step.START, Step.SETTLE, Step.ERROR):
         elapsed = min(elapsed, 400)
@@ -446,6 +526,23 @@ def test_a_missing_and_an_extra_input_are_refused_by_name() -> None:
         checked(Inputs, good | {"MW09": 0})
 
 
+# What no level can permit: its own mode left out, one above it, or no five booleans.
+WRONG_PERMITS = [
+    ("PERMITS_0", (False, False, False, False, False)),
+    ("PERMITS_0", (True, True, False, False, False)),
+    ("PERMITS_1", (True, False, False, False, False)),
+    ("PERMITS_2", (True, True, True, False, True)),
+    ("PERMITS_3", (True, True, True, True, True)),
+    ("PERMITS_4", (True, True, True, True, False)),
+    ("PERMITS_2", (True, True, True, False)),
+    ("PERMITS_2", (True, True, True, False, False, False)),
+    ("PERMITS_2", [True, True, True, False, False]),
+    ("PERMITS_2", (1, 1, 1, 0, 0)),
+    ("PERMITS_2", [2]),
+    ("PERMITS_2", None),
+]
+
+
 @pytest.mark.parametrize(
     ("field", "value"),
     [
@@ -454,6 +551,10 @@ def test_a_missing_and_an_extra_input_are_refused_by_name() -> None:
         ("T_REM_ms", True),
         ("T_DWELL_ms", -1),
         ("T_DWELL_ms", 700),
+        ("T_SEQ_FROM", "zeros"),
+        ("T_SEQ_FROM", "la"),
+        ("T_SEQ_FROM", None),
+        *WRONG_PERMITS,
         ("ON_ERROR", "drop"),
         ("ON_ERROR", None),
     ],
@@ -467,6 +568,13 @@ def test_the_dwell_must_be_shorter_than_the_removal() -> None:
     assert Params(T_REM_ms=501).T_DWELL_ms == 500
     with pytest.raises(ParameterError, match="T_DWELL_ms: expected less than T_REM_ms"):
         Params(T_REM_ms=500)
+
+
+def test_one_window_cannot_be_shorter_than_the_wait_for_ones() -> None:
+    assert Params(T_ON_ms=900, T_SEQ_ms=900).T_SEQ_FROM == "LA"
+    assert Params(T_ON_ms=900, T_SEQ_ms=1, T_SEQ_FROM="ones").T_SEQ_ms == 1
+    with pytest.raises(ParameterError, match=r"^T_SEQ_ms: expected at least T_ON_ms \(900\)"):
+        Params(T_ON_ms=900, T_SEQ_ms=899)
 
 
 def test_a_control_state_that_is_none_of_the_states_never_switches() -> None:

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from refimpl.errors import InputError, LayoutError, StateError
+from refimpl.errors import InputError, LayoutError, ParameterError, StateError
 from refimpl.mode_selection import hmi
 from refimpl.mode_selection.code_tables import CH, RE, SE, SW
 from refimpl.mode_selection.hmi import DEFAULT_LAYOUT, Inputs, Layout, Outputs, Params, Rectangle, State, Step
@@ -140,6 +140,61 @@ def test_the_screen_offers_the_modes_up_to_the_level_and_no_other(level: int) ->
     for mode in range(5):
         touched, _ = hmi.step(opened, inputs(RE[level], touch=f"select:{mode}"))
         assert (touched.state == Step.AWAIT_ECHO) == (mode <= level)
+
+
+def modes(*members: int) -> tuple[bool, ...]:
+    return tuple(mode in members for mode in range(5))
+
+
+TEXT_ORDER = Params(PERMITS_1=modes(1), PERMITS_2=modes(2), PERMITS_3=modes(1, 2, 3), PERMITS_4=modes(4))  # type: ignore[arg-type]
+
+
+def test_defaults_are_those_of_the_register() -> None:
+    for name, entry in HMI["parameters"].items():
+        assert getattr(Params(), name) == modes(*entry["default"])
+
+
+@pytest.mark.parametrize(("level", "permits"), list(enumerate([[0], [1], [2], [1, 2, 3], [4]])))
+def test_a_machine_may_permit_less_and_the_panel_offers_and_takes_no_more(
+    level: int, permits: list[int]
+) -> None:
+    opened, row = hmi.step(hmi.power_up(TEXT_ORDER), inputs(RE[level]))
+    assert (opened.state, row.enabled) == (Step.SELECT, modes(*permits))
+    for mode in range(5):
+        touched, row = hmi.step(opened, inputs(RE[level], touch=f"select:{mode}"))
+        if mode in permits:
+            assert (touched.state, touched.selection, row.SelectMSO) == (Step.AWAIT_ECHO, mode, SE[mode])
+        else:
+            assert touched == opened
+            assert (row.SelectMSO, row.screen) == (0, "select")
+
+
+@pytest.mark.parametrize("level", range(5))
+def test_a_finger_on_a_field_that_is_not_permitted_means_no_touch(level: int) -> None:
+    _, row = hmi.step(hmi.power_up(TEXT_ORDER), inputs(RE[level]))
+    for mode, field in enumerate(DEFAULT_LAYOUT.selection):
+        meant = hmi.touch_at(DEFAULT_LAYOUT, row, field.x, field.y)
+        assert meant == (f"select:{mode}" if row.enabled[mode] else "")
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("PERMITS_0", modes()),
+        ("PERMITS_0", modes(0, 1)),
+        ("PERMITS_1", modes(0)),
+        ("PERMITS_2", modes(2, 4)),
+        ("PERMITS_3", modes(0, 1, 2, 3, 4)),
+        ("PERMITS_4", modes(0, 1, 2, 3)),
+        ("PERMITS_4", (True, True, True, True)),
+        ("PERMITS_4", [True] * 5),
+        ("PERMITS_4", (1, 1, 1, 1, 1)),
+        ("PERMITS_4", None),
+    ],
+)
+def test_a_wrong_parameter_is_refused_by_name(field: str, value: object) -> None:
+    with pytest.raises(ParameterError, match=rf"^{field}: expected "):
+        replace(Params(), **{field: value})
 
 
 @pytest.mark.parametrize("active", range(-1, 5))

@@ -93,6 +93,17 @@ def switched(level: int, mode: int) -> System:
 # ---------------------------------------------------------------- insert
 
 
+def test_the_panel_and_the_f_plc_take_the_same_permissions() -> None:
+    only_own = fplc.Params(PERMITS_2=(False, False, True, False, False))
+    system = until(key_flows.power_up(EKS_PARAMS, only_own), idle)
+    system = until(insert_key(system, key_of(2)), screen("select"))
+    assert system.hmi_out.enabled == (False, False, True, False, False)
+    refused = rounds(touch(system, "select:1"), 20)
+    assert (refused.fplc_state, refused.hmi_state) == (system.fplc_state, system.hmi_state)
+    asked_for = until(touch(system, "select:2"), screen("confirm"))
+    assert until(touch(asked_for, "confirm"), settled).fplc_state.mode == 2
+
+
 @pytest.mark.parametrize("level", range(5))
 def test_a_key_opens_the_modes_up_to_its_level(level: int) -> None:
     system = opened(level)
