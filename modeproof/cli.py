@@ -150,7 +150,7 @@ def _complain(line: str) -> None:
 
 
 def _stop_tools() -> None:
-    loaded = sys.modules.get("modeproof.tlc.process")
+    loaded = sys.modules.get("modeproof.tlc.children")
     if loaded is not None:
         loaded.stop_all()
 

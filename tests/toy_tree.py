@@ -29,6 +29,8 @@ TypeOK == count \in 0..N /\ (SLEEP => \A n \in 1..2000 : n > 0)
 Small == count < 3
 NeverDown == [][count' >= count]_View
 Reaches == <>(count = N)
+Risen == count > 0
+StartsTop == count = N /\ [][Next]_vars
 Witness == /\ (top => PrintT(ToString(<<"REACHED", "top">>)))
            /\ (step = "Down" => PrintT(ToString(<<"REACHED", "down">>)))
 PrintState == PRINT => PrintT(ToString(<<"STATE", View, [full |-> count = N]>>))
@@ -42,6 +44,9 @@ CFGS = {
     "NEG_down": "CONSTANTS N = 4 SLEEP = FALSE PRINT = FALSE\nSPECIFICATION Spec\n"
     "INVARIANT TypeOK\nPROPERTY NeverDown\n",
     "NEG_reaches": "CONSTANTS N = 4 SLEEP = FALSE PRINT = FALSE\nSPECIFICATION Spec\nPROPERTY Reaches\n",
+    "NEG_risen": "CONSTANTS N = 4 SLEEP = FALSE PRINT = FALSE\nSPECIFICATION Spec\nINVARIANTS TypeOK Risen\n",
+    "NEG_starts": "CONSTANTS N = 4 SLEEP = FALSE PRINT = FALSE\nSPECIFICATION Spec\n"
+    "INVARIANT TypeOK\nPROPERTY StartsTop\n",
     "WIT_toy": "CONSTANTS N = 4 SLEEP = FALSE PRINT = FALSE\nSPECIFICATION Spec\nINVARIANTS TypeOK Witness\n",
     "OPEN_toy": "CONSTANTS N = 4 SLEEP = FALSE PRINT = TRUE\nSPECIFICATION Spec\nVIEW View\n"
     "ACTION_CONSTRAINT PrintEdge\nINVARIANTS TypeOK PrintState\n",
@@ -53,6 +58,8 @@ _DECLARED = {
     "NEG_small": 'properties = ["TypeOK", "Small"]\nproperty = "Small"\ntrace_length = 4\n',
     "NEG_down": 'properties = ["TypeOK", "NeverDown"]\nproperty = "NeverDown"\ntrace_length = 3\n',
     "NEG_reaches": 'properties = ["Reaches"]\nproperty = "Reaches"\ntrace_length = 2\n',
+    "NEG_risen": 'properties = ["TypeOK", "Risen"]\nproperty = "Risen"\ntrace_length = 1\n',
+    "NEG_starts": 'properties = ["TypeOK", "StartsTop"]\nproperty = "StartsTop"\ntrace_length = 1\n',
     "WIT_toy": 'properties = ["TypeOK", "Witness"]\nwitnesses = ["top", "down"]\n'
     "distinct = {distinct}\ngenerated = {generated}\n",
     "OPEN_toy": 'properties = ["TypeOK", "PrintState"]\ndistinct = 9\ngenerated = 19\n'

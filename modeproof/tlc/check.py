@@ -15,9 +15,10 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import build, documents
 from modeproof.progress import Progress
+from modeproof.tlc import children
 from modeproof.tlc.cfg import Cfg, parse_cfg
 from modeproof.tlc.judge import UNJUDGED, Judgement, judge
-from modeproof.tlc.process import Outcome, run_tlc, stop_all
+from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.schedule import Job, cores, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
@@ -168,7 +169,7 @@ def check_all(
     try:
         return run_all(jobs, work, core_limit, memory_mb(), progress.tick)
     except BaseException:
-        stop_all()
+        children.stop_all()
         raise
 
 

@@ -82,6 +82,8 @@ def _verdict(run: Run, cfg: Cfg, outcome: Outcome) -> Judgement:
         return _unjudged(f"TLC's log cannot be read: {log.broken}")
     if not log.finished:
         return _unjudged(f"TLC's log ends early (exit status {outcome.status})")
+    if log.initially and log.violations:
+        return _violation(cfg, outcome)
     if log.counts is None or not log.final:
         return _unjudged("TLC's log has no final counts")
     if log.violations:
@@ -110,6 +112,8 @@ def _violation(cfg: Cfg, outcome: Outcome) -> Judgement:
     if kind == "temporal":
         # TLC does not name it: only a cfg with a single property leaves no doubt.
         name = cfg.properties[0] if len(cfg.properties) == 1 else ""
+    if kind == "property" and not name and len(cfg.properties) == 1:
+        name = cfg.properties[0]  # of an initial state TLC says the place of the formula, not its name
     if kind == "deadlock":
         name = "deadlock"
     if [state.number for state in log.trace] != list(range(1, len(log.trace) + 1)) or not log.trace:

@@ -22,6 +22,7 @@ TEMPORAL_CHECK = 2192
 STATE_TEXT = (2216, 2217)
 STUTTERING = 2218
 BACK_TO_STATE = 2122
+INITIALLY = (2107, 2108)
 INVARIANT = (2107, 2110)
 ACTION_PROPERTY = (2108, 2112)
 TEMPORAL = 2116
@@ -78,6 +79,8 @@ class Log:
     finished: bool = False
     started: bool = False
     violations: list[tuple[str, str]] = field(default_factory=list)
+    initially: bool = False
+    """An initial state already violates something: TLC ends at once, and says no counts."""
     trace: list[TraceState] = field(default_factory=list)
     loop: str = ""
     errors: list[tuple[int, str]] = field(default_factory=list)
@@ -211,6 +214,9 @@ class LogReader:
             kind = "invariant" if code in INVARIANT else "property"
             match = (_INVARIANT_NAME if code in INVARIANT else _PROPERTY_NAME).search(text)
             log.violations.append((kind, match.group(1) if match else ""))
+            if code in INITIALLY:
+                log.initially = True
+                log.trace.append(TraceState(1, "Initial predicate", "", _variables(lines[1:])))
         elif code == TEMPORAL:
             log.violations.append(("temporal", ""))
         elif code == DEADLOCK:
@@ -239,15 +245,20 @@ class LogReader:
             return
         place = _PLACE.match(head.group(2))
         action, module = (place.group(1), place.group(2)) if place else (head.group(2), "")
-        variables: list[tuple[str, str]] = []
-        for line in lines[1:]:
-            match = _VARIABLE.match(line)
-            if match is not None:
-                variables.append((match.group(1), match.group(2).strip()))
-            elif variables and line.strip():
-                name, value = variables[-1]
-                variables[-1] = (name, f"{value} {line.strip()}")
-        self.log.trace.append(TraceState(int(head.group(1)), action, module, tuple(variables)))
+        self.log.trace.append(TraceState(int(head.group(1)), action, module, _variables(lines[1:])))
+
+
+def _variables(lines: list[str]) -> tuple[tuple[str, str], ...]:
+    """The variables of a state as TLC prints it; a value may go on over several lines."""
+    variables: list[tuple[str, str]] = []
+    for line in lines:
+        match = _VARIABLE.match(line)
+        if match is not None:
+            variables.append((match.group(1), match.group(2).strip()))
+        elif variables and line.strip():
+            name, value = variables[-1]
+            variables[-1] = (name, f"{value} {line.strip()}")
+    return tuple(variables)
 
 
 _BOILERPLATE = (

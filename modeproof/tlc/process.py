@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import shutil
-import signal
 import subprocess
 import tempfile
 import threading
@@ -17,6 +15,7 @@ from typing import BinaryIO
 
 from modeproof.errors import Unjudged
 from modeproof.places import build
+from modeproof.tlc import children
 from modeproof.tlc.messages import Counts, Log, LogReader
 from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain
@@ -31,9 +30,6 @@ only in runs of some 10 s and more.
 WITNESS_LIMIT = 100_000
 LINES_A_WORD = 20_000
 """So many printed lines of a graph are worth a word of progress."""
-
-_RUNNING: dict[int, subprocess.Popen[bytes]] = {}
-_GUARD = threading.Lock()
 
 
 @dataclass(frozen=True)
@@ -77,18 +73,6 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, library: Path | None
     if not run.deadlock:
         tlc.append("-deadlock")  # this option of TLC turns the check off
     return [*java, "-cp", str(tools.jar), "tlc2.TLC", *tlc, run.module]
-
-
-def stop_all() -> None:
-    """Kill every TLC that this process started; for Ctrl-C and for the end of the program."""
-    with _GUARD:
-        for process in list(_RUNNING.values()):
-            _kill(process)
-
-
-def _kill(process: subprocess.Popen[bytes]) -> None:
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        os.killpg(process.pid, signal.SIGKILL)
 
 
 class _Sink:
@@ -136,6 +120,8 @@ def run_tlc(
     common = place / "spec" / "common"
     try:
         logs.mkdir(parents=True, exist_ok=True)
+        for stale in logs.glob(f"{run.id}.????????"):  # of a run that was killed
+            shutil.rmtree(stale, ignore_errors=True)
         metadir = Path(tempfile.mkdtemp(prefix=f"{run.id}.", dir=logs))
     except OSError as error:
         raise Unjudged(f"{run.name}: cannot write to {logs}: {error.strerror}") from None
@@ -188,21 +174,11 @@ def _follow(
     expired = threading.Event()
     began = time.monotonic()
     with errors.open("wb") as stderr, (logs / f"{run.id}.log").open("wb", buffering=0) as log_file:
-        with _GUARD:
-            process = subprocess.Popen(
-                command,
-                cwd=folder,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
-                stderr=stderr,
-                bufsize=1 << 20,
-                start_new_session=True,
-            )
-            _RUNNING[process.pid] = process
+        process = children.start(command, folder, subprocess.PIPE, stderr)
 
         def expire() -> None:
             expired.set()
-            _kill(process)
+            children.kill(process)
 
         timer = threading.Timer(run.timeout_s, expire)
         timer.daemon = True
@@ -216,12 +192,7 @@ def _follow(
             status = process.wait()
         finally:
             timer.cancel()
-            _kill(process)
-            process.wait()
-            if process.stdout is not None:
-                process.stdout.close()
-            with _GUARD:
-                _RUNNING.pop(process.pid, None)
+            children.end(process)
     seconds = time.monotonic() - began
     tail = errors.read_bytes()[-4000:].decode("utf-8", "replace").strip()
     return Outcome(

@@ -118,7 +118,7 @@ def test_ctrl_c_ends_tlc_too_and_is_one_line(toy: Path) -> None:
     assert running.returncode == 2
     assert err == "modeproof: interrupted; nothing was judged\n"
     for _ in range(100):
-        alive = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
+        alive = subprocess.run(["ps", "-wweo", "args"], capture_output=True, text=True, check=True).stdout
         if str(toy) not in alive:
             break
         time.sleep(0.05)

@@ -8,14 +8,16 @@ import signal
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from modeproof import evidence
 from modeproof.progress import Progress
-from modeproof.tlc import process
+from modeproof.tlc import children, process
 from modeproof.tlc.check import Checked, check_all, check_one, select
+from modeproof.tlc.repin import moves
 from modeproof.tlc.toolchain import find_toolchain
 from tests.toy_tree import CFGS, declaration, sha256, toy_tree
 
@@ -45,6 +47,26 @@ def test_each_kind_of_run_is_as_expected(good: tuple[Path, dict[str, Checked]]) 
     assert {name: one.judgement.reason for name, one in done.items()} == dict.fromkeys(ALL, "")
     assert done["OPEN_toy"].judgement.verdict == "HOLDS"
     assert done["WIT_toy"].judgement.reached == ("down", "top")
+
+
+@pytest.mark.parametrize(("name", "violated"), [("NEG_risen", "Risen"), ("NEG_starts", "StartsTop")])
+def test_what_the_first_state_violates_is_a_counterexample_of_length_1(
+    good: tuple[Path, dict[str, Checked]], name: str, violated: str
+) -> None:
+    one = good[1][name]
+    assert (one.judgement.verdict, one.judgement.violated) == ("VIOLATED", violated)
+    (state,) = one.record["result"]["trace"]
+    assert (state["number"], state["action"]) == (1, "Initial predicate")
+    assert state["variables"] | {"count": "0", "top": "FALSE"} == state["variables"]
+    assert one.record["result"]["distinct"] is None, "TLC says no counts then"
+
+
+def test_what_the_first_state_violates_can_be_pinned(good: tuple[Path, dict[str, Checked]]) -> None:
+    root, done = good
+    one = done["NEG_risen"]
+    assert moves(root, one) == ()
+    (move,) = moves(root, replace(one, run=replace(one.run, trace_length=2)))
+    assert str(move) == "trace_length: 2 -> 1"
 
 
 def test_the_evidence_names_inputs_and_tools(good: tuple[Path, dict[str, Checked]]) -> None:
@@ -156,9 +178,9 @@ def test_a_tlc_killed_halfway_is_unjudged(tmp_path: Path) -> None:
     def kill() -> None:
         log = root / "build/tlc/toy/MC_big.log"
         for _ in range(600):
-            if process._RUNNING and log.is_file():
+            if children.running() and log.is_file():
                 time.sleep(0.5)
-                os.killpg(next(iter(process._RUNNING)), signal.SIGKILL)
+                os.killpg(children.running()[0], signal.SIGKILL)
                 return
             time.sleep(0.05)
 
@@ -174,7 +196,7 @@ def test_a_time_limit_ends_tlc_and_is_inconclusive(tmp_path: Path) -> None:
     one = check(root)["MC_big"]
     assert one.judgement.verdict == "INCONCLUSIVE" and one.status == 2
     assert one.judgement.reason == "time limit of 1 s reached"
-    assert not process._RUNNING
+    assert not children.running()
 
 
 def test_a_heap_that_java_refuses_is_inconclusive(tmp_path: Path) -> None:
@@ -210,7 +232,7 @@ def test_a_full_disk_while_the_graph_is_written_leaves_no_graph(
     monkeypatch.setattr(process._Sink, "take", full)
     one = check(root)["OPEN_toy"]
     assert one.judgement.verdict == "UNJUDGED" and "No space left on device" in one.judgement.reason
-    assert list((root / "build/graphs/toy").iterdir()) == [] and not process._RUNNING
+    assert list((root / "build/graphs/toy").iterdir()) == [] and not children.running()
 
 
 def test_declaration_and_tree_agree() -> None:

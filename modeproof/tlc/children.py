@@ -1,0 +1,127 @@
+"""The processes that we start: each in a group of its own, and none outlives us, whatever ends us.
+
+Ctrl-C, SIGTERM and every exception pass through `stop_all`. Against SIGKILL, which no program can catch, a
+watcher holds the reading end of a pipe of which only we hold the other: when that is closed, it kills what is
+left.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import IO
+
+_WATCHER = """
+import os, signal, sys
+groups = set()
+for line in sys.stdin:
+    word, group = line.split()
+    (groups.add if word == "+" else groups.discard)(int(group))
+for group in groups:
+    try:
+        os.killpg(group, signal.SIGKILL)
+    except OSError:
+        pass
+"""
+
+_RUNNING: dict[int, subprocess.Popen[bytes]] = {}
+_GUARD = threading.RLock()
+_watcher: subprocess.Popen[bytes] | None = None
+_pipe: int | None = None
+
+
+def _tell(word: str, group: int) -> None:
+    """Tell the watcher, started when first needed. Without one we go on: it is a second net."""
+    with contextlib.suppress(OSError):
+        if _watcher is None or _watcher.poll() is not None:
+            _start_watcher()
+        _say(word, group)
+
+
+def _start_watcher() -> None:
+    global _watcher, _pipe
+    if _pipe is not None:
+        os.close(_pipe)
+        _pipe = None
+    reading, _pipe = os.pipe()
+    try:
+        _watcher = subprocess.Popen(
+            [sys.executable, "-I", "-S", "-c", _WATCHER],
+            stdin=reading,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            start_new_session=True,
+        )
+    finally:
+        os.close(reading)
+    for other in _RUNNING:
+        _say("+", other)
+
+
+def _say(word: str, group: int) -> None:
+    if _pipe is not None:
+        os.write(_pipe, f"{word} {group}\n".encode())
+
+
+@atexit.register
+def _dismiss_watcher() -> None:
+    if _watcher is not None and _pipe is not None:
+        os.close(_pipe)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            _watcher.wait(timeout=5)
+
+
+def start(
+    command: list[str], folder: Path, stdout: IO[bytes] | int, stderr: IO[bytes]
+) -> subprocess.Popen[bytes]:
+    """Start a program in a group of its own, without input. Raises OSError when it cannot be started."""
+    with _GUARD:
+        process = subprocess.Popen(
+            command,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            stdout=stdout,
+            stderr=stderr,
+            bufsize=1 << 20,
+            start_new_session=True,
+        )
+        _RUNNING[process.pid] = process
+        _tell("+", process.pid)
+    return process
+
+
+def kill(process: subprocess.Popen[bytes]) -> None:
+    """Kill a program and all that it has started; not an error when it has ended."""
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        os.killpg(process.pid, signal.SIGKILL)
+
+
+def end(process: subprocess.Popen[bytes]) -> int:
+    """Kill what is left of a program, wait for it, forget it; returns its exit status."""
+    kill(process)
+    status = process.wait()
+    if process.stdout is not None:
+        process.stdout.close()
+    with _GUARD:
+        if _RUNNING.pop(process.pid, None) is not None:
+            _tell("-", process.pid)
+    return status
+
+
+def running() -> tuple[int, ...]:
+    """The process groups that were started and have not been ended."""
+    with _GUARD:
+        return tuple(_RUNNING)
+
+
+def stop_all() -> None:
+    """Kill everything that was started; for Ctrl-C and for the end of the program."""
+    with _GUARD:
+        for process in list(_RUNNING.values()):
+            kill(process)
