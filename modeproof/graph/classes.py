@@ -17,6 +17,7 @@ spec/<document>/classes.toml says which letters are representatives:
     at_least = 2
     at_most = 3
 
+In an alphabet without the representative of a `count`, the first other member in it stands for the class.
 Members of `words`: all one-bit neighbours of the words that the alphabet names for the field, and 64 random
 words (seeded, so always the same). A document without the file has no classes.
 """
@@ -84,7 +85,7 @@ def _class(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, A
     for field in fields:
         if not isinstance(field, str) or field not in alphabet[0]:
             raise Unjudged(f"{place}: {field!r} is no input")
-    made = _words(place, row, alphabet) if rule == "words" else _count(place, row)
+    made = _words(place, row, alphabet) if rule == "words" else _count(place, row, alphabet)
     if not any(made.representative.items() <= letter.items() for letter in alphabet):
         raise Unjudged(f"{place}: the representative {row['representative']!r} is not in the alphabet")
     if not made.members:
@@ -106,7 +107,7 @@ def _words(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, A
     return InputClass(f"{field} other", {field: representative}, tuple({field: word} for word in members))
 
 
-def _count(place: str, row: Mapping[str, Any]) -> InputClass:
+def _count(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, Any]]) -> InputClass:
     fields, chosen = row["fields"], row["representative"]
     low, high = row["at_least"], row["at_most"]
     if not isinstance(chosen, list) or not set(chosen) <= set(fields):
@@ -119,6 +120,9 @@ def _count(place: str, row: Mapping[str, Any]) -> InputClass:
         if low <= sum(values) <= high
     ]
     representative = {field: field in chosen for field in fields}
+    if not any(representative.items() <= letter.items() for letter in alphabet):
+        in_alphabet = [one for one in members if any(one.items() <= letter.items() for letter in alphabet)]
+        representative = in_alphabet[0] if in_alphabet else representative
     members.remove(representative)
     return InputClass(f"{low}..{high} of {' '.join(fields)}", representative, tuple(members))
 
