@@ -70,6 +70,10 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, library: Path | None
         java.append(f"-DTLA-Library={library}")
     tlc = ["-tool", "-fp", str(FINGERPRINT), "-seed", str(SEED), "-workers", str(run.workers)]
     tlc += ["-checkpoint", "0", "-metadir", str(metadir / "states"), "-config", run.cfg]
+    tlc += [
+        "-lncheck",
+        "final",
+    ]  # else the clock decides when liveness is checked, and so which lasso is found
     if not run.deadlock:
         tlc.append("-deadlock")  # this option of TLC turns the check off
     return [*java, "-cp", str(tools.jar), "tlc2.TLC", *tlc, run.module]

@@ -201,11 +201,6 @@ IdleMeansZeros ==
 ActiveMSO == IF mode = {} THEN None ELSE CHOOSE m \in mode : TRUE
 Displayed == IF Literal("PANEL_REMEMBERS_MODE") THEN remembered ELSE ActiveMSO
 DisplayIsTheMode == fplcState = "Idle" => Displayed = ActiveMSO
-
-\* E-21, E-62: words from an honest panel never lead to the error mode, only deadlines and two outputs do
-WordsAreNoError ==
-    [][fplcState # "Error" /\ fplcState' = "Error" => step' \in {"DeadlineExpired", "TooManyOutputs"}]_View
-
 \* EKS-FD-1, EKS-FD-2: the contract that an assessor reads
 Contract == INSTANCE ModeSelection WITH level <- Signalled, mode <- ActiveMSO
 RefinesModeSelection == Contract!Spec
