@@ -167,8 +167,18 @@ Wires == EksOutputs @@ FplcOutputs @@ PlcOutputs @@ HmiOutputs
 TouchedField == IF HmiScan(HmiInput("")) THEN "" ELSE CHOOSE touch \in Touches : HmiScan(HmiInput(touch))
 
 ----------------------------------------------------------------------------
+(* Trials of two readings that concern more than one device.               *)
+
+\* E-70: the PLC starts again with all words zero, the panel inhibited; the others go on
+Restart ==
+    /\ \/ ReadAuthorization' = 0 /\ MW03' = 0 /\ CheckMSO' = 0 /\ MW07' = 0 /\ UNCHANGED <<turn, hmi>> /\ Did("RestartPlc")
+       \/ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None /\ UNCHANGED plc /\ Did("RestartPanel")
+    /\ Took(0)
+    /\ UNCHANGED <<reader, eks, fplc, history>>
+
+----------------------------------------------------------------------------
 User == (\E k \in DOMAIN KEY : SwapNoticed /\ InsertKey(k)) \/ RemoveKey
-Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns
+Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ (Literal("DEVICES_RESTART") /\ Restart)
 Spec == Init /\ [][Next]_vars
 
 ----------------------------------------------------------------------------

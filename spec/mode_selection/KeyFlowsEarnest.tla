@@ -26,4 +26,7 @@ EarnestSpec ==
 
 \* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of an error
 NoErrorWithoutFault == ~ERROR
+
+\* A-08 broken, E-39: the pulse may be over before the F-PLC has looked
+PulseMayBeMissed == TRUE
 =============================================================================

@@ -37,6 +37,8 @@ Readings == {
     "TOUCH_BEFORE_ECHO_COUNTS",
     \* HMI, in KeyFlows
     "PANEL_REMEMBERS_MODE",
+    \* PLC and HMI, in KeyFlows
+    "DEVICES_RESTART",
     \* EKS
     "NO_LEVEL_CHECK",
     "NO_ACCESS_CHECK",
