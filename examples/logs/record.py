@@ -128,7 +128,7 @@ def as_lines(target: str, params: dict[str, Any], lines: list[Line]) -> str:
 
 
 def as_table(lines: list[Line], tags: dict[str, str], settings: dict[str, Any]) -> str:
-    """The export of a PLC's trace tool: tags for names, time since the start, words as 16#, booleans 0 or 1."""
+    """As a PLC's trace tool exports it: tags for names, time since the start, words with 16#, 0 and 1."""
     text = io.StringIO()
     for name, value in settings.items():
         text.write(f"# {name} = {value}\n")
@@ -162,7 +162,7 @@ def sampled(lines: list[Line]) -> list[Line]:
     skipped = 0
     for n, line in enumerate(lines):
         before, after = lines[max(n - 1, 0)], lines[min(n + 1, len(lines) - 1)]
-        if n in (0, len(lines) - 1) or before["in"] != line["in"] or line["in"] != after["in"]:
+        if n == 0 or n == len(lines) - 1 or before["in"] != line["in"] or line["in"] != after["in"]:
             kept.append({**line, "dt_ms": line["dt_ms"] + skipped})
             skipped = 0
         else:

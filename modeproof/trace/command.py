@@ -27,10 +27,10 @@ from modeproof.trace.targets import Target, find_target
 from modeproof.trace.text import as_json, as_record, as_text
 
 _DESCRIPTION = """Is a recorded log a run of the specification? CONFORMS: every line is a scan (or a sample)
-that the specification allows; DIFFERS: a line is impossible, and it is shown with the conjunct that failed. The
-log is followed through the graph of the device and judged again by TLC with the log's own parameters, times
-in ms and words; TLC's judgement is the exact one. A log shows one run: nothing is said about what the machine
-would do otherwise."""
+that the specification allows; DIFFERS: a line is impossible, and it is shown with the conjunct that failed.
+The log is followed through the graph of the device and judged again by TLC with the log's own parameters,
+times in ms and words; TLC's judgement is the exact one. A log shows one run: nothing is said about what the
+machine would do otherwise."""
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:

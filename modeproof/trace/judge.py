@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
 from modeproof.registers.rows import Device
@@ -20,13 +21,36 @@ from modeproof.trace.module import Reading
 from modeproof.trace.targets import Target
 
 
-class Graphs:
-    """The graphs of the devices: read when they are needed, made by TLC when they are missing."""
+def is_current(place: Path, run: Run) -> bool:
+    """Whether the graph of a run is there and was made from the specification as it is now."""
+    path = graph_file(place, run)
+    try:
+        record = evidence.read(evidence.evidence_path(place, run.document, run.id))
+        inputs = {name: digest for name, digest in record["inputs"].items() if not name.endswith(".toml")}
+        return (
+            bool(record["as_expected"])
+            and evidence.hashes(place, [place / name for name in inputs]) == inputs
+            and record["result"]["graph"]["sha256"] == next(iter(evidence.hashes(place, [path]).values()))
+        )
+    except (Unjudged, KeyError):
+        return False
 
-    def __init__(self, place: Path, make: Callable[[tuple[Run, ...]], None]) -> None:
+
+class Graphs:
+    """The graphs of the devices: read when they are needed, made by TLC when they are missing or old.
+
+    `read` has graphs that were read before, by run.
+    """
+
+    def __init__(
+        self,
+        place: Path,
+        make: Callable[[tuple[Run, ...]], None],
+        read: Mapping[str, Alphabet] | None = None,
+    ) -> None:
         self._place = place
         self._make = make
-        self._read: dict[str, Alphabet] = {}
+        self._read: dict[str, Alphabet] = dict(read or {})
         self.used: list[Path] = []
 
     def passed(self, target: Target) -> Mapping[str, Mapping[str, str]]:
@@ -64,7 +88,9 @@ class Graphs:
 
     def _alphabet(self, run: Run) -> Alphabet:
         if run.id not in self._read:
-            self._make((run,))
+            if not is_current(self._place, run):
+                graph_file(self._place, run).unlink(missing_ok=True)
+                self._make((run,))
             self._read[run.id] = Alphabet(load_device_graph(self._place, run))
             self.used.append(graph_file(self._place, run))
         return self._read[run.id]
