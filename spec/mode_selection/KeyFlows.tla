@@ -167,18 +167,22 @@ Wires == EksOutputs @@ FplcOutputs @@ PlcOutputs @@ HmiOutputs
 TouchedField == IF HmiScan(HmiInput("")) THEN "" ELSE CHOOSE touch \in Touches : HmiScan(HmiInput(touch))
 
 ----------------------------------------------------------------------------
-(* Trials of two readings that concern more than one device.               *)
+(* A device that restarts alone (E-70, breaks A-19); the others go on.     *)
 
-\* E-70: the PLC starts again with all words zero, the panel inhibited; the others go on
-Restart ==
-    /\ \/ ReadAuthorization' = 0 /\ MW03' = 0 /\ CheckMSO' = 0 /\ MW07' = 0 /\ UNCHANGED <<turn, hmi>> /\ Did("RestartPlc")
-       \/ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None /\ UNCHANGED plc /\ Did("RestartPanel")
-    /\ Took(0)
-    /\ UNCHANGED <<reader, eks, fplc, history>>
+RestartPlc ==
+    /\ Literal("PLC_RESTARTS")
+    /\ ReadAuthorization' = 0 /\ MW03' = 0 /\ CheckMSO' = 0 /\ MW07' = 0
+    /\ UNCHANGED <<turn, reader, eks, fplc, hmi, history>>
+    /\ Took(0) /\ Did("RestartPlc")
+RestartPanel ==
+    /\ Literal("PANEL_RESTARTS")
+    /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
+    /\ UNCHANGED <<reader, eks, fplc, plc, history>>
+    /\ Took(0) /\ Did("RestartPanel")
 
 ----------------------------------------------------------------------------
 User == (\E k \in DOMAIN KEY : SwapNoticed /\ InsertKey(k)) \/ RemoveKey
-Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ (Literal("DEVICES_RESTART") /\ Restart)
+Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ RestartPlc \/ RestartPanel
 Spec == Init /\ [][Next]_vars
 
 ----------------------------------------------------------------------------

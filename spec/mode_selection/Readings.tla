@@ -38,7 +38,8 @@ Readings == {
     \* HMI, in KeyFlows
     "PANEL_REMEMBERS_MODE",
     \* PLC and HMI, in KeyFlows
-    "DEVICES_RESTART",
+    "PLC_RESTARTS",
+    "PANEL_RESTARTS",
     \* EKS
     "NO_LEVEL_CHECK",
     "NO_ACCESS_CHECK",

@@ -15,6 +15,11 @@ FPLC = Base(
     (('VECTORS = "all"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
+TEXT_ORDER = Base(
+    "MC_Fplc_text_order",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcSmall",
+)
 EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
@@ -143,6 +148,16 @@ FAULTS = (
             "Fplc.tla",
             'ERROR == fplcState = "Error"',
             "ERROR == FALSE",
+        ),
+    ),
+    Falls(
+        "AuthorizationByTheText",
+        TEXT_ORDER,
+        Fault(
+            "the order of Figure 5 is built in",
+            "CodeTables.tla",
+            "m \\in PERMITS[level]",
+            "m <= level",
         ),
     ),
     Falls(
