@@ -222,4 +222,17 @@ NeverBeyondTheKey == [][\A m \in MSO : Switched(m) => key # None /\ Permitted(Ke
 NothingButTheTouch == [][\A m \in MSO : Switched(m) => touched = m]_everything
 \* EKS-2-19, EKS-2-27: no word of an honest panel is refused
 NoWordIsRefused == [][step' \notin {"RefuseEarlyWord", "RefuseSelection", "RefuseAcknowledgment", "RefuseMatch", "UnexpectedAcknowledgment"}]_everything
+
+----------------------------------------------------------------------------
+(* For a reader of a trace; no run checks anything by these.               *)
+
+\* All that stands on the wires, LA and the outputs as the F-PLC sees them
+WiresSeen ==
+    LET seen == SeenVector(broken)
+    IN  [LA |-> SeenLA(broken), A |-> 0 \in seen, B |-> 1 \in seen, C |-> 2 \in seen, D |-> 3 \in seen, STR |-> 4 \in seen] @@ Wires
+\* What the F-PLC and the panel read in the scan that was just executed; a wrong word stands afterwards
+FplcReadWrong == [LA |-> SeenLA(broken'), vec |-> SeenVector(broken'), MW03 |-> MW03', MW07 |-> MW07', dt |-> took']
+PanelReadWrong ==
+    LET with(touch) == [RA |-> ReadAuthorization', CM |-> CheckMSO', touch |-> touch]
+    IN  with(IF HmiScan(with("")) THEN "" ELSE CHOOSE touch \in Touches : HmiScan(with(touch)))
 =============================================================================

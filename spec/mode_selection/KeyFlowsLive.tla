@@ -79,6 +79,8 @@ GoalNext ==
     \/ goal = None /\ Next /\ Same
     \/ goal # None /\ (EarnestUser \/ EarnestPanel \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same
 FaultNext == (Next /\ Same) \/ Corrupt
+\* For a reader of a trace: any step of the three questions
+AnyNext == GoalNext \/ FaultNext
 
 \* Each of the four copies is made again and again
 Copied(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history>> /\ Same

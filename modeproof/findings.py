@@ -1,0 +1,160 @@
+"""The command `modeproof findings`: the pages of the findings, from registers and evidence.
+
+Without --render it says for each finding what shows it, renders all pages in memory and compares them with
+those in docs/. With --render it writes them. Both need the evidence of every run and theorem that a finding
+names.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from modeproof import evidence
+from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.evidence.files import write_whole
+from modeproof.places import root as repository_root
+from modeproof.registers.citations import read_sources
+from modeproof.registers.load import documents, load_document
+from modeproof.registers.models import read_constants, restored
+from modeproof.registers.rows import Document
+from modeproof.registers.schema import suggestion
+from modeproof.registers.stamps import FINDINGS, REMEDY
+from modeproof.registers.traces import has_traces, load_traces
+from modeproof.report.findings import Material, has_page, render
+from modeproof.tlc.runs import Run, load_runs
+from modeproof.tlc.toolchain import find_toolchain, sha256
+from modeproof.tlc.walk import recorded, walk_all
+
+if TYPE_CHECKING:
+    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
+
+SECONDS = re.compile(r"\| \d+\.\d \|")
+"""How long a run took, in a table: not the same twice, so it is not compared."""
+STAMP = re.compile(r"text \w{12} -->")
+
+
+def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+    """Add the command; `args.run(args)` returns 0 as expected, 1 not as expected, and raises Unjudged."""
+    parser = subparsers.add_parser(
+        "findings",
+        help="compare or render the pages of the findings (docs/findings.md)",
+        description="Compares the pages of the findings with registers and evidence, or renders them anew. "
+        "Needs the evidence of every run and theorem that a finding names (modeproof verify makes it). "
+        "Exit status: 0 as expected, 1 a page has drifted, 2 could not be judged.",
+    )
+    parser.add_argument("--document", metavar="NAME", help="only this document of spec/")
+    parser.add_argument("--render", action="store_true", help="write the pages (all of them, or none)")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON as well")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    place = repository_root()
+    known = documents(place)
+    if args.document is not None and args.document not in known:
+        raise Unjudged(f"unknown document {args.document!r}; {suggestion(args.document, known)}")
+    chosen = [name for name in known if args.document in (None, name) and has_traces(place, name)]
+    if not chosen:
+        raise Unjudged("no document has a traces.toml, so there is no page to render")
+    pages: dict[str, str] = {}
+    for name in chosen:
+        of_document = render(gather(place, name))
+        if twice := sorted(pages.keys() & of_document.keys()):
+            raise Unjudged(f"two documents have the page {twice[0]}; choose one with --document")
+        pages |= of_document
+    status, drifted = (_write(place, pages), []) if args.render else _compare(place, pages)
+    if args.json is not None:
+        content = {"command": "findings", "status": status, "pages": sorted(pages), "drifted": drifted}
+        write_whole(args.json, (json.dumps(content, indent=1) + "\n").encode("utf-8"))
+    return status
+
+
+def gather(place: Path, name: str) -> Material:
+    """Everything that the pages of a document are made from.
+
+    Raises Unjudged with the run and the command that is needed: evidence that is missing, not as expected,
+    or of other pins than runs.toml has.
+    """
+    document = load_document(place, name)
+    sources = read_sources(document)
+    traces = load_traces(place, name)
+    declared = {one.id: one for one in load_runs(place, name)}
+    constants = {one.id: read_constants(place, name, one.cfg) for one in document.runs}
+    shown = _shown(document)
+    restoring = [one.id for one in document.runs if restored(constants[one.id], traces.literal)]
+    breaking = [name for one in document.assumptions for name in one.breaks]
+    wanted = list(dict.fromkeys([*shown, *restoring, *breaking]))
+    found = {one: _evidence(place, name, one, declared) for one in wanted}
+    traced = [recorded(found[one]) for one in shown if found[one]["result"].get("trace")]
+    walks = walk_all(place, name, traced, find_toolchain()) if traced else {}
+    return Material(document, sources, traces, found, walks, constants)
+
+
+def _shown(document: Document) -> list[str]:
+    """The runs and theorems that findings name; clause ids among the evidence are none."""
+    clauses = {one.id for one in document.clauses}
+    return [name for one in document.findings for name in one.evidence if name not in clauses]
+
+
+def _evidence(place: Path, document: str, name: str, declared: Mapping[str, Run]) -> dict[str, Any]:
+    one = declared.get(name)
+    command = f"modeproof {'check' if one is not None else 'prove'} {name}"
+    try:
+        record = evidence.read(evidence.evidence_path(place, document, name))
+    except Unjudged as error:
+        raise Unjudged(f"{name}: no evidence to render ({error.message}); run {command}") from None
+    if not record["as_expected"]:
+        raise Unjudged(f"{name}: its evidence is not as expected ({record['verdict']}); run {command}")
+    if one is not None:
+        cfg = f"spec/{document}/{one.cfg}"
+        if record["inputs"].get(cfg) != sha256(place / cfg):
+            raise Unjudged(f"{name}: its evidence is of another {one.cfg}; run {command}")
+        if one.trace_length is not None and record["result"].get("trace_length") != one.trace_length:
+            raise Unjudged(
+                f"{name}: its evidence has a trace of another length than is pinned; run {command}"
+            )
+    return record
+
+
+def _write(place: Path, pages: Mapping[str, str]) -> int:
+    stale = [
+        path for path in sorted((place / FINDINGS).glob("*.md")) if f"{FINDINGS}/{path.name}" not in pages
+    ]
+    for name, text in sorted(pages.items()):
+        write_whole(place / name, text.encode("utf-8"))
+    for path in stale:
+        path.unlink()
+    print(f"{len(pages)} pages rendered" + (f", {len(stale)} removed" if stale else ""))
+    return EXIT_AS_EXPECTED
+
+
+def _compare(place: Path, pages: Mapping[str, str]) -> tuple[int, list[str]]:
+    drifted = []
+    for name, text in sorted(pages.items()):
+        path = place / name
+        if not path.is_file():
+            drifted.append(f"{name}: the page is missing")
+        elif _comparable(path.read_text(encoding="utf-8")) != _comparable(text):
+            drifted.append(f"{name}: the page differs from what registers and evidence give")
+    for path in sorted((place / FINDINGS).glob("*.md")):
+        if f"{FINDINGS}/{path.name}" not in pages:
+            drifted.append(f"{FINDINGS}/{path.name}: no finding with evidence has this page")
+    for line in drifted:
+        print(f"  {line}; {REMEDY}")
+    print(f"{len(pages) - len(drifted)} of {len(pages)} pages as registers and evidence give them")
+    return (EXIT_NOT_AS_EXPECTED if drifted else EXIT_AS_EXPECTED), drifted
+
+
+def _comparable(text: str) -> str:
+    return STAMP.sub("text", SECONDS.sub("| s |", text))
+
+
+__all__ = ["add_parser", "gather", "has_page", "run"]

@@ -1,0 +1,102 @@
+"""The stamps under rendered pages of findings: what a page was made from, so that drift shows without any
+run.
+
+A stamp is the last line of a page, an HTML comment with four values: the SHA-256 (12 digits) of the register
+rows that the page is made from, of the pins of its runs (hash of the cfg, length of the trace), and of the
+page's own text. The first two are calculated anew from the registers, the third from the page.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterable
+from dataclasses import asdict
+from typing import Any
+
+from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.rows import Document, Finding, Problem
+
+FINDINGS = "docs/findings"
+INDEX = "docs/findings.md"
+TABLE = "docs/deviations.md"
+REMEDY = "run modeproof findings --render"
+_STAMP = re.compile(
+    r"<!-- rendered by modeproof findings: registers (\w{12}), runs (\w{12}), text (\w{12}) -->\n\Z"
+)
+
+
+def page_name(finding: Finding) -> str:
+    """The path of a finding's page."""
+    return f"{FINDINGS}/{finding.id}.md"
+
+
+def _digest(value: Any) -> str:
+    text = value if isinstance(value, str) else json.dumps(value, sort_keys=True, ensure_ascii=False)
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()[:12]
+
+
+def pins(document: Document) -> dict[str, list[Any]]:
+    """Of every run the hash of its cfg and the length of its counterexample, as runs.toml pins them."""
+    rows = read_toml(document.root, document.folder / "runs.toml")["run"]
+    return {row["id"]: [row.get("cfg_sha256"), row.get("trace_length")] for row in rows}
+
+
+def sources_of(document: Document, finding: Finding | None) -> tuple[str, str]:
+    """The digests of the register rows and of the pins behind a page; None stands for the index and the
+    table.
+    """
+    chosen = document.findings if finding is None else (finding,)
+    known = pins(document)
+    names = [name for one in chosen for name in one.evidence if name in known]
+    if finding is None:
+        names = sorted(known)
+    clauses = [clause.title for clause in document.clauses if finding and clause.id in finding.clauses]
+    falls = {run.property for run in document.runs if run.id in names and run.property}
+    properties = [asdict(one) for one in document.properties if finding and falls & {one.id, one.tla}]
+    rows = [[asdict(one) for one in chosen], clauses, properties]
+    return _digest(rows), _digest([[name, *known[name]] for name in names])
+
+
+def stamped(document: Document, finding: Finding | None, text: str) -> str:
+    """The page with its stamp."""
+    registers, runs = sources_of(document, finding)
+    line = (
+        f"<!-- rendered by modeproof findings: registers {registers}, runs {runs}, text {_digest(text)} -->"
+    )
+    return f"{text}\n{line}\n"
+
+
+def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Problem]:
+    """Pages that are missing, that no finding has, or whose stamp is not that of registers and text."""
+    problems = []
+    root = document.root
+    wanted: dict[str, Finding | None] = {page_name(one): one for one in expected}
+    wanted |= {INDEX: None, TABLE: None}
+    for name, finding in wanted.items():
+        path = root / name
+        if not path.is_file():
+            problems.append(Problem(name, "", f"the page is missing; {REMEDY}"))
+            continue
+        for text in _faults(document, finding, read_text(root, path)):
+            problems.append(Problem(name, "", text))
+    for path in sorted((root / FINDINGS).glob("*.md")):
+        name = f"{FINDINGS}/{path.name}"
+        if name not in wanted:
+            problems.append(Problem(name, "", f"no finding with evidence has this page; {REMEDY}"))
+    return problems
+
+
+def _faults(document: Document, finding: Finding | None, text: str) -> Iterable[str]:
+    match = _STAMP.search(text)
+    if match is None:
+        yield f"the page has no stamp; {REMEDY}"
+        return
+    registers, runs = sources_of(document, finding)
+    if match.group(1) != registers:
+        yield f"the registers have changed since the page was rendered; {REMEDY}"
+    if match.group(2) != runs:
+        yield f"the pins of its runs (cfg or length of the trace) have changed; {REMEDY}"
+    if match.group(3) != _digest(text[: match.start() - 1]):
+        yield f"the page was changed by hand; {REMEDY}"

@@ -1,1 +1,0 @@
-"""A recorded log against the specification: against its graph, and again by TLC, exactly."""
