@@ -1,4 +1,4 @@
-"""The command line: verify, check, prove, conform, doctor.
+"""The command line: verify, check, prove, conform, trace, doctor.
 
 Exit status 0: as expected; 1: not as expected; 2: could not be judged (and then one line says why).
 """
@@ -107,6 +107,7 @@ def make_parser() -> argparse.ArgumentParser:
     )
 
     _plug_in(commands, "conform", "modeproof.suites.command", "modeproof.kit.command")
+    _plug_in(commands, "trace", "modeproof.trace.command")
     _plug_in(commands, "registers", "modeproof.registers.command")
     _plug_in(commands, "findings", "modeproof.findings")
 

@@ -24,7 +24,7 @@ from modeproof.registers.models import read_constants, restored
 from modeproof.registers.rows import Document
 from modeproof.registers.schema import suggestion
 from modeproof.registers.stamps import FINDINGS, REMEDY
-from modeproof.registers.traces import has_traces, load_traces
+from modeproof.registers.replay import has_replay, load_replay
 from modeproof.report.findings import Material, has_page, render
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain, sha256
@@ -61,9 +61,9 @@ def run(args: argparse.Namespace) -> int:
     known = documents(place)
     if args.document is not None and args.document not in known:
         raise Unjudged(f"unknown document {args.document!r}; {suggestion(args.document, known)}")
-    chosen = [name for name in known if args.document in (None, name) and has_traces(place, name)]
+    chosen = [name for name in known if args.document in (None, name) and has_replay(place, name)]
     if not chosen:
-        raise Unjudged("no document has a traces.toml, so there is no page to render")
+        raise Unjudged("no document has a replay.toml, so there is no page to render")
     pages: dict[str, str] = {}
     for name in chosen:
         of_document = render(gather(place, name))
@@ -85,7 +85,7 @@ def gather(place: Path, name: str) -> Material:
     """
     document = load_document(place, name)
     sources = read_sources(document)
-    traces = load_traces(place, name)
+    traces = load_replay(place, name)
     declared = {one.id: one for one in load_runs(place, name)}
     constants = {one.id: read_constants(place, name, one.cfg) for one in document.runs}
     shown = _shown(document)

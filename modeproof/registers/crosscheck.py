@@ -161,8 +161,10 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
             if one.switches.count(name) > 1:
                 yield Problem(file, one.id, f"names the switch {name!r} twice")
         negative = negatives.intersection(one.evidence)
-        if one.switches and not negative and not one.evidence_open.strip():
-            yield Problem(file, one.id, "has a switch, but its evidence names no run of kind NEG")
+        tried = {run.id for run in document.runs if run.switch and run.switch in one.switches}
+        if one.switches and not negative | tried.intersection(one.evidence) and not one.evidence_open.strip():
+            text = "has a switch, but its evidence names no run of kind NEG and none with this switch on"
+            yield Problem(file, one.id, text)
 
 
 def _switches(sources: Sources) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from modeproof.registers.rows import Interface
-from modeproof.registers.traces import Traces
+from modeproof.registers.replay import Traces
 
 NONE = "none"
 

@@ -16,7 +16,7 @@ from modeproof.registers.citations import Sources, ids_of
 from modeproof.registers.models import Constant, restored
 from modeproof.registers.rows import Document, Finding, Property, Run
 from modeproof.registers.stamps import FINDINGS, INDEX, TABLE, page_name, stamped
-from modeproof.registers.traces import Traces
+from modeproof.registers.replay import Traces
 from modeproof.report.cells import Cells
 from modeproof.report.scan_table import Comparison, compare, markdown, scan_table, who
 

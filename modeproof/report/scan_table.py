@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.registers.traces import Traces
+from modeproof.registers.replay import Traces
 from modeproof.report.cells import Cells, Column
 
 PART = "▶"

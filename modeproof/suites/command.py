@@ -55,7 +55,7 @@ def _adapter(args: argparse.Namespace) -> int:
             raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")
     else:
         with only_one(place):
-            _make_graphs(place, open_runs(place, document, args.target), args.quiet)
+            make_graphs(place, open_runs(place, document, args.target), args.quiet)
             suite = ready_suite(place, document, args.target, args.suite, _say)
     started = time.time()
     verdict = kit_command.judge(args, suite)
@@ -94,7 +94,7 @@ def _builtin(args: argparse.Namespace) -> int:
     progress = Progress(quiet=args.quiet)
     found: list[tuple[Run, Comparison]] = []
     with only_one(place):
-        _make_graphs(place, runs, args.quiet)
+        make_graphs(place, runs, args.quiet)
         for one in runs:
             found.append((one, _compare(place, one, code, args.builtin, progress)))
     for one, result in found:
@@ -173,7 +173,7 @@ def _shown(difference: Difference) -> list[str]:
 # ------------------------------------------------------------------------------------------------ graphs
 
 
-def _make_graphs(place: Path, runs: tuple[Run, ...], quiet: bool) -> None:
+def make_graphs(place: Path, runs: tuple[Run, ...], quiet: bool) -> None:
     """Let TLC make the graphs that are missing. Raises Unjudged when one does not come."""
     missing = [run for run in runs if not graph_file(place, run).is_file()]
     if not missing:

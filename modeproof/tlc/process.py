@@ -8,7 +8,7 @@ import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
@@ -51,8 +51,8 @@ class Outcome:
     stderr: str = ""
 
 
-def command_line(run: Run, tools: Toolchain, metadir: Path, library: Path | None) -> list[str]:
-    """The command that runs TLC, to be started in the document's folder of the specification.
+def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Path] = ()) -> list[str]:
+    """The command that runs TLC, to be started in the folder of module and cfg; `places` are searched too.
 
     A small run (SMALL_HEAP_MB) is compiled by Java's quick compiler alone.
     """
@@ -66,10 +66,14 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, library: Path | None
     ]
     if run.heap_mb <= SMALL_HEAP_MB:
         java.append("-XX:TieredStopAtLevel=1")
-    if library is not None:
-        java.append(f"-DTLA-Library={library}")
+    if places:
+        java.append(f"-DTLA-Library={os.pathsep.join(map(str, places))}")
     tlc = ["-tool", "-fp", str(FINGERPRINT), "-seed", str(SEED), "-workers", str(run.workers)]
     tlc += ["-checkpoint", "0", "-metadir", str(metadir / "states"), "-config", run.cfg]
+    tlc += [
+        "-lncheck",
+        "final",
+    ]  # else the clock decides when liveness is checked, and so which lasso is found
     if not run.deadlock:
         tlc.append("-deadlock")  # this option of TLC turns the check off
     return [*java, "-cp", str(tools.jar), "tlc2.TLC", *tlc, run.module]
@@ -104,20 +108,25 @@ def run_tlc(
     tools: Toolchain,
     on_progress: Callable[[Counts], None] | None = None,
     on_lines: Callable[[int], None] | None = None,
+    made_in: Path | None = None,
 ) -> Outcome:
     """Run TLC on `run` and read its log to the end.
+
+    Module and cfg lie in the document's folder of the specification; those that were made for this run alone
+    in `made_in`, and then the document's modules are found all the same.
 
     The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
     build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
     cannot be started or the disk is full.
     """
-    folder = place / "spec" / run.document
+    own = place / "spec" / run.document
+    folder = own if made_in is None else made_in
     for needed in (folder / f"{run.module}.tla", folder / run.cfg):
         if not needed.is_file():
             raise Unjudged(f"{run.name}: {needed.relative_to(place)} is missing")
     logs = build(place) / "tlc" / run.document
     graph = build(place) / "graphs" / run.document / f"{run.id}.txt"
-    common = place / "spec" / "common"
+    places = [one for one in (own, place / "spec" / "common") if one != folder and one.is_dir()]
     try:
         logs.mkdir(parents=True, exist_ok=True)
         for stale in logs.glob(f"{run.id}.????????"):  # of a run that was killed
@@ -127,7 +136,7 @@ def run_tlc(
         raise Unjudged(f"{run.name}: cannot write to {logs}: {error.strerror}") from None
     try:
         (metadir / "tmp").mkdir()
-        command = command_line(run, tools, metadir, common if common.is_dir() else None)
+        command = command_line(run, tools, metadir, places)
         if run.kind == "OPEN":
             graph.parent.mkdir(parents=True, exist_ok=True)
             graph.unlink(missing_ok=True)

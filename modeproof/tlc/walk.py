@@ -2,14 +2,14 @@
 what a device of the decided specification does with the same inputs.
 
 A counterexample holds variables; the words on the wires are operators of the state. One module is generated
-for all runs of a top module (register traces.toml). It instantiates that module once for each run, with the
+for all runs of a top module (register replay.toml). It instantiates that module once for each run, with the
 constants of the run's cfg, and takes the recorded states one after the other; each must be a step of the
 specification still. Beside them it lets each device that scans in them scan with no reading restored, on the
 inputs that the recorded device read: from the memory that the recorded device had before one of its scans,
 for every such scan, and from then on from its own. That replay is open loop: the other devices stay as
 recorded.
 
-The result is one JSON file a run, build/traces/<document>/<run>.json, good as long as the SHA-256 of the
+The result is one JSON file a run, build/walks/<document>/<run>.json, good as long as the SHA-256 of the
 recorded trace in it is that of the evidence and the specification's files have the hashes in it.
 """
 
@@ -33,7 +33,7 @@ from modeproof.registers.load import load_interface
 from modeproof.registers.models import Constant, read_constants
 from modeproof.registers.rows import Device, Interface
 from modeproof.registers.tla import Module, read_modules
-from modeproof.registers.traces import Top, Traces, load_traces
+from modeproof.registers.replay import Top, Traces, load_replay
 from modeproof.tlc.process import run_generated
 from modeproof.tlc.toolchain import Toolchain, sha256
 
@@ -83,14 +83,14 @@ def recorded(record: Mapping[str, Any]) -> Recorded:
 
 def walk_path(place: Path, document: str, run: str) -> Path:
     """Where the walk of a run lies."""
-    return build(place) / "traces" / document / f"{run}.json"
+    return build(place) / "walks" / document / f"{run}.json"
 
 
 def spec_hashes(place: Path, document: str) -> dict[str, str]:
     """The hashes of every module, of the register and of this file, which a walk depends on."""
     folder = place / "spec" / document
     common = (place / "spec" / "common").glob("*.tla")
-    found = evidence.hashes(place, sorted([*folder.glob("*.tla"), *common, folder / "traces.toml"]))
+    found = evidence.hashes(place, sorted([*folder.glob("*.tla"), *common, folder / "replay.toml"]))
     return {**found, "modeproof/tlc/walk.py": sha256(Path(__file__))}
 
 
@@ -113,7 +113,7 @@ def walk_all(
     nothing.
     """
     found = {one.run: read_walk(place, document, one) for one in traces}
-    plan = load_traces(place, document)
+    plan = load_replay(place, document)
     for module in dict.fromkeys(one.module for one in traces):
         missing = [one for one in traces if one.module == module and found[one.run] is None]
         if missing:
@@ -346,7 +346,7 @@ def _walk(
     top = traces.tops.get(module)
     if top is None:
         raise Unjudged(
-            f"spec/{document}/traces.toml: tops: {module} is missing, which {missing[0].run} checks"
+            f"spec/{document}/replay.toml: tops: {module} is missing, which {missing[0].run} checks"
         )
     plan = Plan(document, module, top, traces, load_interface(place, document), read_modules(place, document))
     given = [(one, read_constants(place, document, one.cfg)) for one in missing]

@@ -29,6 +29,7 @@ eks == <<eksState, key, eksElapsed>>
 
 Working == {"Read", "CheckChecksum", "CheckLevel", "SetLA", "StartTest", "TestOnes", "TestZeros", "Signal", "Rejected"}
 EksStates == {"Empty", "ClearOutputs", "CheckRegisters", "Fault"} \cup Working
+             \cup (IF Literal("PULSE_RUNS_ON") THEN {"PulseRunsOn"} ELSE {})
 
 EksTypeOK == eksState \in EksStates /\ key \in DOMAIN KEY \cup {None} /\ eksElapsed \in 0..T_PULSE
 
@@ -36,11 +37,11 @@ EksInit == eksState = "Empty" /\ key = None /\ eksElapsed = 0
 
 ----------------------------------------------------------------------------
 \* EKS-2-5, EKS-8-2, EKS-SD-2
-LA == eksState \in {"StartTest", "TestOnes", "TestZeros", "Signal"}
+LA == eksState \in (IF Literal("PULSE_BEFORE_LA") THEN {"Signal"} ELSE {"StartTest", "TestOnes", "TestZeros", "Signal"})
 KeyLevel(k) == ModeOf(RE, KEY[k].authorization_level)
 \* EKS-2-7, EKS-2-10, EKS-KS-5, EKS-T2, EKS-SD-1, E-02: all in the pulse, then the one of the level
-Vector == CASE eksState = "TestOnes" -> MSO
-            [] eksState \in {"Signal", "ClearOutputs"} -> {KeyLevel(key)}
+Vector == CASE eksState \in {"TestOnes", "PulseRunsOn"} -> MSO
+            [] eksState \in {"Signal", "ClearOutputs"} -> {KeyLevel(key)} \cap MSO
             [] OTHER -> {}
 \* The outputs by their names
 EksOutputs == [LA |-> LA, A |-> 0 \in Vector, B |-> 1 \in Vector, C |-> 2 \in Vector, D |-> 3 \in Vector, STR |-> 4 \in Vector]
@@ -56,6 +57,11 @@ Accepted(k) ==
     /\ KEY[k].operating_state = OPERATING_STATE
     /\ AccessCodeAccepted(KEY[k].access_code)
     /\ KeyLevel(k) # None
+\* E-25e: a key without a level goes on; E-67: operating state and access code are not looked at
+Admitted(k) ==
+    \/ Accepted(k)
+    \/ Literal("NO_LEVEL_CHECK") /\ KeyLevel(k) = None
+    \/ Literal("NO_ACCESS_CHECK") /\ KeyLevel(k) # None
 
 LOCAL Taken(i) == eksState \in Working /\ i.key # key
 LOCAL At(s, i) == eksState = s /\ ~Taken(i)
@@ -78,9 +84,9 @@ AcceptChecksum(i) ==
 RefuseChecksum(i) ==
     At("CheckChecksum", i) /\ KEY[key].KEYCRC # CHECKSUM[key] /\ GoTo("Rejected") /\ Did("RefuseChecksum")
 \* EKS-2-4, EKS-KS-2, EKS-KS-3, EKS-KS-4
-AcceptLevel(i) == At("CheckLevel", i) /\ Accepted(key) /\ GoTo("SetLA") /\ Did("AcceptLevel")
+AcceptLevel(i) == At("CheckLevel", i) /\ Admitted(key) /\ GoTo("SetLA") /\ Did("AcceptLevel")
 \* EKS-2-4, EKS-2-9, EKS-KS-8, E-25e
-RefuseLevel(i) == At("CheckLevel", i) /\ ~Accepted(key) /\ GoTo("Rejected") /\ Did("RefuseLevel")
+RefuseLevel(i) == At("CheckLevel", i) /\ ~Admitted(key) /\ GoTo("Rejected") /\ Did("RefuseLevel")
 \* EKS-2-5, E-40: LA comes before the pulse
 RaiseLA(i) == At("SetLA", i) /\ GoTo("StartTest") /\ Did("RaiseLA")
 \* EKS-2-10, EKS-4-1, E-10
@@ -102,15 +108,22 @@ StayRejected(i) == At("Rejected", i) /\ Stay /\ Did("StayRejected")
 SeeRemoval(i) ==
     /\ Taken(i)
     /\ IF eksState = "Signal" THEN GoTo("ClearOutputs")
+       ELSE IF eksState = "TestOnes" /\ Literal("PULSE_RUNS_ON") THEN GoTo("PulseRunsOn")
        ELSE eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None
     /\ Did("SeeRemoval")
 \* EKS-8-5, EKS-SD-8, E-26, E-62: first cleared, then checked
 ResetOutputs(i) ==
-    eksState = "ClearOutputs" /\ eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None /\ Did("ResetOutputs")
+    /\ eksState \in {"ClearOutputs", "PulseRunsOn"} /\ ~Literal("CHECK_BEFORE_CLEAR")
+    /\ eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None
+    /\ Did("ResetOutputs")
 \* EKS-8-4, E-26
 PassRegisterCheck(i) == eksState = "CheckRegisters" /\ i.registers_zero /\ GoTo("Empty") /\ Did("PassRegisterCheck")
 \* EKS-8-4, E-22, E-26
-LatchFault(i) == eksState = "CheckRegisters" /\ ~i.registers_zero /\ GoTo("Fault") /\ Did("LatchFault")
+LatchFault(i) ==
+    /\ \/ eksState = "CheckRegisters" /\ ~i.registers_zero
+       \/ eksState = "ClearOutputs" /\ Literal("CHECK_BEFORE_CLEAR")
+    /\ GoTo("Fault")
+    /\ Did("LatchFault")
 \* EKS-8-4
 StayInFault(i) == eksState = "Fault" /\ Stay /\ Did("StayInFault")
 
@@ -124,7 +137,7 @@ EksScan(i) ==
     \/ eksState \in {"SetLA", "StartTest"} /\ (RaiseLA(i) \/ StartOnes(i))
     \/ eksState \in {"TestOnes", "TestZeros"} /\ (HoldOnes(i) \/ StartZeros(i) \/ HoldZeros(i) \/ SetOneOutput(i))
     \/ eksState \in {"Signal", "Rejected"} /\ (HoldOneOutput(i) \/ StayRejected(i))
-    \/ eksState \in {"ClearOutputs", "CheckRegisters"} /\ (ResetOutputs(i) \/ PassRegisterCheck(i) \/ LatchFault(i))
+    \/ eksState \in {"ClearOutputs", "PulseRunsOn", "CheckRegisters"} /\ (ResetOutputs(i) \/ PassRegisterCheck(i) \/ LatchFault(i))
     \/ eksState = "Fault" /\ StayInFault(i)
 
 ----------------------------------------------------------------------------

@@ -93,7 +93,9 @@ Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Removing -> T_
 
 \* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority (E-63)
 UnguardedSwitch == fplcState = "Switch" /\ Literal("NO_LA_AT_SWITCH")
-IsMany(i) == Many(i) /\ fplcState \notin OwnRules /\ fplcState \notin Pulse
+\* E-62: an F-PLC that takes an output without LA for a fault
+OutputAlone(i) == Literal("OUTPUT_NEEDS_LA") /\ ~i.LA /\ i.vec # {}
+IsMany(i) == (Many(i) \/ OutputAlone(i)) /\ fplcState \notin OwnRules /\ fplcState \notin Pulse
 IsGone(i) == ~i.LA /\ fplcState \notin OwnRules /\ fplcState \notin Removing /\ ~UnguardedSwitch
 IsChanged(i) == fplcState \in Holding /\ i.vec # {accepted} /\ ~UnguardedSwitch
 IsExpired(i) == fplcState \in Timed /\ Now(i) >= Deadline
@@ -312,7 +314,9 @@ LeaveSettle(i) == fplcState = "Settle" /\ NoWords(i) /\ Dwelt(i) /\ Proceed("Awa
 \* EKS-8-3, EKS-8-6, E-27: the words fell to zero in the scan that saw the key go; the timer goes on
 ClearWords(i) ==
     /\ fplcState = "Clear"
-    /\ fplcState' = "AwaitZeros" /\ fplcElapsed' = Now(i)
+    \* E-34: Figure 9 as printed goes on with the first step of the insertion
+    /\ fplcState' = IF Literal("REMOVAL_RUNS_INSERT_STEPS") THEN "PulseOnes" ELSE "AwaitZeros"
+    /\ fplcElapsed' = IF Literal("REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE Now(i)
     /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
     /\ Did("ClearWords")
 

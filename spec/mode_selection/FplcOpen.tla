@@ -106,6 +106,10 @@ AuthorizationRespected ==
     [][Switched =>
         (\E m, a \in MSO : mode' = {m} /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
 
+\* EKS-T2-2, E-47, A-03: for a machine whose levels are ordered only as far as the text says
+AuthorizationByTheText ==
+    [][Switched => (\E m, a \in MSO : mode' = {m} /\ Scanned.vec = {a} /\ m \in TextOrder[a])]_beat
+
 \* EKS-SD-2, E-42
 NoChangeWithoutLA == [][Switched => Scanned.LA]_beat
 

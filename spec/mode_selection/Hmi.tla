@@ -33,10 +33,13 @@ HmiInit == hmiState = "Inhibited" /\ offered = None /\ hmiSelection = None
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
+\* E-21: a refusal that leaves the selection on the bus
+LOCAL Refused == hmiState = "Withdrawn" /\ hmiSelection # None
 \* EKS-2-15, EKS-8-9
-SelectMSO == IF hmiState \in Pending THEN SE[hmiSelection] ELSE 0
+SelectMSO == IF hmiState \in Pending \/ Refused THEN SE[hmiSelection] ELSE 0
 \* EKS-2-24, EKS-8-16, E-19: the acknowledged word is made from the echo, which equals the selection in this state
-SwitchMSO == IF hmiState = "AwaitSwitch" THEN SW[hmiSelection] ELSE 0
+SwitchMSO == IF hmiState = "AwaitSwitch" THEN SW[hmiSelection]
+             ELSE IF Refused /\ Literal("REJECT_IS_A_WORD") THEN OtherWord ELSE 0
 \* EKS-2-14, EKS-8-8, EKS-SD-3
 Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "select" [] hmiState = "Confirm" -> "confirm"
             [] OTHER -> "waiting"
@@ -50,9 +53,18 @@ HmiOutputs == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Scre
 ----------------------------------------------------------------------------
 LOCAL Level(i) == ModeOf(RE, i.RA)
 \* EKS-3-1-HMI, EKS-9-1-HMI, EKS-GP-4, E-46, E-55: enabled means a code word, and the same one as when the screen was opened
-LOCAL Enable(i) == Level(i) # None /\ Level(i) = offered
+LOCAL Enable(i) ==
+    \/ Level(i) # None /\ (Level(i) = offered \/ Literal("STAYS_OPEN_AT_NEW_LEVEL"))
+    \/ Literal("ENABLED_BY_ANY_WORD") /\ i.RA # 0 /\ Level(i) = None
 LOCAL At(s, i) == hmiState = s /\ Enable(i)
 LOCAL Echoed(i) == i.CM = CH[hmiSelection]
+\* E-19: the answer comes from the panel's own memory, whatever CheckMSO shows by then
+LOCAL Answerable(i) == Echoed(i) \/ Literal("ACKNOWLEDGES_OWN_SELECTION")
+\* E-20, E-60: any echo is shown
+LOCAL ShowsOther(i) ==
+    /\ ModeOf(CH, i.CM) # None
+    /\ \/ Literal("USER_COMPARES_ALONE") /\ At("AwaitEcho", i) /\ ~Echoed(i)
+       \/ Literal("SHOWS_ANY_ECHO") /\ At("Select", i)
 LOCAL GoTo(s) == hmiState' = s /\ UNCHANGED <<offered, hmiSelection>>
 LOCAL Stay == UNCHANGED hmi
 LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
@@ -60,16 +72,20 @@ LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
 \* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55, E-60; from Select also when an echo shows that nobody asked for
 InhibitScreen(i) ==
     /\ \/ hmiState # "Inhibited" /\ ~Enable(i)
-       \/ At("Select", i) /\ i.CM # 0
+       \/ At("Select", i) /\ i.CM # 0 /\ ~ShowsOther(i)
     /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
     /\ Did("InhibitScreen")
+\* E-46, E-57
+LOCAL Opens(i) ==
+    /\ Level(i) # None \/ (Literal("ENABLED_BY_ANY_WORD") /\ i.RA # 0)
+    /\ i.CM = 0 \/ Literal("OPENS_OVER_ECHO")
 \* EKS-2-14, EKS-9-4-HMI, EKS-SD-3, E-46, E-57: opened by a code word, and only when the old echo is gone
 EnableScreen(i) ==
-    /\ hmiState = "Inhibited" /\ Level(i) # None /\ i.CM = 0
+    /\ hmiState = "Inhibited" /\ Opens(i)
     /\ hmiState' = "Select" /\ offered' = Level(i) /\ UNCHANGED hmiSelection
     /\ Did("EnableScreen")
 \* EKS-8-8, EKS-9-1-HMI, EKS-9-2
-StayInhibited(i) == hmiState = "Inhibited" /\ ~(Level(i) # None /\ i.CM = 0) /\ Stay /\ Did("StayInhibited")
+StayInhibited(i) == hmiState = "Inhibited" /\ ~Opens(i) /\ Stay /\ Did("StayInhibited")
 
 \* EKS-2-14, EKS-2-15, EKS-3-2
 TouchSelection(i) ==
@@ -83,28 +99,41 @@ OfferModes(i) ==
 
 \* EKS-2-22
 AwaitCheckMSO(i) == At("AwaitEcho", i) /\ i.CM = 0 /\ Stay /\ Did("AwaitCheckMSO")
+\* E-20: nobody is asked; E-69: the finger was faster than the screen
+LOCAL NobodyAsked(i) ==
+    Literal("PANEL_COMPARES_ALONE") \/ (Literal("TOUCH_BEFORE_ECHO_COUNTS") /\ i.touch = "confirm")
 \* EKS-2-22, E-20: the panel compares by itself, then asks
-ShowEcho(i) == At("AwaitEcho", i) /\ Echoed(i) /\ GoTo("Confirm") /\ Did("ShowEcho")
+ShowEcho(i) ==
+    At("AwaitEcho", i) /\ Echoed(i) /\ GoTo(IF NobodyAsked(i) THEN "AwaitSwitch" ELSE "Confirm") /\ Did("ShowEcho")
+\* E-20, E-60: what is on the bus is shown, and what is shown is what is asked for
+ShowOtherEcho(i) ==
+    /\ ShowsOther(i)
+    /\ hmiState' = "Confirm" /\ hmiSelection' = ModeOf(CH, i.CM) /\ UNCHANGED offered
+    /\ Did("ShowOtherEcho")
 \* EKS-2-22, EKS-2-25, E-20, E-21: an echo of something else, or an echo that goes away
 AbandonSelection(i) ==
-    /\ \/ At("AwaitEcho", i) /\ i.CM # 0 /\ ~Echoed(i)
-       \/ At("Confirm", i) /\ ~Echoed(i)
+    /\ \/ At("AwaitEcho", i) /\ i.CM # 0 /\ ~Echoed(i) /\ ~ShowsOther(i)
+       \/ At("Confirm", i) /\ ~Answerable(i)
        \/ At("AwaitSwitch", i) /\ i.CM # 0 /\ ~Echoed(i)
     /\ Drop("Withdrawn")
     /\ Did("AbandonSelection")
 
 \* EKS-2-22, EKS-2-23
 AskConfirmation(i) ==
-    At("Confirm", i) /\ Echoed(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
+    At("Confirm", i) /\ Answerable(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
 \* EKS-2-23, EKS-2-24, EKS-SD-5, E-69
 TouchConfirm(i) ==
-    At("Confirm", i) /\ Echoed(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
+    At("Confirm", i) /\ Answerable(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
+\* E-53: the panel goes on offering the withdrawal
+LOCAL LateReject(i) == Literal("WITHDRAWS_AFTER_CONFIRM") /\ At("AwaitSwitch", i) /\ Echoed(i) /\ i.touch = "reject"
 \* EKS-2-25, E-21, E-53: the negative acknowledgment takes the selection back; after the confirmation there is none
 TouchReject(i) ==
-    At("Confirm", i) /\ Echoed(i) /\ i.touch = "reject" /\ Drop("Withdrawn") /\ Did("TouchReject")
+    /\ (At("Confirm", i) /\ Answerable(i) /\ i.touch = "reject") \/ LateReject(i)
+    /\ IF LITERAL \cap {"REJECT_IS_SILENT", "REJECT_IS_A_WORD"} # {} THEN GoTo("Withdrawn") ELSE Drop("Withdrawn")
+    /\ Did("TouchReject")
 
 \* E-15, E-53
-AwaitCleared(i) == At("AwaitSwitch", i) /\ Echoed(i) /\ Stay /\ Did("AwaitCleared")
+AwaitCleared(i) == At("AwaitSwitch", i) /\ Echoed(i) /\ ~LateReject(i) /\ Stay /\ Did("AwaitCleared")
 \* E-15: both words go back to zero when the echo does, then the next selection may begin
 FinishSelection(i) ==
     /\ At("AwaitSwitch", i) \/ At("Withdrawn", i)
@@ -118,10 +147,10 @@ AwaitWithdrawn(i) == At("Withdrawn", i) /\ i.CM # 0 /\ Stay /\ Did("AwaitWithdra
 HmiScan(i) ==
     \/ InhibitScreen(i)
     \/ hmiState = "Inhibited" /\ (EnableScreen(i) \/ StayInhibited(i))
-    \/ hmiState = "Select" /\ (TouchSelection(i) \/ OfferModes(i))
-    \/ hmiState = "AwaitEcho" /\ (AwaitCheckMSO(i) \/ ShowEcho(i) \/ AbandonSelection(i))
+    \/ hmiState = "Select" /\ (TouchSelection(i) \/ OfferModes(i) \/ ShowOtherEcho(i))
+    \/ hmiState = "AwaitEcho" /\ (AwaitCheckMSO(i) \/ ShowEcho(i) \/ ShowOtherEcho(i) \/ AbandonSelection(i))
     \/ hmiState = "Confirm" /\ (AbandonSelection(i) \/ AskConfirmation(i) \/ TouchConfirm(i) \/ TouchReject(i))
-    \/ hmiState = "AwaitSwitch" /\ (AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i))
+    \/ hmiState = "AwaitSwitch" /\ (AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i) \/ TouchReject(i))
     \/ hmiState = "Withdrawn" /\ (FinishSelection(i) \/ AwaitWithdrawn(i))
 
 ----------------------------------------------------------------------------

@@ -39,6 +39,10 @@ Wires == Wire(Alphabet[in]) @@ HmiOutputs
 SelectionNeedsEnable ==
     [][/\ SelectMSO' # 0 => Permitted(ModeOf(RE, Scanned.RA), ModeOf(SE, SelectMSO'))
        /\ (hmiState = "Inhibited" /\ hmiState' # "Inhibited") => Scanned.CM = 0]_beat
+\* EKS-2-14, EKS-2-15, E-20, E-60: every selection that is sent was touched in that scan, on a screen that offered it
+SelectionNeedsTouch ==
+    [][SelectMSO' \notin {0, SelectMSO} =>
+        (\E m \in Enabled : SelectMSO' = SE[m] /\ Scanned.touch = Field(m))]_beat
 \* EKS-2-22, EKS-2-23, EKS-2-24, EKS-SD-5: the acknowledgment is sent after the echo was on the screen and was touched
 AcknowledgmentNeedsConfirm ==
     [][(SwitchMSO' # 0 /\ SwitchMSO' # SwitchMSO) =>

@@ -22,7 +22,8 @@ CONSTANTS
 VARIABLES
     reader,        \* user: number of the key in the reader, or None
     took,          \* ticks of the scan that was just executed, for readers of a trace; hidden by VIEW
-    touched, seen, confirmed    \* history: only the user and the panel set them
+    touched, seen, confirmed,   \* history: only the user and the panel set them
+    remembered     \* the mode that the panel believes to be active, where it has to remember it (E-25); else None
 
 ASSUME LEVELS \subseteq MSO
 
@@ -33,7 +34,7 @@ KeyTable == [k \in Keys |->
      KEYCRC |-> IF k = BadKey THEN 0 ELSE 1, KeyID |-> k]]
 Calculated == [k \in Keys |-> 1]
 
-history == <<touched, seen, confirmed>>
+history == <<touched, seen, confirmed, remembered>>
 View == <<reader, eks, fplc, plc, hmi, history>>
 \* For five levels the active mode is hidden too: one step writes it and none reads it (A-17; with fewer levels it is not hidden)
 ViewWithoutMode == <<reader, eks, fplcState, accepted, authority, fplcSelection, fplcElapsed, plc, hmi, history>>
@@ -45,11 +46,12 @@ TypeOK ==
     /\ reader \in DOMAIN KEY \cup {None}
     /\ EksTypeOK /\ FplcTypeOK /\ PlcTypeOK /\ HmiTypeOK
     /\ touched \in MSO \cup {None} /\ seen \in MSO \cup {None} /\ confirmed \in MSO \cup {None}
+    /\ remembered \in MSO \cup {None}
 
 Init ==
     /\ reader = None
     /\ EksInit /\ FplcInit /\ PlcInit /\ HmiInit
-    /\ touched = None /\ seen = None /\ confirmed = None
+    /\ touched = None /\ seen = None /\ confirmed = None /\ remembered = None
     /\ step = "" /\ took = 0
 
 ----------------------------------------------------------------------------
@@ -60,7 +62,7 @@ InsertKey(k) ==
     /\ reader = None
     /\ reader' = k
     /\ touched' = None /\ seen' = None /\ confirmed' = None
-    /\ UNCHANGED <<eks, fplc, plc, hmi>>
+    /\ UNCHANGED <<eks, fplc, plc, hmi, remembered>>
     /\ Took(0) /\ Did("InsertKey")
 \* EKS-8-1
 RemoveKey ==
@@ -81,18 +83,14 @@ EksInput(dt) == [key |-> reader, registers_zero |-> TRUE, dt |-> dt]
 \* Insert steps 2 to 5 as one, and removal steps 5 and 4 as one: between them LA and the outputs do not change
 ReadInOneStep ==
     /\ eksState = "Empty" /\ reader # None
-    /\ eksState' = IF KEY[reader].KEYCRC = CHECKSUM[reader] /\ Accepted(reader) THEN "StartTest" ELSE "Rejected"
+    /\ eksState' = IF KEY[reader].KEYCRC = CHECKSUM[reader] /\ Admitted(reader) THEN "StartTest" ELSE "Rejected"
     /\ key' = reader /\ UNCHANGED eksElapsed
     /\ Did("ReadInOneStep")
-ClearInOneStep ==
-    /\ \/ eksState = "ClearOutputs"
-       \/ eksState \in Working \ {"Signal"} /\ reader # key
-    /\ eksState' = "Empty" /\ key' = None /\ eksElapsed' = 0
-    /\ Did("ClearInOneStep")
-CanMerge ==
-    \/ eksState = "Empty" /\ reader # None
-    \/ eksState = "ClearOutputs"
-    \/ eksState \in Working \ {"Signal"} /\ reader # key
+Clears ==
+    \/ eksState \in {"ClearOutputs", "PulseRunsOn"} /\ ~Literal("CHECK_BEFORE_CLEAR")
+    \/ eksState \in Working \ {"Signal"} /\ reader # key /\ ~(eksState = "TestOnes" /\ Literal("PULSE_RUNS_ON"))
+ClearInOneStep == Clears /\ eksState' = "Empty" /\ key' = None /\ eksElapsed' = 0 /\ Did("ClearInOneStep")
+CanMerge == (eksState = "Empty" /\ reader # None) \/ Clears
 EksRuns ==
     /\ IF MERGE_READING /\ CanMerge THEN (ReadInOneStep \/ ClearInOneStep) /\ Took(0)
        ELSE \E dt \in (IF eksState \in {"TestOnes", "TestZeros"} THEN {0, T_PULSE} ELSE {0}) : EksScan(EksInput(dt)) /\ Took(dt)
@@ -138,6 +136,8 @@ PlcRuns ==
 HmiInput(touch) == [RA |-> ReadAuthorization, CM |-> CheckMSO, touch |-> touch]
 \* A finger can only meet a field that is on the screen, unless the screen changes in this very scan
 Fields == {""} \cup {Field(m) : m \in Enabled} \cup (IF hmiState = "Confirm" THEN {"confirm", "reject"} ELSE {})
+          \cup (IF hmiState = "AwaitEcho" /\ Literal("TOUCH_BEFORE_ECHO_COUNTS") THEN {"confirm"} ELSE {})
+          \cup (IF hmiState = "AwaitSwitch" /\ Literal("WITHDRAWS_AFTER_CONFIRM") THEN {"reject"} ELSE {})
 
 \* EKS-2-14, EKS-2-22, EKS-2-23: what this user did and saw, recorded beside the panel's own memory.
 \* An echo of what somebody touched before this key went in is not seen as an answer, and confirming it confirms nothing.
@@ -145,9 +145,12 @@ Remember ==
     LET begins == hmiState = "Select" /\ hmiState' = "AwaitEcho"
         shown == hmiState' = "Confirm" /\ touched = Shown'
         confirms == hmiState = "Confirm" /\ hmiState' = "AwaitSwitch"
+        withdraws == Literal("WITHDRAWS_AFTER_CONFIRM") /\ hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn"
+        believes == Literal("PANEL_REMEMBERS_MODE") /\ hmiState = "AwaitSwitch" /\ hmiState' = "Select"
     IN  /\ touched' = IF begins THEN hmiSelection' ELSE touched
         /\ seen' = IF begins THEN None ELSE IF shown THEN touched ELSE seen
-        /\ confirmed' = IF begins THEN None ELSE IF confirms THEN seen ELSE confirmed
+        /\ confirmed' = IF begins \/ withdraws THEN None ELSE IF confirms THEN seen ELSE confirmed
+        /\ remembered' = IF believes THEN hmiSelection ELSE remembered
 
 PanelRuns ==
     /\ \E touch \in Fields : HmiScan(HmiInput(touch))
@@ -165,8 +168,22 @@ PanelRead ==
     HmiInput(IF HmiScan(HmiInput("")) THEN "" ELSE CHOOSE touch \in Touches : HmiScan(HmiInput(touch)))
 
 ----------------------------------------------------------------------------
+(* A device that restarts alone (E-70, breaks A-19); the others go on.     *)
+
+RestartPlc ==
+    /\ Literal("PLC_RESTARTS")
+    /\ ReadAuthorization' = 0 /\ MW03' = 0 /\ CheckMSO' = 0 /\ MW07' = 0
+    /\ UNCHANGED <<turn, reader, eks, fplc, hmi, history>>
+    /\ Took(0) /\ Did("RestartPlc")
+RestartPanel ==
+    /\ Literal("PANEL_RESTARTS")
+    /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
+    /\ UNCHANGED <<reader, eks, fplc, plc, history>>
+    /\ Took(0) /\ Did("RestartPanel")
+
+----------------------------------------------------------------------------
 User == (\E k \in DOMAIN KEY : SwapNoticed /\ InsertKey(k)) \/ RemoveKey
-Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns
+Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ RestartPlc \/ RestartPanel
 Spec == Init /\ [][Next]_vars
 
 ----------------------------------------------------------------------------
@@ -195,8 +212,11 @@ IdleMeansZeros ==
         /\ MW01 = 0 /\ MW05 = 0 /\ ReadAuthorization = 0 /\ CheckMSO = 0
         /\ SelectMSO = 0 /\ SwitchMSO = 0 /\ MW03 = 0 /\ MW07 = 0 /\ hmiState = "Inhibited"
 
-TheMode == IF mode = {} THEN None ELSE CHOOSE m \in mode : TRUE
+\* EKS-8-8, EKS-8-16, E-25: what the panel displays as the active mode while no key is in; our panel displays an input of its own
+ActiveMSO == IF mode = {} THEN None ELSE CHOOSE m \in mode : TRUE
+Displayed == IF Literal("PANEL_REMEMBERS_MODE") THEN remembered ELSE ActiveMSO
+DisplayIsTheMode == fplcState = "Idle" => Displayed = ActiveMSO
 \* EKS-FD-1, EKS-FD-2: the contract that an assessor reads
-Contract == INSTANCE ModeSelection WITH level <- Signalled, mode <- TheMode
+Contract == INSTANCE ModeSelection WITH level <- Signalled, mode <- ActiveMSO
 RefinesModeSelection == Contract!Spec
 =============================================================================

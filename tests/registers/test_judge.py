@@ -228,6 +228,16 @@ def test_a_finding_may_have_several_switches(tree: Any) -> None:
     assert problems(tree) == []
 
 
+def test_a_reading_that_breaks_nothing_is_shown_by_a_run_with_its_switch_on(tree: Any) -> None:
+    tree.edit("spec/door/findings.toml", '"NEG_Latch", ', '"MC_Latch", ')
+    assert problems(tree) == [
+        "spec/door/findings.toml: E-01: "
+        "has a switch, but its evidence names no run of kind NEG and none with this switch on"
+    ]
+    tree.edit("spec/door/runs.toml", 'kind = "MC"', 'kind = "MC"\nswitch = "LITERAL"')
+    assert problems(tree) == []
+
+
 def test_a_negative_run_that_nothing_names_shows_nothing(tree: Any) -> None:
     tree.edit("spec/door/findings.toml", '"NEG_Latch", ', "")
     tree.edit("spec/door/findings.toml", 'switch = "LITERAL"', 'switch = ""')

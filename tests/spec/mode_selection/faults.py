@@ -15,9 +15,15 @@ FPLC = Base(
     (('VECTORS = "all"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
+TEXT_ORDER = Base(
+    "MC_Fplc_text_order",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcSmall",
+)
 EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
+EARNEST = Base("MC_KeyFlows_earnest")
 GOAL = Base("LIVE_KeyFlows_goal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}")))
 REMOVAL = Base(
     "LIVE_KeyFlows_removal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
@@ -142,6 +148,46 @@ FAULTS = (
             "Fplc.tla",
             'ERROR == fplcState = "Error"',
             "ERROR == FALSE",
+        ),
+    ),
+    Falls(
+        "AuthorizationByTheText",
+        TEXT_ORDER,
+        Fault(
+            "the order of Figure 5 is built in",
+            "CodeTables.tla",
+            "m \\in PERMITS[level]",
+            "m <= level",
+        ),
+    ),
+    Falls(
+        "SelectionNeedsTouch",
+        HMI,
+        Fault(
+            "whatever is touched, the highest mode is selected",
+            "Hmi.tla",
+            "i.touch = Field(m) /\\ hmiSelection' = m",
+            "i.touch = Field(m) /\\ hmiSelection' = offered",
+        ),
+    ),
+    Falls(
+        "DisplayIsTheMode",
+        KEY_FLOWS,
+        Fault(
+            "the panel displays the mode that was touched",
+            "KeyFlows.tla",
+            "THEN remembered ELSE ActiveMSO",
+            "THEN remembered ELSE touched",
+        ),
+    ),
+    Falls(
+        "NoErrorWithoutFault",
+        EARNEST,
+        Fault(
+            "a selection that is taken back is an error",
+            "Fplc.tla",
+            '    /\\ EnterSettle\n    /\\ Did("WithdrawSelection")',
+            '    /\\ EnterError\n    /\\ Did("WithdrawSelection")',
         ),
     ),
     # ------------------------------------------------------------------ F-PLC

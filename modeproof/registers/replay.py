@@ -1,4 +1,4 @@
-"""The register traces.toml: how a recorded trace of a document is read as scans and replayed.
+"""The register replay.toml: how a recorded trace of a document is read as scans and replayed.
 
 A document without the file has no readings that can be restored, and no rendered traces.
 """
@@ -77,14 +77,14 @@ class Traces:
     tops: Mapping[str, Top]
 
 
-def has_traces(root: Path, name: str) -> bool:
+def has_replay(root: Path, name: str) -> bool:
     """Whether the document has the register."""
-    return (root / "spec" / name / "traces.toml").is_file()
+    return (root / "spec" / name / "replay.toml").is_file()
 
 
-def load_traces(root: Path, name: str) -> Traces:
+def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
-    table = read_register(root, name, "traces")
+    table = read_register(root, name, "replay")
     return Traces(
         literal=table["literal"],
         readings=table["readings"],

@@ -1,0 +1,1 @@
+"""A recorded log against the specification: against its graph, and again by TLC, exactly."""

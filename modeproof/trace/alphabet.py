@@ -1,0 +1,92 @@
+"""Which inputs of a device's graph a line of a log can stand for, and what its unobserved inputs can be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from modeproof.graph.classes import InputClass
+from modeproof.graph.device import DeviceGraph
+from modeproof.registers.rows import Signal
+
+_Values = tuple[tuple[str, Any], ...]
+
+
+class Alphabet:
+    """The inputs of one OPEN_ graph as a log meets them: exactly, or as a member of a class.
+
+    `values` of a log are in Python form and may lack inputs.
+    """
+
+    def __init__(self, graph: DeviceGraph) -> None:
+        self.graph = graph
+        self._known: dict[tuple[_Values, int | None], tuple[int, ...]] = {}
+        self._named = {
+            name: frozenset(letter[name] for letter in graph.alphabet) for name in graph.device.inputs
+        }
+
+    def letters(self, values: Mapping[str, Any], dt_ms: int | None = None) -> tuple[int, ...]:
+        """The inputs of the graph that `values` can be; with `dt_ms` only those with exactly this time."""
+        key = (tuple(sorted(values.items())), dt_ms)
+        if key not in self._known:
+            self._known[key] = tuple(
+                n
+                for n, letter in enumerate(self.graph.alphabet)
+                if (dt_ms is None or letter["dt_ms"] == dt_ms) and self._stands_for(letter, values)
+            )
+        return self._known[key]
+
+    def _stands_for(self, letter: Mapping[str, Any], values: Mapping[str, Any]) -> bool:
+        odd = {name for name, value in values.items() if letter[name] != value}
+        if not odd:
+            return True
+        for one in self.graph.classes:
+            if not odd & one.representative.keys() or not one.representative.items() <= letter.items():
+                continue
+            if self._is_member(one, values):
+                odd -= one.representative.keys()
+        return not odd
+
+    def _is_member(self, one: InputClass, values: Mapping[str, Any]) -> bool:
+        seen = {name: values[name] for name in one.representative if name in values}
+        if len(one.representative) == 1:
+            ((name, value),) = seen.items()
+            return type(value) is int and value not in self._named[name]
+        return any(all(member[name] == value for name, value in seen.items()) for member in one.members)
+
+    def nearest(self, values: Mapping[str, Any]) -> list[tuple[int, int]]:
+        """All inputs of the graph with the number of signals in which they differ, the closest first."""
+        found = []
+        for n, letter in enumerate(self.graph.alphabet):
+            odd = sum(letter[name] != value for name, value in values.items())
+            found.append((0 if odd and self._stands_for(letter, values) else odd, n))
+        return sorted(found)
+
+    def completions(
+        self, values: Mapping[str, Any], words: frozenset[int] | None = None
+    ) -> list[Mapping[str, Any]]:
+        """`values` with every input that was not observed put to each value that it can have.
+
+        `words`: a device that only copies; its words are any of these.
+        """
+        inputs = self.graph.device.inputs
+        missing = [name for name in inputs if name not in values]
+        if not missing:
+            return [values]
+        if words is not None:
+            return _product(values, {name: inputs[name] for name in missing}, words)
+        found: dict[_Values, Mapping[str, Any]] = {}
+        for n in self.letters(values):
+            letter = self.graph.alphabet[n]
+            whole = {name: values.get(name, letter[name]) for name in inputs}
+            found[tuple(whole.items())] = whole
+        return list(found.values())
+
+
+def _product(
+    values: Mapping[str, Any], missing: Mapping[str, Signal], words: frozenset[int]
+) -> list[Mapping[str, Any]]:
+    found: list[Mapping[str, Any]] = [values]
+    for name in missing:
+        found = [{**one, name: word} for one in found for word in sorted(words)]
+    return found

@@ -1,0 +1,189 @@
+"""The command `trace`: is a recorded log a run of the specification?"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import re
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from modeproof import evidence
+from modeproof.errors import Unjudged
+from modeproof.evidence.files import write_whole
+from modeproof.kit.command import quoted
+from modeproof.lock import only_one
+from modeproof.places import root
+from modeproof.suites.command import make_graphs
+from modeproof.tlc.process import Outcome
+from modeproof.tlc.toolchain import Toolchain, find_toolchain
+from modeproof.trace.judge import Graphs, Judgement, judge_logs
+from modeproof.trace.lines import read_lines
+from modeproof.trace.log import Log
+from modeproof.trace.table import TableForm, read_table, wire_param
+from modeproof.trace.targets import Target, find_target
+from modeproof.trace.text import as_json, as_record, as_text
+
+_DESCRIPTION = """Is a recorded log a run of the specification? CONFORMS: every line is a scan (or a sample)
+that the specification allows; DIFFERS: a line is impossible, and it is shown with the conjunct that failed.
+The log is followed through the graph of the device and judged again by TLC with the log's own parameters,
+times in ms and words; TLC's judgement is the exact one. A log shows one run: nothing is said about what the
+machine would do otherwise."""
+
+
+def add_parser(commands: Any) -> argparse.ArgumentParser:
+    """Add `trace` to the commands."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "trace",
+        help="judge a recorded log of a device, or of the whole system, by the specification",
+        description=_DESCRIPTION,
+        epilog="exit status: 0 CONFORMS, 1 DIFFERS, 2 could not be judged",
+    )
+    parser.add_argument("target", metavar="TARGET", help="a device, or the system; see spec/*/traces.toml")
+    parser.add_argument("log", metavar="LOG", type=Path, help="JSON Lines, or a table that ends in .csv")
+    parser.add_argument("--document", metavar="NAME", help="the document, where two have this target")
+    parser.add_argument(
+        "--from",
+        dest="begins",
+        choices=("power-up", "anywhere"),
+        default="power-up",
+        help="the state before the first line (default: power-up)",
+    )
+    parser.add_argument(
+        "--samples",
+        action="store_true",
+        help="a line is a sample: between two lines any number of scans, with the inputs of either, may lie",
+    )
+    parser.add_argument(
+        "--param", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the machine"
+    )
+    parser.add_argument(
+        "--format", choices=("lines", "table"), help="JSON Lines or table (default: by the name of the file)"
+    )
+    parser.add_argument("--separator", default="", metavar="CHAR", help="of a table (default: guessed)")
+    parser.add_argument("--decimal-words", action="store_true", help="words of a table are decimal")
+    parser.add_argument("--time", default="", metavar="COLUMN", help="of a table: ms since any moment")
+    parser.add_argument("--ignore", action="append", default=[], metavar="COLUMN", help="of a table")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run `trace`; the exit status is that of the verdict."""
+    place = root()
+    target = find_target(place, args.target, args.document)
+    log = read_log(args, target)
+    tools = find_toolchain()
+    id = f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
+    with only_one(place):
+        evidence.discard(place, target.document, id)
+        started = time.time()
+        graphs = Graphs(place, lambda runs: make_graphs(place, runs, args.quiet))
+        if not args.quiet:
+            print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+        try:
+            (found,), outcome = judge_logs(
+                place,
+                target,
+                [log],
+                graphs,
+                tools,
+                anywhere=args.begins == "anywhere",
+                samples=args.samples,
+            )
+        except Unjudged as error:
+            _write(place, args, target, log, id, started, tools, graphs, error.message)
+            raise
+        print(as_text(target, found, args.samples))
+        record = _write(place, args, target, log, id, started, tools, graphs, found, outcome)
+    if args.json is not None:
+        write_whole(args.json, as_json("trace", found.status, record))
+    return found.status
+
+
+def read_log(args: argparse.Namespace, target: Target) -> Log:
+    """The log that the arguments name. Raises Unjudged for whatever in it cannot be right."""
+    params = {}
+    for one in args.param:
+        name, equals, text = one.partition("=")
+        if not equals:
+            raise Unjudged(f"--param {one}: NAME=VALUE was expected")
+        inner = name.rpartition(".")[2]
+        signals = [
+            part.device.parameters[inner] for part in target.parts.values() if inner in part.device.parameters
+        ]
+        params[name] = wire_param(signals[0], text) if signals else text
+    table = args.format == "table" or (args.format is None and args.log.suffix.lower() == ".csv")
+    if not table:
+        return read_lines(args.log, target, params)
+    if len(args.separator) > 1:
+        raise Unjudged(f"--separator {args.separator}: one character was expected")
+    form = TableForm(args.decimal_words, args.separator, args.time, frozenset(args.ignore))
+    return read_table(args.log, target, params, form)
+
+
+def _write(
+    place: Path,
+    args: argparse.Namespace,
+    target: Target,
+    log: Log,
+    id: str,
+    started: float,
+    tools: Toolchain,
+    graphs: Graphs,
+    found: Judgement | str,
+    outcome: Outcome | None = None,
+) -> dict[str, Any]:
+    folder = place / "spec" / target.document
+    registers = [folder / f"{name}.toml" for name in ("interface", "traces", "classes", "runs")]
+    inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
+    options = [f"--param {quoted(one)}" for one in args.param]
+    options += ["--from anywhere"] if args.begins == "anywhere" else []
+    options += ["--samples"] if args.samples else []
+    judged = not isinstance(found, str)
+    record = evidence.make(
+        kind="trace",
+        id=id,
+        document=target.document,
+        verdict="UNJUDGED" if isinstance(found, str) else found.verdict,
+        expected="CONFORMS",
+        as_expected=not isinstance(found, str) and found.status == 0,
+        environment="as the log",
+        strength=f"one log of {len(log.rows):,} lines",
+        command=" ".join(["modeproof trace", target.id, quoted(str(args.log)), *options]),
+        started=started,
+        seconds=time.time() - started,
+        inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),
+        tools={
+            "tlc": {
+                "version": (outcome.log.version if outcome is not None else "") or "not started",
+                "sha256": tools.jar_sha256,
+            },
+            "java": evidence.tool(tools.java_version, tools.java),
+        },
+        result={
+            "target": target.id,
+            "log": {
+                "name": args.log.name,
+                "sha256": hashlib.sha256(args.log.read_bytes()).hexdigest(),
+                "lines": len(log.rows),
+            },
+            "from": args.begins,
+            "samples": args.samples,
+            **(as_record(target, found) if judged and not isinstance(found, str) else {}),
+        },
+        reason=found if isinstance(found, str) else _reason(found),
+    )
+    evidence.write(place, record)
+    return record
+
+
+def _reason(found: Judgement) -> str:
+    if found.status == 0:
+        return ""
+    row = found.log.rows[found.accepted]
+    return f"line {row.line}: no such scan after {found.accepted:,} that fit"

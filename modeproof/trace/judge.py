@@ -1,0 +1,176 @@
+"""Puts both judgements of a log together: the graphs' and TLC's. TLC's is the exact one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeproof import evidence
+from modeproof.errors import Unjudged
+from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.registers.rows import Device
+from modeproof.tlc.process import Outcome
+from modeproof.tlc.runs import Run
+from modeproof.tlc.toolchain import Toolchain
+from modeproof.trace.alphabet import Alphabet
+from modeproof.trace.exact import Matched, judge_exactly
+from modeproof.trace.follow import Followed, NotFollowed, follow
+from modeproof.trace.log import Log
+from modeproof.trace.module import Reading
+from modeproof.trace.targets import Target
+
+
+def is_current(place: Path, run: Run) -> bool:
+    """Whether the graph of a run is there and was made from the specification as it is now."""
+    path = graph_file(place, run)
+    try:
+        record = evidence.read(evidence.evidence_path(place, run.document, run.id))
+        inputs = {name: digest for name, digest in record["inputs"].items() if not name.endswith(".toml")}
+        return (
+            bool(record["as_expected"])
+            and evidence.hashes(place, [place / name for name in inputs]) == inputs
+            and record["result"]["graph"]["sha256"] == next(iter(evidence.hashes(place, [path]).values()))
+        )
+    except (Unjudged, KeyError):
+        return False
+
+
+class Graphs:
+    """The graphs of the devices: read when they are needed, made by TLC when they are missing or old.
+
+    `read` has graphs that were read before, by run.
+    """
+
+    def __init__(
+        self,
+        place: Path,
+        make: Callable[[tuple[Run, ...]], None],
+        read: Mapping[str, Alphabet] | None = None,
+    ) -> None:
+        self._place = place
+        self._make = make
+        self._read: dict[str, Alphabet] = dict(read or {})
+        self.used: list[Path] = []
+
+    def passed(self, target: Target) -> Mapping[str, Mapping[str, str]]:
+        """For each device the outputs that repeat an input of the same scan."""
+        return {
+            name: runs[0].graph.passed
+            for name in target.parts
+            if (runs := open_runs(self._place, target.document, name)) and runs[0].graph is not None
+        }
+
+    def matching(self, target: Target, log: Log) -> Mapping[str, Alphabet]:
+        """For each device the graph with the log's parameters (but those in ms), if there is one."""
+        found = {}
+        for name, part in target.parts.items():
+            for run in open_runs(self._place, target.document, name):
+                if run.graph is not None and _same(part.device, run, log):
+                    found[name] = self._alphabet(run)
+                    break
+        return found
+
+    def any_of(self, target: Target, log: Log) -> Mapping[str, Alphabet]:
+        """For each device a graph whose inputs tell what an input that was not observed can be."""
+        found = dict(self.matching(target, log))
+        for name, part in target.parts.items():
+            whole = all(
+                signal in row.inputs
+                for row in log.rows
+                if row.device == name
+                for signal in part.device.inputs
+            )
+            runs = open_runs(self._place, target.document, name)
+            if name not in found and not whole and runs:
+                found[name] = self._alphabet(runs[0])
+        return found
+
+    def _alphabet(self, run: Run) -> Alphabet:
+        if run.id not in self._read:
+            if not is_current(self._place, run):
+                graph_file(self._place, run).unlink(missing_ok=True)
+                self._make((run,))
+            self._read[run.id] = Alphabet(load_device_graph(self._place, run))
+            self.used.append(graph_file(self._place, run))
+        return self._read[run.id]
+
+
+def _same(device: Device, run: Run, log: Log) -> bool:
+    assert run.graph is not None
+    return all(
+        signal.type == "ms"
+        or run.graph.params.get(signal.name, signal.default) == log.params[device.id].get(signal.name)
+        for signal in device.parameters.values()
+    )
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """What came out for one log. `accepted` lines fit the specification, by TLC."""
+
+    log: Log
+    followed: Followed | NotFollowed
+    matched: Matched
+    reading: Reading
+
+    @property
+    def accepted(self) -> int:
+        """The length of the longest prefix that the specification allows."""
+        return self.matched.accepted
+
+    @property
+    def verdict(self) -> str:
+        """CONFORMS: every line fits; DIFFERS: the line after `accepted` is impossible."""
+        return "CONFORMS" if self.accepted == len(self.log.rows) else "DIFFERS"
+
+    @property
+    def status(self) -> int:
+        """Exit status."""
+        return 0 if self.verdict == "CONFORMS" else 1
+
+
+def judge_logs(
+    place: Path,
+    target: Target,
+    logs: Sequence[Log],
+    graphs: Graphs,
+    tools: Toolchain,
+    *,
+    anywhere: bool = False,
+    samples: bool = False,
+) -> tuple[tuple[Judgement, ...], Outcome]:
+    """Judge logs of one target with the same parameters, all in one run of TLC.
+
+    Raises Unjudged when the two judgements contradict each other and nothing that was left open explains it.
+    """
+    if samples and target.system:
+        raise Unjudged(f"--samples is for one device; a line of a log of {target.id} is one scan")
+    readings = [Reading(target, log, graphs.any_of(target, log)) for log in logs]
+    done = judge_exactly(
+        place,
+        target,
+        readings,
+        tools,
+        passed=graphs.passed(target),
+        anywhere=anywhere,
+        samples=samples,
+    )
+    found = []
+    for log, reading, matched in zip(logs, readings, done.matched, strict=True):
+        followed = follow(target, log, graphs.matching(target, log), anywhere, samples)
+        found.append(Judgement(log, followed, matched, reading))
+        _check(found[-1])
+    return tuple(found), done.outcome
+
+
+def _check(found: Judgement) -> None:
+    """Raise Unjudged for a contradiction: the graphs may accept more, if they left something open."""
+    one = found.followed
+    if isinstance(one, NotFollowed) or one.accepted == found.accepted:
+        return
+    if one.accepted < found.accepted or not one.open:
+        raise Unjudged(
+            f"{found.log.name}: the judgements contradict each other: the graph {' '.join(one.runs)} follows "
+            f"{one.accepted:,} scans, TLC {found.accepted:,}; one of the two tools is wrong"
+        )

@@ -1,0 +1,128 @@
+"""What logs can be of: a device or the whole system, as spec/<document>/traces.toml declares them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import Unjudged
+from modeproof.graph.values import ValueForms
+from modeproof.places import documents
+from modeproof.registers.load import load_interface, read_register
+from modeproof.registers.rows import Device
+from modeproof.registers.schema import suggestion
+
+PLACEHOLDER = re.compile(r"\$([a-z][a-z0-9_]*)\.(\w+)")
+SEEN, WORDS = "seen", "words"
+"""Placeholders that stand for what the log shows, not for a parameter."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """One device of a target. TLA+ texts: the action of a scan, the outputs after it, its memory."""
+
+    device: Device
+    scan: str
+    row: str
+    view: str
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a log is of. `init` and `anywhere` are TLA+ texts, `constants` TLA+ with placeholders.
+
+    `anywhere` is empty when a log must begin at power-up. `copies` names two words, the first for the one
+    that is looked at and the second for all others, of a device that decides nothing by a word.
+    """
+
+    document: str
+    id: str
+    module: str
+    init: str
+    anywhere: str
+    constants: Mapping[str, str]
+    parts: Mapping[str, Part]
+    forms: ValueForms
+    copies: tuple[int, int] | None = None
+
+    @property
+    def system(self) -> bool:
+        """Whether a line of the log is of one of several devices."""
+        return len(self.parts) > 1
+
+    @property
+    def only(self) -> Part:
+        """The part of a target of one device."""
+        return next(iter(self.parts.values()))
+
+    def timed(self, device: str) -> bool:
+        """Whether the device counts time: some of its memory is milliseconds."""
+        return any(one.type == "ms" for one in self.parts[device].device.memory.values())
+
+
+def targets_of(place: Path, document: str) -> tuple[Target, ...]:
+    """All targets of a document; none when it has no traces.toml.
+
+    Raises Unjudged for a register that is wrong, and for a device or parameter that does not exist.
+    """
+    if not (place / "spec" / document / "traces.toml").is_file():
+        return ()
+    table = read_register(place, document, "traces")
+    interface = load_interface(place, document)
+    forms = ValueForms([int(mode) for mode in interface.constants.get("MODES", ())])
+    return tuple(_target(place, document, row, interface.devices, forms) for row in table["target"])
+
+
+def _target(
+    place: Path, document: str, row: Mapping[str, Any], devices: Mapping[str, Device], forms: ValueForms
+) -> Target:
+    source = f"spec/{document}/traces.toml: [[target]] {row['id']}"
+    for name in row["devices"]:
+        if name not in devices:
+            raise Unjudged(f"{source}: no device {name!r}; {suggestion(name, devices)}")
+    if not (place / "spec" / document / f"{row['module']}.tla").is_file():
+        raise Unjudged(f"{source}: {row['module']}.tla is missing")
+    for constant, text in row["constants"].items():
+        for group, name in PLACEHOLDER.findall(text):
+            _check_placeholder(f"{source}: {constant}", group, name, row["devices"], devices)
+    copies = row.get("copies")
+    return Target(
+        document=document,
+        id=row["id"],
+        module=row["module"],
+        init=row["init"],
+        anywhere=row.get("anywhere", ""),
+        constants=row["constants"],
+        parts={
+            name: Part(devices[name], one["scan"], one["row"], one["view"])
+            for name, one in row["devices"].items()
+        },
+        forms=forms,
+        copies=None if copies is None else (int(copies["one"], 16), int(copies["other"], 16)),
+    )
+
+
+def _check_placeholder(
+    source: str, group: str, name: str, own: Sequence[str], devices: Mapping[str, Device]
+) -> None:
+    device, kind = (name, "") if group in (SEEN, WORDS) else (group, name)
+    if device not in own:
+        raise Unjudged(f"{source}: ${group}.{name}: no device {device!r} here; {suggestion(device, own)}")
+    if kind and kind not in devices[device].parameters:
+        raise Unjudged(f"{source}: {device} has no parameter {kind!r}")
+
+
+def find_target(place: Path, name: str, document: str | None = None) -> Target:
+    """The target of this name. Raises Unjudged when there is none, or more than one."""
+    known = [one for each in documents(place) for one in targets_of(place, each)]
+    found = [one for one in known if one.id == name and document in (None, one.document)]
+    if not found:
+        where = f" in {document}" if document else ""
+        names = ", ".join(dict.fromkeys(one.id for one in known)) or "none"
+        raise Unjudged(f"no log can be of {name!r}{where}; there are: {names}")
+    if len(found) > 1:
+        raise Unjudged(f"{name} is in {' and '.join(one.document for one in found)}; choose with --document")
+    return found[0]

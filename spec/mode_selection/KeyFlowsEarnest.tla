@@ -1,0 +1,32 @@
+-------------------------- MODULE KeyFlowsEarnest ---------------------------
+(***************************************************************************)
+(* A user who means it, from the moment the power comes on, on a machine   *)
+(* that keeps its deadlines: inserts a key that permits the mode, touches  *)
+(* it, confirms it, and may at any moment want a higher mode instead, with *)
+(* the same key or another one.  Every behavior is one of GoalSpec, so a   *)
+(* reading that fails here fails there; and it is small, so that readings  *)
+(* that make the procedure stop can be tried one by one.                   *)
+(* Leaves out: a user who does anything (GoalSpec).                        *)
+(***************************************************************************)
+EXTENDS KeyFlowsLive
+
+\* EKS-2-14, EKS-2-25, EKS-8-1: the user wants more, with this key or without it
+WantMore ==
+    /\ goal # None
+    /\ goal' \in {m \in MSO : m > goal /\ \E l \in LEVELS : Permitted(l, m)}
+    /\ UNCHANGED vars \/ RemoveKey
+    /\ UNCHANGED faults
+
+EarnestInit == Init /\ goal \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)} /\ faults = 0
+EarnestNext == WantMore \/ ((EarnestUser \/ EarnestPanel \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same)
+EarnestSpec ==
+    /\ EarnestInit /\ [][EarnestNext]_<<liveVars, step, took>> /\ FairPlc
+    /\ WF_liveVars(EarnestUser /\ Same) /\ WF_liveVars(EarnestPanel /\ Same)
+    /\ WF_liveVars(PromptFplc /\ Same) /\ WF_liveVars(PromptEks /\ Same)
+
+\* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of an error
+NoErrorWithoutFault == ~ERROR
+
+\* A-08 broken, E-39: the pulse may be over before the F-PLC has looked
+PulseMayBeMissed == TRUE
+=============================================================================
