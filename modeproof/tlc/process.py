@@ -37,7 +37,8 @@ class Outcome:
     """What came of one TLC run.
 
     `status` is the exit status (negative: killed by that signal), `seconds` the wall-clock time, `printed`
-    the distinct printed lines (OPEN runs keep them in `graph_file` instead), `stderr` the last lines of Java.
+    the distinct printed lines (OPEN runs keep them in `graph_file` instead), `stderr` the last lines of Java,
+    `stopped` whether whoever watched the printed lines had seen enough.
     """
 
     status: int
@@ -49,6 +50,7 @@ class Outcome:
     printed_all: bool = True
     graph_file: Path | None = None
     stderr: str = ""
+    stopped: bool = False
 
 
 def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Path] = ()) -> list[str]:
@@ -80,17 +82,25 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Pat
 
 
 class _Sink:
-    """Where printed lines go: a file for OPEN runs, a bounded set otherwise."""
+    """Where printed lines go: a file for OPEN runs, whoever watches them, a bounded set otherwise."""
 
-    def __init__(self, stream: BinaryIO | None, on_lines: Callable[[int], None] | None = None) -> None:
+    def __init__(
+        self,
+        stream: BinaryIO | None,
+        on_lines: Callable[[int], None] | None = None,
+        watch: Callable[[bytes], None] | None = None,
+    ) -> None:
         self.lines: set[bytes] = set()
         self.complete = True
         self.written = 0
         self._stream = stream
         self._on_lines = on_lines
+        self._watch = watch
 
     def take(self, line: bytes) -> None:
-        if self._stream is not None:
+        if self._watch is not None:
+            self._watch(line)
+        elif self._stream is not None:
             self._stream.write(line + b"\n")
             self.written += 1
             if self.written % LINES_A_WORD == 0 and self._on_lines is not None:
@@ -109,11 +119,13 @@ def run_tlc(
     on_progress: Callable[[Counts], None] | None = None,
     on_lines: Callable[[int], None] | None = None,
     made_in: Path | None = None,
+    watch: Callable[[bytes], bool] | None = None,
 ) -> Outcome:
     """Run TLC on `run` and read its log to the end.
 
     Module and cfg lie in the document's folder of the specification; those that were made for this run alone
-    in `made_in`, and then the document's modules are found all the same.
+    in `made_in`, and then the document's modules are found all the same. `watch` gets each printed line of a
+    run that is not of kind OPEN, in the place of the set of lines; as soon as it says True the run is stopped.
 
     The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
     build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
@@ -142,7 +154,7 @@ def run_tlc(
             graph.unlink(missing_ok=True)
             part = graph.with_suffix(".txt.part")
             with part.open("wb", buffering=1 << 20) as stream:
-                outcome = _follow(run, command, folder, metadir, logs, stream, on_progress, on_lines)
+                outcome = _follow(run, command, folder, metadir, logs, stream, on_progress, on_lines, None)
                 stream.flush()
                 os.fsync(stream.fileno())
             if (
@@ -155,7 +167,7 @@ def run_tlc(
                 return _with_graph(outcome, graph)
             part.unlink(missing_ok=True)
             return outcome
-        return _follow(run, command, folder, metadir, logs, None, on_progress, None)
+        return _follow(run, command, folder, metadir, logs, None, on_progress, None, watch)
     except OSError as error:
         graph.with_suffix(".txt.part").unlink(missing_ok=True)
         raise Unjudged(f"{run.name}: {error.strerror or error} ({error.filename or logs})") from None
@@ -215,8 +227,16 @@ def _follow(
     stream: BinaryIO | None,
     on_progress: Callable[[Counts], None] | None,
     on_lines: Callable[[int], None] | None,
+    watch: Callable[[bytes], bool] | None,
 ) -> Outcome:
-    sink = _Sink(stream, on_lines)
+    enough = threading.Event()
+
+    def look(line: bytes) -> None:
+        if not enough.is_set() and watch is not None and watch(line):
+            enough.set()
+            _kill(process)
+
+    sink = _Sink(stream, on_lines, None if watch is None else look)
     reader = LogReader(on_printed=sink.take, on_progress=on_progress)
     errors = metadir / "stderr"
     expired = threading.Event()
@@ -252,4 +272,5 @@ def _follow(
         printed=frozenset(sink.lines),
         printed_all=sink.complete,
         stderr=tail,
+        stopped=enough.is_set(),
     )

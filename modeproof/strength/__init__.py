@@ -1,0 +1,1 @@
+"""How strong the properties are: one-edit mutants, and which property each of them breaks."""

@@ -1,0 +1,150 @@
+"""The command `modeproof mutate`."""
+
+from __future__ import annotations
+
+import argparse
+import fnmatch
+import json
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.places import documents, root
+from modeproof.strength.campaign import WORDS, Judged, all_mutants, default_jobs, inputs_now, judge_all
+from modeproof.strength.explain import explanation_problems, unexplained
+from modeproof.strength.judge import Bench
+from modeproof.strength.mutant import Mutant, diff
+from modeproof.strength.page import render
+from modeproof.strength.register import load_strength, path_of
+from modeproof.strength.results import read_results, results_path
+
+
+def add_parser(commands: Any) -> None:
+    """Add `mutate` to the commands of modeproof."""
+    text = "one-edit mutants of the specification, and which property each of them breaks"
+    parser = commands.add_parser("mutate", help=text, description=text[0].upper() + text[1:] + ".")
+    parser.add_argument("what", choices=("spec",), help="what is mutated")
+    parser.add_argument("modules", nargs="*", metavar="DEVICE", help="only these modules (default: all)")
+    parser.add_argument("--document", metavar="NAME", help="only this document")
+    parser.add_argument("--list", action="store_true", help="list the mutants, judge none")
+    parser.add_argument("--only", action="append", metavar="ID", help="only this mutant (or a pattern)")
+    parser.add_argument("--show", metavar="ID", help="show the edit as a diff, and the judgement so far")
+    parser.add_argument("--complete", action="store_true", help="ask the costly tiers about killed mutants too")
+    parser.add_argument("--render", action="store_true", help="write docs/strength.md from the results there are")
+    parser.add_argument("--jobs", type=int, metavar="N", help="TLC runs at once (default: one a core)")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    parser.set_defaults(run=_mutate)
+
+
+def _mutate(args: argparse.Namespace) -> int:
+    from modeproof.lock import only_one
+    from modeproof.progress import Progress
+    from modeproof.tlc.toolchain import find_toolchain
+
+    place = root()
+    document = _document(place, args.document)
+    bench = Bench(place, load_strength(place, document), find_toolchain())
+    strange = sorted(set(args.modules) - set(bench.strength.rules))
+    if strange:
+        raise Unjudged(f"{strange[0]} is none of the modules of strength.toml: {', '.join(bench.strength.rules)}")
+    every = all_mutants(bench)
+    chosen = _chosen(every, args)
+    results = read_results(results_path(place, document, args.what))
+    if args.list:
+        print("\n".join(str(one) for one in chosen))
+        print(f"{len(chosen)} mutants")
+        return 0
+    if args.show is not None:
+        return _show(bench, chosen[0], results.records)
+    if args.render:
+        status = render(bench, every, results)
+        print("docs/strength.md is written")
+        return status
+    with only_one(place):
+        judged = judge_all(
+            bench, chosen, results, Progress(quiet=args.quiet), args.jobs or default_jobs(place), args.complete
+        )
+    whole = len(chosen) == len(every)
+    return _report(bench, judged, every if whole else (), args)
+
+
+def _document(place: Path, named: str | None) -> str:
+    known = [name for name in documents(place) if path_of(place, name).is_file()]
+    if named is not None:
+        if named not in documents(place):
+            raise Unjudged(f"no document {named!r} in spec/")
+        return named
+    if len(known) != 1:
+        raise Unjudged(f"--document must name one of: {', '.join(known) or 'none has a strength.toml'}")
+    return known[0]
+
+
+def _chosen(every: Sequence[Mutant], args: argparse.Namespace) -> list[Mutant]:
+    patterns = [args.show] if args.show is not None else args.only
+    chosen = [one for one in every if not args.modules or one.module in args.modules]
+    if patterns:
+        for pattern in patterns:
+            if not fnmatch.filter([one.id for one in chosen], pattern):
+                raise Unjudged(f"no mutant has the id {pattern}; `modeproof mutate spec --list` lists them")
+        chosen = [one for one in chosen if any(fnmatch.fnmatchcase(one.id, p) for p in patterns)]
+    return chosen
+
+
+def _show(bench: Bench, mutant: Mutant, records: dict[tuple[str, str], dict[str, Any]]) -> int:
+    print(mutant)
+    print(diff(bench.tree_of(mutant.module).texts[mutant.module], mutant))
+    now = inputs_now(bench)[mutant.module]
+    found = records.get((mutant.id, now))
+    if found is None:
+        stale = any(id == mutant.id for id, _ in records)
+        print("not judged" + (" since the specification or the tiers changed" if stale else " yet"))
+        return 0
+    print(f"{found['verdict']}  {', '.join(found['killers'])}")
+    if found["reason"]:
+        print(f"    {found['reason']}")
+    for answer in found["answers"]:
+        broken = ", ".join(answer["broken"])
+        print(f"    {answer['tier']}: {answer['result']}{': ' if broken else ''}{broken}, {answer['seconds']} s")
+    return 0
+
+
+def _report(bench: Bench, judged: Sequence[Judged], every: Sequence[Mutant], args: argparse.Namespace) -> int:
+    explained = bench.strength.explained
+    problems = explanation_problems(explained, judged, complete=bool(every))
+    open_ones = unexplained(explained, judged)
+    for one in judged:
+        if one.word == "UNMEASURED" or one in open_ones or len(judged) <= 10:
+            killers = ", ".join(one.killers)
+            why = one.record["reason"]
+            print(f"{one.word}  {one.mutant}{f'; {killers}' if killers else ''}{f'; {why}' if why else ''}")
+    for problem in problems:
+        print(f"strength.toml: {problem}")
+    print(summary(judged, len(open_ones)))
+    unmeasured = [one for one in judged if one.word == "UNMEASURED"]
+    status = EXIT_NOT_AS_EXPECTED if open_ones or problems else EXIT_UNJUDGED if unmeasured else 0
+    if args.json is not None:
+        from modeproof.evidence.files import write_whole
+
+        content = {
+            "command": "mutate",
+            "status": status,
+            "mutants": [{**one.record, "edit": str(one.mutant)} for one in judged],
+            "problems": problems,
+        }
+        write_whole(args.json, (json.dumps(content, indent=1, ensure_ascii=False) + "\n").encode("utf-8"))
+    return status
+
+
+def summary(judged: Sequence[Judged], unexplained_count: int) -> str:
+    """Counts and score in one line: killed of those that are neither invalid nor equivalent."""
+    counts = Counter(one.word for one in judged)
+    real = counts["KILLED"] + counts["SURVIVED"] + counts["UNMEASURED"]
+    score = f"{100 * counts['KILLED'] / real:.1f} %" if real else "none"
+    words = ", ".join(f"{counts[word]} {word}" for word in WORDS)
+    return (
+        f"{len(judged)} mutants: {words}; score {counts['KILLED']} of {real} ({score}); "
+        f"{unexplained_count} unexplained"
+    )
