@@ -9,7 +9,8 @@ EXTENDS Sequences, FiniteSets, TLC, Eks
 
 CONSTANT PRINT_GRAPH    \* TRUE: print inputs, states and edges
 VARIABLES in,           \* the number of the last scan's input; hidden by VIEW
-          beat          \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
+          beat,         \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
+          lasted        \* ticks that this half of the test pulse has lasted, by the outputs alone; hidden by VIEW
 
 View == eks
 
@@ -46,9 +47,14 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alp
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == EksInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
-OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : EksScan(i) /\ in' = n /\ beat' = ~beat
-OpenSpec == OpenInit /\ [][OpenNext]_<<eks, step, in, beat>>
+OpenInit == EksInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ lasted = 0 /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+\* All outputs, or none after all: while LA is on and the outputs stand, time goes on
+InHalf == LA /\ (Vector = MSO \/ eksState = "TestZeros")
+OpenNext ==
+    \E n \in 0..N - 1 : \E i \in {Alphabet[n]} :
+        /\ EksScan(i) /\ in' = n /\ beat' = ~beat
+        /\ lasted' = IF InHalf /\ InHalf' /\ Vector' = Vector THEN lasted + i.dt ELSE 0
+OpenSpec == OpenInit /\ [][OpenNext]_<<eks, step, in, beat, lasted>>
 
 Scanned == Alphabet[in']
 \* For a reader of a trace: what a scan found in the reader and what stands on the wires after it
@@ -64,4 +70,13 @@ LADropsAtOnce ==
 PulseBeforeOutput ==
     [][/\ (Cardinality(Vector') = 1 /\ Vector # Vector') => (eksState = "TestZeros" /\ Vector = {} /\ LA /\ LA')
        /\ (eksState # "TestZeros" /\ eksState' = "TestZeros") => Vector = MSO]_beat
+\* EKS-4-2, EKS-4-3: a half of the pulse ends in the first scan in which its time is over, unless the key goes
+PulseHalvesLast ==
+    [][InHalf /\ Scanned.key = key =>
+        (Vector' = Vector /\ InHalf') = (lasted + Scanned.dt < T_PULSE)]_beat
+\* EKS-8-4, E-22, E-26: registers that are not zero after a removal are a fault that stays
+FaultIsLatched ==
+    [][eksState = "Fault" \/ (eksState = "CheckRegisters" /\ ~Scanned.registers_zero) => eksState' = "Fault"]_beat
+\* EKS-GP-3: there is no input to which a scan has no answer
+EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED EksScan(Alphabet[n])
 =============================================================================

@@ -10,7 +10,8 @@
 EXTENDS Sequences, TLC, Fplc
 
 CONSTANTS
-          VECTORS,        \* "all" 32 output vectors; "classes": none, each one, two, all five; "few": of the ones only levels 2 to 4
+          VECTORS,        \* "all" 32 output vectors; "classes": none, each one, two, all five; "few": of the ones only levels 2 to 4;
+                          \* "one": of the ones only level 2, and every time in every state
           PRINT_GRAPH     \* TRUE: print inputs, states and edges
 
 VARIABLES
@@ -20,18 +21,20 @@ VARIABLES
           cleared,    \* one output, LA and both words zero, since LA was last off and the last echo was taken back
           pulse,      \* with LA: 0 no pulse, 1 all outputs seen, 2 then none
           selected,   \* then MW03 showed this mode, with MW07 still zero
-          echoed      \* then MW05 showed it
+          echoed,     \* then MW05 showed it
+          waited      \* ticks since LA was seen (or all outputs, E-38), until one output is accepted; or since the removal began
 
-observer == <<cleared, pulse, selected, echoed>>
+observer == <<cleared, pulse, selected, echoed, waited>>
 View == fplc
 ObservedView == <<View, observer>>
 
 ----------------------------------------------------------------------------
 (* The input alphabet, numbered.                                           *)
 
-ASSUME VECTORS \in {"all", "classes", "few"}
+ASSUME VECTORS \in {"all", "classes", "few", "one"}
 Vectors == CASE VECTORS = "all" -> [n \in 1..32 |-> {l \in MSO : (((n - 1) \div (2^l)) % 2) = 1}]
              [] VECTORS = "classes" -> <<{}, {0}, {1}, {2}, {3}, {4}, {0, 1}, MSO>>
+             [] VECTORS = "one" -> <<{}, {2}, {2, 4}, MSO>>
              [] OTHER -> <<{}, {2}, {3}, {4}, {2, 4}, MSO>>
 Words == <<0, RE[0], RE[1], RE[2], RE[3], RE[4], OtherWord>>
 Times == <<0, 1, 2>>
@@ -56,25 +59,30 @@ PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>)
 ----------------------------------------------------------------------------
 OpenInit ==
     /\ FplcInit /\ step = "" /\ in = 0
-    /\ beat = FALSE /\ cleared = FALSE /\ pulse = 0 /\ selected = None /\ echoed = FALSE
+    /\ beat = FALSE /\ cleared = FALSE /\ pulse = 0 /\ selected = None /\ echoed = FALSE /\ waited = 0
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
-\* The observer reads the wires i of a scan, and MW05 as it stood before it and after it
+\* The stretches that have one deadline as a whole
+Stretch(s) == IF s \in Pulse \cup {"OneOutput"} THEN "insertion" ELSE IF s \in Removing THEN "removal" ELSE "none"
+\* The observer reads the wires i of a scan, and MW05 and the state as they stood before it and after it
 Observe(i) ==
     LET present == i.LA /\ Cardinality(i.vec) = 1
         zeros   == present /\ i.MW03 = 0 /\ i.MW07 = 0
         chosen  == ModeOf(SE, i.MW03)
         ended   == MW05 # 0 /\ MW05' = 0          \* a transaction is over: the next one needs zeros of its own
         standing == present /\ selected # None /\ i.MW03 = SE[selected]
+        goes_on == /\ Stretch(fplcState') = Stretch(fplcState) /\ Stretch(fplcState) # "none"
+                   /\ T_SEQ_FROM = "ones" => ~(fplcState = "PulseOnes" /\ fplcState' # "PulseOnes")
     IN  /\ cleared' = (~ended /\ (zeros \/ (present /\ cleared)))
         /\ pulse' = IF ~i.LA THEN 0 ELSE IF i.vec = MSO THEN 1 ELSE IF pulse = 1 /\ i.vec = {} THEN 2 ELSE pulse
         /\ selected' = IF ended THEN None ELSE IF standing THEN selected
                        ELSE IF cleared /\ present /\ i.MW07 = 0 THEN chosen ELSE None
         /\ echoed' = (~ended /\ standing /\ (echoed \/ MW05 = CH[selected]))
+        /\ waited' = IF ~goes_on THEN 0 ELSE IF waited + i.dt > T_SEQ + T_REM THEN T_SEQ + T_REM ELSE waited + i.dt
 
 \* The graph tries every time in every state; the properties need only those that the state can tell apart
-LongestTime == IF fplcState \in Removing THEN T_REM ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
-ASSUME PRINT_GRAPH \/ (T_ON = T_DWELL /\ T_SEQ = T_DWELL)
+LongestTime == IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Removing THEN T_REM ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
+ASSUME PRINT_GRAPH \/ VECTORS = "one" \/ (T_ON = T_DWELL /\ T_SEQ = T_DWELL)
 InputsToTry == IF PRINT_GRAPH THEN 0..N - 1 ELSE 0..(98 * NV) * (LongestTime + 1) - 1
 
 OpenNext ==
@@ -145,4 +153,16 @@ LevelNeedsPulse == [][(MW01 = 0 /\ MW01' # 0) => pulse = 2]_beat
 
 \* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11, E-03, E-30: no wait outlasts its deadline
 NoWaitBeyondDeadline == fplcState \in Timed => fplcElapsed < Deadline
+
+\* EKS-2-6, EKS-2-8, EKS-4-2, EKS-8-3, EKS-8-11, E-03, E-30, E-38: nor do several waits together that share one
+SharedDeadlineHolds ==
+    /\ fplcState = "PulseOnes" => waited < T_ON
+    /\ Stretch(fplcState) = "insertion" => waited < T_SEQ \/ (T_SEQ_FROM = "ones" /\ fplcState = "PulseOnes")
+    /\ Stretch(fplcState) = "removal" => waited < T_REM
+
+\* EKS-KS-6, E-24: where the error mode is to drop the active mode, it does
+ErrorDropsMode == ON_ERROR = "none" /\ fplcState = "Error" => mode = {}
+
+\* EKS-GP-3: there is no input to which a scan has no answer
+EveryScanIsAnswered == \A n \in InputsToTry : ENABLED FplcScan(Alphabet[n])
 =============================================================================

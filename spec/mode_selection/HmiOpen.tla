@@ -51,4 +51,6 @@ AcknowledgmentNeedsConfirm ==
 \* EKS-3-1-HMI, EKS-3-4-HMI, EKS-8-9, EKS-8-16: without authorization both words are zero in that very scan
 InhibitAtOnce ==
     [][ModeOf(RE, Scanned.RA) = None => (SelectMSO' = 0 /\ SwitchMSO' = 0 /\ Enabled' = {})]_beat
+\* EKS-GP-3: there is no input to which a scan has no answer
+EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED HmiScan(Alphabet[n])
 =============================================================================

@@ -40,4 +40,6 @@ Wires == Wire(Alphabet[in]) @@ PlcOutputs
 CopiesUnchanged ==
     [][/\ ReadAuthorization' \in {ReadAuthorization, Scanned.MW01} /\ MW03' \in {MW03, Scanned.SelectMSO}
        /\ CheckMSO' \in {CheckMSO, Scanned.MW05} /\ MW07' \in {MW07, Scanned.SwitchMSO}]_beat
+\* EKS-GP-3: there is no input to which a scan has no answer
+EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED PlcScan(Alphabet[n])
 =============================================================================

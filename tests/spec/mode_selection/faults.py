@@ -20,6 +20,12 @@ TEXT_ORDER = Base(
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
+DEADLINES = Base("MC_Fplc_deadlines", module="FplcSmall")
+NO_MODE = Base(
+    "MC_Fplc_on_error_none",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcSmall",
+)
 EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
@@ -583,6 +589,107 @@ FAULTS = (
             "Eks.tla",
             'GoTo("TestOnes")',
             'GoTo("Signal")',
+        ),
+    ),
+    Falls(
+        "PulseHalvesLast",
+        EKS,
+        Fault(
+            "the second half of the pulse is over at once",
+            "Eks.tla",
+            'At("TestZeros", i) /\\ Over(i) /\\ GoTo("Signal")',
+            'At("TestZeros", i) /\\ GoTo("Signal")',
+        ),
+    ),
+    Falls(
+        "PulseHalvesLast",
+        EKS,
+        Fault(
+            "a half of the pulse lasts one scan longer",
+            "Eks.tla",
+            "Over(i) == eksElapsed + i.dt >= T_PULSE",
+            "Over(i) == eksElapsed >= T_PULSE",
+        ),
+    ),
+    Falls(
+        "FaultIsLatched",
+        EKS,
+        Fault(
+            "registers that are not zero are forgotten",
+            "Eks.tla",
+            'GoTo("Fault")',
+            'GoTo("Empty")',
+        ),
+    ),
+    Falls(
+        "EveryScanIsAnswered",
+        EKS,
+        Fault(
+            "a key that is refused leaves the device without a step",
+            "Eks.tla",
+            "(HoldOneOutput(i) \\/ StayRejected(i))",
+            "HoldOneOutput(i)",
+        ),
+    ),
+    # ------------------------------------------------------------------ deadlines, answers
+    Falls(
+        "SharedDeadlineHolds",
+        DEADLINES,
+        Fault(
+            "the sequence timer starts again when all outputs are off",
+            "Fplc.tla",
+            "fplcState' = \"OneOutput\" /\\ fplcElapsed' = Now(i)",
+            "fplcState' = \"OneOutput\" /\\ fplcElapsed' = 0",
+        ),
+    ),
+    Falls(
+        "SharedDeadlineHolds",
+        FPLC,
+        Fault(
+            "the removal timer starts again when the words are cleared",
+            "Fplc.tla",
+            "fplcState' = \"AwaitZeros\" /\\ fplcElapsed' = Now(i)",
+            "fplcState' = \"AwaitZeros\" /\\ fplcElapsed' = 0",
+        ),
+    ),
+    Falls(
+        "ErrorDropsMode",
+        NO_MODE,
+        Fault(
+            "the error mode keeps the mode although it is to be dropped",
+            "Fplc.tla",
+            'mode\' = IF ON_ERROR = "none"',
+            'mode\' = IF ON_ERROR = "hold"',
+        ),
+    ),
+    Falls(
+        "EveryScanIsAnswered",
+        FPLC,
+        Fault(
+            "a key that is refused in Idle has no step",
+            "Fplc.tla",
+            "(AwaitKey(i) \\/ DetectKey(i))",
+            "DetectKey(i)",
+        ),
+    ),
+    Falls(
+        "EveryScanIsAnswered",
+        HMI,
+        Fault(
+            "a touch beside the fields has no answer",
+            "Hmi.tla",
+            "(TouchSelection(i) \\/ OfferModes(i))",
+            "TouchSelection(i)",
+        ),
+    ),
+    Falls(
+        "EveryScanIsAnswered",
+        PLC,
+        Fault(
+            "one of the four copies is forgotten",
+            "Plc.tla",
+            "\\/ CopyMW03(i) \\/ CopyCheckMSO(i)",
+            "\\/ CopyMW03(i)",
         ),
     ),
 )
