@@ -20,7 +20,7 @@ from modeproof.strength.operators import mutants
 from modeproof.strength.register import Strength
 from modeproof.strength.results import Results, digest
 from modeproof.strength.trial import cfg_of
-from modeproof.tlc.process import stop_all
+from modeproof.tlc.children import stop_all
 
 WORDS = ("KILLED", "EQUIVALENT", "SURVIVED", "INVALID", "UNMEASURED")
 
@@ -157,7 +157,9 @@ def _controls(bench: Bench, waiting: Sequence[Mutant], pool: ThreadPoolExecutor)
     for tier in tiers:
         bench.trial(tier)
     if waiting:
-        list(pool.map(bench.control, (tier for tier in tiers if tier.asks != "graph" and tier.when != "left")))
+        list(
+            pool.map(bench.control, (tier for tier in tiers if tier.asks != "graph" and tier.when != "left"))
+        )
 
 
 def _state(total: int, done: int, seconds: float, known: Mapping[str, Mapping[str, Any]]) -> str:

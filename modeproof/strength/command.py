@@ -31,8 +31,12 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--list", action="store_true", help="list the mutants, judge none")
     parser.add_argument("--only", action="append", metavar="ID", help="only this mutant (or a pattern)")
     parser.add_argument("--show", metavar="ID", help="show the edit as a diff, and the judgement so far")
-    parser.add_argument("--complete", action="store_true", help="ask the costly tiers about killed mutants too")
-    parser.add_argument("--render", action="store_true", help="write docs/strength.md from the results there are")
+    parser.add_argument(
+        "--complete", action="store_true", help="ask the costly tiers about killed mutants too"
+    )
+    parser.add_argument(
+        "--render", action="store_true", help="write docs/strength.md from the results there are"
+    )
     parser.add_argument("--jobs", type=int, metavar="N", help="TLC runs at once (default: one a core)")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
@@ -49,7 +53,9 @@ def _mutate(args: argparse.Namespace) -> int:
     bench = Bench(place, load_strength(place, document), find_toolchain())
     strange = sorted(set(args.modules) - set(bench.strength.rules))
     if strange:
-        raise Unjudged(f"{strange[0]} is none of the modules of strength.toml: {', '.join(bench.strength.rules)}")
+        raise Unjudged(
+            f"{strange[0]} is none of the modules of strength.toml: {', '.join(bench.strength.rules)}"
+        )
     every = all_mutants(bench)
     chosen = _chosen(every, args)
     results = read_results(results_path(place, document, args.what))
@@ -65,7 +71,12 @@ def _mutate(args: argparse.Namespace) -> int:
         return status
     with only_one(place):
         judged = judge_all(
-            bench, chosen, results, Progress(quiet=args.quiet), args.jobs or default_jobs(place), args.complete
+            bench,
+            chosen,
+            results,
+            Progress(quiet=args.quiet),
+            args.jobs or default_jobs(place),
+            args.complete,
         )
     whole = len(chosen) == len(every)
     return _report(bench, judged, every if whole else (), args)
@@ -107,7 +118,9 @@ def _show(bench: Bench, mutant: Mutant, records: dict[tuple[str, str], dict[str,
         print(f"    {found['reason']}")
     for answer in found["answers"]:
         broken = ", ".join(answer["broken"])
-        print(f"    {answer['tier']}: {answer['result']}{': ' if broken else ''}{broken}, {answer['seconds']} s")
+        print(
+            f"    {answer['tier']}: {answer['result']}{': ' if broken else ''}{broken}, {answer['seconds']} s"
+        )
     return 0
 
 

@@ -49,7 +49,7 @@ class Answer:
 
 @dataclass(frozen=True)
 class Verdict:
-    """KILLED, EQUIVALENT, SURVIVED, INVALID or UNMEASURED; `killers` are the properties, the first one first."""
+    """KILLED, EQUIVALENT, SURVIVED, INVALID or UNMEASURED; `killers`: the properties, first one first."""
 
     word: str
     answers: tuple[Answer, ...]
@@ -138,7 +138,9 @@ class Bench:
         if outcome.stopped:
             return _answer(tier, outcome, (), compare.strange, DIFFERS)
         if compare.missing:
-            return _answer(tier, outcome, (), f"{compare.missing} lines of the original's graph are missing", DIFFERS)
+            return _answer(
+                tier, outcome, (), f"{compare.missing} lines of the original's graph are missing", DIFFERS
+            )
         return _answer(tier, outcome, (), "", EQUAL)
 
     def _run(self, tier: Tier, mutant: Mutant | None, watch: Callable[[bytes], bool]) -> Outcome:
@@ -247,10 +249,16 @@ def _no_memory(outcome: Outcome) -> bool:
 
 def _complaint(outcome: Outcome) -> str:
     """One line that says why TLC did not come to its end."""
-    said = [line.strip() for line in outcome.log.unframed if not line.startswith(("***", "Semantic", "Parsing"))]
+    said = [
+        line.strip() for line in outcome.log.unframed if not line.startswith(("***", "Semantic", "Parsing"))
+    ]
     for _, text in outcome.log.errors:
         said += essence(text)
-    return " ".join(line for line in said if line)[:300] or outcome.stderr[-300:] or f"exit status {outcome.status}"
+    return (
+        " ".join(line for line in said if line)[:300]
+        or outcome.stderr[-300:]
+        or f"exit status {outcome.status}"
+    )
 
 
 def judge(bench: Bench, mutant: Mutant, complete: bool = False) -> Verdict:
@@ -287,7 +295,10 @@ def _verdict(answers: Sequence[Answer], killers: tuple[str, ...], differs: str) 
     if killers:
         cut_off = [one.tier for one in answers if not one.complete]
         return Verdict(
-            "KILLED", tuple(answers), killers, f"not explored to the end in {', '.join(cut_off)}" if cut_off else ""
+            "KILLED",
+            tuple(answers),
+            killers,
+            f"not explored to the end in {', '.join(cut_off)}" if cut_off else "",
         )
     limits = [one for one in answers if one.result == LIMIT]
     if limits:

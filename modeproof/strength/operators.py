@@ -9,17 +9,17 @@ guard negated          a conjunct that is a guard is negated (a comparison: see 
 conjunct dropped       a conjunct that is a guard becomes TRUE
 disjunct dropped       a disjunct of a guard becomes FALSE
 action removed         a disjunct that is an action becomes FALSE (a timeout branch is one)
-comparison swapped     = and #, \in and \notin exchanged; < and <= exchanged, > and >= too
+comparison swapped     = and #, \\in and \notin exchanged; < and <= exchanged, > and >= too
 negation dropped       ~A becomes A
 branches exchanged     the branches of an IF change places
 case removed           the guard of one arm of a CASE with OTHER becomes FALSE
 reset missing          an assignment of a constant, x' = None, becomes UNCHANGED x
 assignment missing     any other assignment x' = e becomes UNCHANGED x
 wrong UNCHANGED        a variable that shall stay gets its value of the initial predicate
-constant swapped       a string becomes the next one of its kind, n becomes n + 1, a name the next of its cycle;
-                       not where = or # compares with it, for there the comparison is swapped
-operator swapped       + and -, \cup and \cap exchanged; A \ B becomes A \cap B
-quantifier swapped     \A and \E of a guard exchanged
+constant swapped       a string becomes the next one of its kind, n becomes n + 1, a name the next of its
+                       cycle; not where = or # compares with it, for there the comparison is swapped
+operator swapped       + and -, \\cup and \\cap exchanged; A \\ B becomes A \\cap B
+quantifier swapped     \\A and \\E of a guard exchanged
 """
 
 from __future__ import annotations
@@ -225,7 +225,9 @@ class _Editor:
         return None
 
     def _names_a_switch(self, node: Node) -> bool:
-        return any(one.kind in ("declared", "defined") and one.operator in self._rule.off for one in node.walk())
+        return any(
+            one.kind in ("declared", "defined") and one.operator in self._rule.off for one in node.walk()
+        )
 
     # -------------------------------------------------------------------------------- initial values
 
@@ -308,7 +310,12 @@ class _Editor:
         if assigned is not None:
             if operands[1].kind == "declared" and operands[1].operator == assigned:
                 return
-            constant = operands[1].level == 0 and operands[1].kind in ("string", "number", "defined", "builtin")
+            constant = operands[1].level == 0 and operands[1].kind in (
+                "string",
+                "number",
+                "defined",
+                "builtin",
+            )
             kind = "reset missing" if constant and not operands[1].operands else "assignment missing"
             yield self._replaced(kind, node, f"UNCHANGED {assigned}")
         elif operator in COMPARISONS and node.level <= 1 and not (initial and operator == "="):
@@ -427,4 +434,3 @@ def _successors(lists: Sequence[Sequence[str]], open_end: bool = False) -> dict[
             if new not in after.setdefault(name, []) and new != name:
                 after[name].append(new)
     return after
-

@@ -1,4 +1,4 @@
-"""The register strength.toml: what is edited in which module, which runs judge it, and why survivors survive."""
+"""The register strength.toml: what is edited in each module, which runs judge it, why survivors survive."""
 
 from __future__ import annotations
 

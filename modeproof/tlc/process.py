@@ -125,7 +125,7 @@ def run_tlc(
 
     Module and cfg lie in the document's folder of the specification; those that were made for this run alone
     in `made_in`, and then the document's modules are found all the same. `watch` gets each printed line of a
-    run that is not of kind OPEN, in the place of the set of lines; as soon as it says True the run is stopped.
+    run that is not of kind OPEN, in the place of the set of lines; once it says True the run is stopped.
 
     The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
     build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
@@ -234,7 +234,7 @@ def _follow(
     def look(line: bytes) -> None:
         if not enough.is_set() and watch is not None and watch(line):
             enough.set()
-            _kill(process)
+            children.kill(process)
 
     sink = _Sink(stream, on_lines, None if watch is None else look)
     reader = LogReader(on_printed=sink.take, on_progress=on_progress)
