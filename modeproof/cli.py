@@ -14,7 +14,7 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import FrameType
 from typing import Any, NoReturn
@@ -89,6 +89,19 @@ def make_parser() -> argparse.ArgumentParser:
     )
     check.add_argument("--lane", choices=LANES, help="only runs of this lane")
     check.add_argument("--document", metavar="NAME", help="only runs of this document")
+    spread = check.add_argument_group("TLC's distributed mode (docs/distributed.md)")
+    spread.add_argument("--distributed", action="store_true", help="a server and workers, over RMI")
+    spread.add_argument(
+        "--workers", type=int, metavar="N", help="worker processes on this machine (default: its cores)"
+    )
+    spread.add_argument(
+        "--listen",
+        metavar="ADDRESS[:PORT]",
+        help="where workers of other machines reach the server (default: 127.0.0.1, any free port)",
+    )
+    spread.add_argument(
+        "--wait-for", type=int, metavar="N", help="begin when N workers of other machines are there"
+    )
     check.add_argument("--trace", action="store_true", help="show expected counterexamples too")
     check.add_argument("--all-variables", action="store_true", help="show every variable in every state")
     check.add_argument("--list", action="store_true", help="list the runs, run nothing")
@@ -215,8 +228,9 @@ def _check(args: argparse.Namespace) -> int:
         return 0
     tools = find_toolchain()
     progress = Progress(quiet=args.quiet)
+    spread = _spread(args, place, runs)
     with only_one(place):
-        done = check_all(place, runs, tools, progress, lambda one: progress.say(line_of(one)))
+        done = check_all(place, runs, tools, progress, lambda one: progress.say(line_of(one)), spread)
         for one in done if not args.repin or args.trace else ():
             _show_trace(one, args)
         status = max(one.status for one in done)
@@ -234,6 +248,43 @@ def _check(args: argparse.Namespace) -> int:
         print(f"{good} of {len(done)} runs as expected")
     _write_json(args, status, runs=[one.record for one in done], problems=problems)
     return status
+
+
+def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[str, Any]:
+    """Which runs are checked in distributed mode, by their names, and where.
+
+    Of a lane, those that this mode cannot judge are checked as usual, and that is said; a run that was named
+    is refused. Raises Unjudged for that, and for options that do not fit.
+    """
+    from modeproof.tlc.check import read_cfg
+    from modeproof.tlc.distributed import Where, refusal
+    from modeproof.tlc.schedule import cores
+
+    given = [name for name in ("workers", "listen", "wait_for") if getattr(args, name) is not None]
+    if not args.distributed:
+        if given:
+            raise Unjudged(f"--{given[0].replace('_', '-')} belongs to --distributed")
+        return {}
+    if args.repin:
+        raise Unjudged("pins are taken from local runs: --repin without --distributed")
+    address, _, port = (args.listen or "127.0.0.1").partition(":")
+    if not address or (port and not (port.isdigit() and 0 < int(port) < 65536)):
+        raise Unjudged(f"--listen takes ADDRESS or ADDRESS:PORT, not {args.listen!r}")
+    waited = args.wait_for or 0
+    workers = cores() if args.workers is None else args.workers
+    if workers < 0 or waited < 0 or workers + waited == 0:
+        raise Unjudged("--workers and --wait-for are 0 or more, and together at least 1")
+    where = Where(workers, address, int(port or 0), waited)
+    found: dict[str, Any] = {}
+    for run in runs:
+        reason = refusal(run, read_cfg(place, run)[0])
+        if reason and args.runs:
+            raise Unjudged(f"{run.name} cannot be judged in distributed mode: {reason}")
+        if reason:
+            print(f"{run.name}: on this machine alone: {reason}")
+        else:
+            found[run.name] = where
+    return found
 
 
 def _show_trace(one: Any, args: argparse.Namespace) -> None:

@@ -33,7 +33,7 @@ _OTHER = {
 }
 _UNKNOWN = {"CHECK_DEADLOCK", "ALIAS", "POSTCONDITION", "_POSSIBLE", "_PERIODIC"}
 _KEYWORDS = _INVARIANT | _PROPERTY | _OTHER
-_COMMENT = re.compile(r"\\\*[^\n]*|\(\*.*?\*\)", re.DOTALL)
+COMMENT = re.compile(r"\\\*[^\n]*|\(\*.*?\*\)", re.DOTALL)
 _TOKEN = re.compile(r'"[^"\n]*"|<-|[^\s]+')
 
 
@@ -61,7 +61,7 @@ def parse_cfg(text: str, name: str) -> Cfg:
     properties: list[str] = []
     seen: set[str] = set()
     section = ""
-    for match in _TOKEN.finditer(_COMMENT.sub(" ", text)):
+    for match in _TOKEN.finditer(COMMENT.sub(" ", text)):
         token = match.group()
         if token in _UNKNOWN:
             raise Unjudged(f"{name}: {token} is not understood by TLC 2.15")

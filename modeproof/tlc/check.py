@@ -6,9 +6,10 @@ import fnmatch
 import hashlib
 import shlex
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from modeproof import evidence
@@ -17,7 +18,9 @@ from modeproof.places import build, documents
 from modeproof.progress import Progress
 from modeproof.tlc import children
 from modeproof.tlc.cfg import Cfg, parse_cfg
+from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import UNJUDGED, Judgement, judge
+from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.schedule import Job, cores, memory_mb, run_all
@@ -117,8 +120,10 @@ def read_cfg(place: Path, run: Run) -> tuple[Cfg, str]:
     return parse_cfg(text, f"{run.name}: {run.cfg}"), hashlib.sha256(content).hexdigest()
 
 
-def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Checked:
-    """Run TLC once, judge the outcome and write the evidence.
+def check_one(
+    place: Path, run: Run, tools: Toolchain, progress: Progress, where: Where | None = None
+) -> Checked:
+    """Run TLC once, judge the outcome and write the evidence; in distributed mode if `where` says where.
 
     A run whose files are missing or that TLC cannot start is UNJUDGED, with evidence that says so. Raises
     Unjudged only when the evidence itself cannot be written.
@@ -130,13 +135,17 @@ def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Ch
     progress.begin(run.id)
     try:
         cfg, digest = read_cfg(place, run)
-        outcome = run_tlc(
-            place,
-            run,
-            tools,
-            lambda c: progress.update(run.id, f"{c.distinct:,} distinct, {c.generated:,} generated"),
-            lambda lines: progress.update(run.id, f"{lines:,} lines of the graph"),
-        )
+
+        def on_progress(counts: Counts) -> None:
+            progress.update(run.id, f"{counts.distinct:,} distinct, {counts.generated:,} generated")
+
+        def on_lines(lines: int) -> None:
+            progress.update(run.id, f"{lines:,} lines of the graph")
+
+        if where is None:
+            outcome = run_tlc(place, run, tools, on_progress, on_lines)
+        else:
+            outcome = run_distributed(place, run, cfg, tools, where, on_progress, progress.say)
         judgement = judge(run, cfg, digest, outcome)
         if read_cfg(place, run)[1] != digest:
             judgement = Judgement(UNJUDGED, False, f"{run.cfg} was changed while TLC ran")
@@ -155,14 +164,21 @@ def check_all(
     tools: Toolchain,
     progress: Progress,
     on_checked: Callable[[Checked], None] = lambda checked: None,
+    where: Mapping[str, Where] = MappingProxyType({}),
 ) -> list[Checked]:
-    """Check the runs, as many at once as the machine allows, longest first; results in the order given."""
+    """Check the runs, as many at once as the machine allows, longest first; results in the order given.
+
+    `where` holds, by their names, the runs that are checked in distributed mode; each has all cores.
+    """
     core_limit = cores()
-    jobs = [Job(run.id, run.workers, run.heap_mb, _estimate(place, run)) for run in runs]
+    jobs = [
+        Job(run.id, core_limit if run.name in where else run.workers, run.heap_mb, _estimate(place, run))
+        for run in runs
+    ]
     progress.expect(len(runs))
 
     def work(index: int) -> Checked:
-        checked = check_one(place, runs[index], tools, progress)
+        checked = check_one(place, runs[index], tools, progress, where.get(runs[index].name))
         on_checked(checked)
         return checked
 
@@ -195,6 +211,7 @@ def _record(
         spec = (place / "spec").resolve()
         parsed = (Path(name) if Path(name).is_absolute() else folder / name for name in outcome.log.files)
         paths |= {path for path in parsed if path.resolve().is_relative_to(spec) and path.is_file()}
+    option = "--distributed " if outcome is not None and outcome.how.get("mode") == "distributed" else ""
     return evidence.make(
         kind="tlc",
         id=run.id,
@@ -204,7 +221,7 @@ def _record(
         as_expected=judgement.as_expected,
         environment=run.environment,
         strength=run.strength,
-        command=f"modeproof check {run.name}",
+        command=f"modeproof check {option}{run.name}",
         started=started,
         seconds=outcome.seconds if outcome is not None else time.time() - started,
         inputs=evidence.hashes(place, sorted(paths)),
@@ -255,6 +272,8 @@ def _result(
         "depth": log.depth,
         "printed": dict(sorted(log.tags.items())),
     }
+    if outcome.how:
+        result["how"] = dict(outcome.how)
     if judgement.violated:
         result["violated"] = judgement.violated
     if log.trace:

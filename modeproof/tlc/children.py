@@ -78,7 +78,7 @@ def _dismiss_watcher() -> None:
 
 
 def start(
-    command: list[str], folder: Path, stdout: IO[bytes] | int, stderr: IO[bytes]
+    command: list[str], folder: Path, stdout: IO[bytes] | int, stderr: IO[bytes] | int
 ) -> subprocess.Popen[bytes]:
     """Start a program in a group of its own, without input. Raises OSError when it cannot be started."""
     with _GUARD:

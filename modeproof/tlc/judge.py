@@ -52,7 +52,7 @@ def judge(run: Run, cfg: Cfg, cfg_sha256: str, outcome: Outcome) -> Judgement:
     found = _verdict(run, cfg, outcome)
     if not found.judged:
         return found
-    problem = _declaration(run, cfg, cfg_sha256) or _expectation(run, found, outcome)
+    problem = _declaration(run, cfg, cfg_sha256) or outcome.doubt or _expectation(run, found, outcome)
     return replace(found, as_expected=not problem, reason=problem)
 
 
@@ -68,6 +68,8 @@ def _verdict(run: Run, cfg: Cfg, outcome: Outcome) -> Judgement:
     log = outcome.log
     if outcome.timed_out:
         return Judgement(INCONCLUSIVE, False, f"time limit of {run.timeout_s:g} s reached")
+    if outcome.broken_off:
+        return Judgement(INCONCLUSIVE, False, outcome.broken_off)
     if _out_of_memory(outcome):
         return Judgement(INCONCLUSIVE, False, f"out of memory with heap_mb = {run.heap_mb}")
     if outcome.status < 0:

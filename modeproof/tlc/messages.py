@@ -29,6 +29,13 @@ TEMPORAL = 2116
 DEADLOCK = 2114
 ASSUMPTION = (2104, 2105)
 OUT_OF_MEMORY = (1001, 1002, 1003)
+GENERAL = 1000
+TRACE = 2121
+SERVER_READY = 7000
+WORKER_REGISTERED = 7001
+WORKER_DISCONNECTED = 7002
+WORKER_STATS = 7003
+BLOCK_TOO_BIG = 7007
 
 _FRAME = re.compile(rb"@!@!@(STARTMSG|ENDMSG) (\d+)(?::(\d+))? @!@!@")
 _COUNTS = re.compile(r"([\d,.]+) states generated.*?([\d,.]+) distinct states found.*?([\d,.]+) states left")
@@ -109,18 +116,20 @@ class LogReader:
     """Takes TLC's standard output line by line.
 
     `on_printed` gets each printed line of the model (a TLA+ string, unquoted, without the newline),
-    `on_progress` gets the counts as TLC reports them. Printed lines are the hot path: a run may print
-    millions.
+    `on_progress` gets the counts as TLC reports them, `on_message` the code of every message. Printed lines
+    are the hot path: a run may print millions.
     """
 
     def __init__(
         self,
         on_printed: Callable[[bytes], None] | None = None,
         on_progress: Callable[[Counts], None] | None = None,
+        on_message: Callable[[int], None] | None = None,
     ) -> None:
         self.log = Log()
         self._on_printed = on_printed
         self._on_progress = on_progress
+        self._on_message = on_message
         self._open: list[tuple[int, int, list[str]]] = []
         self._tags: dict[bytes, int] = {}
         self._edges = 0
@@ -187,6 +196,8 @@ class LogReader:
     def _message(self, code: int, severity: int, lines: list[str]) -> None:
         text = "\n".join(lines)
         log = self.log
+        if self._on_message is not None:
+            self._on_message(code)
         if code == VERSION:
             log.version = text.strip()
         elif code == STARTED:

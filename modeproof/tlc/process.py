@@ -8,10 +8,10 @@ import subprocess
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from modeproof.errors import Unjudged
 from modeproof.places import build
@@ -51,6 +51,12 @@ class Outcome:
     graph_file: Path | None = None
     stderr: str = ""
     stopped: bool = False
+    broken_off: str = ""
+    """Why the run was ended before TLC had finished; empty when it was not."""
+    doubt: str = ""
+    """Why the counts of a finished run are not exact; empty when they are."""
+    how: Mapping[str, Any] = field(default_factory=dict)
+    """What is to be said in the evidence of how TLC was run, besides its command."""
 
 
 def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Path] = ()) -> list[str]:
@@ -205,9 +211,8 @@ def run_generated(
         raise Unjudged(f"{module}: cannot write to {folder}: {error.strerror}") from None
     try:
         (metadir / "tmp").mkdir()
-        library = Path(os.pathsep.join(map(str, libraries)))
-        command = command_line(run, tools, metadir, library)
-        return _follow(run, command, folder, metadir, folder, None, None, None)
+        command = command_line(run, tools, metadir, libraries)
+        return _follow(run, command, folder, metadir, folder, None, None, None, None)
     except OSError as error:
         raise Unjudged(f"{module}: {error.strerror or error} ({error.filename or folder})") from None
     finally:
