@@ -18,7 +18,7 @@ from modeproof.strength.judge import Bench, as_record, judge
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.operators import mutants
 from modeproof.strength.register import Strength
-from modeproof.strength.results import Results, digest
+from modeproof.strength.results import Results, digest, without_comments
 from modeproof.strength.trial import cfg_of
 from modeproof.tlc.children import stop_all
 
@@ -77,7 +77,7 @@ def inputs_of(bench: Bench, module: str) -> str:
         told = {key: value for key, value in asdict(tier).items() if key != "run"}
         parts += [json.dumps(told, sort_keys=True), cfg_of(bench.folder, tier)]
         texts.update(bench.texts(tier))
-    return digest([*parts, *(text for _, text in sorted(texts.items()))])
+    return digest([*parts, *(without_comments(text) for _, text in sorted(texts.items()))])
 
 
 def judge_all(

@@ -33,12 +33,14 @@ _OUT_OF_HEAP = 3
 
 @dataclass(frozen=True)
 class Answer:
-    """What one tier says. `result` is clean, broken, equal, differs, error or limit; `broken` in the order in
-    which the properties were found false; `complete` whether the exploration went to its end.
+    """What one tier says. `result` is clean, broken, equal, differs, error or limit; `asked` the properties
+    that it was about, `broken` those found false, in that order; `complete` whether the exploration went to
+    its end.
     """
 
     tier: str
     result: str
+    asked: tuple[str, ...] = ()
     broken: tuple[str, ...] = ()
     detail: str = ""
     complete: bool = True
@@ -114,7 +116,7 @@ class Bench:
             lines: set[int] = set()
             names = _Names()
             outcome = self._run(tier, None, _Collect(lines) if tier.asks == "graph" else names)
-            answer = _answer(tier, outcome, names.found, "", CLEAN)
+            answer = _answer(tier, outcome, self.trial(tier).asked, names.found, "", CLEAN)
             if answer.result != CLEAN:
                 what = ", ".join(answer.broken) or answer.detail
                 raise Unjudged(f"tier {tier.id} does not pass on the original: {answer.result}: {what}")
@@ -129,19 +131,19 @@ class Bench:
         if tier.asks != "graph":
             names = _Names()
             outcome = self._run(tier, mutant, names)
-            return _answer(tier, outcome, names.found, "", CLEAN)
+            return _answer(tier, outcome, self.trial(tier).asked, names.found, "", CLEAN)
         with self._guard:
             if tier.id not in self._graphs:
                 self.control(tier)
         compare = _Compare(self._graphs[tier.id])
         outcome = self._run(tier, mutant, compare)
         if outcome.stopped:
-            return _answer(tier, outcome, (), compare.strange, DIFFERS)
+            return _answer(tier, outcome, (), (), compare.strange, DIFFERS)
         if compare.missing:
             return _answer(
-                tier, outcome, (), f"{compare.missing} lines of the original's graph are missing", DIFFERS
+                tier, outcome, (), (), f"{compare.missing} lines of the original's graph are missing", DIFFERS
             )
-        return _answer(tier, outcome, (), "", EQUAL)
+        return _answer(tier, outcome, (), (), "", EQUAL)
 
     def _run(self, tier: Tier, mutant: Mutant | None, watch: Callable[[bytes], bool]) -> Outcome:
         trial = self.trial(tier)
@@ -215,7 +217,9 @@ class _Compare:
         return len(self._original) - len(self._seen)
 
 
-def _answer(tier: Tier, outcome: Outcome, names: tuple[str, ...], detail: str, good: str) -> Answer:
+def _answer(
+    tier: Tier, outcome: Outcome, asked: tuple[str, ...], names: tuple[str, ...], detail: str, good: str
+) -> Answer:
     log = outcome.log
     temporal = {"temporal", "property"} & {kind for kind, _ in log.violations}
     broken = tier.run.properties if tier.asks == "liveness" and temporal else names
@@ -231,12 +235,14 @@ def _answer(tier: Tier, outcome: Outcome, names: tuple[str, ...], detail: str, g
         result, detail = ERROR, _complaint(outcome)
     if broken:
         result = BROKE
+    complete = finished or (tier.asks == "liveness" and bool(broken)) or outcome.stopped
     return Answer(
         tier=tier.id,
         result=result,
+        asked=asked if complete else broken,
         broken=broken,
         detail=detail,
-        complete=finished or (tier.asks == "liveness" and bool(broken)) or outcome.stopped,
+        complete=complete,
         seconds=round(outcome.seconds, 2),
         distinct=counts.distinct,
         generated=counts.generated,

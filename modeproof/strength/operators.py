@@ -217,6 +217,9 @@ class _Editor:
             if True in values:
                 return True
             return None if None in values else False
+        if node.operator == "=>":
+            first, then = (self._value(one) for one in node.operands)
+            return True if first is False or then is True else None
         if node.operator == "\\lnot":
             inner = self._value(node.operands[0])
             return None if inner is None else not inner
@@ -225,9 +228,8 @@ class _Editor:
         return None
 
     def _names_a_switch(self, node: Node) -> bool:
-        return any(
-            one.kind in ("declared", "defined") and one.operator in self._rule.off for one in node.walk()
-        )
+        """Whether a comparison asks the constant behind the switches, as in `"READING" \\in LITERAL`."""
+        return any(one.kind == "declared" and one.operator in self._rule.off for one in node.walk())
 
     # -------------------------------------------------------------------------------- initial values
 

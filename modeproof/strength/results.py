@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -97,3 +98,12 @@ def digest(parts: Iterable[str]) -> str:
         data = part.encode("utf-8")
         whole.update(len(data).to_bytes(8, "big") + data)
     return whole.hexdigest()[:16]
+
+
+_COMMENT = re.compile(r'("[^"\n]*")|\\\*[^\n]*|\(\*.*?\*\)', re.DOTALL)
+
+
+def without_comments(text: str) -> str:
+    """A module's text without comments and without blanks at the end of lines: what TLC reads."""
+    kept = _COMMENT.sub(lambda match: match[1] or "", text)
+    return "\n".join(line.rstrip() for line in kept.split("\n"))

@@ -79,7 +79,7 @@ def _graph(tree: ParseTree, cfg_text: str) -> tuple[list[str], str, tuple[str, .
         keyword, *names = line.split()
         for one in names:
             definition = tree.find(one)
-            if definition is not None and any(node.operator == "PrintT" for node in definition.body.walk()):
+            if definition is not None and _prints(definition):
                 kept.append(f"{keyword} {one}\n")
     if not kept:
         raise Unjudged("nothing that the cfg of a graph checks prints anything")
@@ -87,12 +87,16 @@ def _graph(tree: ParseTree, cfg_text: str) -> tuple[list[str], str, tuple[str, .
 
 
 def _properties(tree: ParseTree, tier: Tier, cfg: Cfg) -> tuple[list[str], str, tuple[str, ...]]:
+    asked: list[str] = []
     states: list[str] = []
     steps: list[tuple[str, str, str]] = []
     for name in cfg.checked:
         definition = tree.find(name)
         if definition is None:
             raise Unjudged(f"{tier.run.cfg}: {name} is not defined in our modules")
+        if _prints(definition):
+            continue
+        asked.append(name)
         if definition.body.level <= 1:
             states.append(name)
         else:
@@ -114,7 +118,11 @@ def _properties(tree: ParseTree, tier: Tier, cfg: Cfg) -> tuple[list[str], str, 
     body += [f'    /\\ StrengthReport("{name}", StrengthStep{n})' for n, (name, _, _) in enumerate(steps)]
     body += [f"    /\\ {name}" for name in tier.types]
     checks = "INVARIANT StrengthStates\nACTION_CONSTRAINT StrengthSteps\n"
-    return body, checks, tuple(dict.fromkeys(cfg.checked))
+    return body, checks, tuple(asked)
+
+
+def _prints(definition: Definition) -> bool:
+    return any(node.operator == "PrintT" for node in definition.body.walk())
 
 
 def _taken_apart(tree: ParseTree, definition: Definition) -> list[tuple[str, str]]:
