@@ -45,6 +45,8 @@ LOCAL Checked(i) == Literal("PLC_CHECKS_FIRST") => ReadAuthorization = i.MW01 \/
 \* E-43: the step is taken once in an insertion, in its turn, and waits for a word; while MW01 is zero the removal steps run
 LOCAL Counted(this, next, word, i) ==
     IF i.MW01 = 0 THEN turn' = "CopyReadAuthorization" ELSE turn = this /\ word # 0 /\ turn' = next
+\* EKS-8-7, EKS-8-15, E-78: as printed, the removal sends the two words to the panel once more and does not fetch them anew
+LOCAL Fetched(i) == Literal("REMOVAL_FETCHES_NOTHING") => i.MW01 # 0
 LOCAL Begin(this, next, word, i) ==
     /\ Checked(i)
     /\ IF Literal("PLC_COUNTS_STEPS") THEN Counted(this, next, word, i) ELSE Turn(this, next)
@@ -52,6 +54,7 @@ LOCAL Begin(this, next, word, i) ==
 \* EKS-2-13, EKS-3-1-PLC, EKS-3-2, EKS-3-3, EKS-3-4-PLC, EKS-8-7, EKS-9-1-PLC, EKS-9-2, EKS-9-3, EKS-9-4-PLC, E-05, E-08
 CopyReadAuthorization(i) ==
     /\ Begin("CopyReadAuthorization", "CopyMW03", i.MW01, i)
+    /\ Fetched(i)
     /\ ReadAuthorization' = i.MW01
     /\ UNCHANGED <<MW03, CheckMSO, MW07>>
     /\ Did("CopyReadAuthorization")
@@ -65,6 +68,7 @@ CopyMW03(i) ==
 \* EKS-2-21, EKS-8-15
 CopyCheckMSO(i) ==
     /\ Begin("CopyCheckMSO", "CopyMW07", i.MW05, i)
+    /\ Fetched(i)
     /\ CheckMSO' = i.MW05
     /\ UNCHANGED <<ReadAuthorization, MW03, MW07>>
     /\ Did("CopyCheckMSO")

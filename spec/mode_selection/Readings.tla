@@ -21,6 +21,7 @@ Readings == {
     "PLC_CHECKS_FIRST",
     "PLC_CHECKS_ZERO",
     "PLC_COUNTS_STEPS",
+    "REMOVAL_FETCHES_NOTHING",
     \* PLC, in KeyFlows
     "ATOMIC_COPY",
     \* HMI
