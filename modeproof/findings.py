@@ -21,10 +21,10 @@ from modeproof.places import root as repository_root
 from modeproof.registers.citations import read_sources
 from modeproof.registers.load import documents, load_document
 from modeproof.registers.models import read_constants, restored
+from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.schema import suggestion
 from modeproof.registers.stamps import FINDINGS, REMEDY
-from modeproof.registers.replay import has_replay, load_replay
 from modeproof.report.findings import Material, has_page, render
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain, sha256
@@ -111,17 +111,33 @@ def _evidence(place: Path, document: str, name: str, declared: Mapping[str, Run]
         record = evidence.read(evidence.evidence_path(place, document, name))
     except Unjudged as error:
         raise Unjudged(f"{name}: no evidence to render ({error.message}); run {command}") from None
-    if not record["as_expected"]:
-        raise Unjudged(f"{name}: its evidence is not as expected ({record['verdict']}); run {command}")
-    if one is not None:
-        cfg = f"spec/{document}/{one.cfg}"
-        if record["inputs"].get(cfg) != sha256(place / cfg):
-            raise Unjudged(f"{name}: its evidence is of another {one.cfg}; run {command}")
-        if one.trace_length is not None and record["result"].get("trace_length") != one.trace_length:
-            raise Unjudged(
-                f"{name}: its evidence has a trace of another length than is pinned; run {command}"
-            )
+    fault = _fault(place, document, record, one)
+    if fault:
+        raise Unjudged(f"{name}: {fault}; run {command}")
     return record
+
+
+def _fault(place: Path, document: str, record: Mapping[str, Any], run: Run | None) -> str:
+    """Why a piece of evidence cannot be shown: not as expected, or not by the pins that runs.toml has now."""
+    if record["verdict"] != record["expected"]:
+        return f"its evidence is not as expected: {record['verdict']}"
+    if run is None:
+        return "" if record["as_expected"] else "its evidence is not as expected"
+    cfg = f"spec/{document}/{run.cfg}"
+    if record["inputs"].get(cfg) != sha256(place / cfg):
+        return f"its evidence is of another {run.cfg}"
+    result = record["result"]
+    if run.violates is not None and result.get("violated") != run.violates:
+        return f"its evidence violates {result.get('violated')}, not {run.violates}"
+    for pin, got in (
+        (run.cfg_sha256, record["inputs"].get(cfg)),
+        (run.trace_length, result.get("trace_length")),
+        (run.distinct, result.get("distinct")),
+        (run.generated, result.get("generated")),
+    ):
+        if pin is not None and pin != got:
+            return f"its evidence has {got} where runs.toml pins {pin}"
+    return ""
 
 
 def _write(place: Path, pages: Mapping[str, str]) -> int:

@@ -28,11 +28,15 @@ MODULE = re.compile(r"^-{4,}\s*MODULE\s+(\w+)\s*-{4,}", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Definition:
-    """One definition of column 0, with its line and the text of the comments that belong to it."""
+    """One definition of column 0, with its line and the text of the comments that belong to it.
+
+    `body` is its text without comments.
+    """
 
     name: str
     line: int
     comment: str
+    body: str = ""
 
 
 @dataclass(frozen=True)
@@ -98,8 +102,8 @@ def scan(text: str, name: str, file: str) -> Module:
         owner = _owner(begin, end, spans, before)
         (stray if owner is None else owned[owner]).append(text[begin:end])
     definitions = tuple(
-        Definition(label, text.count("\n", 0, start) + 1, "\n".join(owned[n]))
-        for n, (label, start, _) in enumerate(spans)
+        Definition(label, text.count("\n", 0, start) + 1, "\n".join(owned[n]), code[start:end])
+        for n, (label, start, end) in enumerate(spans)
     )
     extends = tuple(word for match in EXTENDS.finditer(bare) for word in WORD.findall(match.group(1)))
     return Module(

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.registers.rows import Interface
 from modeproof.registers.replay import Traces
+from modeproof.registers.rows import Interface
 
 NONE = "none"
 

@@ -14,9 +14,9 @@ from typing import Any
 
 from modeproof.registers.citations import Sources, ids_of
 from modeproof.registers.models import Constant, restored
+from modeproof.registers.replay import Traces
 from modeproof.registers.rows import Document, Finding, Property, Run
 from modeproof.registers.stamps import FINDINGS, INDEX, TABLE, page_name, stamped
-from modeproof.registers.replay import Traces
 from modeproof.report.cells import Cells
 from modeproof.report.scan_table import Comparison, compare, markdown, scan_table, who
 
@@ -269,9 +269,8 @@ def _legend(material: Material, walk: Mapping[str, Any], traces: Traces) -> list
 
 
 def _verdict(record: Mapping[str, Any]) -> str:
-    if record["verdict"] == "VIOLATED" and record["as_expected"]:
-        return "VIOLATED, as expected"
-    return str(record["verdict"])
+    """The word for a verdict; only evidence that is as expected gets here."""
+    return "VIOLATED, as expected" if record["verdict"] == "VIOLATED" else str(record["verdict"])
 
 
 def _holds_section(material: Material, run: Run, record: Mapping[str, Any]) -> list[str]:

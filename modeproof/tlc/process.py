@@ -181,44 +181,6 @@ def run_tlc(
         shutil.rmtree(metadir, ignore_errors=True)
 
 
-def run_generated(
-    place: Path, document: str, module: str, folder: Path, tools: Toolchain, heap_mb: int, timeout_s: float
-) -> Outcome:
-    """Run TLC on a module that was generated into `folder`, with one worker; module and cfg have one name.
-
-    It sees the modules of the document and of spec/common. The distinct printed lines are in the outcome.
-    Raises Unjudged when TLC cannot be started or the disk is full.
-    """
-    run = Run(
-        document=document,
-        id=module,
-        module=module,
-        cfg=f"{module}.cfg",
-        kind="MC",
-        lanes=(),
-        environment="",
-        strength="",
-        workers=1,
-        heap_mb=heap_mb,
-        timeout_s=timeout_s,
-        expect="",
-        properties=(),
-    )
-    libraries = [one for one in (place / "spec" / document, place / "spec" / "common") if one.is_dir()]
-    try:
-        metadir = Path(tempfile.mkdtemp(prefix=f"{module}.", dir=folder))
-    except OSError as error:
-        raise Unjudged(f"{module}: cannot write to {folder}: {error.strerror}") from None
-    try:
-        (metadir / "tmp").mkdir()
-        command = command_line(run, tools, metadir, libraries)
-        return _follow(run, command, folder, metadir, folder, None, None, None, None)
-    except OSError as error:
-        raise Unjudged(f"{module}: {error.strerror or error} ({error.filename or folder})") from None
-    finally:
-        shutil.rmtree(metadir, ignore_errors=True)
-
-
 def _with_graph(outcome: Outcome, graph: Path) -> Outcome:
     return Outcome(**{**outcome.__dict__, "graph_file": graph})
 

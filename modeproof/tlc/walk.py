@@ -31,10 +31,11 @@ from modeproof.graph.tla import TlaError, parse
 from modeproof.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.models import Constant, read_constants
+from modeproof.registers.replay import Top, Traces, load_replay
 from modeproof.registers.rows import Device, Interface
 from modeproof.registers.tla import Module, read_modules
-from modeproof.registers.replay import Top, Traces, load_replay
-from modeproof.tlc.process import run_generated
+from modeproof.tlc.process import run_tlc
+from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain, sha256
 
 DUMMY = "<<>>"
@@ -355,7 +356,22 @@ def _walk(
     name = module_name(module)
     write_whole(folder / f"{name}.tla", generate(plan, given).encode("utf-8"))
     write_whole(folder / f"{name}.cfg", b"INIT Begin\nNEXT Follow\nINVARIANT Shown\n")
-    outcome = run_generated(place, document, name, folder, tools, HEAP_MB, LIMIT_S)
+    run = Run(
+        document=document,
+        id=name,
+        module=name,
+        cfg=f"{name}.cfg",
+        kind="MC",
+        lanes=(),
+        environment="",
+        strength="",
+        workers=1,
+        heap_mb=HEAP_MB,
+        timeout_s=LIMIT_S,
+        expect="HOLDS",
+        properties=("Shown",),
+    )
+    outcome = run_tlc(place, run, tools, made_in=folder)
     log = outcome.log
     if outcome.status != 0 or not log.success or log.violations or log.errors:
         said = " ".join((log.errors[0][1] if log.errors else outcome.stderr).split())[:300]

@@ -1,0 +1,145 @@
+"""Switches against findings and runs: every reading that can be restored is tried alone once and named by a
+finding, and every switch changes something. Needs the register replay.toml, which names the constant that
+holds them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from modeproof.registers.citations import Sources
+from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.models import Constant, constants_of, restored
+from modeproof.registers.replay import Traces, has_replay, load_replay
+from modeproof.registers.rows import Document, Problem, Run
+from modeproof.registers.schema import suggestion
+
+_TEXT = re.compile(r'"([^"\n]*)"')
+_SPECIFICATION = re.compile(r"^[ \t]*(SPECIFICATION|INIT|NEXT|VIEW)\b\s*(\w+)", re.MULTILINE)
+
+
+@dataclass(frozen=True)
+class Model:
+    """What a run checks its properties on: module, constants, specification and view, and the pinned
+    counts.
+    """
+
+    run: Run
+    constants: Mapping[str, Constant]
+    restored: frozenset[str]
+    bounds: tuple[Any, ...]
+    """All but the restored readings: what makes two runs comparable."""
+    counts: tuple[int | None, int | None]
+
+
+def check_switches(document: Document, sources: Sources) -> list[Problem]:
+    """All that is wrong with the switches of a document; nothing where it has no replay.toml."""
+    if not has_replay(document.root, document.name):
+        return []
+    traces = load_replay(document.root, document.name)
+    readings = readings_of(traces, sources)
+    if not readings:
+        text = f"{traces.readings} lists no reading: no module defines it as a set of names in quotes"
+        return [Problem(f"spec/{document.name}/replay.toml", "readings", text)]
+    models = models_of(document, traces)
+    return [
+        *_readings(document, traces, sources, readings, models),
+        *_findings(document, sources, readings, models),
+        *_idle(document, models),
+    ]
+
+
+def readings_of(traces: Traces, sources: Sources) -> tuple[str, ...]:
+    """The names that the specification lists, in their order."""
+    for module in sources.modules.values():
+        for definition in module.definitions:
+            if definition.name == traces.readings:
+                return tuple(dict.fromkeys(_TEXT.findall(definition.body)))
+    return ()
+
+
+def models_of(document: Document, traces: Traces) -> tuple[Model, ...]:
+    """The model of every run whose cfg exists."""
+    rows = {row["id"]: row for row in read_toml(document.root, document.folder / "runs.toml")["run"]}
+    found = []
+    for run in document.runs:
+        if not (document.folder / run.cfg).is_file():
+            continue
+        text = read_text(document.root, document.folder / run.cfg)
+        constants = constants_of(text)
+        others = tuple(sorted((k, v.text) for k, v in constants.items() if k != traces.literal))
+        spec = tuple(sorted(_SPECIFICATION.findall(text)))
+        row = rows[run.id]
+        counts = (row.get("distinct"), row.get("generated"))
+        names = restored(constants, traces.literal)
+        found.append(Model(run, constants, names, (run.module, others, spec), counts))
+    return tuple(found)
+
+
+def _readings(
+    document: Document, traces: Traces, sources: Sources, readings: Sequence[str], models: Sequence[Model]
+) -> Iterator[Problem]:
+    """Every reading is asked for, tried alone in exactly one run, and named by a finding."""
+    file = document.source("runs")
+    asked = _asked(traces, sources)
+    named = {name for one in document.findings for name in one.switches}
+    for name in readings:
+        alone = [model.run.id for model in models if model.restored == {name}]
+        if name not in asked:
+            text = f"the switch changes nothing: it is in {traces.readings}, and no definition asks for it"
+            yield Problem(file, name, text)
+        if not alone:
+            yield Problem(file, name, "no run restores this reading alone")
+        if len(alone) > 1:
+            yield Problem(file, name, f"more than one run restores this reading alone: {', '.join(alone)}")
+        if name not in named:
+            yield Problem(document.source("findings"), name, "no finding names this switch")
+    for model in models:
+        for name in sorted(model.restored - set(readings)):
+            text = f"{model.run.cfg} restores {name!r}, which {traces.readings} does not list; "
+            yield Problem(file, model.run.id, text + suggestion(name, readings))
+
+
+def _asked(traces: Traces, sources: Sources) -> set[str]:
+    """The texts that occur in a definition other than the list itself."""
+    return {
+        text
+        for module in sources.modules.values()
+        for definition in module.definitions
+        if definition.name != traces.readings
+        for text in _TEXT.findall(definition.body)
+    }
+
+
+def _findings(
+    document: Document, sources: Sources, readings: Sequence[str], models: Sequence[Model]
+) -> Iterator[Problem]:
+    """A switch of a finding is a reading or a constant, and a run among the finding's evidence uses it."""
+    file = document.source("findings")
+    constants = {name for module in sources.modules.values() for name in module.constants}
+    for one in document.findings:
+        for name in one.switches:
+            if name not in readings and name not in constants:
+                text = f"switch {name!r} is not in the specification; {suggestion(name, readings)}"
+                yield Problem(file, one.id, text)
+            elif name in readings and not any(
+                name in model.restored and model.run.id in one.evidence for model in models
+            ):
+                text = f"has the switch {name!r}, but no run in its evidence restores it"
+                yield Problem(file, one.id, text)
+
+
+def _idle(document: Document, models: Sequence[Model]) -> Iterator[Problem]:
+    """A run whose counts are those of the good model at the same bounds: its switch changes nothing."""
+    good = [model for model in models if not model.restored]
+    for model in models:
+        for other in good:
+            same = model.restored and model.bounds == other.bounds and model.counts == other.counts
+            if same and None not in model.counts and model.run.kind != "NEG":
+                names = " and ".join(sorted(model.restored))
+                text = f"the switch {names} changes nothing: its counts are those of {other.run.id}"
+                yield Problem(document.source("runs"), model.run.id, text)
+                break
