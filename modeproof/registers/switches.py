@@ -98,6 +98,11 @@ def _readings(
         if name not in named:
             yield Problem(document.source("findings"), name, "no finding names this switch")
     for model in models:
+        if model.run.switch in readings and model.restored != {model.run.switch}:
+            found = ", ".join(sorted(model.restored)) or "nothing"
+            yield Problem(
+                file, model.run.id, f"switch {model.run.switch!r}, but {model.run.cfg} restores {found}"
+            )
         for name in sorted(model.restored - set(readings)):
             text = f"{model.run.cfg} restores {name!r}, which {traces.readings} does not list; "
             yield Problem(file, model.run.id, text + suggestion(name, readings))

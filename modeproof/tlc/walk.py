@@ -385,9 +385,9 @@ def _walk(
         walk = _read(plan, number, one, lines)
         walk |= {"run": one.run, "trace_sha256": one.digest, "inputs": hashes}
         walks[one.run] = walk
-    for run, walk in walks.items():
+    for named, walk in walks.items():
         text = json.dumps(walk, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
-        write_whole(walk_path(place, document, run), text.encode("utf-8"))
+        write_whole(walk_path(place, document, named), text.encode("utf-8"))
     return walks
 
 
