@@ -144,7 +144,8 @@ def test_a_document_without_the_register_has_no_switches_to_check(switched: Any)
 
 
 def test_constants_are_read_with_their_kind_and_without_comments() -> None:
-    text = 'CONSTANT A <- Table  B = {"x", "y"}\n\\* C = 3\nINVARIANT I\n(* D = 4 *)\nCONSTANTS E = 5\n F = [a |-> 1]\nVIEW V\n'
+    first = 'CONSTANT A <- Table  B = {"x", "y"}\n\\* C = 3\nINVARIANT I\n(* D = 4 *)\n'
+    text = first + "CONSTANTS E = 5\n F = [a |-> 1]\nVIEW V\n"
     found = constants_of(text)
     assert {name: (one.text, one.named) for name, one in found.items()} == {
         "A": ("Table", True),
