@@ -19,12 +19,13 @@ from modeproof.places import root
 from modeproof.suites.command import make_graphs
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
-from modeproof.trace.judge import Graphs, Judgement, judge_logs
+from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log
 from modeproof.trace.table import TableForm, read_table, wire_param
 from modeproof.trace.targets import Target, find_target
 from modeproof.trace.text import as_json, as_record, as_text
+from modeproof.trace.why import Why
 
 _DESCRIPTION = """Is a recorded log a run of the specification? CONFORMS: every line is a scan (or a sample)
 that the specification allows; DIFFERS: a line is impossible, and it is shown with the conjunct that failed.
@@ -98,8 +99,17 @@ def run(args: argparse.Namespace) -> int:
         except Unjudged as error:
             _write(place, args, target, log, id, started, tools, graphs, error.message)
             raise
-        print(as_text(target, found, args.samples))
-        record = _write(place, args, target, log, id, started, tools, graphs, found, outcome)
+        why: Why | None = None
+        unsaid = ""
+        if not args.samples:
+            try:
+                why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
+            except Unjudged as error:  # the verdict stands all the same
+                unsaid = error.message
+        print(as_text(target, found, why, args.samples))
+        if unsaid:
+            print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
+        record = _write(place, args, target, log, id, started, tools, graphs, found, outcome, why)
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
     return found.status
@@ -137,6 +147,7 @@ def _write(
     graphs: Graphs,
     found: Judgement | str,
     outcome: Outcome | None = None,
+    why: Why | None = None,
 ) -> dict[str, Any]:
     folder = place / "spec" / target.document
     registers = [folder / f"{name}.toml" for name in ("interface", "traces", "classes", "runs")]
@@ -144,7 +155,6 @@ def _write(
     options = [f"--param {quoted(one)}" for one in args.param]
     options += ["--from anywhere"] if args.begins == "anywhere" else []
     options += ["--samples"] if args.samples else []
-    judged = not isinstance(found, str)
     record = evidence.make(
         kind="trace",
         id=id,
@@ -174,7 +184,7 @@ def _write(
             },
             "from": args.begins,
             "samples": args.samples,
-            **(as_record(target, found) if judged and not isinstance(found, str) else {}),
+            **({} if isinstance(found, str) else as_record(target, found, why)),
         },
         reason=found if isinstance(found, str) else _reason(found),
     )

@@ -10,6 +10,7 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
 from modeproof.registers.rows import Device
+from modeproof.suites.build import step_citations
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain
@@ -18,7 +19,8 @@ from modeproof.trace.exact import Matched, judge_exactly
 from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.log import Log
 from modeproof.trace.module import Reading
-from modeproof.trace.targets import Target
+from modeproof.trace.targets import Target, targets_of
+from modeproof.trace.why import Why, device_log, explain
 
 
 def is_current(place: Path, run: Run) -> bool:
@@ -85,6 +87,17 @@ class Graphs:
             if name not in found and not whole and runs:
                 found[name] = self._alphabet(runs[0])
         return found
+
+    def one_of(self, target: Target, log: Log) -> Alphabet | None:
+        """A graph of the only device of a target: with the log's parameters, or else any that was read."""
+        name = target.only.device.id
+        found = self.matching(target, log).get(name)
+        others = (
+            self._read[run.id]
+            for run in open_runs(self._place, target.document, name)
+            if run.id in self._read
+        )
+        return found if found is not None else next(others, None)
 
     def _alphabet(self, run: Run) -> Alphabet:
         if run.id not in self._read:
@@ -174,3 +187,52 @@ def _check(found: Judgement) -> None:
             f"{found.log.name}: the judgements contradict each other: the graph {' '.join(one.runs)} follows "
             f"{one.accepted:,} scans, TLC {found.accepted:,}; one of the two tools is wrong"
         )
+
+
+def why_not(
+    place: Path,
+    target: Target,
+    found: Judgement,
+    graphs: Graphs,
+    tools: Toolchain,
+    *,
+    anywhere: bool = False,
+) -> Why | None:
+    """Why the first impossible line of a log is impossible.
+
+    None for a log that fits, and where too little is known to say: no line of a log that may begin anywhere
+    fits, or the device is no target by itself. Raises Unjudged when TLC or the parser fail.
+    """
+    if found.status == 0 or (anywhere and found.accepted == 0):
+        return None
+    row = found.log.rows[found.accepted]
+    alone = [one for one in targets_of(place, target.document) if set(one.parts) == {row.device}]
+    if not alone:
+        return None
+    views = found.matched.views
+    if not views:
+        done = judge_exactly(
+            place,
+            target,
+            [found.reading],
+            tools,
+            passed=graphs.passed(target),
+            anywhere=anywhere,
+            show=[found.accepted],
+        )
+        views = done.matched[0].views
+    log = device_log(alone[0], found.log)
+    one = found.followed
+    stopped = isinstance(one, Followed) and one.accepted == found.accepted
+    return explain(
+        place,
+        alone[0],
+        Reading(alone[0], log, graphs.any_of(alone[0], log)),
+        row,
+        views,
+        graphs.one_of(alone[0], log),
+        graphs.passed(alone[0]).get(row.device, {}),
+        step_citations(place, target.document, row.device),
+        tools,
+        one.wrong_input if isinstance(one, Followed) and stopped else None,
+    )

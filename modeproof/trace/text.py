@@ -10,9 +10,10 @@ from modeproof.trace.follow import Followed, NotFollowed
 from modeproof.trace.judge import Judgement
 from modeproof.trace.log import Row
 from modeproof.trace.targets import Target
+from modeproof.trace.why import Missed, Taken, Why
 
 
-def as_text(target: Target, found: Judgement, samples: bool = False) -> str:
+def as_text(target: Target, found: Judgement, why: Why | None = None, samples: bool = False) -> str:
     """What to print; the last line is the verdict."""
     log = found.log
     total = len(log.rows)
@@ -25,6 +26,7 @@ def as_text(target: Target, found: Judgement, samples: bool = False) -> str:
         row = log.rows[found.accepted]
         lines.append(f"first impossible {unit[:-1]}: {found.accepted + 1:,}, line {row.line} of the log")
         lines += [f"  {line}" for line in _row(target, row)]
+        lines += [f"  {line}" for line in ([] if why is None else _why(target, row, why))]
     lines.append(f"{found.verdict}({'samples' if samples else 'exact'}, {log.name})")
     return "\n".join(lines)
 
@@ -73,6 +75,56 @@ def _row(target: Target, row: Row) -> list[str]:
     return lines
 
 
+def _why(target: Target, row: Row, why: Why) -> list[str]:
+    lines = []
+    if why.before:
+        memory = " ".join(f"{name}={value}" for name, value in why.before.items())
+        others = f"; {why.states - 1:,} other states are possible" if why.states > 1 else ""
+        lines.append(f"before   {memory}{others}")
+    if why.wrong_input is not None:
+        name, value, writer = why.wrong_input
+        shown = shown_value(target, row.device, name, value)
+        lines.append(f"the input {name} is not what {writer} last wrote: {shown}")
+    elif why.fits_alone:
+        lines.append(f"{row.device} alone can take this scan, but not with what the other devices last wrote")
+    for taken in why.taken:
+        if taken.wrong:
+            lines += _taken(target, row, taken)
+    for missed in why.missed:
+        lines += _missed(missed)
+    if why.lost:
+        again = "one more scan" if why.lost == 1 else f"{why.lost} more scans"
+        lines.append(f"after {again} with these inputs the line would fit: is a line missing before it?")
+    return lines
+
+
+def _taken(target: Target, row: Row, taken: Taken) -> list[str]:
+    width = max(len("output"), *(len(name) for name in taken.expected))
+    lines = [f"{'output':<{width}}  expected   logged"]
+    for name, value in taken.expected.items():
+        logged = shown_value(target, row.device, name, row.outputs[name]) if name in row.outputs else "-"
+        mark = "  <" if name in taken.wrong else ""
+        expected = shown_value(target, row.device, name, value)
+        lines.append(f"{name:<{width}}  {expected:<9}  {logged}{mark}")
+    lines.append(f"the specification takes {taken.step} ({taken.place}: {', '.join(taken.cites)})")
+    lines += [f"  {one.place}: {one.text}" for one in taken.effects]
+    lines += [f"  {place}: {text}" for text, place in taken.outputs]
+    return lines
+
+
+def _missed(missed: Missed) -> list[str]:
+    one = missed.conjunct
+    lines = [
+        f"the log looks like {missed.step} ({missed.place}: {', '.join(missed.cites)}), whose guard is false:",
+        f"  {one.place}: {one.text}{f', in {chain}' if (chain := ' > '.join(one.chain)) else ''}",
+    ]
+    if one.meaning:
+        lines.append(f"  where {one.meaning}")
+    pairs = zip(missed.sides[::2], missed.sides[1::2], strict=True)
+    lines += [f"  left {left}, right {right}" for left, right in pairs]
+    return lines
+
+
 def shown_value(target: Target, device: str, name: str, value: Any) -> str:
     """A value as on the wire."""
     one = target.parts[device].device
@@ -81,7 +133,7 @@ def shown_value(target: Target, device: str, name: str, value: Any) -> str:
     return wire if isinstance(wire, str) else json.dumps(wire, separators=(",", ":"))
 
 
-def as_record(target: Target, found: Judgement) -> dict[str, Any]:
+def as_record(target: Target, found: Judgement, why: Why | None = None) -> dict[str, Any]:
     """The judgement as plain data."""
     one = found.followed
     return {
@@ -100,6 +152,51 @@ def as_record(target: Target, found: Judgement) -> dict[str, Any]:
         if isinstance(one, NotFollowed)
         else {"accepted": one.accepted, "left_open": list(one.open), "runs": list(one.runs)},
         "tlc": {"accepted": found.matched.accepted, "states": [dict(view) for view in found.matched.views]},
+        "why": None if why is None else _why_record(target, found.log.rows[found.accepted], why),
+    }
+
+
+def _why_record(target: Target, row: Row, why: Why) -> dict[str, Any]:
+    device = target.parts[row.device].device
+    return {
+        "device": why.device,
+        "states": why.states,
+        "before": dict(why.before),
+        "wrong_input": None
+        if why.wrong_input is None
+        else {
+            "input": why.wrong_input[0],
+            "written": target.forms.to_wire(device.inputs[why.wrong_input[0]], why.wrong_input[1]),
+            "by": why.wrong_input[2],
+        },
+        "taken": [
+            {
+                "step": one.step,
+                "place": str(one.place),
+                "cites": list(one.cites),
+                "expected": {
+                    name: target.forms.to_wire(device.outputs[name], value)
+                    for name, value in one.expected.items()
+                },
+                "wrong": list(one.wrong),
+                "effects": [{"place": str(each.place), "text": each.text} for each in one.effects],
+                "outputs": [{"place": str(place), "text": text} for text, place in one.outputs],
+            }
+            for one in why.taken
+        ],
+        "missed": [
+            {
+                "step": one.step,
+                "place": str(one.place),
+                "cites": list(one.cites),
+                "conjunct": one.conjunct.text,
+                "at": str(one.conjunct.place),
+                "in": list(one.conjunct.chain),
+                "sides": list(one.sides),
+            }
+            for one in why.missed
+        ],
+        "lost_scans": why.lost,
     }
 
 

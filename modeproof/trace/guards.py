@@ -1,0 +1,228 @@
+"""Takes the guards of a step apart: the conjuncts on the way from the scan to the step, then the step's own.
+
+Each becomes an expression that a module which extends a copy of the specification (without LOCAL) can
+evaluate. Definitions that are only names for conditions are opened, so that the innermost conjunct is found.
+The order is the one in which TLC evaluates them, so none is evaluated where the specification would not.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from modeproof.tlc.parse_tree import AND, OR, Definition, Node, ParseTree, Place, conjuncts, disjuncts
+
+CALL = re.compile(r"(\w+)\((.*)\)", re.DOTALL)
+_COMPARED = frozenset({"=", "/=", "#", "<", ">", "\\leq", "\\geq", "=<", "<=", ">="})
+_DEEPEST = 12
+
+
+@dataclass(frozen=True)
+class Conjunct:
+    """One condition: its text and place, the calls that lead to it, and how to evaluate it.
+
+    `meaning` is the definition behind a negated name. `expression` is TLA+ for the module that was made;
+    `sides` are expressions whose values tell more, in pairs.
+    """
+
+    text: str
+    place: Place
+    chain: tuple[str, ...]
+    meaning: str
+    expression: str
+    sides: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A conjunct that says what changes, and the variables that it sets."""
+
+    text: str
+    place: Place
+    sets: frozenset[str]
+
+
+class _Scope:
+    """The parameters of the definition in which a text stands, and what they are further out."""
+
+    def __init__(
+        self, made: list[str], params: Sequence[str], args: Sequence[str], outer: _Scope | None
+    ) -> None:
+        self.made = made
+        self.params = params
+        self.args = args
+        self.outer = outer
+
+    def lift(self, text: str) -> str:
+        """The expression for a text of this scope, where all parameters are bound."""
+        name = f"Made_{len(self.made) + 1}"
+        head = f"{name}({', '.join(self.params)})" if self.params else name
+        self.made.append(f"{head} ==\n{text}")
+        call = f"{name}({', '.join(self.args)})" if self.params else name
+        return call if self.outer is None else self.outer.lift(call)
+
+
+class Guards:
+    """The guards and effects of the steps of one scan action, such as `Scan(Read(w))`.
+
+    `made` collects the definitions that the expressions need.
+    """
+
+    def __init__(self, tree: ParseTree, scan: str, steps: Sequence[str]) -> None:
+        self.tree = tree
+        self.made: list[str] = []
+        self._steps = frozenset(steps)
+        match = CALL.fullmatch(scan)
+        self._root = None if match is None else tree.find(match.group(1))
+        self._argument = "" if match is None else match.group(2)
+        self._with_steps: dict[str, bool] = {}
+
+    def paths(self, step: str) -> list[tuple[Conjunct, ...]]:
+        """For each place where the scan can take the step, all conditions of it, in order."""
+        if self._root is None or self.tree.find(step) is None:
+            return []
+        scope = _Scope(self.made, self._root.params, [self._argument], None)
+        return [
+            tuple(conjunct for node, own in found for conjunct in self._open(node, own, (), 0))
+            for found in self._walk(self._root.body, scope, step, ())
+        ]
+
+    def effects(self, step: str) -> tuple[Effect, ...]:
+        """What a step changes, conjunct by conjunct."""
+        definition = self.tree.find(step)
+        if definition is None:
+            return ()
+        return tuple(
+            Effect(self.tree.text(node.place), node.place, frozenset(self._sets(node, 0)))
+            for node in conjuncts(definition.body)
+            if node.level >= 2
+        )
+
+    def row(self, row: str) -> Mapping[str, tuple[str, Place, frozenset[str]]]:
+        """For each output of a row its definition (text and place) and the variables that it depends on."""
+        definition = self.tree.find(row)
+        found = {}
+        for pair in () if definition is None else definition.body.operands:
+            if pair.operator == "$Pair" and len(pair.operands) == 2 and pair.operands[0].kind == "string":
+                name, value = pair.operands
+                named = self.tree.find(value.operator) if value.kind == "defined" else None
+                place = value.place if named is None else named.place
+                depends = frozenset(self._variables(value, 0))
+                found[name.operator] = (self.tree.text(place), place, depends)
+        return found
+
+    def view(self, name: str) -> tuple[str, ...]:
+        """The variables of a tuple."""
+        definition = self.tree.find(name)
+        return () if definition is None else tuple(one.operator for one in definition.body.operands)
+
+    # -------------------------------------------------------------------------------------- from scan to step
+
+    def _walk(
+        self, node: Node, scope: _Scope, step: str, context: tuple[tuple[Node, _Scope], ...]
+    ) -> Iterator[tuple[tuple[Node, _Scope], ...]]:
+        if not self._leads_to(node, step):
+            return
+        if node.kind == "builtin" and node.operator in OR:
+            for one in disjuncts(node):
+                yield from self._walk(one, scope, step, context)
+        elif node.kind == "builtin" and node.operator in AND:
+            for one in conjuncts(node):
+                if self._leads_to(one, step):
+                    yield from self._walk(one, scope, step, context)
+                elif one.level <= 1:
+                    context = (*context, (one, scope))
+        elif node.kind == "defined":
+            definition = self.tree.find(node.operator)
+            assert definition is not None
+            inner = self._inside(node, definition, scope)
+            if node.operator == step:
+                own = [(one, inner) for one in conjuncts(definition.body) if one.level <= 1]
+                yield (*context, *own)
+            else:
+                yield from self._walk(definition.body, inner, step, context)
+
+    def _inside(self, node: Node, definition: Definition, scope: _Scope) -> _Scope:
+        args = [self.tree.text(one.place) for one in node.operands]
+        return _Scope(self.made, definition.params, args, scope)
+
+    def _leads_to(self, node: Node, step: str) -> bool:
+        for one in node.walk():
+            if one.kind == "defined":
+                if one.operator == step:
+                    return True
+                if one.operator in self._steps:
+                    continue
+                definition = self.tree.find(one.operator)
+                if definition is not None and definition.level >= 2 and self._leads_to(definition.body, step):
+                    return True
+        return False
+
+    # --------------------------------------------------------------------------------------------- conditions
+
+    def _open(self, node: Node, scope: _Scope, chain: tuple[str, ...], depth: int) -> Iterator[Conjunct]:
+        for one in conjuncts(node):
+            definition = self.tree.find(one.operator) if one.kind == "defined" else None
+            text = self.tree.text(one.place)
+            if definition is not None and depth < _DEEPEST and definition.body.kind != "let":
+                inner = self._inside(one, definition, scope)
+                yield from self._open(definition.body, inner, (*chain, text), depth + 1)
+            else:
+                sides = [own.lift(self._laid_out(side)) for side, own in self._sides(one, scope)]
+                yield Conjunct(
+                    text, one.place, chain, self._meaning(one), scope.lift(self._laid_out(one)), tuple(sides)
+                )
+
+    def _laid_out(self, node: Node) -> str:
+        """The text of a node in the columns where it stands, for columns can matter."""
+        return " " * (node.place.first_column - 1) + self.tree.text(node.place, joined=False)
+
+    def _denied(self, node: Node) -> tuple[Node, Definition] | None:
+        """The call and the definition behind a negation, if it is one of ours."""
+        if node.operator != "\\lnot" or node.operands[0].kind != "defined":
+            return None
+        definition = self.tree.find(node.operands[0].operator)
+        return None if definition is None else (node.operands[0], definition)
+
+    def _meaning(self, node: Node) -> str:
+        denied = self._denied(node)
+        return "" if denied is None else self.tree.text(denied[1].place)
+
+    def _sides(self, node: Node, scope: _Scope) -> Iterator[tuple[Node, _Scope]]:
+        """The two sides of a comparison, of each one of a disjunction, or of those behind a negated name.
+
+        All these are evaluated when the node is false.
+        """
+        denied = self._denied(node)
+        if denied is None:
+            yield from ((side, scope) for one in disjuncts(node) for side in _compared(one))
+        else:
+            inner = self._inside(*denied, scope)
+            yield from ((side, inner) for one in conjuncts(denied[1].body) for side in _compared(one))
+
+    # --------------------------------------------------------------------------------------------- variables
+
+    def _sets(self, node: Node, depth: int) -> Iterator[str]:
+        for one in node.walk():
+            if one.operator in ("'", "UNCHANGED"):
+                yield from self._variables(one.operands[0], 0)
+            elif one.kind == "defined" and depth < _DEEPEST:
+                definition = self.tree.find(one.operator)
+                if definition is not None and definition.level >= 2:
+                    yield from self._sets(definition.body, depth + 1)
+
+    def _variables(self, node: Node, depth: int) -> Iterator[str]:
+        variables = {name for names in self.tree.variables.values() for name in names}
+        for one in node.walk():
+            if one.kind == "declared" and one.operator in variables:
+                yield one.operator
+            elif one.kind == "defined" and depth < _DEEPEST:
+                definition = self.tree.find(one.operator)
+                if definition is not None:
+                    yield from self._variables(definition.body, depth + 1)
+
+
+def _compared(node: Node) -> tuple[Node, ...]:
+    """The two sides of a comparison, else nothing."""
+    return node.operands if node.operator in _COMPARED and len(node.operands) == 2 else ()
