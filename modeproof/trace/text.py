@@ -115,7 +115,7 @@ def _taken(target: Target, row: Row, taken: Taken) -> list[str]:
 def _missed(missed: Missed) -> list[str]:
     one = missed.conjunct
     lines = [
-        f"the log looks like {missed.step} ({missed.place}: {', '.join(missed.cites)}), whose guard is false:",
+        f"the log looks like {missed.step} ({missed.place}: {', '.join(missed.cites)}); its guard is false:",
         f"  {one.place}: {one.text}{f', in {chain}' if (chain := ' > '.join(one.chain)) else ''}",
     ]
     if one.meaning:

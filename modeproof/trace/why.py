@@ -31,7 +31,7 @@ from modeproof.trace.targets import Target
 
 MOST_STATES = 12
 MOST_INPUTS = 12
-MOST_STEPS = 3
+MOST_STEPS = 2
 MOST_LOST = 3
 _LOCAL = re.compile(r"^LOCAL\b", re.MULTILINE)
 
@@ -102,9 +102,9 @@ def explain(
     """
     device = target.parts[row.device].device
     possible = sorted({view[row.device] for view in views})
-    near = [] if alphabet is None else nearest_steps(target, alphabet, possible, row)
+    near = {} if alphabet is None else nearest_steps(target, alphabet, possible, row)
     tree = read_tree(place / "spec" / target.document, target.module, tools, place / "spec" / "common")
-    asked = _Question(place, target, reading, row, possible[:MOST_STATES], near, tree, passed)
+    asked = _Question(place, target, reading, row, possible[:MOST_STATES], list(near), tree, passed)
     taken, missed = asked.answer(tools, cites)
     fits = any(not one.wrong for one in taken)
     return Why(
@@ -113,20 +113,23 @@ def explain(
         before=dict(zip(device.memory, map(canonical, parse(possible[0])), strict=False)) if possible else {},
         taken=taken,
         missed=() if fits else missed,
-        lost=None if alphabet is None or fits else lost_scans(target, alphabet, possible, row),
+        lost=None
+        if alphabet is None or fits or 0 in near.values()
+        else lost_scans(target, alphabet, possible, row),
         wrong_input=wrong_input,
         fits_alone=fits,
     )
 
 
-def nearest_steps(target: Target, alphabet: Alphabet, views: Sequence[str], row: Row) -> list[str]:
-    """Steps of the graph that lead to the outputs of `row`, the likeliest first.
+def nearest_steps(target: Target, alphabet: Alphabet, views: Sequence[str], row: Row) -> dict[str, int]:
+    """The steps of the graph that lead to the outputs of `row` at the least cost, and that cost.
 
-    Likely is a step from a state that differs little from a possible one, with inputs that differ little.
+    The cost is the number of memory variables in which the state before differs from a possible one (times
+    do not count), and the number of inputs that differ.
     """
     graph, device = alphabet.graph, row.device
     if not row.outputs or not views:
-        return []
+        return {}
     fitting = {
         state
         for state, outputs in enumerate(graph.rows)
@@ -140,18 +143,19 @@ def nearest_steps(target: Target, alphabet: Alphabet, views: Sequence[str], row:
     ]
     letters = alphabet.nearest(row.inputs)
     found: dict[str, int] = {}
+    least = 1 << 30
     for state in sorted(range(len(far)), key=far.__getitem__):
-        best = min(found.values(), default=1 << 30)
-        if far[state] > best + 1:
+        if far[state] > least:
             break
         for odd, letter in letters:
-            cost = far[state] + odd
-            if cost > min(found.values(), default=cost) + 1:
+            if far[state] + odd > least:
                 break
             if graph.graph.next_of[state][letter] in fitting:
                 step = graph.graph.steps[graph.graph.step_of[state][letter]]
-                found[step] = min(cost, found.get(step, cost))
-    return sorted(found, key=lambda step: found[step])
+                if far[state] + odd < least:
+                    least, found = far[state] + odd, {}
+                found[step] = least
+    return found
 
 
 def lost_scans(target: Target, alphabet: Alphabet, views: Sequence[str], row: Row) -> int | None:
@@ -275,7 +279,8 @@ class _Question:
             f"Inputs == <<{', '.join(records)}>>",
             *self.guards.made,
             *(_chain(number, path) for number, (_, path) in enumerate(self.paths, 1)),
-            f'LogInit == at \\in 1..{len(self.views)} /\\ of \\in 1..{len(records)} /\\ step = "" /\\ {state}',
+            f"Which == at \\in 1..{len(self.views)} /\\ of \\in 1..{len(records)}",
+            f'LogInit == Which /\\ step = "" /\\ {state}',
             f"Scan == \\E w \\in {{Inputs[of]}} : {self.part.scan}",
             'LogNext == step = "" /\\ Scan /\\ UNCHANGED <<at, of>>',
             f"LogView == <<at, of, step, {self.part.view}>>",

@@ -1,9 +1,9 @@
 ------------------------------ MODULE EksTrace ------------------------------
 (***************************************************************************)
 (* What one line of a log says about a scan of the EKS.  w holds the       *)
-(* inputs by their names in interface.toml, and dt; the row holds the      *)
-(* outputs by theirs.  The keys are those that the log shows, numbered in  *)
-(* the order of SEEN; DEVICE_CHECKSUM is what the device calculates.       *)
+(* inputs by their names in interface.toml, and dt.  The keys are those    *)
+(* that the log shows, numbered in the order of SEEN; DEVICE_CHECKSUM is   *)
+(* what the device calculates.  Leaves out: nothing of Eks.                *)
 (***************************************************************************)
 EXTENDS Eks, Sequences
 
@@ -22,7 +22,6 @@ LOCAL SameKey(k, w) ==
 LOCAL Number(w) ==
     CHOOSE n \in DOMAIN KEY : SameKey(KEY[n], w) /\ \A m \in 1..n - 1 : ~SameKey(KEY[m], w)
 EksRead(w) == [key |-> IF w.inserted THEN Number(w) ELSE None, registers_zero |-> w.registers_zero, dt |-> w.dt]
-EksRow == [LA |-> LA, A |-> 0 \in Vector, B |-> 1 \in Vector, C |-> 2 \in Vector, D |-> 3 \in Vector, STR |-> 4 \in Vector]
 
 LOCAL RightChecksum(k) == KEY[k].KEYCRC = CHECKSUM[k]
 \* EKS-2-3, EKS-2-4, EKS-2-5, EKS-8-5: which key can be in memory in which state

@@ -1,16 +1,14 @@
 ----------------------------- MODULE FplcTrace ------------------------------
 (***************************************************************************)
 (* What one line of a log says about a scan of the F-PLC.  w holds the     *)
-(* inputs by their names in interface.toml, and dt; the row holds the      *)
-(* outputs by theirs.  A log may begin in any state that power-up reaches, *)
-(* with any time on its clock.  Leaves out: nothing of Fplc.               *)
+(* inputs by their names in interface.toml, and dt.  A log may begin in    *)
+(* any state that power-up reaches, with any time on its clock.            *)
+(* Leaves out: nothing of Fplc.                                            *)
 (***************************************************************************)
 EXTENDS Fplc, Sequences
 
 FplcRead(w) ==
     [LA |-> w.LA, vec |-> {l \in MSO : <<w.A, w.B, w.C, w.D, w.STR>>[l + 1]}, MW03 |-> w.MW03, MW07 |-> w.MW07, dt |-> w.dt]
-FplcRow == [MW01 |-> MW01, MW05 |-> MW05, MSO_0 |-> 0 \in mode, MSO_1 |-> 1 \in mode, MSO_2 |-> 2 \in mode,
-            MSO_3 |-> 3 \in mode, MSO_4 |-> 4 \in mode, ERROR |-> ERROR]
 
 \* The times that a scan can find on the clock of each state (EKS-2-6, EKS-4-2, EKS-8-3, E-38, E-52)
 LOCAL Clock == CASE fplcState = "PulseOnes" -> 0..T_ON - 1
@@ -25,10 +23,8 @@ FplcAnywhere ==
     /\ accepted \in IF fplcState \in Holding THEN MSO ELSE {None}
     /\ authority = IF fplcState \in Holding \ {"Authorize"} THEN accepted ELSE None
     /\ fplcSelection \in Selections
-    /\ mode \in CASE fplcState = "Start" -> {{}}
-                  [] fplcState = "Settle" -> {{}} \cup {{m} : m \in MSO}
-                  [] fplcState = "Error" /\ ON_ERROR = "none" -> {{}}
-                  [] OTHER -> {{}} \cup {{m} : m \in MSO}
+    /\ mode \in IF fplcState = "Start" \/ (fplcState = "Error" /\ ON_ERROR = "none") THEN {{}}
+                ELSE {{}} \cup {{m} : m \in MSO}
     /\ fplcElapsed \in Clock
     /\ step = ""
 =============================================================================

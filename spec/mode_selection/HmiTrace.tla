@@ -1,13 +1,12 @@
 ------------------------------ MODULE HmiTrace ------------------------------
 (***************************************************************************)
 (* What one line of a log says about a scan of the panel.  w holds the     *)
-(* inputs by their names in interface.toml, the row the outputs, without   *)
-(* the active mode, which is passed through (E-25).                        *)
+(* inputs by their names in interface.toml.  Leaves out the active mode,   *)
+(* which is passed through (E-25).                                         *)
 (***************************************************************************)
 EXTENDS Hmi
 
 HmiRead(w) == [RA |-> w.ReadAuthorization, CM |-> w.CheckMSO, touch |-> w.touch]
-HmiRow == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled, shown |-> Shown]
 
 \* EKS-2-14, EKS-2-15, EKS-8-8: which memory goes with which screen
 HmiAnywhere ==

@@ -19,6 +19,6 @@ SystemFplc(w) ==
 SystemPlc(w) == PlcRead(w) = PlcInput /\ PlcScan(PlcRead(w)) /\ Took(0) /\ Others(<<reader, eks, fplc, hmi>>)
 \* EKS-8-8: the active mode that is displayed is the one that the F-PLC has set
 SystemHmi(w) ==
-    /\ HmiRead(w) = HmiInput(w.touch) /\ w.ActiveMSO = TheMode
+    /\ HmiRead(w) = HmiInput(w.touch) /\ w.ActiveMSO = ActiveMSO
     /\ HmiScan(HmiRead(w)) /\ Took(0) /\ Others(<<reader, eks, fplc, plc>>)
 =============================================================================

@@ -1,13 +1,12 @@
 ------------------------------ MODULE PlcTrace ------------------------------
 (***************************************************************************)
 (* What one line of a log says about a scan of the PLC.  w holds the four  *)
-(* words that it reads by their names in interface.toml, the row the four  *)
-(* that it writes.  Leaves out: nothing of Plc.                            *)
+(* words that it reads by their names in interface.toml.                   *)
+(* Leaves out: nothing of Plc.                                             *)
 (***************************************************************************)
 EXTENDS Plc
 
 PlcRead(w) == [MW01 |-> w.MW01, MW05 |-> w.MW05, SelectMSO |-> w.SelectMSO, SwitchMSO |-> w.SwitchMSO]
-PlcRow == [ReadAuthorization |-> ReadAuthorization, CheckMSO |-> CheckMSO, MW03 |-> MW03, MW07 |-> MW07]
 
 \* The words of the log are WORDS: a word that it never shows makes no difference to a device that only copies
 PlcAnywhere ==
