@@ -1,0 +1,25 @@
+------------------------- MODULE KeyFlowsCommonPace -------------------------
+(***************************************************************************)
+(* A machine that does not exist: F-PLC, PLC and panel take their scans in *)
+(* turn, as if one clock kept them together (E-43), and the PLC copies all *)
+(* four words at once.  Only user and EKS are free.  What holds here alone *)
+(* holds by the clock: see NEG_KeyFlows_atomic_copy for the same devices   *)
+(* without it.                                                             *)
+(* Leaves out: every other interleaving.                                   *)
+(***************************************************************************)
+EXTENDS KeyFlows
+
+VARIABLE pace    \* whose scan is next
+
+PaceView == <<View, pace>>
+
+Turn(this, next) == pace = this /\ pace' = next
+\* EKS-3-0, EKS-9-0, EKS-GP-3: one step of each in each cycle
+PaceNext ==
+    \/ (User \/ EksRuns) /\ UNCHANGED pace
+    \/ Turn("F-PLC", "to the panel") /\ FplcRuns
+    \/ Turn("to the panel", "panel") /\ PlcRuns
+    \/ Turn("panel", "to the F-PLC") /\ PanelRuns
+    \/ Turn("to the F-PLC", "F-PLC") /\ PlcRuns
+PaceSpec == Init /\ pace = "F-PLC" /\ [][PaceNext]_<<vars, pace>>
+=============================================================================
