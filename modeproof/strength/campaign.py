@@ -112,7 +112,7 @@ def judge_all(
         verdict = judge(bench, mutant, complete)
         if stop.is_set():  # TLC was ended by us
             return None
-        return {
+        record = {
             "mutant": mutant.id,
             "module": mutant.module,
             "operator": mutant.operator,
@@ -122,6 +122,8 @@ def judge_all(
             "seconds": round(verdict.seconds, 2),
             **as_record(verdict),
         }
+        results.add(record)  # here, so that an interruption loses nothing that was judged
+        return record
 
     progress.expect(1)
     progress.begin("mutants")
@@ -135,7 +137,6 @@ def judge_all(
             for one in finished:
                 record = one.result()
                 if record is not None:
-                    results.add(record)
                     known[record["mutant"]] = record
                     done += 1
             progress.update("mutants", _state(len(waiting), done, time.monotonic() - began, known))

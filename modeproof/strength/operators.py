@@ -288,6 +288,8 @@ class _Editor:
             yield from self._string(node)
         elif node.kind == "number":
             yield self._replaced("constant swapped", node, str(int(node.operator) + 1))
+        elif node.operator in COMPARISONS or node.operator in EXCHANGED:  # those of Naturals are "defined"
+            yield from self._builtin(node, where.initial)
         elif node.kind in ("defined", "declared", "parameter"):
             yield from self._name(node)
         elif node.kind == "builtin":

@@ -1,0 +1,20 @@
+"""One toy document for all tests of this room that need TLC."""
+
+from __future__ import annotations
+
+import pytest
+
+from modeproof.strength.campaign import all_mutants
+from modeproof.strength.judge import Bench
+from modeproof.strength.mutant import Mutant
+from tests.strength.toy import lamp
+
+
+@pytest.fixture(scope="session")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
+    return lamp(tmp_path_factory.mktemp("lamp"))
+
+
+@pytest.fixture(scope="session")
+def every(bench: Bench) -> tuple[Mutant, ...]:
+    return all_mutants(bench)

@@ -1,0 +1,148 @@
+"""A campaign is taken up where it stopped, and a damaged result never passes for one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import modeproof.strength.campaign as campaign
+from modeproof.errors import Unjudged
+from modeproof.progress import Progress
+from modeproof.strength.campaign import Judged, inputs_of, judge_all
+from modeproof.strength.explain import explanation_problems, unexplained
+from modeproof.strength.judge import Answer, Bench, Verdict
+from modeproof.strength.mutant import Mutant
+from modeproof.strength.register import Explained, Strength
+from modeproof.strength.results import read_results, without_comments
+from tests.strength.toy import lamp
+
+QUIET = Progress(quiet=True)
+
+
+class Judge:
+    """Stands in for TLC: survivors all, and a count of who was judged; stops after so many."""
+
+    def __init__(self, stop_after: int = 10_000) -> None:
+        self.judged: list[str] = []
+        self._stop_after = stop_after
+
+    def __call__(self, bench: Bench, mutant: Mutant, complete: bool) -> Verdict:
+        if len(self.judged) == self._stop_after:
+            raise KeyboardInterrupt
+        self.judged.append(mutant.id)
+        return Verdict("SURVIVED", (Answer("alone", "clean"),), reason="differs")
+
+
+@pytest.fixture
+def stand_in(monkeypatch: pytest.MonkeyPatch) -> Callable[[Judge], Judge]:
+    monkeypatch.setattr(campaign, "_controls", lambda bench, waiting, pool: None)
+
+    def use(judge: Judge) -> Judge:
+        monkeypatch.setattr(campaign, "judge", judge)
+        return judge
+
+    return use
+
+
+def run(bench: Bench, chosen: tuple[Mutant, ...], path: Path, complete: bool = False) -> list[Judged]:
+    return judge_all(bench, chosen, read_results(path), QUIET, jobs=1, complete=complete)
+
+
+def test_what_was_judged_before_an_interruption_is_not_judged_again(
+    bench: Bench, every: tuple[Mutant, ...], tmp_path: Path, stand_in: Callable[[Judge], Judge]
+) -> None:
+    path = tmp_path / "spec.jsonl"
+    first = stand_in(Judge(stop_after=3))
+    with pytest.raises(KeyboardInterrupt):
+        run(bench, every, path)
+    second = stand_in(Judge())
+    judged = run(bench, every, path)
+    assert len(judged) == len(every) and len(first.judged) == 3
+    assert set(first.judged).isdisjoint(second.judged)
+    assert len(first.judged) + len(second.judged) == len(every)
+
+
+def test_a_cut_last_line_is_dropped_with_a_remark_and_its_mutant_judged_again(
+    bench: Bench, every: tuple[Mutant, ...], tmp_path: Path, stand_in: Callable[[Judge], Judge]
+) -> None:
+    path = tmp_path / "spec.jsonl"
+    last = stand_in(Judge())
+    run(bench, every, path)
+    path.write_bytes(path.read_bytes()[:-7])
+    results = read_results(path)
+    assert "the last line was cut off" in results.remark and len(results.records) == len(every) - 1
+    again = stand_in(Judge())
+    judge_all(bench, every, results, QUIET, jobs=1)
+    assert again.judged == last.judged[-1:]
+    assert len(read_results(path).records) == len(every)
+
+
+@pytest.mark.parametrize("damage", [b'{"mutant": 3\n', b"{}\n", b"[]\n", b"\xff\n"])
+def test_any_other_damage_is_an_error(damage: bytes, tmp_path: Path) -> None:
+    path = tmp_path / "spec.jsonl"
+    path.write_bytes(damage + b"{}\n")
+    with pytest.raises(Unjudged, match="line 1 is"):
+        read_results(path)
+
+
+def test_a_result_of_fewer_tiers_does_not_do_when_all_are_asked_for(
+    bench: Bench, every: tuple[Mutant, ...], tmp_path: Path, stand_in: Callable[[Judge], Judge]
+) -> None:
+    path = tmp_path / "spec.jsonl"
+    stand_in(Judge())
+    run(bench, every[:2], path)
+    whole = stand_in(Judge())
+    run(bench, every[:2], path, complete=True)
+    assert len(whole.judged) == 2
+    less = stand_in(Judge())
+    run(bench, every[:2], path)
+    assert less.judged == []
+
+
+def test_results_hold_for_the_texts_they_were_made_from_and_comments_are_none(tmp_path: Path) -> None:
+    now = inputs_of(lamp(tmp_path / "a"), "Lamp")
+    commented = lamp(tmp_path / "b")
+    path = commented.folder / "Lamp.tla"
+    path.write_text(path.read_text().replace("a comment", "another comment"))
+    changed = lamp(tmp_path / "c")
+    path = changed.folder / "LampOpen.tla"
+    path.write_text(path.read_text().replace("count # 0", "count = 3"))
+    assert inputs_of(commented, "Lamp") == now != inputs_of(changed, "Lamp")
+
+
+def test_a_string_that_looks_like_a_comment_is_none() -> None:
+    assert without_comments('A == "\\* (* x *)" \\* B\n(* C\n*) D') == 'A == "\\* (* x *)"\n D'
+
+
+def survivor(every: tuple[Mutant, ...], number: int, word: str = "SURVIVED") -> Judged:
+    return Judged(every[number], {"verdict": word, "killers": [], "reason": "", "answers": []})
+
+
+def test_a_survivor_is_explained_or_counted_as_unexplained(every: tuple[Mutant, ...]) -> None:
+    one, two = survivor(every, 0), survivor(every, 1)
+    assert unexplained((Explained((every[0].id,), "harmless", "because"),), [one, two]) == [two]
+
+
+def test_an_explanation_that_explains_nothing_is_an_error(every: tuple[Mutant, ...]) -> None:
+    killed, left = survivor(every, 0, "KILLED"), survivor(every, 1)
+    stale = Explained((every[0].id, "Lamp-00000000"), "harmless", "because")
+    twice = (Explained((every[1].id,), "harmless", "a"), Explained(("Lamp-*",), "harmless", "b"))
+    assert explanation_problems((stale,), [killed, left], complete=True) == [
+        f"{every[0].id} is explained as a survivor and is KILLED",
+        "Lamp-00000000 is explained and is no mutant",
+    ]
+    assert f"{every[1].id} is explained twice" in explanation_problems(twice, [left], complete=True)
+    assert explanation_problems((stale,), [left], complete=False) == []
+
+
+def test_a_module_without_mutants_is_refused(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(campaign, "mutants", lambda *_: ())
+    with pytest.raises(Unjudged, match="module Lamp has no mutants"):
+        campaign.all_mutants(bench)
+
+
+def test_the_register_as_read_names_the_tiers_of_a_module(bench: Bench) -> None:
+    strength: Strength = bench.strength
+    assert [tier.id for tier in strength.tiers_of("Lamp")] == ["alone", "graph"]

@@ -1,0 +1,75 @@
+"""Mutants whose fate is known are judged so: each verdict once, and the whole matrix of what is broken."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+
+from modeproof.errors import Unjudged
+from modeproof.strength.campaign import all_mutants
+from modeproof.strength.judge import Bench, judge
+from modeproof.strength.mutant import Mutant
+from tests.strength.toy import STRENGTH, lamp
+
+
+def the(every: Sequence[Mutant], definition: str, operator: str, old: str) -> Mutant:
+    (one,) = (m for m in every if (m.definition, m.operator, m.old) == (definition, operator, old))
+    return one
+
+
+FATES = [
+    ("a light at any count", "Light", "comparison swapped", "=", "KILLED", ("LitOnlyWhenFull", "StartsDark")),
+    ("the lamp stays on", "Down", "reset missing", "lamp' = \"off\"", "KILLED", ("OffAtOnce", "StartsDark")),
+    ("a guard that another one repeats", "Up", "conjunct dropped", "count < 3", "EQUIVALENT", ()),
+    ("the count stays, which no property minds", "Down", "reset missing", "count' = 0", "SURVIVED", ()),
+    ("there is no name for such a count", "Name", "operator swapped", "+", "INVALID", ()),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("why", "definition", "operator", "old", "word", "killers"), FATES, ids=[f[0] for f in FATES]
+)
+def test_a_mutant_meets_its_fate(
+    why: str, definition: str, operator: str, old: str, word: str, killers: tuple[str, ...],
+    bench: Bench, every: tuple[Mutant, ...],
+) -> None:  # fmt: skip
+    verdict = judge(bench, the(every, definition, operator, old))
+    assert (verdict.word, tuple(sorted(verdict.killers))) == (word, killers)
+    assert word == "INVALID" or all(one.complete for one in verdict.answers)
+
+
+def test_what_never_ends_is_unmeasured(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Two guards stop the count; in this text only one, and without it TLC counts for ever."""
+    endless = lamp(tmp_path_factory.mktemp("endless"), STRENGTH.replace("timeout_s = 5", "timeout_s = 3"))
+    path = endless.folder / "Lamp.tla"
+    path.write_text(path.read_text().replace(" /\\ count # 3", ""))
+    verdict = judge(endless, the(all_mutants(endless), "Up", "conjunct dropped", "count < 3"))
+    assert verdict.word == "UNMEASURED"
+    assert verdict.reason == "tier alone: the limit of 3 s came first"
+
+
+def test_beyond_a_broken_type_nothing_is_explored(tmp_path_factory: pytest.TempPathFactory) -> None:
+    typed = STRENGTH.replace("timeout_s = 5", 'timeout_s = 30\ntypes = ["TypeOK"]')
+    bounded = lamp(tmp_path_factory.mktemp("bounded"), typed)
+    path = bounded.folder / "Lamp.tla"
+    path.write_text(path.read_text().replace(" /\\ count # 3", ""))
+    answer = bounded.ask(
+        bounded.strength.tiers[0], the(all_mutants(bounded), "Up", "conjunct dropped", "count < 3")
+    )
+    assert answer.complete and answer.distinct < 20
+
+
+def test_an_original_that_breaks_a_property_judges_nobody(tmp_path_factory: pytest.TempPathFactory) -> None:
+    broken = lamp(tmp_path_factory.mktemp("broken"))
+    path = broken.folder / "Lamp.tla"
+    path.write_text(path.read_text().replace("count = 3\n", "count = 2\n"))
+    with pytest.raises(Unjudged, match="tier alone does not pass on the original: broken: LitOnlyWhenFull"):
+        broken.control(broken.strength.tiers[0])
+
+
+def test_the_edit_is_never_made_in_the_tree(bench: Bench, every: tuple[Mutant, ...]) -> None:
+    before = (bench.folder / "Lamp.tla").read_bytes()
+    bench.ask(bench.strength.tiers[0], every[0])
+    assert (bench.folder / "Lamp.tla").read_bytes() == before
+    assert not list(bench.place.rglob("StrengthTrial*"))
