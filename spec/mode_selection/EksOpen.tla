@@ -79,4 +79,6 @@ FaultIsLatched ==
     [][eksState = "Fault" \/ (eksState = "CheckRegisters" /\ ~Scanned.registers_zero) => eksState' = "Fault"]_beat
 \* EKS-GP-3: there is no input to which a scan has no answer
 EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED EksScan(Alphabet[n])
+\* EKS-8-2, EKS-SD-2: before the first step LA is off and no output is set
+PowerUpIsSafe == step = "" => ~LA /\ Vector = {}
 =============================================================================

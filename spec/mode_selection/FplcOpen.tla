@@ -165,4 +165,7 @@ ErrorDropsMode == ON_ERROR = "none" /\ fplcState = "Error" => mode = {}
 
 \* EKS-GP-3: there is no input to which a scan has no answer
 EveryScanIsAnswered == \A n \in InputsToTry : ENABLED FplcScan(Alphabet[n])
+
+\* EKS-GP-5, E-25c: before the first step no mode is active, no level and no echo is sent, and no key is waited for
+PowerUpIsSafe == step = "" => fplcState = "Start" /\ mode = {} /\ MW01 = 0 /\ MW05 = 0 /\ ~ERROR
 =============================================================================

@@ -53,4 +53,6 @@ InhibitAtOnce ==
     [][ModeOf(RE, Scanned.RA) = None => (SelectMSO' = 0 /\ SwitchMSO' = 0 /\ Enabled' = {})]_beat
 \* EKS-GP-3: there is no input to which a scan has no answer
 EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED HmiScan(Alphabet[n])
+\* EKS-8-8, EKS-8-9: before the first step the panel is inhibited and sends zeros
+PowerUpIsSafe == step = "" => SelectMSO = 0 /\ SwitchMSO = 0 /\ Enabled = {}
 =============================================================================

@@ -42,4 +42,13 @@ CopiesUnchanged ==
        /\ CheckMSO' \in {CheckMSO, Scanned.MW05} /\ MW07' \in {MW07, Scanned.SwitchMSO}]_beat
 \* EKS-GP-3: there is no input to which a scan has no answer
 EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED PlcScan(Alphabet[n])
+\* EKS-GP-5: before the first copy all words are zero
+PowerUpIsSafe == step = "" => ReadAuthorization = 0 /\ MW03 = 0 /\ CheckMSO = 0 /\ MW07 = 0
+\* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26: where the order is fixed, the copies follow one another as the steps of the note do
+CopiesTakeTurns ==
+    [][~ANY_ORDER =>
+        step' = CASE step = "CopyReadAuthorization" -> "CopyMW03"
+                  [] step = "CopyMW03" -> "CopyCheckMSO"
+                  [] step = "CopyCheckMSO" -> "CopyMW07"
+                  [] OTHER -> "CopyReadAuthorization"]_beat
 =============================================================================

@@ -20,6 +20,11 @@ TEXT_ORDER = Base(
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
+FPLC_SMOKE = Base(
+    "MC_Fplc_smoke",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcSmall",
+)
 DEADLINES = Base("MC_Fplc_deadlines", module="FplcSmall")
 NO_MODE = Base(
     "MC_Fplc_on_error_none",
@@ -690,6 +695,57 @@ FAULTS = (
             "Plc.tla",
             "\\/ CopyMW03(i) \\/ CopyCheckMSO(i)",
             "\\/ CopyMW03(i)",
+        ),
+    ),
+    # ------------------------------------------------------------------ power-up, turns
+    Falls(
+        "PowerUpIsSafe",
+        FPLC_SMOKE,
+        Fault(
+            "a mode is active from the first moment",
+            "Fplc.tla",
+            "    /\\ mode = {} /\\ fplcElapsed = 0",
+            "    /\\ mode = {0} /\\ fplcElapsed = 0",
+        ),
+    ),
+    Falls(
+        "PowerUpIsSafe",
+        PLC,
+        Fault(
+            "the word of the last day is still there",
+            "Plc.tla",
+            "ReadAuthorization = 0 /\\ MW03 = 0",
+            "ReadAuthorization = OtherWord /\\ MW03 = 0",
+        ),
+    ),
+    Falls(
+        "PowerUpIsSafe",
+        HMI,
+        Fault(
+            "the screen is open after power-up",
+            "Hmi.tla",
+            'HmiInit == hmiState = "Inhibited" /\\ offered = None',
+            'HmiInit == hmiState = "Select" /\\ offered = 0',
+        ),
+    ),
+    Falls(
+        "PowerUpIsSafe",
+        EKS,
+        Fault(
+            "LA is on from the first moment",
+            "Eks.tla",
+            'EksInit == eksState = "Empty" /\\ key = None',
+            'EksInit == eksState = "StartTest" /\\ key = 0',
+        ),
+    ),
+    Falls(
+        "CopiesTakeTurns",
+        PLC,
+        Fault(
+            "the turn is not passed on",
+            "Plc.tla",
+            "turn = this /\\ turn' = next",
+            "turn = this /\\ turn' = this",
         ),
     ),
 )
