@@ -138,6 +138,12 @@ def _steps(record: Mapping[str, Any]) -> int:
     return int(record["result"]["trace_length"]) - 1
 
 
+def _in_steps(record: Mapping[str, Any]) -> str:
+    """How long a counterexample is, in words."""
+    steps = _steps(record)
+    return "in the first state" if steps == 0 else "in 1 step" if steps == 1 else f"in {steps} steps"
+
+
 def _run_section(material: Material, run: Run) -> list[str]:
     record = material.evidence[run.id]
     if not record["result"].get("trace"):
@@ -145,7 +151,7 @@ def _run_section(material: Material, run: Run) -> list[str]:
     falls = material.falls(run)
     readings = material.readings(run)
     cause = f"`{'`, `'.join(readings)}` restored" if readings else "Without an assumption"
-    lines = [f"## {cause}: `{run.property}` falls in {_steps(record)} steps", ""]
+    lines = [f"## {cause}: `{run.property}` falls {_in_steps(record)}", ""]
     if falls is not None:
         lines += [f"The property: {_sentence(falls.sentence)}", f"Otherwise: {_sentence(falls.hazard)}", ""]
     broken = [one for one in material.document.assumptions if run.id in one.breaks]
@@ -384,7 +390,7 @@ def _summary(material: Material, finding: Finding) -> str:
         if record["kind"] == "proof":
             theorems += 1
         elif record["result"].get("trace"):
-            parts.append(f"{_verdict(record)}: `{record['result']['property']}`, {_steps(record)} steps")
+            parts.append(f"{_verdict(record)}: `{record['result']['property']}` falls {_in_steps(record)}")
         else:
             parts.append(f"{record['verdict']}: `{name}`")
     if theorems:

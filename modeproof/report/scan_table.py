@@ -50,7 +50,8 @@ def scan_table(walk: Mapping[str, Any], names: Sequence[str], traces: Traces, ce
     columns = cells.columns(names, list(rows[0]["variables"]))
     # What a scan read is a wire of that scan: in row 0 there has been none.
     shown = [[cells.show(one, row["wires"], row["variables"]) for one in columns] for row in rows]
-    moving = [n for n in range(len(columns)) if len({row[n] for row in shown[1:] or shown}) > 1]
+    first = [1 if _is_input(one, walk) and len(rows) > 1 else 0 for one in columns]
+    moving = [n for n in range(len(columns)) if len({row[n] for row in shown[first[n] :]}) > 1]
     still = [n for n in range(len(columns)) if n not in moving and columns[n].id != "dt"]
     several = len({who(traces, row) for row in rows[1:]}) > 1
     heads = [
@@ -61,7 +62,7 @@ def scan_table(walk: Mapping[str, Any], names: Sequence[str], traces: Traces, ce
     ]
     lines = []
     for at, row in enumerate(rows):
-        first = [str(at)] + ([who(traces, row) if at else ""] if several else [])
+        begin = [str(at)] + ([who(traces, row) if at else ""] if several else [])
         name = f"`{row['step']}`" if row["step"] else ("power-up" if at == 0 else "")
         inputs = at == 0
         line = []
@@ -70,7 +71,7 @@ def scan_table(walk: Mapping[str, Any], names: Sequence[str], traces: Traces, ce
             text = "" if inputs and _is_input(columns[n], walk) else shown[at][n]
             # In a long table of several devices a word is spelled out where it changes.
             line.append(bold(text if changed or not several else text.split(" =<br>")[0], changed))
-        lines.append([*first, name, *line])
+        lines.append([*begin, name, *line])
     constant = ", ".join(f"{columns[n].heading} {shown[-1][n]}".replace("<br>", " ") for n in still)
     return ScanTable(markdown(heads, lines), constant, len(rows) - 1)
 
