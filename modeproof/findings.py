@@ -25,7 +25,7 @@ from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.schema import suggestion
 from modeproof.registers.stamps import FINDINGS, REMEDY
-from modeproof.report.findings import Material, has_page, render
+from modeproof.report.findings import Material, render
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain, sha256
 from modeproof.tlc.walk import recorded, walk_all
@@ -171,6 +171,3 @@ def _compare(place: Path, pages: Mapping[str, str]) -> tuple[int, list[str]]:
 
 def _comparable(text: str) -> str:
     return STAMP.sub("text", SECONDS.sub("| s |", text))
-
-
-__all__ = ["add_parser", "gather", "has_page", "run"]

@@ -16,6 +16,7 @@ from dataclasses import asdict
 from typing import Any
 
 from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.replay import has_replay
 from modeproof.registers.rows import Document, Finding, Problem
 
 FINDINGS = "docs/findings"
@@ -66,6 +67,18 @@ def stamped(document: Document, finding: Finding | None, text: str) -> str:
         f"<!-- rendered by modeproof findings: registers {registers}, runs {runs}, text {_digest(text)} -->"
     )
     return f"{text}\n{line}\n"
+
+
+def has_page(finding: Finding) -> bool:
+    """Whether a finding has a page of its own: not for wording, and only where there is evidence to show."""
+    return finding.severity != "wording" and bool(finding.evidence)
+
+
+def check_findings_pages(document: Document) -> list[Problem]:
+    """What has drifted between a document's registers and its pages; nothing where it has none yet."""
+    if not has_replay(document.root, document.name) or not (document.root / INDEX).is_file():
+        return []
+    return check_stamps(document, filter(has_page, document.findings))
 
 
 def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Problem]:

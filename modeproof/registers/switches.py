@@ -79,6 +79,24 @@ def models_of(document: Document, traces: Traces) -> tuple[Model, ...]:
     return tuple(found)
 
 
+def idle_switch(document: Document, run: str, counts: tuple[int, int]) -> str:
+    """Why a run that was to fail does not, in the words of its switch; empty where it restores nothing.
+
+    `counts` are the distinct and generated states that it has now.
+    """
+    if not has_replay(document.root, document.name):
+        return ""
+    models = models_of(document, load_replay(document.root, document.name))
+    own = next((model for model in models if model.run.id == run), None)
+    if own is None or not own.restored:
+        return ""
+    names = " and ".join(sorted(own.restored))
+    for other in models:
+        if not other.restored and other.bounds == own.bounds and other.counts == counts:
+            return f"the switch {names} changes nothing: its counts are those of {other.run.id}"
+    return f"{names} restored breaks nothing that this run checks"
+
+
 def _readings(
     document: Document, traces: Traces, sources: Sources, readings: Sequence[str], models: Sequence[Model]
 ) -> Iterator[Problem]:

@@ -16,7 +16,7 @@ from modeproof.registers.citations import Sources, ids_of
 from modeproof.registers.models import Constant, restored
 from modeproof.registers.replay import Traces
 from modeproof.registers.rows import Document, Finding, Property, Run
-from modeproof.registers.stamps import FINDINGS, INDEX, TABLE, page_name, stamped
+from modeproof.registers.stamps import INDEX, TABLE, has_page, page_name, stamped
 from modeproof.report.cells import Cells
 from modeproof.report.scan_table import Comparison, compare, markdown, scan_table, who
 
@@ -54,11 +54,6 @@ class Material:
         rows = [one for one in self.document.properties if run.property in (one.id, one.tla)]
         rows.sort(key=lambda one: (one.module != run.module, run.environment not in one.environments))
         return rows[0] if rows else None
-
-
-def has_page(finding: Finding) -> bool:
-    """Whether a finding has a page of its own: not for wording, and only where there is evidence to show."""
-    return finding.severity != WORDING and bool(finding.evidence)
 
 
 def render(material: Material) -> dict[str, str]:
@@ -504,6 +499,3 @@ def _deviation(material: Material, run: Run) -> list[str]:
         run.environment,
         f"`{run.id}`" + (f"<br>{run.strength}" if len(readings) > 1 and run.strength else ""),
     ]
-
-
-__all__ = ["FINDINGS", "Material", "has_page", "render"]

@@ -7,7 +7,7 @@ import hashlib
 import shlex
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -16,10 +16,12 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import build, documents
 from modeproof.progress import Progress
+from modeproof.registers.load import load_document
+from modeproof.registers.switches import idle_switch
 from modeproof.tlc import children
 from modeproof.tlc.cfg import Cfg, parse_cfg
 from modeproof.tlc.distributed import Where, run_distributed
-from modeproof.tlc.judge import UNJUDGED, Judgement, judge
+from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.runs import Run, load_runs
@@ -146,7 +148,7 @@ def check_one(
             outcome = run_tlc(place, run, tools, on_progress, on_lines)
         else:
             outcome = run_distributed(place, run, cfg, tools, where, on_progress, progress.say)
-        judgement = judge(run, cfg, digest, outcome)
+        judgement = _about_switch(place, run, judge(run, cfg, digest, outcome), outcome)
         if read_cfg(place, run)[1] != digest:
             judgement = Judgement(UNJUDGED, False, f"{run.cfg} was changed while TLC ran")
     except Unjudged as error:
@@ -156,6 +158,19 @@ def check_one(
     record = _record(place, run, tools, judgement, outcome, started)
     evidence.write(place, record)
     return Checked(run, judgement, outcome, digest, record)
+
+
+def _about_switch(place: Path, run: Run, judgement: Judgement, outcome: Outcome) -> Judgement:
+    """Of a run that was to be violated and is not: which switch it turned on in vain."""
+    counts = outcome.log.counts
+    if run.kind != "NEG" or judgement.verdict != HOLDS or counts is None:
+        return judgement
+    try:
+        document = load_document(place, run.document)
+        words = idle_switch(document, run.id, (counts.distinct, counts.generated))
+    except Unjudged:
+        return judgement  # the registers are judged elsewhere
+    return replace(judgement, reason=f"{judgement.reason}: {words}") if words else judgement
 
 
 def check_all(

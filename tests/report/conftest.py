@@ -1,4 +1,4 @@
-"""A document that is small enough to be checked, walked and rendered in a few seconds: one box with one door."""
+"""A document that is checked, walked and rendered in a few seconds: a box with one door."""
 
 from __future__ import annotations
 
@@ -213,7 +213,7 @@ def make_box(root: Path) -> Path:
         (folder / "models" / f"{name}.cfg").write_text(text)
     for name, text in REGISTERS.items():
         (folder / f"{name}.toml").write_text(text.lstrip())
-    runs = declared("MC_Box", "any door", "distinct = 6\ngenerated = 13\n")
+    runs = declared("MC_Box", "any door", "distinct = 5\ngenerated = 11\n")
     runs += declared("MC_Box_lazy", "the bounds of MC_Box", "distinct = 3\ngenerated = 5\n")
     negative = 'property = "ShutsOverDoor"\ntrace_length = 2\n'
     runs += declared("NEG_Box_eager", "the bounds of MC_Box", negative)

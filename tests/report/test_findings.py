@@ -13,13 +13,11 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.registers import load_document
-from modeproof.registers.stamps import check_stamps
-from modeproof.report.findings import has_page
+from modeproof.registers.stamps import check_findings_pages
 
 
 def stamps(root: Path) -> list[str]:
-    document = load_document(root, "box")
-    return [str(one) for one in check_stamps(document, filter(has_page, document.findings))]
+    return [str(one) for one in check_findings_pages(load_document(root, "box"))]
 
 
 def change(root: Path, name: str, old: str, new: str) -> None:
@@ -153,6 +151,21 @@ def test_evidence_that_is_missing_or_of_something_else_writes_nothing_and_names_
     assert said.count("\n") == 1 and expected in said
     assert "NEG_Box_eager" in said and "run modeproof check NEG_Box_eager" in said
     assert not (checked / "docs").exists()
+
+
+def test_a_negative_run_that_holds_names_the_switch_that_changes_nothing(
+    checked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(checked, "spec/box/Box.tla", ' \\/ "EAGER" \\in LITERAL', "")
+    assert main(["check", "--quiet", "NEG_Box_eager"]) == 1
+    said = capsys.readouterr().out
+    assert "the switch EAGER changes nothing: its counts are those of MC_Box" in said
+
+    change(
+        checked, "spec/box/Box.tla", "Ready(i) == i.door", 'Ready(i) == i.door /\\ "EAGER" \\notin LITERAL'
+    )
+    assert main(["check", "--quiet", "NEG_Box_eager"]) == 1
+    assert "ShutsOverDoor was to be violated, and is not: EAGER restored" in capsys.readouterr().out
 
 
 def test_a_document_without_the_register_has_no_pages(
