@@ -127,8 +127,8 @@ FAULTS = (
         Fault(
             "the screen opens over an old echo",
             "Hmi.tla",
-            '/\\ hmiState = "Inhibited" /\\ Level(i) # None /\\ i.CM = 0',
-            '/\\ hmiState = "Inhibited" /\\ Level(i) # None',
+            '    /\\ i.CM = 0 \\/ Literal("OPENS_OVER_ECHO")\n',
+            "",
         ),
     ),
     Falls(
@@ -490,8 +490,8 @@ FAULTS = (
         Fault(
             "the resting acknowledgment is not zero",
             "Hmi.tla",
-            "SW[hmiSelection] ELSE 0",
-            "SW[hmiSelection] ELSE OtherWord",
+            'Literal("REJECT_IS_A_WORD") THEN OtherWord ELSE 0',
+            'Literal("REJECT_IS_A_WORD") THEN OtherWord ELSE OtherWord',
         ),
     ),
     Falls(
@@ -500,7 +500,7 @@ FAULTS = (
         Fault(
             "another level on the bus leaves the screen open",
             "Hmi.tla",
-            "Level(i) # None /\\ Level(i) = offered",
+            'Level(i) # None /\\ (Level(i) = offered \\/ Literal("STAYS_OPEN_AT_NEW_LEVEL"))',
             "Level(i) # None",
         ),
     ),
@@ -510,8 +510,8 @@ FAULTS = (
         Fault(
             "whatever is not a rejection confirms",
             "Hmi.tla",
-            'Echoed(i) /\\ i.touch = "confirm"',
-            'Echoed(i) /\\ i.touch # "reject"',
+            'Answerable(i) /\\ i.touch = "confirm"',
+            'Answerable(i) /\\ i.touch # "reject"',
         ),
     ),
     Falls(
@@ -520,7 +520,7 @@ FAULTS = (
         Fault(
             "any word but zero keeps the screen open",
             "Hmi.tla",
-            "Level(i) # None /\\ Level(i) = offered",
+            'Level(i) # None /\\ (Level(i) = offered \\/ Literal("STAYS_OPEN_AT_NEW_LEVEL"))',
             "i.RA # 0",
         ),
     ),
@@ -572,7 +572,7 @@ FAULTS = (
         Fault(
             "the level is looked at and not judged",
             "Eks.tla",
-            'At("CheckLevel", i) /\\ Accepted(key)',
+            'At("CheckLevel", i) /\\ Admitted(key)',
             'At("CheckLevel", i)',
         ),
     ),
@@ -683,7 +683,7 @@ FAULTS = (
         Fault(
             "a touch beside the fields has no answer",
             "Hmi.tla",
-            "(TouchSelection(i) \\/ OfferModes(i))",
+            "(TouchSelection(i) \\/ OfferModes(i) \\/ ShowOtherEcho(i))",
             "TouchSelection(i)",
         ),
     ),

@@ -237,7 +237,7 @@ GAP = Fault(
     "PassRegisterCheck(i))",
 )
 OVERLAP = Fault(
-    "two steps for one level", "Eks.tla", 'At("CheckLevel", i) /\\ ~Accepted(key)', 'At("CheckLevel", i)'
+    "two steps for one level", "Eks.tla", 'At("CheckLevel", i) /\\ ~Admitted(key)', 'At("CheckLevel", i)'
 )
 
 
