@@ -11,6 +11,7 @@ EXTENDS Sequences, TLC, Fplc
 
 CONSTANTS
           VECTORS,        \* "all" 32 output vectors; "classes": none, each one, two, all five; "few": of the ones only levels 2 to 4;
+                          \* "least": levels 2 and 4, all words but 3333, up to the first switchover;
                           \* "one": of the ones only level 2, and every time in every state
           PRINT_GRAPH     \* TRUE: print inputs, states and edges
 
@@ -31,22 +32,35 @@ ObservedView == <<View, observer>>
 ----------------------------------------------------------------------------
 (* The input alphabet, numbered.                                           *)
 
-ASSUME VECTORS \in {"all", "classes", "few", "one"}
+ASSUME VECTORS \in {"all", "classes", "few", "least", "one"}
 Vectors == CASE VECTORS = "all" -> [n \in 1..32 |-> {l \in MSO : (((n - 1) \div (2^l)) % 2) = 1}]
              [] VECTORS = "classes" -> <<{}, {0}, {1}, {2}, {3}, {4}, {0, 1}, MSO>>
-             [] VECTORS = "one" -> <<{}, {2}, {2, 4}, MSO>>
-             [] OTHER -> <<{}, {2}, {3}, {4}, {2, 4}, MSO>>
-Words == <<0, RE[0], RE[1], RE[2], RE[3], RE[4], OtherWord>>
+             [] VECTORS = "few" -> <<{}, {2}, {3}, {4}, {2, 4}, MSO>>
+             [] VECTORS = "least" -> <<{}, {2}, {4}, {2, 4}, MSO>>
+             [] OTHER -> <<{}, {2}, {2, 4}, MSO>>
+Words == IF VECTORS = "least" THEN <<0, RE[0], RE[1], RE[3], RE[4], OtherWord>>
+         ELSE <<0, RE[0], RE[1], RE[2], RE[3], RE[4], OtherWord>>
 Times == <<0, 1, 2>>
 NV == Len(Vectors)
-N == 2 * NV * 7 * 7 * 3
+NW == Len(Words)
+N == 2 * NV * NW * NW * 3
 
 Alphabet == [n \in 0..N - 1 |->
     [LA   |-> n % 2 = 1,
      vec  |-> Vectors[((n \div 2) % NV) + 1],
-     MW03 |-> Words[((n \div (2 * NV)) % 7) + 1],
-     MW07 |-> Words[((n \div (14 * NV)) % 7) + 1],
-     dt   |-> Times[(n \div (98 * NV)) + 1]]]
+     MW03 |-> Words[((n \div (2 * NV)) % NW) + 1],
+     MW07 |-> Words[((n \div (2 * NV * NW)) % NW) + 1],
+     dt   |-> Times[(n \div (2 * NV * NW * NW)) + 1]]]
+
+\* E-12, E-18: two readings take the level from the flag word MW01; by then it may have been overwritten with one of these
+MW01IsRead == Literal("AUTHORITY_FROM_MW01") \/ Literal("FIG5_READS_MW01")
+Overwritten == <<0, OtherWord, RE[4]>>
+FlagMW01(o) == IF o = 0 THEN MW01 ELSE Overwritten[o]
+Overwriting == IF MW01IsRead /\ fplcState = "CheckSelection" THEN 0..Len(Overwritten) ELSE {0}
+Seen(n, o) == IF MW01IsRead
+              THEN [LA |-> Alphabet[n].LA, vec |-> Alphabet[n].vec, MW01 |-> FlagMW01(o),
+                    MW03 |-> Alphabet[n].MW03, MW07 |-> Alphabet[n].MW07, dt |-> Alphabet[n].dt]
+              ELSE Alphabet[n]
 
 Wire(i) == [LA |-> i.LA, A |-> 0 \in i.vec, B |-> 1 \in i.vec, C |-> 2 \in i.vec, D |-> 3 \in i.vec, STR |-> 4 \in i.vec,
             MW03 |-> i.MW03, MW07 |-> i.MW07, dt |-> i.dt]
@@ -83,21 +97,23 @@ Observe(i) ==
 \* The graph tries every time in every state; the properties need only those that the state can tell apart
 LongestTime == IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Removing THEN T_REM ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
 ASSUME PRINT_GRAPH \/ VECTORS = "one" \/ (T_ON = T_DWELL /\ T_SEQ = T_DWELL)
-InputsToTry == IF PRINT_GRAPH THEN 0..N - 1 ELSE 0..(98 * NV) * (LongestTime + 1) - 1
+Ended == VECTORS = "least" /\ mode # {}
+InputsToTry == IF PRINT_GRAPH THEN 0..N - 1 ELSE IF Ended THEN {} ELSE 0..(2 * NV * NW * NW) * (LongestTime + 1) - 1
 
 OpenNext ==
-    \E n \in InputsToTry : \E i \in {Alphabet[n]} :
+    \E n \in InputsToTry : \E o \in Overwriting : \E i \in {Seen(n, o)} :
         /\ FplcScan(i)
-        /\ in' = n /\ beat' = ~beat
+        /\ in' = n + N * o /\ beat' = ~beat
         /\ IF PRINT_GRAPH THEN UNCHANGED observer ELSE Observe(i)
 
 OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in, beat>>
 
 ----------------------------------------------------------------------------
 (* Action properties, judged in every scan; Scanned is that scan's input.  *)
-Scanned == Alphabet[in']
-\* For a reader of a trace: what a scan found on the wires and what stands on them after it
-Wires == Wire(Alphabet[in]) @@ FplcOutputs
+Scanned == Alphabet[in' % N]
+\* For a reader of a trace: what a scan found on the wires and what stands on them after it, a word that was overwritten included
+AtRest == Wire(Alphabet[in % N]) @@ FplcOutputs
+Wires == IF in >= N THEN [MW01 |-> Overwritten[in \div N]] @@ AtRest ELSE AtRest
 \* E-71: also a switchover to the mode that is active already
 Switched == (step' = "SwitchMode" \/ mode' # mode) /\ mode' # {}
 PulseWindow == fplcState \in Pulse \/ (fplcState = "Idle" /\ Scanned.LA)
@@ -118,6 +134,10 @@ AuthorizationRespected ==
 AuthorizationByTheText ==
     [][Switched => (\E m, a \in MSO : mode' = {m} /\ Scanned.vec = {a} /\ m \in TextOrder[a])]_beat
 
+\* EKS-2-18, EKS-5-1, E-12: a selection is accepted only while the flag word MW01 shows a level that permits it
+SelectionNeedsLevel ==
+    [][step' = "AcceptSelection" => Permitted(ModeOf(RE, FlagMW01(in' \div N)), ModeOf(SE, Scanned.MW03))]_beat
+
 \* EKS-SD-2, E-42
 NoChangeWithoutLA == [][Switched => Scanned.LA]_beat
 
@@ -137,6 +157,16 @@ IdleOnlyOverZeros ==
     [][fplcState # "Idle" /\ fplcState' = "Idle" =>
         /\ ~Scanned.LA /\ Scanned.vec = {} /\ Scanned.MW03 = 0 /\ Scanned.MW07 = 0
         /\ fplcElapsed + Scanned.dt >= T_DWELL]_beat
+
+\* EKS-3-0, EKS-9-0, E-23b: the error mode is left only over the same zeros, so that its lamp does not go out before
+ErrorOnlyOverZeros ==
+    [][ERROR /\ ~ERROR' =>
+        /\ ~Scanned.LA /\ Scanned.vec = {} /\ Scanned.MW03 = 0 /\ Scanned.MW07 = 0
+        /\ fplcElapsed + Scanned.dt >= T_DWELL]_beat
+
+\* EKS-8-3, EKS-8-11, E-36: whatever the key does, the timer of a removal goes on
+RemovalTimerGoesOn ==
+    [][(fplcState \in Removing /\ fplcState' \in Removing) => fplcElapsed' >= (fplcElapsed + Scanned.dt)]_beat
 
 \* EKS-GP-4, EKS-3-1-FPLC: a transaction is left in the scan in which the key is not signalled
 RemovalSeenAtOnce ==

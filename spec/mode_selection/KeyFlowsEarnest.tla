@@ -3,9 +3,10 @@
 (* A user who means it, from the moment the power comes on, on a machine   *)
 (* that keeps its deadlines: inserts a key that permits the mode, touches  *)
 (* it, confirms it, and may at any moment want a higher mode instead, with *)
-(* the same key or another one.  Every behavior is one of GoalSpec, so a   *)
-(* reading that fails here fails there; and it is small, so that readings  *)
-(* that make the procedure stop can be tried one by one.                   *)
+(* the same key or with another insertion.  Up to the last change of mind  *)
+(* such a behavior is one of GoalSpec without a goal, and after it one of  *)
+(* GoalSpec with that goal: a reading that keeps a user from a mode here   *)
+(* does so there.  It is small, so that such readings are tried one by one.*)
 (* Leaves out: a user who does anything (GoalSpec).                        *)
 (***************************************************************************)
 EXTENDS KeyFlowsLive
@@ -24,7 +25,9 @@ EarnestSpec ==
     /\ WF_liveVars(EarnestUser /\ Same) /\ WF_liveVars(EarnestPanel /\ Same)
     /\ WF_liveVars(PromptFplc /\ Same) /\ WF_liveVars(PromptEks /\ Same)
 
-\* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of an error
+EarnestView == <<View, goal>>
+
+\* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of a fault, and of nothing that an honest machine and a patient user do
 NoErrorWithoutFault == ~ERROR
 
 \* A-08 broken, E-39: the pulse may be over before the F-PLC has looked

@@ -201,6 +201,36 @@ FAULTS = (
             '    /\\ EnterError\n    /\\ Did("WithdrawSelection")',
         ),
     ),
+    Falls(
+        "SelectionNeedsLevel",
+        FPLC,
+        Fault(
+            "a selection that no row refuses is accepted",
+            "Fplc.tla",
+            "/\\ MayBeSelected(i) /\\ ~Skipped(i)",
+            "/\\ ModeOf(SE, i.MW03) # None",
+        ),
+    ),
+    Falls(
+        "ErrorOnlyOverZeros",
+        FPLC,
+        Fault(
+            "the error mode ends when the key is out",
+            "Fplc.tla",
+            'fplcState = "Error" /\\ ZerosReturned(i)',
+            'fplcState = "Error" /\\ ~i.LA',
+        ),
+    ),
+    Falls(
+        "RemovalTimerGoesOn",
+        FPLC,
+        Fault(
+            "the step after the words were cleared starts the timer anew",
+            "Fplc.tla",
+            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE Now(i)',
+            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE i.dt',
+        ),
+    ),
     # ------------------------------------------------------------------ F-PLC
     Falls(
         "AtMostOneModeOutput",
@@ -208,8 +238,8 @@ FAULTS = (
         Fault(
             "the new mode is set and the old one stays",
             "Fplc.tla",
-            "mode' = {IF LITERAL",
-            "mode' = mode \\cup {IF LITERAL",
+            "mode' = {IF Literal",
+            "mode' = mode \\cup {IF Literal",
         ),
     ),
     Falls(
@@ -218,8 +248,8 @@ FAULTS = (
         Fault(
             "two outputs are not yet too many",
             "Fplc.tla",
-            "Cardinality(i.vec) >= 2",
-            "Cardinality(i.vec) > 2",
+            "Cardinality(Outputs(i)) >= 2",
+            "Cardinality(Outputs(i)) > 2",
         ),
     ),
     Falls(
@@ -228,8 +258,8 @@ FAULTS = (
         Fault(
             "two outputs are looked at only while LA is on",
             "Fplc.tla",
-            "IsMany(i) == Many(i)",
-            "IsMany(i) == i.LA /\\ Many(i)",
+            "    /\\ Many(i) \\/ OutputAlone(i)\n",
+            "    /\\ i.LA /\\ Many(i)\n",
         ),
     ),
     Falls(
@@ -268,8 +298,8 @@ FAULTS = (
         Fault(
             "the range of a selection is checked and the level is not",
             "Fplc.tla",
-            "    /\\ Permitted(authority, ModeOf(SE, i.MW03))\n    /\\ fplcSelection'",
-            "    /\\ ModeOf(SE, i.MW03) # None\n    /\\ fplcSelection'",
+            "    ELSE Permitted(LevelUsed(i), ModeOf(SE, i.MW03))",
+            "    ELSE ModeOf(SE, i.MW03) # None",
         ),
     ),
     Falls(
@@ -278,7 +308,7 @@ FAULTS = (
         Fault(
             "every key is taken for one of the highest level",
             "Fplc.tla",
-            "\\E a \\in i.vec : authority' = a",
+            "\\E a \\in i.vec : authority' = LevelOf(a)",
             "authority' = 4",
         ),
     ),
@@ -288,8 +318,8 @@ FAULTS = (
         Fault(
             "LA is not looked at in the scan that switches",
             "Fplc.tla",
-            "IsGone(i) == ~i.LA",
-            'IsGone(i) == ~i.LA /\\ fplcState # "Switch"',
+            "    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState",
+            '    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState # "Switch" /\\ fplcState',
         ),
     ),
     Falls(
@@ -298,8 +328,8 @@ FAULTS = (
         Fault(
             "LA is not looked at in the scan that switches",
             "Fplc.tla",
-            "IsGone(i) == ~i.LA",
-            'IsGone(i) == ~i.LA /\\ fplcState # "Switch"',
+            "    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState",
+            '    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState # "Switch" /\\ fplcState',
         ),
     ),
     Falls(
@@ -318,8 +348,8 @@ FAULTS = (
         Fault(
             "removal drops the mode",
             "Fplc.tla",
-            'GoTo("Clear") /\\ DropKey /\\ UNCHANGED mode',
-            'GoTo("Clear") /\\ DropKey /\\ mode\' = {}',
+            'fplcSelection\' = IF Literal("MW05_KEPT") THEN fplcSelection ELSE None\n    /\\ UNCHANGED mode',
+            "fplcSelection' = None\n    /\\ mode' = {}",
         ),
     ),
     Falls(
@@ -368,8 +398,8 @@ FAULTS = (
         Fault(
             "a forgotten output does not keep the error mode",
             "Fplc.tla",
-            "NoSignal(i) == ~i.LA /\\ i.vec = {}",
-            "NoSignal(i) == ~i.LA",
+            '    /\\ Outputs(i) = {} \\/ Literal("LA_ENDS_REMOVAL")\n',
+            "",
         ),
     ),
     Falls(
@@ -388,8 +418,8 @@ FAULTS = (
         Fault(
             "while MW07 is awaited MW03 is not looked at",
             "Fplc.tla",
-            'AwaitMW07(i) == Unchanged("AwaitAcknowledgment", i)',
-            'AwaitMW07(i) == fplcState = "AwaitAcknowledgment"',
+            '    Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = 0 /\\ ~Literal',
+            '    fplcState = "AwaitAcknowledgment" /\\ i.MW07 = 0 /\\ ~Literal',
         ),
     ),
     Falls(
@@ -398,8 +428,8 @@ FAULTS = (
         Fault(
             "any output counts as the ones of the pulse",
             "Fplc.tla",
-            'i.vec = MSO /\\ Proceed("PulseZeros")',
-            'i.vec # {} /\\ Proceed("PulseZeros")',
+            'fplcState = "PulseOnes" /\\ i.vec = MSO\n',
+            'fplcState = "PulseOnes" /\\ i.vec # {}\n',
         ),
     ),
     Falls(
@@ -408,8 +438,8 @@ FAULTS = (
         Fault(
             "a deadline passes one tick too late",
             "Fplc.tla",
-            "Now(i) >= Deadline",
-            "Now(i) > Deadline",
+            "Now(i) >= Deadline /\\ Expirable(i)",
+            "Now(i) > Deadline /\\ Expirable(i)",
         ),
     ),
     # ------------------------------------------------------------------ the devices together
@@ -439,8 +469,8 @@ FAULTS = (
         Fault(
             "zeros count as returned without the dwell time",
             "Fplc.tla",
-            "NoSignal(i) /\\ NoWords(i) /\\ Dwelt(i)\n",
-            "NoSignal(i) /\\ NoWords(i)\n",
+            "(FirstZeros(i) /\\ i.MW07 = 0)) /\\ Dwelt(i)\n",
+            "(FirstZeros(i) /\\ i.MW07 = 0))\n",
         ),
     ),
     Falls(
@@ -449,7 +479,7 @@ FAULTS = (
         Fault(
             "every level permits every mode",
             "CodeTables.tla",
-            "m # None /\\ m <= level",
+            "m # None /\\ m \\in PERMITS[level]",
             "m # None",
         ),
     ),
@@ -653,8 +683,8 @@ FAULTS = (
         Fault(
             "the removal timer starts again when the words are cleared",
             "Fplc.tla",
-            "fplcState' = \"AwaitZeros\" /\\ fplcElapsed' = Now(i)",
-            "fplcState' = \"AwaitZeros\" /\\ fplcElapsed' = 0",
+            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE Now(i)',
+            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE 0',
         ),
     ),
     Falls(
