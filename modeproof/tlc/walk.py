@@ -115,11 +115,14 @@ def walk_all(
     """
     found = {one.run: read_walk(place, document, one) for one in traces}
     plan = load_replay(place, document)
-    for module in dict.fromkeys(one.module for one in traces):
-        missing = [one for one in traces if one.module == module and found[one.run] is None]
-        if missing:
-            for run, walk in _walk(place, document, plan, module, missing, tools).items():
-                found[run] = walk
+    modules = read_modules(place, document)
+    groups: dict[tuple[str, tuple[tuple[str, str], ...]], list[Recorded]] = {}
+    for one in traces:
+        if found[one.run] is None:
+            constants = read_constants(place, document, one.cfg)
+            groups.setdefault((one.module, replaced(modules, one.module, constants)), []).append(one)
+    for (module, definitions), missing in groups.items():
+        found |= _walk(place, document, plan, module, definitions, missing, tools)
     return {run: walk for run, walk in found.items() if walk is not None}
 
 
@@ -140,6 +143,14 @@ def extended(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
 
 def _names(modules: Sequence[Module], kind: str) -> tuple[str, ...]:
     return tuple(sorted({name for module in modules for name in getattr(module, kind)}))
+
+
+def replaced(
+    modules: Mapping[str, Module], name: str, constants: Mapping[str, Constant]
+) -> tuple[tuple[str, str], ...]:
+    """The definitions that a cfg replaces by others: what it gives to names that are no constants."""
+    declared = _names(extended(modules, name), "constants")
+    return tuple(sorted((key, one.text) for key, one in constants.items() if key not in declared))
 
 
 @dataclass(frozen=True)
@@ -342,7 +353,13 @@ def _behaviour(
 
 
 def _walk(
-    place: Path, document: str, traces: Traces, module: str, missing: Sequence[Recorded], tools: Toolchain
+    place: Path,
+    document: str,
+    traces: Traces,
+    module: str,
+    definitions: Sequence[tuple[str, str]],
+    missing: Sequence[Recorded],
+    tools: Toolchain,
 ) -> dict[str, dict[str, Any]]:
     top = traces.tops.get(module)
     if top is None:
@@ -354,8 +371,13 @@ def _walk(
     folder = build(place) / "walk" / document / module
     shutil.rmtree(folder, ignore_errors=True)
     name = module_name(module)
-    write_whole(folder / f"{name}.tla", generate(plan, given).encode("utf-8"))
-    write_whole(folder / f"{name}.cfg", b"INIT Begin\nNEXT Follow\nINVARIANT Shown\n")
+    text, cfg = generate(plan, given), "INIT Begin\nNEXT Follow\nINVARIANT Shown\n"
+    for old, new in definitions:
+        owner = next((one.name for one in extended(plan.modules, module) if old in one.defined), module)
+        text = text.replace("\nBegin ==", f"\nwalk_{old} == A1!{new}\nBegin ==", 1)
+        cfg += f"CONSTANT {old} <- [{owner}]walk_{old}\n"
+    write_whole(folder / f"{name}.tla", text.encode("utf-8"))
+    write_whole(folder / f"{name}.cfg", cfg.encode("utf-8"))
     run = Run(
         document=document,
         id=name,

@@ -20,7 +20,9 @@ Readings == {"EAGER", "LAZY"}
 CODE == [m \in 0..1 |-> 3855 + m]
 BoxInit == boxState = "Open" /\ shut = 0
 Out == [WORD |-> IF shut = 1 THEN CODE[1] ELSE 0, LAMP |-> boxState = "Shut", SPARE |-> FALSE]
-Ready(i) == i.door \/ "EAGER" \in LITERAL
+Needed == TRUE
+NotNeeded == FALSE
+Ready(i) == i.door \/ ~Needed \/ "EAGER" \in LITERAL
 \* BX-1-1, E-01
 Close(i) == boxState = "Open" /\ Ready(i) /\ boxState' = "Shut" /\ shut' = 1 /\ Did("Close")
 \* BX-1-1
@@ -50,6 +52,7 @@ CFGS = {
     "MC_Box": CFG % ("{}", "TRUE"),
     "MC_Box_lazy": CFG % ('{"LAZY"}', "TRUE"),
     "NEG_Box_eager": CFG % ('{"EAGER"}', "TRUE"),
+    "NEG_Box_hasty": "CONSTANT Needed <- NotNeeded\n" + CFG % ("{}", "FALSE"),
 }
 RUN = """
 [[run]]
@@ -141,7 +144,7 @@ decision = "It waits for the door. And more."
 class = "safety"
 drawing_could_settle = true
 switches = ["EAGER", "LAZY"]
-evidence = ["NEG_Box_eager", "MC_Box_lazy"]
+evidence = ["NEG_Box_eager", "MC_Box_lazy", "NEG_Box_hasty"]
 
 [[finding]]
 id = "E-02"
@@ -165,8 +168,7 @@ kind = "assumption"
 clauses = ["BX-1-1"]
 who = "the builder"
 check = "count"
-breaks = []
-breaks_open = "a box has one door"
+breaks = ["NEG_Box_hasty"]
 """,
     "replay": """
 document = "box"
@@ -217,6 +219,7 @@ def make_box(root: Path) -> Path:
     runs += declared("MC_Box_lazy", "the bounds of MC_Box", "distinct = 3\ngenerated = 5\n")
     negative = 'property = "ShutsOverDoor"\ntrace_length = 2\n'
     runs += declared("NEG_Box_eager", "the bounds of MC_Box", negative)
+    runs += declared("NEG_Box_hasty", "the bounds of MC_Box", negative)
     (folder / "runs.toml").write_text(runs)
     return root
 
@@ -227,7 +230,7 @@ def evidence_of_the_box(tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = make_box(tmp_path_factory.mktemp("checked"))
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MODEPROOF_ROOT", str(root))
-        assert main(["check", "--quiet", "MC_Box_lazy", "NEG_Box_eager"]) == 0
+        assert main(["check", "--quiet", "MC_Box_lazy", "NEG_Box_eager", "NEG_Box_hasty"]) == 0
         assert main(["findings", "--render", "--quiet"]) == 0
     return root
 
