@@ -109,6 +109,9 @@ def make_parser() -> argparse.ArgumentParser:
         "--repin", action="store_true", help="move the pins of these runs to what they give now"
     )
     check.add_argument("--reason", metavar="TEXT", help="why the pins move (with --repin)")
+    check.add_argument(
+        "--resume", action="store_true", help="keep runs whose evidence still fits, run only the others"
+    )
 
     prove = _command(
         commands, "prove", _prove, "prove the theorems of a document with Z3, re-checked by cvc5"
@@ -220,6 +223,8 @@ def _check(args: argparse.Namespace) -> int:
             raise Unjudged("--repin needs the runs by name")
     elif args.reason is not None:
         raise Unjudged("--reason belongs to --repin")
+    if args.resume and args.repin:
+        raise Unjudged("--resume keeps what is as expected, --repin makes anew: give one of them")
     lane = args.lane or (None if args.runs else "full")
     runs = select(place, args.runs, lane, args.document)
     if args.list:
@@ -230,10 +235,14 @@ def _check(args: argparse.Namespace) -> int:
     progress = Progress(quiet=args.quiet)
     spread = _spread(args, place, runs)
     with only_one(place):
-        done = check_all(place, runs, tools, progress, lambda one: progress.say(line_of(one)), spread)
+        still = _resumed(args, place, runs, tools, progress)
+        again = [run for run in runs if run.name not in still]
+        done = list(still.values())
+        if again:
+            done += check_all(place, again, tools, progress, lambda one: progress.say(line_of(one)), spread)
         for one in done if not args.repin or args.trace else ():
             _show_trace(one, args)
-        status = max(one.status for one in done)
+        status: int = max(one.status for one in done)
         problems: list[str] = []
         for document in sorted({run.document for run in runs}):
             problems += [f"{document}: {problem}" for problem in register_problems(place, document)]
@@ -248,6 +257,24 @@ def _check(args: argparse.Namespace) -> int:
         print(f"{good} of {len(done)} runs as expected")
     _write_json(args, status, runs=[one.record for one in done], problems=problems)
     return status
+
+
+def _resumed(
+    args: argparse.Namespace, place: Path, runs: Sequence[Any], tools: Any, progress: Any
+) -> dict[str, Any]:
+    """With --resume: the runs that are kept, by their names; each run is said, with why it is run again."""
+    from modeproof.tlc.check import kept
+    from modeproof.tlc.resume import why_again
+    from modeproof.verify import line_of
+
+    found: dict[str, Any] = {}
+    for run in runs if args.resume else ():
+        if reason := why_again(place, run, tools):
+            progress.say(f"again {run.name}: {reason}")
+        else:
+            found[run.name] = kept(place, run)
+            progress.say(line_of(found[run.name]))
+    return found
 
 
 def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[str, Any]:

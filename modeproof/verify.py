@@ -85,6 +85,11 @@ def check_lane(place: Path, document: str, lane: str, progress: Progress) -> Rec
 
 def line_of(checked: Checked) -> str:
     """One line that says how a run went."""
+    if checked.kept:
+        words, record = checked.judgement.words, checked.record
+        return (
+            f"ok  {checked.run.name}: {words}; kept, of {record['started']}, {record['seconds']:.1f} s then"
+        )
     counts = checked.outcome.log.counts if checked.outcome is not None else None
     seconds = checked.outcome.seconds if checked.outcome is not None else 0.0
     parts = [f"{'ok ' if checked.status == 0 else 'NOT'} {checked.run.name}: {checked.judgement.words}"]

@@ -1,7 +1,7 @@
 """Evidence: one JSON file a run, written atomically, checked by one schema on writing and on reading."""
 
 from modeproof.evidence.files import discard, discard_undeclared, evidence_path, read, read_document, write
-from modeproof.evidence.record import SCHEMA_VERSION, hashes, machine, make, tool
+from modeproof.evidence.record import SCHEMA_VERSION, hashes, machine, make, own_tools, tool
 
 __all__ = [
     "SCHEMA_VERSION",
@@ -11,6 +11,7 @@ __all__ = [
     "hashes",
     "machine",
     "make",
+    "own_tools",
     "read",
     "read_document",
     "tool",

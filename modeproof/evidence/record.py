@@ -47,7 +47,8 @@ def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
 
 
 @cache
-def _own_tools() -> dict[str, dict[str, str | None]]:
+def own_tools() -> dict[str, dict[str, str | None]]:
+    """Version and hash of modeproof itself (all its Python), and the version of Python."""
     package = Path(__file__).resolve().parent.parent
     digest = hashlib.sha256()
     for source in sorted(package.rglob("*.py")):
@@ -121,7 +122,7 @@ def make(
         "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started)),
         "seconds": round(seconds, 3),
         "inputs": dict(inputs or {}),
-        "tools": {**_own_tools(), **{name: dict(entry) for name, entry in (tools or {}).items()}},
+        "tools": {**own_tools(), **{name: dict(entry) for name, entry in (tools or {}).items()}},
         "machine": machine(),
         "result": dict(result or {}),
         "reason": " ".join(reason.split()),

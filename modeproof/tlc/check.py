@@ -24,8 +24,9 @@ from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import Outcome, run_tlc
+from modeproof.tlc.resume import declaration_sha256
 from modeproof.tlc.runs import Run, load_runs
-from modeproof.tlc.schedule import Job, cores, memory_mb, run_all
+from modeproof.tlc.schedule import Job, cores, machine_mb, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
 _STATES_A_SECOND = {"LIVE": 8_000, "OPEN": 50_000}
@@ -41,6 +42,8 @@ class Checked:
     outcome: Outcome | None
     cfg_sha256: str
     record: dict[str, Any]
+    kept: bool = False
+    """Not run now: its evidence of an earlier run still fits."""
 
     @property
     def status(self) -> int:
@@ -137,6 +140,8 @@ def check_one(
     progress.begin(run.id)
     try:
         cfg, digest = read_cfg(place, run)
+        if 0 < (there := machine_mb()) < run.heap_mb:
+            raise Unjudged(f"{run.name}: heap_mb = {run.heap_mb}, but this machine has {there} MiB of memory")
 
         def on_progress(counts: Counts) -> None:
             progress.update(run.id, f"{counts.distinct:,} distinct, {counts.generated:,} generated")
@@ -173,6 +178,15 @@ def _about_switch(place: Path, run: Run, judgement: Judgement, outcome: Outcome)
     return replace(judgement, reason=f"{judgement.reason}: {words}") if words else judgement
 
 
+def kept(place: Path, run: Run) -> Checked:
+    """A run that is not run again, from its evidence, which has been found to fit."""
+    record = evidence.read(evidence.evidence_path(place, run.document, run.id))
+    result = record["result"]
+    reached = tuple(result.get("reached", ()))
+    judgement = Judgement(record["verdict"], True, "", result.get("violated", ""), reached)
+    return Checked(run, judgement, None, run.cfg_sha256 or "", record, kept=True)
+
+
 def check_all(
     place: Path,
     runs: Sequence[Run],
@@ -186,6 +200,7 @@ def check_all(
     `where` holds, by their names, the runs that are checked in distributed mode; each has all cores.
     """
     core_limit = cores()
+    exhaustive = any(set(run.lanes) == {"exhaustive"} for run in runs)
     jobs = [
         Job(run.id, core_limit if run.name in where else run.workers, run.heap_mb, _estimate(place, run))
         for run in runs
@@ -198,7 +213,7 @@ def check_all(
         return checked
 
     try:
-        return run_all(jobs, work, core_limit, memory_mb(), progress.tick)
+        return run_all(jobs, work, core_limit, memory_mb(exhaustive=exhaustive), progress.tick)
     except BaseException:
         children.stop_all()
         raise
@@ -265,6 +280,7 @@ def _result(
         "heap_mb": run.heap_mb,
         "timeout_s": run.timeout_s,
         "jar_pinned": tools.pinned,
+        "declaration": declaration_sha256(run),
         "pins": {"distinct": run.distinct, "generated": run.generated, "trace_length": run.trace_length},
     }
     if not tools.pinned:

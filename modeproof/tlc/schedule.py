@@ -27,18 +27,31 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def memory_mb() -> int:
-    """Memory for all Java heaps together: MODEPROOF_HEAP_MB, else 5 GiB, else what the machine has less 1
-    GiB.
+ORDINARY_MB = 5120
+"""All heaps together have no more than this, so that the machine can be used for other things meanwhile."""
+
+
+def machine_mb() -> int:
+    """The machine's memory in MiB; 0 when it cannot be told."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
+    except (OSError, ValueError):
+        return 0
+
+
+def memory_mb(exhaustive: bool = False) -> int:
+    """Memory in MiB for all Java heaps together: MODEPROOF_HEAP_MB, else what the machine has less 1 GiB.
+
+    Of that at most ORDINARY_MB, except where runs of the exhaustive lane are among them: these may be large,
+    and take hours. A run that needs more than all of it is run alone.
     """
     named = os.environ.get("MODEPROOF_HEAP_MB", "")
     if named.isdigit() and int(named) > 0:
         return int(named)
-    try:
-        physical = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
-    except (OSError, ValueError):
-        return 5120
-    return max(1024, min(5120, physical - 1024))
+    there = machine_mb() - 1024
+    if there < 0:
+        return ORDINARY_MB
+    return max(1024, there if exhaustive else min(ORDINARY_MB, there))
 
 
 def order(jobs: Sequence[Job]) -> list[int]:
