@@ -127,6 +127,7 @@ def make_parser() -> argparse.ArgumentParser:
     _plug_in(commands, "registers", "modeproof.registers.command")
     _plug_in(commands, "findings", "modeproof.findings")
     _plug_in(commands, "mutate", "modeproof.strength.command")
+    _plug_in(commands, "scale", "modeproof.scale")
 
     _command(commands, "doctor", _doctor, "tell what this machine lacks, and how to mend it")
     return parser

@@ -1,0 +1,242 @@
+"""The page and the chart of how a model grows, from the evidence of measured points.
+
+The law stated is the one of three (exponential, power, straight line) that fits best; how well is the share
+of the variance of log y that it explains, the same measure for all three.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+from xml.sax.saxutils import escape
+
+LEAST = 3
+"""With fewer points no law is stated."""
+_COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e44ad", "#b9770e")
+_WIDTH, _HEIGHT = 380, 300
+_LEFT, _RIGHT, _TOP, _BOTTOM = 70, 12, 34, 44
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One point: its place on the axis and its evidence (None: not measured)."""
+
+    x: int
+    record: Mapping[str, Any] | None
+
+    def value(self, name: str) -> float | None:
+        """A figure of a point that holds, else None."""
+        if self.record is None or not self.record["as_expected"]:
+            return None
+        figure: float = self.record["result"][name]
+        return float(figure)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The points of one series, with the run that they vary."""
+
+    id: str
+    run: str
+    x: str
+    title: str
+    points: tuple[Measured, ...]
+
+    def values(self, name: str) -> list[tuple[int, float]]:
+        """x and the figure of each point that has it and is greater than 0."""
+        found = [(point.x, point.value(name)) for point in self.points]
+        return [(x, y) for x, y in found if y is not None and y > 0]
+
+
+@dataclass(frozen=True)
+class Law:
+    """How y grows with x, and R squared of log y (1: exactly so)."""
+
+    kind: str
+    a: float
+    b: float
+    r_squared: float
+
+    def at(self, x: float) -> float:
+        """What the law says of x."""
+        if self.kind == "exponential":
+            return self.a * math.pow(self.b, x)
+        return self.a * math.pow(x, self.b) if self.kind == "power" else self.a + self.b * x
+
+    def __str__(self) -> str:
+        a = f"{self.a:,.3g}" if self.a < 999 else f"{self.a:,.0f}"
+        words = {
+            "exponential": f"{a} · {self.b:.3g}^x",
+            "power": f"{a} · x^{self.b:.3g}",
+            "line": f"{a} + {self.b:,.0f} · x",
+        }[self.kind]
+        return f"{words} (R² = {self.r_squared:.4f})"
+
+
+def best_law(points: Sequence[tuple[int, float]]) -> Law | None:
+    """The law that explains most of the variance of log y; None for less than LEAST points or a constant."""
+    if len(points) < LEAST or len({y for _, y in points}) == 1:
+        return None
+    xs = [float(x) for x, _ in points]
+    ys = [y for _, y in points]
+    logs = [math.log(y) for y in ys]
+    found: list[Law] = []
+    a, b = _line(xs, logs)
+    found.append(_judged("exponential", math.exp(a), math.exp(b), xs, logs))
+    if min(xs) > 0:
+        a, b = _line([math.log(x) for x in xs], logs)
+        found.append(_judged("power", math.exp(a), b, xs, logs))
+    a, b = _line(xs, ys)
+    if all(a + b * x > 0 for x in xs):
+        found.append(_judged("line", a, b, xs, logs))
+    return max(found, key=lambda law: law.r_squared)
+
+
+def _line(xs: Sequence[float], ys: Sequence[float]) -> tuple[float, float]:
+    """Intercept and slope of the least squares line."""
+    n, mean_x, mean_y = len(xs), sum(xs) / len(xs), sum(ys) / len(ys)
+    slope = sum(xs[i] * ys[i] for i in range(n)) - n * mean_x * mean_y
+    slope /= sum(x * x for x in xs) - n * mean_x * mean_x
+    return mean_y - slope * mean_x, slope
+
+
+def _judged(kind: str, a: float, b: float, xs: Sequence[float], logs: Sequence[float]) -> Law:
+    law = Law(kind, a, b, 0.0)
+    mean = sum(logs) / len(logs)
+    rest = sum((log - math.log(law.at(x))) ** 2 for x, log in zip(xs, logs, strict=True))
+    return Law(kind, a, b, 1.0 - rest / sum((log - mean) ** 2 for log in logs))
+
+
+# ------------------------------------------------------------------------------------------------ page
+
+
+def page(curves: Sequence[Curve], command: str, picture: str) -> str:
+    """The page as Markdown; `command` makes it, `picture` is the name of the chart."""
+    records = [point.record for curve in curves for point in curve.points if point.record is not None]
+    out = [
+        "# How the model grows",
+        "",
+        f"Rendered by `{command} --render` from the evidence of `{command}`; not edited by hand.",
+        _machine(records),
+        "Each point is one TLC run with one worker, the properties of the run that it varies and at most",
+        f"{_limit(records):g} s; time is CPU time, which hardly depends on what else the machine is doing.",
+        "",
+        f"![distinct states and CPU seconds]({picture})",
+        "",
+        "| series | varies | distinct states | CPU seconds |",
+        "|---|---|---|---|",
+    ]
+    for curve in curves:
+        laws = [best_law(curve.values(name)) for name in ("distinct", "cpu_seconds")]
+        cells = [str(law) if law else f"fewer than {LEAST} points" for law in laws]
+        out.append(f"| {curve.title} | {curve.x} | {cells[0]} | {cells[1]} |")
+    out += [
+        "",
+        "The law is the best of three (exponential, power, straight line), by least squares; R² is of log y.",
+        "It describes the points measured and says nothing beyond them.",
+        "",
+    ]
+    for curve in curves:
+        out += [
+            f"## {curve.title} (`{curve.run}`)",
+            "",
+            f"| {curve.x} | distinct | generated | depth | CPU s | |",
+            "|---:|---:|---:|---:|---:|---|",
+        ]
+        out += [_row(point) for point in curve.points] + [""]
+    return "\n".join(out)
+
+
+def _limit(records: Sequence[Mapping[str, Any]]) -> float:
+    return max((float(one["result"]["limit_s"]) for one in records), default=0.0)
+
+
+def _machine(records: Sequence[Mapping[str, Any]]) -> str:
+    names = sorted(
+        {
+            f"{one['machine'].get('cpu') or one['machine']['arch']}, {one['machine']['cores']} cores, "
+            f"{one['tools']['java']['version']}"
+            for one in records
+            if one["as_expected"]
+        }
+    )
+    return f"Measured on: {'; '.join(names)}." if names else "Nothing was measured."
+
+
+def _row(point: Measured) -> str:
+    record = point.record
+    if record is None:
+        return f"| {point.x} | | | | | not measured |"
+    if not record["as_expected"]:
+        return f"| {point.x} | | | | | left out: {record['reason']} |"
+    result = record["result"]
+    counts = f"{result['distinct']:,} | {result['generated']:,} | {result['depth']}"
+    return f"| {point.x} | {counts} | {result['cpu_seconds']:.1f} | |"
+
+
+# ------------------------------------------------------------------------------------------------ chart
+
+
+def chart(curves: Sequence[Curve]) -> str:
+    """The chart as SVG: a row of two panels for each thing that is varied, both with a logarithmic axis."""
+    kinds = list(dict.fromkeys(curve.x for curve in curves))
+    width, height = 2 * _WIDTH, len(kinds) * _HEIGHT
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        f'viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11">',
+        f'<rect width="{width}" height="{height}" fill="#ffffff"/>',
+    ]
+    for row, kind in enumerate(kinds):
+        chosen = [curve for curve in curves if curve.x == kind]
+        for column, (name, title) in enumerate(
+            (("distinct", "distinct states"), ("cpu_seconds", "CPU seconds"))
+        ):
+            parts.append(f'<g transform="translate({column * _WIDTH},{row * _HEIGHT})">')
+            parts += _panel(chosen, name, title, kind)
+            parts.append("</g>")
+    return "\n".join([*parts, "</svg>", ""])
+
+
+def _panel(curves: Sequence[Curve], name: str, title: str, kind: str) -> list[str]:
+    values = [pair for curve in curves for pair in curve.values(name)]
+    parts = [f'<text x="{_LEFT}" y="16" font-size="13">{escape(title)} against {escape(kind)}</text>']
+    if not values:
+        return [*parts, f'<text x="{_LEFT}" y="60">not measured</text>']
+    places = sorted({point.x for curve in curves for point in curve.points})
+    low = math.floor(min(math.log10(y) for _, y in values))
+    high = max(low + 1, math.ceil(max(math.log10(y) for _, y in values)))
+    right, bottom = _WIDTH - _RIGHT, _HEIGHT - _BOTTOM
+
+    def across(x: float) -> float:
+        return _LEFT + 12 + (x - places[0]) / (places[-1] - places[0]) * (right - _LEFT - 24)
+
+    def up(y: float) -> float:
+        return bottom - (math.log10(y) - low) / (high - low) * (bottom - _TOP)
+
+    for power in range(low, high + 1):
+        y = up(10.0**power)
+        parts.append(f'<line x1="{_LEFT}" y1="{y:.1f}" x2="{right}" y2="{y:.1f}" stroke="#dddddd"/>')
+        parts.append(f'<text x="{_LEFT - 6}" y="{y + 4:.1f}" text-anchor="end">{_tick(power)}</text>')
+    for x in places:
+        parts.append(f'<text x="{across(x):.1f}" y="{bottom + 16}" text-anchor="middle">{x}</text>')
+    middle = (_LEFT + right) / 2
+    parts.append(f'<text x="{middle:.1f}" y="{bottom + 34}" text-anchor="middle">{escape(kind)}</text>')
+    for number, curve in enumerate(curves):
+        colour = _COLOURS[number % len(_COLOURS)]
+        line = " ".join(f"{across(x):.1f},{up(y):.1f}" for x, y in curve.values(name))
+        parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="1.5"/>')
+        parts += [
+            f'<circle cx="{across(x):.1f}" cy="{up(y):.1f}" r="3" fill="{colour}"/>'
+            for x, y in curve.values(name)
+        ]
+        y = bottom - 8 - 14 * (len(curves) - 1 - number)
+        parts.append(
+            f'<text x="{right - 4}" y="{y}" text-anchor="end" fill="{colour}">{escape(curve.title)}</text>'
+        )
+    return parts
+
+
+def _tick(power: int) -> str:
+    return f"{10**power:,}" if power >= 0 else f"{10.0**power:g}"

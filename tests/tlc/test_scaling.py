@@ -1,0 +1,97 @@
+"""Series of runs of which one constant is varied: measured, judged, refused when not understood."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof import evidence
+from modeproof.cli import main
+from modeproof.errors import Unjudged
+from modeproof.tlc.scaling import cfg_text, load_scaling
+from tests.toy_tree import toy_tree
+
+SCALING = """
+limit_s = 60
+heap_mb = 256
+[[series]]
+id = "floors"
+run = "MC_toy"
+x = "floors"
+title = "a lift"
+set = { SPECIFICATION = "FairSpec" }
+points = [{ x = 2, N = "2" }, { x = 3, N = "3" }]
+"""
+
+
+@pytest.fixture
+def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
+    root = toy_tree(tmp_path, "MC_toy")
+    (root / "spec/toy/scaling.toml").write_text(SCALING)
+    (root / "docs").mkdir()
+    return root
+
+
+def test_a_series_is_measured_and_rendered(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["scale", "--quiet"]) == 0
+    said = capsys.readouterr().out
+    assert "floors 2: HOLDS; 8 distinct" in said and "floors 3: HOLDS; 12 distinct" in said
+    record = evidence.read(evidence.evidence_path(root, "toy", "SCALE_floors_3"))
+    assert record["kind"] == "scaling" and record["result"]["given"] == {
+        "SPECIFICATION": "FairSpec",
+        "N": "3",
+    }
+    assert record["result"]["cpu_seconds"] > 0
+    assert main(["scale", "--render"]) == 0
+    assert "| 3 | 12 |" in (root / "docs/scaling.md").read_text()
+    assert (root / "docs/scaling.svg").read_text().count("<circle") == 4
+
+
+def test_after_a_point_beyond_its_limit_the_larger_ones_are_not_tried(
+    root: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = SCALING.replace("limit_s = 60", "limit_s = 0.3").replace('run = "MC_toy"', 'run = "MC_toy"')
+    (root / "spec/toy/scaling.toml").write_text(text)
+    assert main(["scale", "--quiet"]) == 0
+    said = capsys.readouterr().out
+    assert "floors 2: INCONCLUSIVE" in said and "time limit of 0.3 s reached" in said
+    assert "floors 3: INCONCLUSIVE" in said and "not tried" in said
+    assert main(["scale", "--render"]) == 0
+    assert "left out: not tried" in (root / "docs/scaling.md").read_text()
+
+
+def test_a_series_that_does_not_hold_is_not_judged_a_success(root: Path) -> None:
+    path = root / "spec/toy/Toy.tla"
+    path.write_text(path.read_text().replace("TypeOK == count", "TypeOK == count < 3 /\\ count"))
+    assert main(["scale", "--quiet"]) == 2
+    record = evidence.read(evidence.evidence_path(root, "toy", "SCALE_floors_3"))
+    assert record["verdict"] == "VIOLATED" and not record["as_expected"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('run = "MC_toy"', 'run = "MC_tyo"', "no run 'MC_tyo' in runs.toml"),
+        ('x = "floors"', 'y = "floors"', "unknown field 'y'"),
+        ('title = "a lift"', "", "title is missing"),
+        ("x = 3,", "x = 2,", "with rising x"),
+        ('N = "3"', "N = 3", "must be text"),
+        ("x = 3,", 'x = "3",', "must be a whole number"),
+    ],
+)
+def test_a_register_that_is_not_understood_is_refused(root: Path, old: str, new: str, words: str) -> None:
+    assert old in SCALING
+    (root / "spec/toy/scaling.toml").write_text(SCALING.replace(old, new, 1))
+    with pytest.raises(Unjudged, match=words):
+        load_scaling(root, "toy")
+
+
+def test_a_cfg_is_changed_where_it_is_told_and_nowhere_else() -> None:
+    text = 'CONSTANTS N = {1, 2}  M <- Name \\* N = 7\n  T = "a"\nVIEW View\nSPECIFICATION Spec\n'
+    made = cfg_text(text, {"N": "{1}", "M": "5", "VIEW": "Other", "NEW": "0"}, "x")
+    assert "N = {1}  M = 5" in made and "VIEW Other" in made and "SPECIFICATION Spec" in made
+    assert made.startswith("CONSTANT NEW = 0\n") and "N = 7" not in made
+    with pytest.raises(Unjudged, match="INIT stands 0 times"):
+        cfg_text(text, {"INIT": "Start"}, "x")
