@@ -141,7 +141,7 @@ def _tier(source: str, values: dict[str, Any], runs: Mapping[str, Run], rules: M
         definitions=str(values.get("definitions", "")),
         types=_names(at, values, "types"),
         decides=bool(values.get("decides", asks == "graph")),
-        timeout_s=float(values.get("timeout_s", 60)),
+        timeout_s=float(values.get("timeout_s", 120)),
         heap_mb=int(values.get("heap_mb", 512)),
     )
 
