@@ -1,0 +1,81 @@
+"""The generated module names what TLC's own checks would stop at, and nothing when nothing is broken."""
+
+from __future__ import annotations
+
+import pytest
+
+from modeproof.errors import Unjudged
+from modeproof.places import root
+from modeproof.registers.load import load_document
+from modeproof.strength.judge import Bench
+from modeproof.strength.register import Strength, Tier, load_strength
+from modeproof.strength.trial import BROKEN, make_trial
+from modeproof.tlc.parse_tree import read_tree
+from modeproof.tlc.runs import load_runs
+from modeproof.tlc.toolchain import find_toolchain
+
+DOCUMENT = "mode_selection"
+RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
+KINDS = {one.id: one.kind for one in load_document(root(), DOCUMENT).properties}
+SAFETY = [run.id for run in RUNS.values() if run.kind == "NEG" and KINDS.get(str(run.violates)) != "liveness"]
+
+
+def names_printed(id: str) -> set[str]:
+    """What the trial of a declared run prints until the name that TLC's own check stops at."""
+    run = RUNS[id]
+    tier = Tier(id, (), run, "properties", "always", {}, "", (), False, 240.0, 1024)
+    bench = Bench(root(), Strength(DOCUMENT, {}, (tier,), ()), find_toolchain())
+    found: set[str] = set()
+
+    def watch(line: bytes) -> bool:
+        match = BROKEN.fullmatch(line)
+        if match is not None:
+            found.add(match[1].decode())
+        return run.violates in found
+
+    bench._run(tier, None, watch)
+    return found
+
+
+@pytest.mark.parametrize("id", ["NEG_Hmi_shows_any_echo", "NEG_Eks_no_level_check"])
+def test_what_tlc_stops_at_is_among_the_names(id: str) -> None:
+    """`python -m tests.strength.test_trial` asks this about every negative run."""
+    assert RUNS[id].violates in names_printed(id)
+
+
+def test_a_property_of_time_is_not_taken_apart() -> None:
+    live = next(run for run in RUNS.values() if run.kind == "LIVE")
+    folder = root() / "spec" / DOCUMENT
+    tree = read_tree(folder, live.module, find_toolchain())
+    tier = Tier("live", (), live, "properties", "always", {}, "", (), False, 60.0, 512)
+    with pytest.raises(Unjudged, match="ask for it in a tier on liveness"):
+        make_trial(tree, tier, (folder / live.cfg).read_text())
+
+
+def test_a_contract_in_another_module_is_judged_in_its_first_state_and_in_every_step() -> None:
+    flows = next(run for run in RUNS.values() if "RefinesModeSelection" in run.properties)
+    folder = root() / "spec" / DOCUMENT
+    tree = read_tree(folder, flows.module, find_toolchain())
+    tier = Tier("flows", (), flows, "properties", "always", {}, "", (), False, 60.0, 512)
+    text = make_trial(tree, tier, (folder / flows.cfg).read_text()).module
+    assert "Contract!Init" in text and "Contract!Next" in text and "Contract!vars" in text
+
+
+def test_the_tiers_of_the_document_are_read() -> None:
+    strength = load_strength(root(), DOCUMENT)
+    assert set(strength.rules) == {module for tier in strength.tiers for module in tier.modules}
+    for module in strength.rules:  # every module is compared with its own graph
+        assert any(tier.decides for tier in strength.tiers_of(module))
+
+
+def main() -> None:
+    """Ask every negative run whose property is no liveness."""
+    for id in SAFETY:
+        found = names_printed(id)
+        print(
+            "ok " if RUNS[id].violates in found else "NOT", id, RUNS[id].violates, sorted(found), flush=True
+        )
+
+
+if __name__ == "__main__":
+    main()
