@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from modeproof.registers.citations import Sources
+from modeproof.registers.fault_table import check_faults
 from modeproof.registers.rows import Device, Document, Problem, Run, Signal
 from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import closure
@@ -26,6 +27,7 @@ def cross_check(document: Document, sources: Sources) -> list[Problem]:
         *_findings(document, sources),
         *_assumptions(document),
         *_runs(document, sources),
+        *check_faults(document),
     ]
 
 

@@ -14,9 +14,12 @@ from modeproof.registers.rows import (
     Clause,
     Device,
     Document,
+    Fall,
+    Fault,
     Finding,
     Graph,
     Interface,
+    Matrix,
     Property,
     Run,
     Signal,
@@ -40,6 +43,7 @@ def load_document(root: Path, name: str) -> Document:
     """
     if not (root / "spec" / name).is_dir():
         raise Unjudged(f"spec/{name}: no such document; {suggestion(name, documents(root))}")
+    faults = _faults(root, name)
     return Document(
         root=root,
         name=name,
@@ -50,7 +54,16 @@ def load_document(root: Path, name: str) -> Document:
         findings=tuple(_finding(row) for row in read_register(root, name, "findings")["finding"]),
         assumptions=tuple(_assumption(row) for row in read_register(root, name, "assumptions")["assumption"]),
         runs=tuple(_run(row) for row in read_register(root, name, "runs")["run"]),
+        faults=tuple(_fault(row) for row in faults.get("fault", [])),
+        matrix=Matrix(**faults["matrix"]) if "matrix" in faults else None,
     )
+
+
+def _faults(root: Path, name: str) -> dict[str, Any]:
+    """The register of faults, empty where the document has none."""
+    if not (root / "spec" / name / "faults.toml").exists():
+        return {}
+    return read_register(root, name, "faults")
 
 
 def load_interface(root: Path, name: str) -> Interface:
@@ -195,6 +208,21 @@ def _assumption(row: Table) -> Assumption:
         check=row["check"],
         breaks=_names(row, "breaks"),
         breaks_open=row.get("breaks_open", ""),
+    )
+
+
+def _fault(row: Table) -> Fault:
+    return Fault(
+        id=row["id"],
+        kind=row["class"],
+        title=row["title"],
+        model=row["model"],
+        detected_by=_names(row, "detected_by"),
+        not_detected=row["not_detected"],
+        holds=_names(row, "holds"),
+        runs=_names(row, "runs"),
+        falls=tuple(Fall(**one) for one in row.get("falls", [])),
+        not_modelled=row.get("not_modelled", ""),
     )
 
 

@@ -153,6 +153,40 @@ class Assumption:
 
 
 @dataclass(frozen=True)
+class Fall:
+    """A property that falls under a class of faults: the run that shows it, and what it takes."""
+
+    property: str
+    run: str
+    needs: str
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One class of faults from outside: what detects it, what holds, what falls, what nothing detects."""
+
+    id: str
+    kind: str
+    """The key `class` of the register: the class of the communication error list, or of wires."""
+    title: str
+    model: str
+    detected_by: tuple[str, ...]
+    not_detected: str
+    holds: tuple[str, ...] = ()
+    runs: tuple[str, ...] = ()
+    falls: tuple[Fall, ...] = ()
+    not_modelled: str = ""
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A run whose witnesses are the cells of a table: `ROW at COLUMN: WHAT`."""
+
+    run: str
+    title: str
+
+
+@dataclass(frozen=True)
 class Graph:
     """What a run says about the graph that it prints. `passed` maps an output to the input it shows."""
 
@@ -197,6 +231,8 @@ class Document:
     findings: tuple[Finding, ...]
     assumptions: tuple[Assumption, ...]
     runs: tuple[Run, ...]
+    faults: tuple[Fault, ...] = ()
+    matrix: Matrix | None = None
 
     @property
     def folder(self) -> Path:

@@ -17,6 +17,9 @@ from modeproof.errors import Unjudged
 REGISTERS = ("document", "clauses", "interface", "properties", "findings", "assumptions", "runs")
 """Every register of a document, in the order in which a reader meets them."""
 
+OPTIONAL = ("faults",)
+"""Registers that a document may have."""
+
 TYPE_WORDS = {
     "string": "a text in quotes",
     "integer": "an integer",

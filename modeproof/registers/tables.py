@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+from modeproof.registers.fault_table import render_fault_matrix, render_faults_table
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import Document, Problem
@@ -17,11 +18,11 @@ COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
 """The columns of the text table; JSON and CSV have all fields."""
 
 BLOCK = re.compile(
-    r"(<!-- begin (properties|picture)(?: ([a-z][a-z0-9_]*))? -->\n)"
-    r"(.*?)(<!-- end(?: (?:properties|picture))? -->)",
+    r"(<!-- begin (properties|picture|faults|fault matrix)(?: ([a-z][a-z0-9_]*))? -->\n)"
+    r"(.*?)(<!-- end(?: (?:properties|picture|faults|fault matrix))? -->)",
     re.DOTALL,
 )
-BEGIN = re.compile(r"<!-- begin (?:properties|picture)")
+BEGIN = re.compile(r"<!-- begin (?:properties|picture|fault)")
 
 
 def matrix_text(rows: Sequence[Row]) -> str:
@@ -110,13 +111,18 @@ def _rows(names: Sequence[str]) -> str:
     return "<br>".join(", ".join(names[n : n + 3]) for n in range(0, len(names), 3))
 
 
-RENDERERS = {"properties": render_properties_table, "picture": render_picture}
+RENDERERS = {
+    "properties": render_properties_table,
+    "picture": render_picture,
+    "faults": render_faults_table,
+    "fault matrix": render_fault_matrix,
+}
 
 
 def render_blocks(text: str, documents: Sequence[Document]) -> str:
-    """The page with each block `<!-- begin properties|picture [DOCUMENT] --> .. <!-- end -->` rendered anew.
+    """The page with each block `<!-- begin WHAT [DOCUMENT] --> .. <!-- end -->` rendered anew.
 
-    Without a name the block holds those of all documents.
+    WHAT is a key of `RENDERERS`. Without a name the block holds those of all documents.
     """
 
     def block(match: re.Match[str]) -> str:

@@ -15,7 +15,7 @@
 (* Leaves out: faults inside the F-PLC (A-18), in the PLC's or the panel's *)
 (* program (A-12, A-13), on keys (A-24); more than FAULTS faults.          *)
 (***************************************************************************)
-EXTENDS KeyFlows
+EXTENDS KeyFlows, WrongWords
 
 CONSTANTS
     FAULTS,         \* how many faults may happen
@@ -72,11 +72,6 @@ Sent(p) == CASE p = "ReadAuthorization" -> MW01 [] p = "MW03" -> SelectMSO [] p 
 \* The flag word that is read for the place
 Flag(p) == CASE p = "ReadAuthorization" -> MW01 [] p = "MW03" -> MW03 [] p = "CheckMSO" -> MW05 [] p = "MW07" -> MW07
 
-Known(w) == IF w \in WordClasses THEN w ELSE OtherWord
-\* The left byte of one word with the right byte of another
-Mixed(left, right) == Known((left \div 256) * 256 + (right % 256))
-\* A read that begins one byte too late: the right byte of one flag word, the left byte of the next
-Straddled(one, next) == Known((one % 256) * 256 + (next \div 256))
 StraddledReads(p) ==
     LET MW02 == Straddled(MW01, MW03)
         MW04 == Straddled(MW03, MW05)
@@ -112,6 +107,8 @@ FplcCares(r) ==
       [] OTHER -> TRUE
 PanelCares(r) == hmiState = "Inhibited" => ModeOf(RE, r[1]) # None /\ r[2] = 0
 Wrong(p, q, r) == (IF r[1] # Stands(p) THEN {p} ELSE {}) \cup (IF r[2] # Stands(q) THEN {q} ELSE {})
+\* Liveness runs record nothing
+WrongWas(p, q, r) == wrong' = IF RECORD_STEPS THEN Wrong(p, q, r) ELSE {}
 
 ----------------------------------------------------------------------------
 (* Wires: what the F-PLC sees of LA and the five outputs.                  *)
@@ -165,7 +162,7 @@ FplcRunsFaulty ==
         /\ faults + cost <= FAULTS /\ (r[3] > 0 => FplcCares(r))
         /\ FplcScan([LA |-> SeenLA(b), vec |-> SeenVector(b), MW03 |-> r[1], MW07 |-> r[2], dt |-> dt])
         /\ dt > 0 => fplcState' # fplcState
-        /\ MW03' = r[1] /\ MW07' = r[2] /\ wrong' = Wrong("MW03", "MW07", r)
+        /\ MW03' = r[1] /\ MW07' = r[2] /\ WrongWas("MW03", "MW07", r)
         /\ faults' = faults + cost /\ broken' = b /\ low' = (b # {} /\ ~LA /\ Vector = {})
         /\ Took(dt)
     /\ UNCHANGED <<reader, eks, turn, ReadAuthorization, CheckMSO, hmi, history, past>>
@@ -178,7 +175,7 @@ PanelRunsFaulty ==
     /\ \E r \in Reads("ReadAuthorization", "CheckMSO"), touch \in Touchable :
         /\ r[3] > 0 => PanelCares(r)
         /\ HmiScan([RA |-> r[1], CM |-> r[2], touch |-> touch])
-        /\ ReadAuthorization' = r[1] /\ CheckMSO' = r[2] /\ wrong' = Wrong("ReadAuthorization", "CheckMSO", r)
+        /\ ReadAuthorization' = r[1] /\ CheckMSO' = r[2] /\ WrongWas("ReadAuthorization", "CheckMSO", r)
         /\ faults' = faults + r[3]
     /\ Took(0)
     /\ Remember
@@ -187,7 +184,7 @@ PanelRunsFaulty ==
 \* EKS-8-4, E-26: channel B finds a register that is not zero
 RegisterCheckFails ==
     /\ Class(RegisterClass) /\ faults < FAULTS
-    /\ CanMerge /\ ~(eksState = "Empty")
+    /\ Clears
     /\ eksState' = "Fault" /\ key' = None /\ eksElapsed' = 0
     /\ faults' = faults + 1 /\ wrong' = {} /\ UNCHANGED <<reader, fplc, plc, hmi, history, past, broken, low>>
     /\ Took(0) /\ Did("LatchFault")
@@ -213,13 +210,12 @@ FaultTypeOK ==
     /\ TypeOK
     /\ faults \in 0..FAULTS /\ past \in [Places -> WORDS] /\ broken \subseteq Elements /\ low \in BOOLEAN
 
-\* A-01: a torn word is one of the two that it is torn from, or no code: it is never a third code
-ASSUME \A a, b \in Codes \cup {0} : Mixed(a, b) \in {a, b, OtherWord}
-
 \* EKS-2-18, EKS-T2-2, EKS-FD-3: never a mode beyond the key that the reader holds, whatever LA and the outputs say
-NeverBeyondTheKey == [][\A m \in MSO : Switched(m) => key # None /\ Permitted(KeyLevel(key), m)]_everything
+NeverBeyondTheKey == [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => key # None /\ Permitted(KeyLevel(key), m)]_everything
 \* EKS-2-14, EKS-SD-5: less than UserIntent: nothing but what this user touched
-NothingButTheTouch == [][\A m \in MSO : Switched(m) => touched = m]_everything
+NothingButTheTouch == [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => touched = m]_everything
+\* EKS-2-14, EKS-SD-4, E-51: the panel offers no mode that the F-PLC would refuse
+NoOfferBeyondTheLevel == [][authority # None => \A m \in Enabled : Permitted(authority, m)]_everything
 \* EKS-2-19, EKS-2-27: no word of an honest panel is refused
 NoWordIsRefused == [][step' \notin {"RefuseEarlyWord", "RefuseSelection", "RefuseAcknowledgment", "RefuseMatch", "UnexpectedAcknowledgment"}]_everything
 
@@ -228,8 +224,8 @@ NoWordIsRefused == [][step' \notin {"RefuseEarlyWord", "RefuseSelection", "Refus
 
 \* All that stands on the wires, LA and the outputs as the F-PLC sees them
 WiresSeen ==
-    LET seen == SeenVector(broken)
-    IN  [LA |-> SeenLA(broken), A |-> 0 \in seen, B |-> 1 \in seen, C |-> 2 \in seen, D |-> 3 \in seen, STR |-> 4 \in seen] @@ Wires
+    LET vec == SeenVector(broken)
+    IN  [LA |-> SeenLA(broken), A |-> 0 \in vec, B |-> 1 \in vec, C |-> 2 \in vec, D |-> 3 \in vec, STR |-> 4 \in vec] @@ Wires
 \* What the F-PLC and the panel read in the scan that was just executed; a wrong word stands afterwards
 FplcReadWrong == [LA |-> SeenLA(broken'), vec |-> SeenVector(broken'), MW03 |-> MW03', MW07 |-> MW07', dt |-> took']
 PanelReadWrong ==
