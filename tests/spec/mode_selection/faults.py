@@ -225,10 +225,10 @@ FAULTS = (
         "RemovalTimerGoesOn",
         FPLC,
         Fault(
-            "the step after the words were cleared starts the timer anew",
+            "each scan that waits for the zeros starts the timer anew",
             "Fplc.tla",
-            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE Now(i)',
-            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE i.dt',
+            "IF Bounced(i) THEN 0 ELSE Min(Now(i), T_REM)",
+            "Min(i.dt, T_REM)",
         ),
     ),
     # ------------------------------------------------------------------ F-PLC
