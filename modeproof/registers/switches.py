@@ -16,6 +16,7 @@ from modeproof.registers.models import Constant, constants_of, restored
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Problem, Run
 from modeproof.registers.schema import suggestion
+from modeproof.registers.tla import closure
 
 _TEXT = re.compile(r'"([^"\n]*)"')
 _SPECIFICATION = re.compile(r"^[ \t]*(SPECIFICATION|INIT|NEXT|VIEW)\b\s*(\w+)", re.MULTILINE)
@@ -49,6 +50,7 @@ def check_switches(document: Document, sources: Sources) -> list[Problem]:
         *_readings(document, traces, sources, readings, models),
         *_findings(document, sources, readings, models),
         *_idle(document, models),
+        *_tops(document, traces, sources),
     ]
 
 
@@ -166,3 +168,20 @@ def _idle(document: Document, models: Sequence[Model]) -> Iterator[Problem]:
                 text = f"the switch {names} changes nothing: its counts are those of {other.run.id}"
                 yield Problem(document.source("runs"), model.run.id, text)
                 break
+
+
+def _tops(document: Document, traces: Traces, sources: Sources) -> Iterator[Problem]:
+    """Every module of which a finding shows a counterexample can be walked, by operators that exist."""
+    file = f"spec/{document.name}/replay.toml"
+    shown = {name for one in document.findings for name in one.evidence}
+    needed = {run.module: run.id for run in document.runs if run.kind == "NEG" and run.id in shown}
+    for module, run in needed.items():
+        if module not in traces.tops:
+            yield Problem(
+                file, f"tops.{module}", f"missing; {run}, which a finding shows, checks that module"
+            )
+    for module, top in traces.tops.items():
+        defined = {name for one in closure(sources.modules, module) for name in one.defined}
+        names = {top.next, top.wires, *(text.split("(")[0] for text in top.inputs.values())}
+        for name in sorted(names - defined) if defined else ():
+            yield Problem(file, f"tops.{module}", f"{module}.tla and what it extends do not define {name}")

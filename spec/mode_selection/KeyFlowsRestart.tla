@@ -14,5 +14,6 @@ RestartFplc ==
     /\ UNCHANGED <<reader, eks, plc, hmi, history>>
     /\ Took(0) /\ Did("RestartFplc")
 
-RestartSpec == Init /\ [][Next \/ RestartFplc]_vars
+RestartNext == Next \/ RestartFplc
+RestartSpec == Init /\ [][RestartNext]_vars
 =============================================================================

@@ -21,11 +21,11 @@ scan = "CloseLatch"
 outputs = "Out"
 short = "latch"
 [tops.Latch]
-next = "Next"
-wires = "Out"
+next = "Init"
+wires = "LOCK_1"
 columns = ["latch"]
 [tops.Latch.inputs]
-latch = "In"
+latch = "CloseLatch(x)"
 """
 CFG = '\\* a comment with LITERAL = {"NOT_THIS"}\nCONSTANTS T_HOLD = 2  LITERAL = %s\nSPECIFICATION Spec\n'
 RUN = """
@@ -122,6 +122,7 @@ def test_sound_switches_are_no_problem(switched: Any) -> None:
             'kind = "NEG"\nswitch = "SLOW"',
             "NEG_Latch: switch 'SLOW', but models/NEG_Latch",
         ),
+        ("replay.toml", 'next = "Init"', 'next = "Nxt"', "Latch.tla and what it extends do not define Nxt"),
         ("Latch.tla", "Readings == {", "Other == {", "lists no reading: no module defines it"),
     ],
 )
@@ -129,6 +130,13 @@ def test_each_planted_fault_is_found(switched: Any, file: str, old: str, new: st
     switched.edit(SPEC + file, old, new)
     found = problems(switched)
     assert any(expected in one for one in found), found
+
+
+def test_a_counterexample_of_a_module_that_nothing_can_walk_is_found(switched: Any) -> None:
+    text = (switched.root / SPEC / "replay.toml").read_text(encoding="utf-8")
+    switched.write(SPEC + "replay.toml", text.replace("tops.Latch", "tops.Lock"))
+    expected = "tops.Latch: missing; NEG_Latch, which a finding shows"
+    assert any(expected in one for one in problems(switched))
 
 
 def test_the_same_counts_at_other_bounds_say_nothing(switched: Any) -> None:
