@@ -226,6 +226,7 @@ def _panel(curves: Sequence[Curve], name: str, title: str, kind: str) -> list[st
     for number, curve in enumerate(curves):
         colour = _COLOURS[number % len(_COLOURS)]
         line = " ".join(f"{across(x):.1f},{up(y):.1f}" for x, y in curve.values(name))
+        label = curve.title if curve.values(name) else f"{curve.title} (not measured)"
         parts.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="1.5"/>')
         parts += [
             f'<circle cx="{across(x):.1f}" cy="{up(y):.1f}" r="3" fill="{colour}"/>'
@@ -233,7 +234,7 @@ def _panel(curves: Sequence[Curve], name: str, title: str, kind: str) -> list[st
         ]
         y = bottom - 8 - 14 * (len(curves) - 1 - number)
         parts.append(
-            f'<text x="{right - 4}" y="{y}" text-anchor="end" fill="{colour}">{escape(curve.title)}</text>'
+            f'<text x="{right - 4}" y="{y}" text-anchor="end" fill="{colour}">{escape(label)}</text>'
         )
     return parts
 

@@ -88,6 +88,18 @@ def test_a_register_that_is_not_understood_is_refused(root: Path, old: str, new:
         load_scaling(root, "toy")
 
 
+def test_the_page_of_each_document_has_every_point_that_its_register_declares() -> None:
+    place = Path(__file__).resolve().parents[2]
+    text = (place / "docs/scaling.md").read_text(encoding="utf-8")
+    sections = {part.splitlines()[0]: part for part in text.split("\n## ")[1:]}
+    declared = load_scaling(place, "mode_selection")
+    assert len(sections) == len(declared)
+    for series in declared:
+        section = sections[f"{series.title} (`{series.run.id}`)"]
+        rows = [line for line in section.splitlines() if line.startswith("| ") and line[2].isdigit()]
+        assert [int(row.split("|")[1]) for row in rows] == [point.x for point in series.points]
+
+
 def test_a_cfg_is_changed_where_it_is_told_and_nowhere_else() -> None:
     text = 'CONSTANTS N = {1, 2}  M <- Name \\* N = 7\n  T = "a"\nVIEW View\nSPECIFICATION Spec\n'
     made = cfg_text(text, {"N": "{1}", "M": "5", "VIEW": "Other", "NEW": "0"}, "x")
