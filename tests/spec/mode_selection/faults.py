@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from tests.spec.mode_selection.planted import Base, Fault
 
 KEY_FLOWS = Base("MC_KeyFlows_smoke")
+NO_FAULT = Base("MC_KeyFlows_no_fault")
 FPLC = Base(
     "MC_Fplc_arbitrary",
     (('VECTORS = "all"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
@@ -776,6 +777,47 @@ FAULTS = (
             "Plc.tla",
             "turn = this /\\ turn' = next",
             "turn = this /\\ turn' = this",
+        ),
+    ),
+    # ------------------------------------------------------------------ with faults from outside
+    Falls(
+        "NothingButTheTouch",
+        NO_FAULT,
+        Fault(
+            "the level is switched on, not the selection",
+            "Fplc.tla",
+            "ModeOf(SW, i.MW07) ELSE fplcSelection}",
+            "ModeOf(SW, i.MW07) ELSE authority}",
+        ),
+    ),
+    Falls(
+        "NoOfferBeyondTheLevel",
+        NO_FAULT,
+        Fault(
+            "all selection fields can be touched",
+            "Hmi.tla",
+            "{m \\in MSO : Permitted(offered, m)}",
+            "MSO",
+        ),
+    ),
+    Falls(
+        "NoWordIsRefused",
+        NO_FAULT,
+        Fault(
+            "all selection fields can be touched",
+            "Hmi.tla",
+            "{m \\in MSO : Permitted(offered, m)}",
+            "MSO",
+        ),
+    ),
+    Falls(
+        "NeverBeyondTheKey",
+        NO_FAULT,
+        Fault(
+            "a key of level 1 signals level 2",
+            "Eks.tla",
+            "-> {KeyLevel(key)}",
+            "-> {KeyLevel(key) + 1}",
         ),
     ),
 )
