@@ -52,6 +52,15 @@ class Explained:
 
 
 @dataclass(frozen=True)
+class Rejudged:
+    """A mutant that the tests judge again each time, and what must come of it; `killer` is the first one."""
+
+    id: str
+    verdict: str
+    killer: str
+
+
+@dataclass(frozen=True)
 class Strength:
     """strength.toml as read: a rule for each module, tiers in the order of judging, explanations."""
 
@@ -59,6 +68,7 @@ class Strength:
     rules: Mapping[str, Rule]
     tiers: tuple[Tier, ...]
     explained: tuple[Explained, ...]
+    rejudged: tuple[Rejudged, ...] = ()
 
     def tiers_of(self, module: str) -> tuple[Tier, ...]:
         """The tiers that judge mutants of a module, in order."""
@@ -98,6 +108,7 @@ def load_strength(place: Path, document: str) -> Strength:
         )
     tiers = tuple(_tier(source, values, runs, rules) for values in _tables(source, data, "tier"))
     explained = tuple(_explained(source, values) for values in _tables(source, data, "survivor"))
+    rejudged = tuple(_rejudged(source, values) for values in _tables(source, data, "rejudged"))
     _known(source, data, set())
     if not rules or not tiers:
         raise Unjudged(f"{source}: no module or no tier is declared")
@@ -109,7 +120,7 @@ def load_strength(place: Path, document: str) -> Strength:
     for module in rules:
         if not any(module in tier.modules for tier in tiers):
             raise Unjudged(f"{source}: no tier judges module {module}")
-    return Strength(document, rules, tiers, explained)
+    return Strength(document, rules, tiers, explained, rejudged)
 
 
 def _tier(source: str, values: dict[str, Any], runs: Mapping[str, Run], rules: Mapping[str, Rule]) -> Tier:
@@ -154,6 +165,13 @@ def _explained(source: str, values: dict[str, Any]) -> Explained:
     if kind not in KINDS:
         raise Unjudged(f"{at}: kind must be one of {', '.join(KINDS)}")
     return Explained(ids, kind, _text(at, values, "why"))
+
+
+def _rejudged(source: str, values: dict[str, Any]) -> Rejudged:
+    id = _text(f"{source}: rejudged", values, "id")
+    at = f"{source}: rejudged {id}"
+    _known(at, values, {"id", "verdict", "killer"})
+    return Rejudged(id, _text(at, values, "verdict"), str(values.get("killer", "")))
 
 
 def _kinds(place: Path, document: str, device: Any) -> tuple[tuple[str, ...], ...]:
