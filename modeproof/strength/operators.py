@@ -264,10 +264,14 @@ class _Editor:
             live = node.operands[1:]
         elif node.kind == "builtin" and node.operator in ("=", "/="):
             live = tuple(one for one in live if not self._is_constant(one))
-        of_action = node.operator in AND and (where.of_action or node.level >= 2)
-        part_of = "and" if node.operator in AND else "or" if node.operator in OR else ""
+        inner = where
+        if node.operator not in AND | OR:
+            inner = _Where(where.initial)
+        elif len(live) > 1:  # with one live part, the rest being switches, it stands for the whole
+            of_action = node.operator in AND and (where.of_action or node.level >= 2)
+            inner = _Where(where.initial, "and" if node.operator in AND else "or", of_action)
         for one in live:
-            yield from self._visit(one, _Where(where.initial, part_of, of_action))
+            yield from self._visit(one, inner)
 
     def _is_place_guard(self, node: Node) -> bool:
         """`state = "Name"` or `At("Name", i)` as a conjunct of a step: it says where the step belongs.

@@ -120,6 +120,8 @@ def test_ids_survive_edits_elsewhere(tmp_path: Path, made: tuple[Mutant, ...]) -
     """A comment, a switch beside the guard and a new definition move every line and change no id."""
     text = EVERY_OPERATOR.replace("Pick(i) ==", "\\* E-1\nNew == 1\nPick(i) ==")
     text = text.replace("\\/ i.a\n", '\\/ i.a\n    \\/ Literal("MORE") /\\ i.b\n')
+    text = text.replace("/\\ ~i.b\n", '/\\ ~i.b \\/ Literal("ANY")\n')
+    text = text.replace("i.c >= LONG\n", 'i.c >= LONG /\\ ~Literal("NOW")\n')
     moved = mutants(tree_of(tmp_path, text), "Every", RULE, frozenset())
     assert {one.id for one in made} == {one.id for one in moved}
     assert {one.line for one in made} != {one.line for one in moved}
