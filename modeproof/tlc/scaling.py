@@ -28,6 +28,7 @@ from modeproof.tlc.toolchain import Toolchain
 
 KIND = "scaling"
 _SECTIONS = ("SPECIFICATION", "VIEW", "INIT", "NEXT")
+_CHECKED = re.compile(r"^[ \t]*(?:INVARIANTS?|PROPERTY|PROPERTIES)\b.*$", re.MULTILINE)
 _VALUE = r'(?:\{[^}]*\}|"[^"\n]*"|[^\s{"]+)'
 
 
@@ -49,6 +50,8 @@ class Series:
     x: str
     title: str
     points: tuple[Point, ...]
+    properties: tuple[str, ...]
+    """What is checked in place of what the run checks; empty: the same."""
     limit_s: float
     heap_mb: int
 
@@ -81,7 +84,9 @@ def load_scaling(place: Path, document: str) -> tuple[Series, ...]:
     found: list[Series] = []
     for values in data["series"]:
         where = f"{source}: series {values.get('id', '?')}"
-        if unknown := sorted(set(values) - {"id", "run", "module", "x", "title", "set", "points"}):
+        if unknown := sorted(
+            set(values) - {"id", "run", "module", "x", "title", "set", "points", "properties"}
+        ):
             raise Unjudged(f"{where}: unknown field {unknown[0]!r}")
         if missing := [key for key in ("id", "run", "x", "title", "points") if key not in values]:
             raise Unjudged(f"{where}: {missing[0]} is missing")
@@ -99,6 +104,7 @@ def load_scaling(place: Path, document: str) -> tuple[Series, ...]:
                 x=str(values["x"]),
                 title=str(values["title"]),
                 points=points,
+                properties=tuple(map(str, values.get("properties", ()))),
                 limit_s=float(data.get("limit_s", 180)),
                 heap_mb=int(data.get("heap_mb", 2048)),
             )
@@ -175,6 +181,10 @@ def _measure(
     module = series.module or series.run.module
     room = build(place) / "scaling" / series.run.document / name
     text = cfg_text((folder / series.run.cfg).read_text(encoding="utf-8"), point.given, name)
+    if series.properties:
+        text = _CHECKED.sub("", text) + f"INVARIANTS {' '.join(series.properties)}\n"
+        if parse_cfg(text, name).checked != series.properties:
+            raise Unjudged(f"{name}: INVARIANTS and PROPERTIES of the cfg must stand in lines of their own")
     shutil.rmtree(room, ignore_errors=True)
     room.mkdir(parents=True)
     try:
@@ -200,7 +210,8 @@ def _measure(
         cpu_s = _cpu_s() - before
         found = judge(run, parse_cfg(text, name), "", outcome)
         holds = found.verdict == HOLDS
-        reason = "" if holds else found.reason or f"{found.verdict}, which is not what its run must show"
+        reason = "" if holds else f"{found.violated} is violated" if found.violated else found.reason
+        reason = reason or ("" if holds else f"{found.verdict}, which is not what its run must show")
         return outcome, Judgement(found.verdict, holds, reason, found.violated), cpu_s
     except OSError as error:
         raise Unjudged(f"{name}: {error.strerror or error} ({error.filename or room})") from None
