@@ -478,10 +478,10 @@ FAULTS = (
         "RefinesModeSelection",
         KEY_FLOWS,
         Fault(
-            "every level permits every mode",
-            "CodeTables.tla",
-            "m # None /\\ m \\in PERMITS[level]",
-            "m # None",
+            "the level becomes active, not the selection",
+            "Fplc.tla",
+            "ModeOf(SW, i.MW07) ELSE fplcSelection}",
+            "ModeOf(SW, i.MW07) ELSE authority}",
         ),
     ),
     Falls(
