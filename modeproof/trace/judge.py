@@ -173,11 +173,11 @@ def judge_logs(
     for log, reading, matched in zip(logs, readings, done.matched, strict=True):
         followed = follow(target, log, graphs.matching(target, log), anywhere, samples)
         found.append(Judgement(log, followed, matched, reading))
-        _check(found[-1])
+        check(found[-1])
     return tuple(found), done.outcome
 
 
-def _check(found: Judgement) -> None:
+def check(found: Judgement) -> None:
     """Raise Unjudged for a contradiction: the graphs may accept more, if they left something open."""
     one = found.followed
     if isinstance(one, NotFollowed) or one.accepted == found.accepted:

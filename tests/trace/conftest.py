@@ -1,7 +1,9 @@
-"""Graphs for judging logs: those of the last run where they are current, else smaller ones of their own."""
+"""Graphs for judging logs: those of the last run where they are current, a small one of the F-PLC."""
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -14,28 +16,46 @@ from modeproof.trace.judge import Graphs, is_current
 from tests.spec.mode_selection.planted import DOCUMENT, Base, Trial
 
 NEEDED = {
-    "OPEN_Fplc": (('VECTORS = "classes"', 'VECTORS = "few"'),),  # levels 2 to 4 only: a third of the time
-    "OPEN_Plc": (),
-    "OPEN_Hmi": (),
-    "OPEN_Eks6": (),
+    "OPEN_Fplc": Base(
+        "OPEN_Fplc", (('VECTORS = "classes"', 'VECTORS = "few"  Vectors <- TinyVectors'),), "FplcTiny"
+    ),
+    "OPEN_Plc": Base("OPEN_Plc"),
+    "OPEN_Hmi": Base("OPEN_Hmi"),
+    "OPEN_Eks6": Base("OPEN_Eks6"),
 }
 RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
 
 
+@pytest.fixture(scope="session", autouse=True)
+def quick_java() -> Iterator[None]:
+    """The first compiler of Java only: half the time for a run of a few seconds."""
+    with pytest.MonkeyPatch.context() as patch:
+        options = os.environ.get("JAVA_TOOL_OPTIONS", "")
+        patch.setenv("JAVA_TOOL_OPTIONS", f"{options} -XX:TieredStopAtLevel=1".strip())
+        yield
+
+
 @pytest.fixture(scope="session")
-def graphs(tmp_path_factory: pytest.TempPathFactory) -> Graphs:
-    """A graph for each device; none is ever made again."""
+def alphabets(tmp_path_factory: pytest.TempPathFactory, quick_java: None) -> dict[str, Alphabet]:
+    """The graph of each device, by its run."""
 
     def load(id: str) -> DeviceGraph:
         run = RUNS[id]
-        if is_current(root(), run):
+        if not NEEDED[id].module and is_current(root(), run):
             return load_device_graph(root(), run)
         place = tmp_path_factory.mktemp("graph")
-        Trial(Base(id, NEEDED[id])).run(place)
+        Trial(NEEDED[id]).run(place)
         assert run.graph is not None
         return load_device_graph(place, replace(run, graph=replace(run.graph, states=None, edges=None)))
+
+    return {id: Alphabet(load(id)) for id in NEEDED}
+
+
+@pytest.fixture(scope="session")
+def graphs(alphabets: dict[str, Alphabet]) -> Graphs:
+    """The same as a command has them; none is ever made again."""
 
     def refuse(runs: object) -> None:
         raise AssertionError(f"{runs} was to be made")
 
-    return Graphs(root(), refuse, {id: Alphabet(load(id)) for id in NEEDED})
+    return Graphs(root(), refuse, alphabets)

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from modeproof.trace.follow import Followed
 from modeproof.trace.judge import Graphs, Judgement
+from modeproof.trace.log import Log
 from tests.trace.judging import LOGS, example, judge, record
 
 GOOD = ("fplc_good.jsonl", "fplc_good.csv", "fplc_partial.csv")
 PLANTED = {"fplc_wrong_echo.jsonl": 29, "fplc_short_dwell.jsonl": 40, "fplc_skipped_step.jsonl": 34}
 """The first impossible line of the file."""
+MIDDLE, SAMPLED = "fplc_from_the_middle.jsonl", "fplc_sampled.csv"
 
 
 @pytest.fixture(scope="module")
 def found(graphs: Graphs) -> dict[str, Judgement]:
-    names = [*GOOD, *PLANTED]
+    names = [*GOOD, *PLANTED, MIDDLE, SAMPLED]
     judged = judge("fplc", [example("fplc", name) for name in names], graphs)
     return dict(zip(names, judged, strict=True))
 
@@ -46,18 +50,23 @@ def test_only_tlc_counts_the_ms(found: dict[str, Judgement]) -> None:
     assert (one.accepted, one.open) == (52, ("the time of fplc",))
 
 
-def test_a_log_may_begin_in_the_middle(graphs: Graphs) -> None:
-    log = example("fplc", "fplc_from_the_middle.jsonl")
-    (anywhere,) = judge("fplc", [log], graphs, anywhere=True)
-    (at_power_up,) = judge("fplc", [log], graphs)
-    assert (anywhere.verdict, at_power_up.verdict, at_power_up.accepted) == ("CONFORMS", "DIFFERS", 0)
+def test_a_log_may_begin_in_the_middle(graphs: Graphs, found: dict[str, Judgement]) -> None:
+    (anywhere,) = judge("fplc", [example("fplc", MIDDLE)], graphs, anywhere=True)
+    assert (anywhere.verdict, found[MIDDLE].verdict, found[MIDDLE].accepted) == ("CONFORMS", "DIFFERS", 0)
 
 
-def test_samples_may_have_scans_between_them(graphs: Graphs) -> None:
-    log = example("fplc", "fplc_sampled.csv")
-    (sampled,) = judge("fplc", [log], graphs, samples=True)
-    (scans,) = judge("fplc", [log], graphs)
-    assert (sampled.verdict, scans.verdict) == ("CONFORMS", "DIFFERS")
+def test_samples_may_have_scans_between_them(graphs: Graphs, found: dict[str, Judgement]) -> None:
+    sampled, other = judge("fplc", [example("fplc", SAMPLED), wrong_sample()], graphs, samples=True)
+    assert (sampled.verdict, found[SAMPLED].verdict) == ("CONFORMS", "DIFFERS")
+    assert (other.verdict, other.accepted) == ("DIFFERS", 9)
+
+
+def wrong_sample() -> Log:
+    """The sampled log with a level that nobody has, in the tenth sample."""
+    log = example("fplc", SAMPLED)
+    row = log.rows[9]
+    wrong = replace(row, outputs={**row.outputs, "MW01": 0x0F0F})
+    return replace(log, rows=(*log.rows[:9], wrong, *log.rows[10:]))
 
 
 def test_a_log_of_the_whole_system_is_judged_scan_by_scan(graphs: Graphs) -> None:

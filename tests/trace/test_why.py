@@ -1,0 +1,93 @@
+"""The explanation names the step, the conjunct that was false and its place, and what was expected."""
+
+from __future__ import annotations
+
+import pytest
+
+from modeproof.places import root
+from modeproof.tlc.parse_tree import read_tree
+from modeproof.tlc.toolchain import find_toolchain
+from modeproof.trace.guards import Guards
+from modeproof.trace.judge import Graphs, why_not
+from modeproof.trace.targets import find_target, targets_of
+from modeproof.trace.text import as_record, as_text
+from modeproof.trace.why import Why
+from tests.trace.judging import example, judge
+
+DOCUMENT = "mode_selection"
+
+
+@pytest.fixture(scope="module")
+def explained(graphs: Graphs) -> dict[str, tuple[Why, str]]:
+    target = find_target(root(), "fplc")
+    names = ("fplc_wrong_echo.jsonl", "fplc_short_dwell.jsonl", "fplc_skipped_step.jsonl")
+    found = {}
+    for name, one in zip(
+        names, judge("fplc", [example("fplc", name) for name in names], graphs), strict=True
+    ):
+        why = why_not(root(), target, one, graphs, find_toolchain())
+        assert why is not None
+        assert as_record(target, one, why)["why"]["device"] == "fplc"
+        found[name] = (why, as_text(target, one, why))
+    return found
+
+
+def test_a_wrong_output_is_shown_beside_the_expected_one_with_what_sets_it(
+    explained: dict[str, tuple[Why, str]],
+) -> None:
+    why, text = explained["fplc_wrong_echo.jsonl"]
+    (taken,) = why.taken
+    assert (taken.step, taken.wrong, taken.expected["MW05"]) == ("PublishEcho", ("MW05",), 0x33CC)
+    assert [one.text for one in taken.effects] == ['Proceed("AwaitAcknowledgment")']
+    assert why.before["state"] == '"EchoSelection"' and "EKS-2-20" in taken.cites
+    assert "MW05    33CC       0FF0  <" in text
+    assert taken.outputs[0][0].startswith("MW05 == IF fplcState") and taken.outputs[0][1].module == "Fplc"
+
+
+def test_a_dwell_time_that_lacks_one_ms_is_the_conjunct_with_both_sides(
+    explained: dict[str, tuple[Why, str]],
+) -> None:
+    why, text = explained["fplc_short_dwell.jsonl"]
+    missed = why.missed[0]
+    assert (missed.step, missed.conjunct.chain, missed.sides) == ("LeaveSettle", ("Dwelt(i)",), ("99", "100"))
+    assert missed.conjunct.text.startswith("Now(i) >= T_DWELL")
+    line = (
+        (root() / "spec" / DOCUMENT / "Fplc.tla")
+        .read_text()
+        .splitlines()[missed.conjunct.place.first_line - 1]
+    )
+    assert "Dwelt(i) == Now(i) >= T_DWELL" in line
+    assert why.taken[0].step == "AwaitSettled" and why.lost is None
+    assert f"{missed.conjunct.place}: Now(i) >= T_DWELL" in text
+
+
+def test_a_step_that_was_left_out_is_named_and_one_scan_is_missing(
+    explained: dict[str, tuple[Why, str]],
+) -> None:
+    why, _ = explained["fplc_skipped_step.jsonl"]
+    assert [one.step for one in why.missed] == ["SwitchMode"] and why.taken[0].step == "MatchWords"
+    assert (why.missed[0].conjunct.text, why.missed[0].sides) == ("fplcState = s", ('"Match"', '"Switch"'))
+    assert "E-42" in why.missed[0].cites
+    assert why.lost == 1
+
+
+def test_in_the_whole_system_the_wire_is_named(graphs: Graphs) -> None:
+    target = find_target(root(), "key_flows")
+    (one,) = judge("key_flows", [example("key_flows", "key_flows_lost_word.jsonl")], graphs)
+    why = why_not(root(), target, one, graphs, find_toolchain())
+    assert why is not None and why.wrong_input == ("MW07", 0x3C3C, "plc") and why.fits_alone
+    assert "the input MW07 is not what plc last wrote: 3C3C" in as_text(target, one, why)
+
+
+def test_every_step_of_every_device_has_a_guard_that_ends_with_its_own() -> None:
+    for target in targets_of(root(), DOCUMENT):
+        if target.system or target.id not in ("fplc", "eks"):
+            continue
+        tree = read_tree(root() / "spec" / DOCUMENT, target.module, find_toolchain())
+        steps = target.only.device.steps
+        guards = Guards(tree, target.only.scan, steps)
+        for step in steps:
+            assert guards.paths(step), step
+            assert any(one.sets for one in guards.effects(step)), step
+        assert set(guards.row(target.only.row)) == set(target.only.device.outputs)
+        assert len(guards.view(target.only.view)) == len(target.only.device.memory)
