@@ -1,0 +1,45 @@
+"""A log may begin in exactly the states that power-up reaches, no more and no fewer."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from modeproof.places import root
+from modeproof.tlc.process import run_tlc
+from modeproof.tlc.runs import load_runs
+from modeproof.tlc.toolchain import find_toolchain
+from modeproof.trace.exact import trace_run
+from modeproof.trace.targets import find_target
+
+DOCUMENT = "mode_selection"
+RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
+_CHECKS = re.compile(r"^(SPECIFICATION|VIEW|ACTION_CONSTRAINT|INVARIANTS|PROPERTIES|\\\*).*\n", re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    ("device", "run", "module", "extra"),
+    [
+        ("fplc", "OPEN_Fplc", "FplcTrace", ""),
+        ("hmi", "OPEN_Hmi", "HmiTrace", ""),
+        ("eks", "OPEN_Eks6", "EksOpen, EksTrace", " /\\ in = 0 /\\ beat = FALSE /\\ lasted = 0"),
+    ],
+)
+def test_as_many_as_the_graph_has(device: str, run: str, module: str, extra: str, tmp_path: Path) -> None:
+    target = find_target(root(), device)
+    text = f"---- MODULE Any ----\nEXTENDS {module}\nAnyInit == {target.anywhere}{extra}\n"
+    (tmp_path / "Any.tla").write_text(text + "AnyNext == FALSE /\\ UNCHANGED step\n====\n")
+    declared = (root() / "spec" / DOCUMENT / RUNS[run].cfg).read_text()
+    cfg = _CHECKS.sub("", declared).replace("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE" if extra else "")
+    cfg = cfg.replace('VECTORS = "classes"', "")
+    cfg += "CONSTANTS SEEN = 0 DEVICE_CHECKSUM = 0\n" if device == "eks" else ""
+    (tmp_path / "Any.cfg").write_text(cfg + "INIT AnyInit\nNEXT AnyNext\n")
+    place = tmp_path / "root"
+    (place / "spec").mkdir(parents=True)
+    (place / "spec" / DOCUMENT).symlink_to(root() / "spec" / DOCUMENT)
+    log = run_tlc(place, trace_run(target, "Any", 512), find_toolchain(), made_in=tmp_path).log
+    assert log.errors == [] and log.counts is not None
+    graph = RUNS[run].graph
+    assert graph is not None and log.counts.distinct == graph.states
