@@ -99,13 +99,13 @@ def _why(target: Target, row: Row, why: Why) -> list[str]:
 
 
 def _taken(target: Target, row: Row, taken: Taken) -> list[str]:
-    width = max(len("output"), *(len(name) for name in taken.expected))
+    width = max(len("output"), *(len(name) for name in taken.wrong))
     lines = [f"{'output':<{width}}  expected   logged"]
-    for name, value in taken.expected.items():
-        logged = shown_value(target, row.device, name, row.outputs[name]) if name in row.outputs else "-"
-        mark = "  <" if name in taken.wrong else ""
-        expected = shown_value(target, row.device, name, value)
-        lines.append(f"{name:<{width}}  {expected:<9}  {logged}{mark}")
+    for name in taken.wrong:
+        expected, logged = (
+            shown_value(target, row.device, name, values[name]) for values in (taken.expected, row.outputs)
+        )
+        lines.append(f"{name:<{width}}  {expected:<9}  {logged}")
     lines.append(f"the specification takes {taken.step} ({taken.place}: {', '.join(taken.cites)})")
     lines += [f"  {one.place}: {one.text}" for one in taken.effects]
     lines += [f"  {place}: {text}" for text, place in taken.outputs]

@@ -44,7 +44,7 @@ def test_a_log_that_fits_and_one_that_does_not(
     assert main(["trace", "hmi", str(bad / "hmi.jsonl"), "--quiet", "--json", str(place / "out.json")]) == 1
     out = capsys.readouterr().out
     assert f"first impossible scan: {at + 1:,}, line {at + 1} of the log" in out
-    assert "SwitchMSO  0000       1234  <" in out and "the specification takes ShowEcho (Hmi.tla:" in out
+    assert "SwitchMSO  0000       1234\n" in out and "the specification takes ShowEcho (Hmi.tla:" in out
     record = evidence.read(evidence.evidence_path(place, "mode_selection", "trace_hmi_hmi"))
     assert (record["kind"], record["verdict"], record["as_expected"]) == ("trace", "DIFFERS", False)
     assert record["result"]["accepted"] == at and record["result"]["why"]["taken"][0]["wrong"] == [
