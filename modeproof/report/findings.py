@@ -22,6 +22,8 @@ from modeproof.report.scan_table import Comparison, compare, markdown, scan_tabl
 
 COMMAND = ".venv/bin/modeproof"
 WORDING = "wording"
+MANY = 3
+"""More readings than this are counted in a heading, not listed."""
 
 
 @dataclass(frozen=True)
@@ -133,6 +135,15 @@ def _steps(record: Mapping[str, Any]) -> int:
     return int(record["result"]["trace_length"]) - 1
 
 
+def _cause(readings: Sequence[str], broken: Sequence[str]) -> str:
+    """What a run changes, in a few words."""
+    if len(readings) > MANY:
+        return f"{len(readings)} readings restored at once"
+    if readings:
+        return f"`{'`, `'.join(readings)}` restored"
+    return f"Without {', '.join(broken)}" if broken else "With a fault"
+
+
 def _in_steps(record: Mapping[str, Any]) -> str:
     """How long a counterexample is, in words."""
     steps = _steps(record)
@@ -145,16 +156,19 @@ def _run_section(material: Material, run: Run) -> list[str]:
         return _holds_section(material, run, record)
     falls = material.falls(run)
     readings = material.readings(run)
-    cause = f"`{'`, `'.join(readings)}` restored" if readings else "Without an assumption"
+    broken = [one for one in material.document.assumptions if run.id in one.breaks]
+    cause = _cause(readings, [one.id for one in broken])
     lines = [f"## {cause}: `{run.property}` falls {_in_steps(record)}", ""]
     if falls is not None:
         lines += [f"The property: {_sentence(falls.sentence)}", f"Otherwise: {_sentence(falls.hazard)}", ""]
-    broken = [one for one in material.document.assumptions if run.id in one.breaks]
-    if not readings:
+    if len(readings) > MANY:
+        lines += [f"Restored at once: {', '.join(f'`{one}`' for one in readings)}.", ""]
+    if broken:
+        named = "; ".join(f"{one.id}, {one.title}" for one in broken)
+        lines += [f"It lets go of what the decided behaviour rests on: {named}.", ""]
+    elif not readings:
         lines += [
-            "This run restores no reading. It lets go of what the decided behaviour rests on: "
-            + "; ".join(f"{one.id}, {one.title}" for one in broken)
-            + ".",
+            f"This run restores no reading; in its environment, {run.environment}, devices or words fail.",
             "",
         ]
     lines += [
@@ -275,7 +289,26 @@ def _verdict(record: Mapping[str, Any]) -> str:
 
 
 def _holds_section(material: Material, run: Run, record: Mapping[str, Any]) -> list[str]:
-    """A reading that was restored and broke nothing."""
+    """A reading that was restored and broke nothing; or many, and all that still happens."""
+    readings = material.readings(run)
+    if record["verdict"] == "REACHED":
+        reached = ", ".join(f"`{one}`" for one in record["result"]["reached"])
+        return [
+            f"## {_cause(readings, [])}: what still happens",
+            "",
+            *(
+                [f"Restored: {', '.join(f'`{one}`' for one in readings)}.", ""]
+                if len(readings) > MANY
+                else []
+            ),
+            f"Of all that was asked for, this and no more is reached: {reached}. Environment: "
+            f"{run.environment}; bounds: {_bounds(material, run)}.",
+            "",
+            "```",
+            f"{COMMAND} check {run.id}",
+            "```",
+            "",
+        ]
     return [
         f"## `{'`, `'.join(material.readings(run))}` restored: nothing falls",
         "",
@@ -420,7 +453,7 @@ def _deviations(material: Material) -> str:
     ]
     if without:
         lines += [
-            "## No reading restored, an assumption let go",
+            "## No reading restored: an assumption let go, or a fault",
             "",
             markdown(_HEADS, [_deviation(material, run) for run in without]),
             "",
@@ -431,8 +464,22 @@ def _deviations(material: Material) -> str:
             "",
             markdown(_HEADS, [_deviation(material, run) for run in several]),
             "",
+            *_all_at_once(material, several[-1]),
         ]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _all_at_once(material: Material, run: Run) -> list[str]:
+    """What comes of the run with the most readings, in the words of the findings that name it."""
+    if len(material.readings(run)) <= MANY:
+        return []
+    lines = ["## All of them: does the printed procedure work at all?", ""]
+    for one in _findings_of(material, run):
+        lines += [
+            f"[{one.id}]({_link(TABLE, page_name(one))}), {one.title}. {_sentence(one.consequence)}",
+            "",
+        ]
+    return lines
 
 
 _HEADS = ["restored", "finding", "verdict", "what falls", "steps", "seconds", "environment", "run"]
@@ -481,16 +528,17 @@ def _deviation(material: Material, run: Run) -> list[str]:
         for one in _findings_of(material, run)
     )
     broken = ", ".join(one.id for one in material.document.assumptions if run.id in one.breaks)
-    everything = material.traces is not None and len(readings) > 3
-    restored_text = f"{len(readings)} readings" if everything else "<br>".join(f"`{one}`" for one in readings)
+    restored_text = (
+        f"{len(readings)} readings" if len(readings) > MANY else "<br>".join(f"`{one}`" for one in readings)
+    )
     if record["result"].get("trace"):
         falls = f"`{run.property}`"
-    elif run.kind == "NEG":
-        falls = "not as expected"
+    elif record["verdict"] == "REACHED":
+        falls = f"only these happen: {', '.join(result['reached'])}"
     else:
         falls = "nothing: harmless within the bounds" if len(readings) == 1 else "nothing"
     return [
-        restored_text or f"none; without {broken}",
+        restored_text or (f"none; without {broken}" if broken else "none; a fault"),
         links or broken,
         _verdict(record),
         falls,

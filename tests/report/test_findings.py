@@ -46,7 +46,7 @@ def test_the_page_shows_trace_and_decided_behaviour_and_rendering_again_gives_th
         "- `Close` (box): BX-1-1, E-01",
         "## `LAZY` restored: nothing falls",
         # a run that records no step and replaces a definition: TLC finds the step again
-        "## Without an assumption: `ShutsOverDoor` falls in 1 step",
+        "## Without A-01: `ShutsOverDoor` falls in 1 step",
         "It lets go of what the decided behaviour rests on: A-01, one door.",
         "No device differs from the decided behaviour here",
     ):
