@@ -206,6 +206,9 @@ def _tables(
         lines += [f"From here on steps {int(loop.split()[-1])} to {table.steps} repeat for ever.", ""]
     elif loop:
         lines += ["From here on nothing happens any more.", ""]
+        if after := walk.get("after"):
+            steps = ", ".join(f"`{one}`" for one in after)
+            lines += [f"With no reading restored, this same state goes on with {steps}.", ""]
     if any(row["wires"].get("dt") for row in walk["rows"]):
         lines += [_ticks(material, run), ""]
     lines += _comparisons(material, run, walk, traces, cells)
@@ -239,17 +242,27 @@ def _comparisons(
     yield "### The decided behaviour on the same inputs"
     yield ""
     if not parted:
-        devices = ", ".join(traces.devices[one.device].short for one in found)
-        yield (
-            f"Scan by scan, {devices} with no reading restored would have done the same on what they read "
-            "here: the "
-            "restored reading changes which scans there are, not what one of them does."
-        )
+        yield _nothing_parts(material, run, [traces.devices[one.device].short for one in found], traces)
         yield ""
     for one in parted:
         yield _introduction(one, traces.devices[one.device].short)
         yield ""
         yield one.text
+
+
+def _nothing_parts(material: Material, run: Run, replayed: Sequence[str], traces: Traces) -> str:
+    """Where no scan of a replayed device differs: what the reading changes then."""
+    text = (
+        f"On what they read here, {', '.join(replayed)} with no reading restored do the same in every scan."
+    )
+    others = [
+        traces.devices[name].short
+        for name in material.document.interface.devices
+        if name in traces.devices and name not in traces.tops[run.module].inputs
+    ]
+    if others:
+        text += f" Not replayed here: {', '.join(others)}, whose steps the trace shows."
+    return text + " What the reading changes is which steps there are."
 
 
 def _introduction(one: Comparison, short: str) -> str:

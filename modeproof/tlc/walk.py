@@ -56,6 +56,8 @@ class Recorded:
     cfg: str
     states: tuple[Mapping[str, str], ...]
     digest: str
+    stops: bool = False
+    """Whether nothing happens any more after the last state."""
 
 
 def trace_digest(record: Mapping[str, Any]) -> str:
@@ -79,6 +81,7 @@ def recorded(record: Mapping[str, Any]) -> Recorded:
         cfg=result["cfg"],
         states=tuple(state["variables"] for state in result["trace"]),
         digest=trace_digest(record),
+        stops=result.get("loop") == "stuttering",
     )
 
 
@@ -218,6 +221,9 @@ def generate(plan: Plan, traces: Sequence[tuple[Recorded, Mapping[str, Constant]
         lines += following
         firsts.append(first)
         nexts.append(f"Follow{number}")
+        if one.stops:
+            lines += _after(plan, number, len(one.states))
+            nexts.append(f"After{number}")
     for words in plan.traces.words:
         table = f"L1!{words.table}"
         tables.append(
@@ -269,6 +275,9 @@ def _instances(plan: Plan, number: int, constants: Mapping[str, Constant]) -> li
         f"A{number} == INSTANCE {plan.module} WITH {', '.join(given(whole, last=False))}",
         f"L{number} == INSTANCE {plan.module} WITH {', '.join(given(whole, last=True))}",
     ]
+    lines.append(
+        f"G{number} == INSTANCE {plan.module} WITH {', '.join(given(whole, last=True, decided=True))}"
+    )
     for device in plan.replayed:
         parts = given(extended(plan.modules, device.module), last=True, decided=True)
         parts += [f"{name} <- {SHADOW}{name}" for name in plan.shadows(device)]
@@ -347,6 +356,20 @@ def _behaviour(
         ]
     lines.append(f'    /\\ IF walk_device = "" THEN {follow(plan.all_shadows)} ELSE TRUE')
     return "(" + " /\\ ".join(first) + ")", lines
+
+
+def _after(plan: Plan, number: int, last: int) -> list[str]:
+    """What can happen in the last state with no reading restored, where the recorded system does nothing."""
+    shadows = ", ".join(SHADOW + name for name in plan.all_shadows)
+    own = ", ".join(name for name in plan.all_shadows if name != plan.traces.step)
+    printed = f'PrintT(ToString(<<"AFTER", {number}, {plan.traces.step}\'>>))'
+    return [
+        f"After{number} ==",
+        f'    /\\ walk_run = {number} /\\ walk_at = {last} /\\ walk_device = ""',
+        "    /\\ walk_at' = walk_at + 1 /\\ UNCHANGED <<walk_run, walk_device, walk_from>>",
+        f"    /\\ G{number}!{plan.top.next} /\\ UNCHANGED <<{shadows}>>",
+        f"    /\\ <<{own}>>' # <<{own}>> => {printed}",
+    ]
 
 
 # ----------------------------------------------------------------------------------------------- carry it out
@@ -474,9 +497,9 @@ def _read(plan: Plan, number: int, one: Recorded, lines: Sequence[tuple[Any, ...
     tables = {line[1]: _plain(line[2]) for line in lines if line[0] == "TABLE"}
     outputs = sorted({name for scans in decided.values() for scan in scans for name in scan["outputs"]})
     alone = outputs if len(decided) == 1 and len(plan.replayed) == 1 else []
-    return {"module": plan.module, "rows": rows, "decided": decided, "tables": tables, "outputs": alone} | {
-        "departures": departures
-    }
+    after = sorted({line[2] for line in lines if line[:2] == ("AFTER", number)})
+    found = {"module": plan.module, "rows": rows, "decided": decided, "departures": departures}
+    return found | {"tables": tables, "outputs": alone, "after": after}
 
 
 def _path(
