@@ -18,6 +18,13 @@ TECHNICAL = re.compile(r"\w*TypeOK|Print\w*")
 """Invariants that type the variables or print the graph; they state no requirement and need no row."""
 
 
+PROMISE = re.compile(
+    r"\b(not yet|no run yet|comes? with|they come|later|to come|will be|planned|to do|soon|unreleased)\b",
+    re.IGNORECASE,
+)
+"""Words of a promise: what is missing now is not explained by what is meant to come."""
+
+
 def cross_check(document: Document, sources: Sources) -> list[Problem]:
     """All contradictions between registers; an empty list when there is none."""
     return [
@@ -157,6 +164,8 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
                 )
         if not one.evidence and not one.evidence_open.strip():
             yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
+        if match := PROMISE.search(one.evidence_open):
+            yield Problem(file, one.id, _promise("evidence_open", match.group(), "why no model can show it"))
         for name in dict.fromkeys(one.switches):
             if name not in switches:
                 yield Problem(file, one.id, _unknown_switch(name, switches))
@@ -167,6 +176,10 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
         if one.switches and not negative | tried.intersection(one.evidence) and not one.evidence_open.strip():
             text = "has a switch, but its evidence names no run of kind NEG and none with this switch on"
             yield Problem(file, one.id, text)
+
+
+def _promise(key: str, words: str, instead: str) -> str:
+    return f"`{key}` is a promise ({words!r}); say {instead}, or name the evidence"
 
 
 def _switches(sources: Sources) -> list[str]:
@@ -196,6 +209,8 @@ def _assumptions(document: Document) -> Iterator[Problem]:
                 yield Problem(file, one.id, f"breaks: unknown run {name!r}; {suggestion_of(name, runs)}")
         if not one.breaks and not one.breaks_open.strip():
             yield Problem(file, one.id, "names no run that breaks it, and `breaks_open` does not say why")
+        if match := PROMISE.search(one.breaks_open):
+            yield Problem(file, one.id, _promise("breaks_open", match.group(), "why no run can break it"))
 
 
 def _runs(document: Document, sources: Sources) -> Iterator[Problem]:

@@ -12,6 +12,7 @@ from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.rooms import check_imports, check_no_document_known
 from modeproof.registers.rows import Document, Problem
+from modeproof.registers.stamps import check_findings_pages
 from modeproof.registers.switches import check_switches
 from modeproof.registers.tables import check_pages
 
@@ -41,6 +42,7 @@ def judge(document: Document) -> Judgement:
     problems = [
         *cross_check(document, sources),
         *check_switches(document, sources),
+        *check_findings_pages(document),
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),

@@ -112,6 +112,18 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "E-01: names the switch 'LITERAL' twice",
         ),
         (SPEC + "findings.toml", '["NEG_Latch", "the_bolt_moves"]', "[]", "E-01: names no evidence, and"),
+        (
+            SPEC + "findings.toml",
+            '["NEG_Latch", "the_bolt_moves"]',
+            '[]\nevidence_open = "comes with the next release"',
+            "E-01: `evidence_open` is a promise ('comes with'); say why no model can show it",
+        ),
+        (
+            SPEC + "assumptions.toml",
+            '["NEG_Latch"]',
+            '[]\nbreaks_open = "No run yet"',
+            "A-01: `breaks_open` is a promise ('No run yet'); say why no run can break it",
+        ),
         (SPEC + "assumptions.toml", '"NEG_Latch"', '"NEG_Lach"', "breaks: unknown run 'NEG_Lach'; did you"),
         (SPEC + "assumptions.toml", '["NEG_Latch"]', "[]", "A-01: names no run that breaks it, and"),
         (SPEC + "runs.toml", ', "OpenIsUnlocked"]', "]", "OpenIsUnlocked: no run checks OpenIsUnlocked"),
@@ -241,7 +253,7 @@ def test_a_reading_that_breaks_nothing_is_shown_by_a_run_with_its_switch_on(tree
 def test_a_negative_run_that_nothing_names_shows_nothing(tree: Any) -> None:
     tree.edit("spec/door/findings.toml", '"NEG_Latch", ', "")
     tree.edit("spec/door/findings.toml", 'switch = "LITERAL"', 'switch = ""')
-    tree.edit("spec/door/assumptions.toml", '["NEG_Latch"]', '[]\nbreaks_open = "later"')
+    tree.edit("spec/door/assumptions.toml", '["NEG_Latch"]', '[]\nbreaks_open = "one door is one door"')
     assert problems(tree) == [
         "spec/door/runs.toml: NEG_Latch: no finding and no assumption names this negative run"
     ]
