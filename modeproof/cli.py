@@ -406,7 +406,8 @@ def prove_document(
     if not chosen:
         raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns)}")
     out = build(place) / "proofs" / document
-    sources = [*(place / "proofs").glob("*.py"), *(place / "proofs" / document).glob("*.py")]
+    rooms = [place / "proofs", place / "proofs" / "explorer", place / "proofs" / document]
+    sources = [file for room in rooms for file in room.glob("*.py")]
     sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
     sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
     inputs = evidence.hashes(place, sources)

@@ -5,7 +5,8 @@ from typing import Final
 
 import z3
 
-from proofs.paths import paths
+from proofs.explorer.explore import explore
+from proofs.explorer.values import Word
 from proofs.words import constant, one_of, word
 from refimpl.mode_selection import code_tables
 
@@ -39,12 +40,12 @@ def mode_of(name: str, term: z3.BitVecRef) -> z3.BitVecRef:
 
 def mode_by(table: tuple[int, ...], term: z3.BitVecRef) -> z3.BitVecRef:
     """As `mode_of`, for a table given by its five words."""
-    return _term(lambda number: code_tables.decode(table, number), term)
+    return _term(code_tables.decode, table, Word(term))
 
 
 def word_of(name: str, mode: z3.BitVecRef) -> z3.BitVecRef:
     """The word that the shipped `encode` writes for the mode, zero for none (FFFFH)."""
-    return _term(lambda number: code_tables.encode(codes(name), number), mode)
+    return _term(code_tables.encode, codes(name), Word(mode, signed=True))
 
 
 def is_code(name: str, term: z3.BitVecRef) -> z3.BoolRef:
@@ -63,10 +64,12 @@ def free_mode(name: str) -> tuple[z3.BitVecRef, z3.BoolRef]:
     return term, one_of(term, MODES)
 
 
-def _term(function: Callable[[int], int], symbol: z3.BitVecRef) -> z3.BitVecRef:
+def _term(
+    function: Callable[[tuple[int, ...], int], int], table: tuple[int, ...], symbol: Word
+) -> z3.BitVecRef:
     """The function as one term: its result on each path, `NO_PATH` elsewhere and where it raises."""
     term: z3.BitVecRef = constant(NO_PATH)
-    for path in paths(function, symbol):
-        if path.result is not None:
+    for path in explore(function, (table, symbol)).paths:
+        if path.raised is None:
             term = z3.If(path.condition, constant(path.result), term)
     return term

@@ -1,0 +1,199 @@
+"""A device's `step` from each of its control states, on symbolic memory, inputs and parameters.
+
+Names, types and ranges come from the document's interface register; the control state is a plain value in each
+run, everything else is symbolic: words over all 65536 values, levels and modes over -1..4, times without limit.
+Free symbols are called `before.x` (memory), `in.x` (inputs), `set.x` (parameters).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from enum import Enum
+from types import MappingProxyType, ModuleType
+from typing import Any, Final
+
+import z3
+
+from modeproof.registers import Device as Register
+from modeproof.registers import Signal
+from proofs.explorer import lint
+from proofs.explorer.errors import ConcretizationError
+from proofs.explorer.explore import Exploration, Path, StandIn, conjunction, explore
+from proofs.explorer.records import terms, unvalidated
+from proofs.explorer.values import WORD_BITS, Opaque, flag, number, text, word
+
+WORD_MAX: Final = 0xFFFF
+MODES: Final = 5
+LOGIC: Final = "ALL"
+"""Words and unbounded integers in one query; SMT-LIB has no smaller name for it."""
+
+
+@dataclass(frozen=True)
+class Device:
+    """A device of a document: its module, its names, and what the interface register does not say.
+
+    parameters_fit: from a Params record with symbols, what its constructor demands beyond the single ranges.
+    memory: templates for fields of State whose type is a record. stand_ins: see `StandIn`.
+    """
+
+    module: ModuleType
+    register: Register
+    parameters_fit: Callable[[Any], z3.BoolRef] = lambda params: z3.BoolVal(True)
+    memory: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
+    stand_ins: tuple[StandIn, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The id in the interface register."""
+        return self.register.id
+
+    @property
+    def control(self) -> str:
+        """The field of State that holds the control state."""
+        for signal in self.register.memory.values():
+            if signal.type == "text":
+                return signal.python
+        raise ConcretizationError(f"{self.name}: no memory of type text says the control state")
+
+    def params(self) -> Any:
+        """A Params record with a symbol for each parameter."""
+        return unvalidated(self.module.Params, self._record(self.register.parameters, "set"))
+
+    def inputs(self) -> Any:
+        """An Inputs record with a symbol for each input and for the elapsed time."""
+        values = self._record(self.register.inputs, "in")
+        return unvalidated(self.module.Inputs, {"dt_ms": number("in.dt_ms", 0), **values})
+
+    def state(self, control: Enum, params: Any) -> Any:
+        """A State record in this control state, with a symbol for every other field."""
+        signals = {one.python: one for one in self.register.memory.values()}
+        values: dict[str, Any] = {}
+        for one in fields(self.module.State):
+            if one.name == "params":
+                values[one.name] = params
+            elif one.name == self.control:
+                values[one.name] = control
+            elif one.name in self.memory:
+                values[one.name] = self.memory[one.name]
+            else:
+                values[one.name] = symbol_of(signals[one.name], f"before.{one.name}")
+        return unvalidated(self.module.State, values)
+
+    def _record(self, signals: Mapping[str, Signal], prefix: str) -> dict[str, Any]:
+        return {one.python: symbol_of(one, f"{prefix}.{one.python}") for one in signals.values()}
+
+
+def symbol_of(signal: Signal, name: str) -> Any:
+    """The symbol, or tuple of symbols, for a signal of the interface register. Raises ConcretizationError."""
+    if signal.type == "bool":
+        return flag(name)
+    if signal.type == "word":
+        return word(name)
+    if signal.type == "mode":
+        return number(name, -1, MODES - 1)
+    if signal.type == "modes":
+        return tuple(flag(f"{name}.{mode}") for mode in range(MODES))
+    if signal.type == "text":
+        return text(name, signal.values)
+    if signal.type == "function":
+        return Opaque(name)
+    if signal.type == "ms" or signal.type == "int":
+        low, high = signal.minimum or 0, signal.maximum
+        if signal.type == "int" and low >= 0 and high is not None and high <= WORD_MAX:
+            return word(name, low, high)
+        return number(name, low, high)
+    raise ConcretizationError(f"{name}: no symbol for type {signal.type!r}")
+
+
+@dataclass(frozen=True)
+class Scan:
+    """All scans of a device that begin in one control state."""
+
+    control: Enum
+    state: Any
+    inputs: Any
+    exploration: Exploration
+
+    @property
+    def premise(self) -> z3.BoolRef:
+        """All ranges, and what the parameters must fulfil."""
+        return self.exploration.premise
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """Every feasible path; the result of each is the pair (State, Outputs)."""
+        return self.exploration.paths
+
+
+def scans(device: Device) -> tuple[Scan, ...]:
+    """Explore `step` from every control state, in the order of the module's Step.
+
+    The code is linted first. The result is kept as long as the code that `step` reaches stays the same. Raises
+    ExplorationError: LintError for what no symbolic value can notice; a path that does not return a pair.
+    """
+    reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
+    reach.refuse_faults()
+    key = (device.name, device.module.__name__, reach.fingerprint)
+    if key not in _EXPLORED:
+        _EXPLORED[key] = tuple(_scan(device, control) for control in device.module.Step)
+    return _EXPLORED[key]
+
+
+_EXPLORED: dict[object, tuple[Scan, ...]] = {}
+
+
+def _scan(device: Device, control: Enum) -> Scan:
+    params, inputs = device.params(), device.inputs()
+    state = device.state(control, params)
+    exploration = explore(
+        device.module.step, (state, inputs), device.parameters_fit(params), device.stand_ins
+    )
+    for path in exploration.paths:
+        what = path.result
+        right = isinstance(what, tuple) and len(what) == 2 and isinstance(what[0], device.module.State)
+        if path.raised is None and not (right and isinstance(what[1], device.module.Outputs)):
+            raise ConcretizationError(f"{device.name}: from {control.value} step returned {what!r}, no pair")
+    return Scan(control, state, inputs, exploration)
+
+
+# ---------------------------------------------------------------- results as terms
+
+
+def term_of(leaf: object) -> z3.ExprRef:
+    """The solver term of a plain flag, or of a plain number that is no word; words need `word_term`."""
+    if isinstance(leaf, z3.ExprRef):
+        return leaf
+    if type(leaf) is bool:
+        return z3.BoolVal(leaf)
+    if type(leaf) is int:
+        return z3.IntVal(leaf)
+    raise ConcretizationError(f"{leaf!r} has no term")
+
+
+def word_term(leaf: object) -> z3.BitVecRef:
+    """The solver term of a word, symbolic or plain."""
+    return z3.BitVecVal(leaf, WORD_BITS) if type(leaf) is int else leaf
+
+
+# ---------------------------------------------------------------- exhaustive and disjoint
+
+
+def some_path(conditions: list[z3.BoolRef]) -> z3.BoolRef:
+    """At least one of the conditions holds."""
+    return conjunction([]) if not conditions else z3.Or(*conditions)
+
+
+def no_two_paths(conditions: list[z3.BoolRef]) -> z3.BoolRef:
+    """No condition holds together with one before it: each path against the rest, all in one formula."""
+    overlaps = []
+    before = conditions[0]
+    for condition in conditions[1:]:
+        overlaps.append(z3.And(before, condition))
+        before = z3.Or(before, condition)
+    return z3.Not(z3.Or(*overlaps)) if overlaps else z3.BoolVal(True)
+
+
+def mentioned(path: Path) -> dict[str, z3.ExprRef | object]:
+    """Each leaf of the path's result by its place."""
+    return dict(terms(path.result))
