@@ -1,8 +1,8 @@
 """A device's `step` from each of its control states, on symbolic memory, inputs and parameters.
 
-Names, types and ranges come from the document's interface register; the control state is a plain value in each
-run, everything else is symbolic: words over all 65536 values, levels and modes over -1..4, times without limit.
-Free symbols are called `before.x` (memory), `in.x` (inputs), `set.x` (parameters).
+Names, types and ranges come from the document's interface register. The control state is a plain value in
+each run, everything else is symbolic: words over all 65536 values, levels and modes over -1..4, times without
+limit. Free symbols are called `before.x` (memory), `in.x` (inputs), `set.x` (parameters).
 """
 
 from __future__ import annotations
@@ -129,8 +129,8 @@ class Scan:
 def scans(device: Device) -> tuple[Scan, ...]:
     """Explore `step` from every control state, in the order of the module's Step.
 
-    The code is linted first. The result is kept as long as the code that `step` reaches stays the same. Raises
-    ExplorationError: LintError for what no symbolic value can notice; a path that does not return a pair.
+    The code is linted first. The result is kept as long as the code that `step` reaches stays the same.
+    Raises ExplorationError: LintError for what no symbolic value can notice; a path that does not return a pair.
     """
     reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
     reach.refuse_faults()

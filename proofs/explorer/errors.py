@@ -1,4 +1,4 @@
-"""Why the explorer gives no answer. Each error is one line that says what, where and what to write instead."""
+"""Why the explorer gives no answer: one line that says what, where and what to write instead."""
 
 
 class ExplorationError(Exception):

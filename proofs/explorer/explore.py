@@ -2,8 +2,8 @@
 
 Each question that the code asks of a symbolic value forks the run, unless the solver shows that only one
 answer is possible after the answers so far. The runs form a binary tree, walked in a fixed order (yes before
-no). A path's condition is the conjunction of all its answers, the forced ones included, so that the claim that
-the conditions are exhaustive also judges every branch that was pruned.
+no). A path's condition is the conjunction of all its answers, the forced ones included, so that the claim
+that the conditions are exhaustive also judges every branch that was pruned.
 
 Afterwards each path is run once more, last one first. A function that asks other questions or returns
 something else then keeps state between calls, and is refused.
@@ -33,7 +33,7 @@ from proofs.explorer.records import check_result, in_run, same, symbols
 from proofs.explorer.values import Symbol
 
 MAX_PATHS: Final = 20_000
-MAX_DECISIONS: Final = 2_000
+MAX_DECISIONS: Final = 400
 """Questions on one path: a loop that never ends by itself stops here."""
 LIMIT_MS: Final = 10_000
 """For one question of feasibility."""
@@ -130,8 +130,8 @@ def explore(
 ) -> Exploration:
     """Every feasible path of `function`, called with records, tuples, symbols and plain values.
 
-    premise: what is known besides the ranges of the symbols. An exception that the function raises itself ends
-    a path (`raised`). Raises ExplorationError when the function cannot be followed.
+    premise: what is known besides the ranges of the symbols. An exception that the function raises itself
+    ends a path (`raised`). Raises ExplorationError when the function cannot be followed.
     """
     ranges = [one.premise for one in (*_distinct(arguments), *(stand_in.answer for stand_in in stand_ins))]
     known = [term for term in (*ranges, premise) if term is not None and not z3.is_true(term)]
@@ -290,7 +290,7 @@ class _Run:
         if number < len(self.prefix):
             decision = self._replayed(self.prefix[number], atom.question)
         else:
-            decision = self._new(atom.question)
+            decision = self._new(atom.question, not atom.negated)
         self.taken.append(decision)
         self.answered[asked] = decision.answer
         return decision.answer != atom.negated
@@ -339,7 +339,8 @@ class _Run:
             )
         return expected
 
-    def _new(self, question: z3.BoolRef) -> Decision:
+    def _new(self, question: z3.BoolRef, first: bool) -> Decision:
+        """first: the answer that means yes to the question as the code asked it."""
         place = _here()
         self.explorer.assume([decision.literal for decision in self.taken if not decision.forced])
         answer = z3.is_true(self.model.eval(question, model_completion=True))
@@ -347,10 +348,10 @@ class _Run:
         if otherwise is None:
             self.explorer.pruned += 1
             return Decision(question, answer, True, place)
-        refused = Decision(question, False, False, place)
-        self.branches.append(((*self.taken, refused), self.model if not answer else otherwise))
-        self.model = self.model if answer else otherwise
-        return Decision(question, True, False, place)
+        yes, no = (self.model, otherwise) if answer == first else (otherwise, self.model)
+        self.branches.append(((*self.taken, Decision(question, not first, False, place)), no))
+        self.model = yes
+        return Decision(question, first, False, place)
 
 
 def _here() -> Place:

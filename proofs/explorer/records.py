@@ -7,7 +7,7 @@ with them, so that every example that the solver gives is one that the shipped c
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import cache
@@ -38,15 +38,19 @@ def _is_record(value: object) -> bool:
 
 
 @cache
-def _is_record_type(record: type) -> bool:
+def _is_record_type(record: Hashable) -> bool:
     """Whether it is a dataclass of the code, and none of the explorer's own."""
-    return is_dataclass(record) and not issubclass(record, (Flag, Word, Number, Text, Opaque))
+    return (
+        isinstance(record, type)
+        and is_dataclass(record)
+        and not issubclass(record, (Flag, Word, Number, Text, Opaque))
+    )
 
 
 @cache
-def _names(record: type) -> tuple[str, ...]:
+def _names(record: Hashable) -> tuple[str, ...]:
     """The fields of a dataclass."""
-    return tuple(field.name for field in fields(record))
+    return tuple(field.name for field in fields(record))  # type: ignore[arg-type]
 
 
 def _parts(value: object) -> dict[str, Any]:
@@ -126,7 +130,7 @@ def check_result(value: object) -> None:
         if not plain:
             where = f" in {place}" if place else ""
             raise ConcretizationError(
-                f"the code returned {type(leaf).__name__}{where}; return flags, words, numbers, texts, records"
+                f"the code returned {type(leaf).__name__}{where}; return flags, words, numbers, records"
             )
 
 
@@ -137,7 +141,7 @@ def same(one: object, other: object) -> bool:
     if isinstance(one, Proxy):
         return bool(one.term.eq(other.term))  # type: ignore[attr-defined]
     if isinstance(one, tuple):
-        return len(one) == len(other) and all(map(same, one, other))  # type: ignore[arg-type]
+        return len(one) == len(other) and all(map(same, one, other))  # type: ignore[arg-type, call-overload]
     if _is_record(one):
         return all(same(getattr(one, name), getattr(other, name)) for name in _names(type(one)))
     return bool(one == other)

@@ -5,8 +5,8 @@ stands for each symbol. Comparing proxies gives a symbolic truth value; asking f
 `or`, `not`) takes a decision. Everything that would need the value itself raises ConcretizationError, and the
 run remembers it, so that a `try` in the code cannot hide it.
 
-Not noticed by any proxy: `is`, `isinstance`, `type(x)`, and `match` on None, True or False. For these there is
-`lint`.
+Not noticed by any proxy: `is`, `isinstance`, `type(x)`, and `match` on None, True or False. For these there
+is `lint`.
 """
 
 from __future__ import annotations
@@ -16,8 +16,6 @@ from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
 import z3
-
-from proofs.explorer.errors import ConcretizationError
 
 WORD_BITS = 16
 
@@ -55,7 +53,7 @@ class Flag:
 
     def python(self, value: z3.ExprRef) -> bool:
         """The Python value of a value of the solver."""
-        return z3.is_true(value)
+        return bool(z3.is_true(value))
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,7 @@ class Text:
 
     def python(self, value: z3.ExprRef) -> str:
         """The Python value of a value of the solver."""
-        return self.values[value.as_long()]
+        return self.values[int(value.as_long())]
 
 
 Symbol = Flag | Word | Number | Text
@@ -378,11 +376,6 @@ for _kind in (
     TextProxy,
 ):  # a class that defines == loses the inherited hash
     _kind.__hash__ = Proxy.__hash__  # type: ignore[method-assign]
-
-
-def refused_term(error: str) -> ConcretizationError:
-    """The error for a value that has no term."""
-    return ConcretizationError(error)
 
 
 # ---------------------------------------------------------------- free symbols by name

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
@@ -31,7 +30,7 @@ def permits_fit(params: Any) -> z3.BoolRef:
 
 
 def fplc_parameters_fit(params: Any) -> z3.BoolRef:
-    """Permissions as above; a deadline from LA is no shorter than its first part (E-38); dwell below removal."""
+    """Permissions as above; T_SEQ from LA is no shorter than T_ON (E-38); the dwell is below the removal."""
     from_la = params.T_SEQ_FROM.term == params.T_SEQ_FROM.values.index("LA")
     return z3.And(
         permits_fit(params),

@@ -24,8 +24,8 @@ def every_scan_of_the_fplc_takes_exactly_one_path() -> Queries:
     """In every control state of the F-PLC, with any memory, inputs, times and parameters in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
 
-    All 65536 words in MW03 and MW07, levels and modes 0 to 4 or none, times without limit, all parameters that
-    the code accepts. Nothing is assumed about how the memory came about.
+    All 65536 words in MW03 and MW07, levels and modes 0 to 4 or none, times without limit, all parameters
+    that the code accepts. Nothing is assumed about how the memory came about.
     """
     yield from _exactly_one_path(FPLC)
 
