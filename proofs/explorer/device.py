@@ -130,7 +130,7 @@ def scans(device: Device) -> tuple[Scan, ...]:
     """Explore `step` from every control state, in the order of the module's Step.
 
     The code is linted first. The result is kept as long as the code that `step` reaches stays the same.
-    Raises ExplorationError: LintError for what no symbolic value can notice; a path that does not return a pair.
+    Raises ExplorationError: LintError for what no symbolic value can notice, or a path that returns no pair.
     """
     reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
     reach.refuse_faults()

@@ -7,7 +7,7 @@ with them, so that every example that the solver gives is one that the shipped c
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from functools import cache
@@ -33,27 +33,23 @@ def unvalidated(record: type[T], values: Mapping[str, Any]) -> T:
     return made
 
 
-def _is_record(value: object) -> bool:
+def _is_record(value: Any) -> bool:
     return _is_record_type(type(value))
 
 
 @cache
-def _is_record_type(record: Hashable) -> bool:
+def _is_record_type(record: type[Any]) -> bool:
     """Whether it is a dataclass of the code, and none of the explorer's own."""
-    return (
-        isinstance(record, type)
-        and is_dataclass(record)
-        and not issubclass(record, (Flag, Word, Number, Text, Opaque))
-    )
+    return is_dataclass(record) and not issubclass(record, (Flag, Word, Number, Text, Opaque))
 
 
 @cache
-def _names(record: Hashable) -> tuple[str, ...]:
+def _names(record: type[Any]) -> tuple[str, ...]:
     """The fields of a dataclass."""
-    return tuple(field.name for field in fields(record))  # type: ignore[arg-type]
+    return tuple(field.name for field in fields(record))
 
 
-def _parts(value: object) -> dict[str, Any]:
+def _parts(value: Any) -> dict[str, Any]:
     return {name: getattr(value, name) for name in _names(type(value))}
 
 
@@ -134,14 +130,14 @@ def check_result(value: object) -> None:
             )
 
 
-def same(one: object, other: object) -> bool:
+def same(one: Any, other: Any) -> bool:
     """Whether two results are the same, terms and types included."""
     if type(one) is not type(other):
         return False
     if isinstance(one, Proxy):
-        return bool(one.term.eq(other.term))  # type: ignore[attr-defined]
+        return bool(one.term.eq(other.term))
     if isinstance(one, tuple):
-        return len(one) == len(other) and all(map(same, one, other))  # type: ignore[arg-type, call-overload]
+        return len(one) == len(other) and all(map(same, one, other))
     if _is_record(one):
         return all(same(getattr(one, name), getattr(other, name)) for name in _names(type(one)))
     return bool(one == other)

@@ -77,8 +77,8 @@ GOOD = (
     "def step(w):\n    return State(Step.IDLE, w)",
     "def step(w):\n    return State(Step.IDLE, w).doubled()",
     "def step(w):\n    if w > 3:\n        raise ValueError(f'too large: {w!r}')\n    return w",
-    "def step(w):\n    match w:\n        case 1 | 2:\n            return 1\n        case _:\n            return 2",
-    "def step(w):\n    total = 0\n    total += w\n    assert total == w\n    return total if not (w < 2) else -1",
+    "def step(w):\n    match w:\n        case 1 | 2:\n            return 1\n    return 2",
+    "def step(w):\n    total = 0\n    total += w\n    assert total == w\n    return total if w > 2 else -1",
 )
 
 BAD = {
