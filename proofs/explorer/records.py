@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
-from functools import cache
 from typing import Any, TypeVar
 
 import z3
@@ -33,24 +32,25 @@ def unvalidated(record: type[T], values: Mapping[str, Any]) -> T:
     return made
 
 
+_FIELDS: dict[type, tuple[str, ...] | None] = {}
+
+
+def _fields_of(value: Any) -> tuple[str, ...] | None:
+    """The fields of a dataclass of the code; None for everything else, the explorer's own included."""
+    kind = type(value)
+    if kind not in _FIELDS:
+        ours = isinstance(value, (Flag, Word, Number, Text, Opaque))
+        names = tuple(field.name for field in fields(kind)) if is_dataclass(kind) and not ours else None
+        _FIELDS[kind] = names
+    return _FIELDS[kind]
+
+
 def _is_record(value: Any) -> bool:
-    return _is_record_type(type(value))
-
-
-@cache
-def _is_record_type(record: type[Any]) -> bool:
-    """Whether it is a dataclass of the code, and none of the explorer's own."""
-    return is_dataclass(record) and not issubclass(record, (Flag, Word, Number, Text, Opaque))
-
-
-@cache
-def _names(record: type[Any]) -> tuple[str, ...]:
-    """The fields of a dataclass."""
-    return tuple(field.name for field in fields(record))
+    return _fields_of(value) is not None
 
 
 def _parts(value: Any) -> dict[str, Any]:
-    return {name: getattr(value, name) for name in _names(type(value))}
+    return {name: getattr(value, name) for name in _fields_of(value) or ()}
 
 
 def symbols(value: object) -> Iterator[Symbol]:
@@ -139,5 +139,5 @@ def same(one: Any, other: Any) -> bool:
     if isinstance(one, tuple):
         return len(one) == len(other) and all(map(same, one, other))
     if _is_record(one):
-        return all(same(getattr(one, name), getattr(other, name)) for name in _names(type(one)))
+        return all(same(getattr(one, name), getattr(other, name)) for name in _fields_of(one) or ())
     return bool(one == other)
