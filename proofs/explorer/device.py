@@ -7,7 +7,7 @@ limit. Free symbols are called `before.x` (memory), `in.x` (inputs), `set.x` (pa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from enum import Enum
 from types import MappingProxyType, ModuleType
@@ -19,9 +19,9 @@ from modeproof.registers import Device as Register
 from modeproof.registers import Signal
 from proofs.explorer import lint
 from proofs.explorer.errors import ConcretizationError
-from proofs.explorer.explore import Exploration, Path, StandIn, conjunction, explore
-from proofs.explorer.records import terms, unvalidated
-from proofs.explorer.values import WORD_BITS, Opaque, flag, number, text, word
+from proofs.explorer.explore import Exploration, Path, StandIn, disjunction, explore
+from proofs.explorer.records import unvalidated
+from proofs.explorer.values import Opaque, flag, number, text, word
 
 WORD_MAX: Final = 0xFFFF
 MODES: Final = 5
@@ -157,43 +157,30 @@ def _scan(device: Device, control: Enum) -> Scan:
     return Scan(control, state, inputs, exploration)
 
 
-# ---------------------------------------------------------------- results as terms
-
-
-def term_of(leaf: object) -> z3.ExprRef:
-    """The solver term of a plain flag, or of a plain number that is no word; words need `word_term`."""
-    if isinstance(leaf, z3.ExprRef):
-        return leaf
-    if type(leaf) is bool:
-        return z3.BoolVal(leaf)
-    if type(leaf) is int:
-        return z3.IntVal(leaf)
-    raise ConcretizationError(f"{leaf!r} has no term")
-
-
-def word_term(leaf: object) -> z3.BitVecRef:
-    """The solver term of a word, symbolic or plain."""
-    return z3.BitVecVal(leaf, WORD_BITS) if type(leaf) is int else leaf
-
-
 # ---------------------------------------------------------------- exhaustive and disjoint
 
 
-def some_path(conditions: list[z3.BoolRef]) -> z3.BoolRef:
+def some_path(conditions: Sequence[z3.BoolRef]) -> z3.BoolRef:
     """At least one of the conditions holds."""
-    return conjunction([]) if not conditions else z3.Or(*conditions)
+    return disjunction(conditions)
 
 
-def no_two_paths(conditions: list[z3.BoolRef]) -> z3.BoolRef:
-    """No condition holds together with one before it: each path against the rest, all in one formula."""
-    overlaps = []
-    before = conditions[0]
-    for condition in conditions[1:]:
-        overlaps.append(z3.And(before, condition))
-        before = z3.Or(before, condition)
-    return z3.Not(z3.Or(*overlaps)) if overlaps else z3.BoolVal(True)
+def no_two_paths(conditions: Sequence[z3.BoolRef]) -> z3.BoolRef:
+    """No two of the conditions hold together: each path against the rest, in one formula.
+
+    Said of halves, and of halves of halves: none of the first half together with one of the second. Paths
+    that stand side by side have most of their answers in common, so that a solver has little to try.
+    """
+    overlaps: list[z3.BoolRef] = []
+    _any_of(conditions, overlaps)
+    return z3.Not(disjunction(overlaps))
 
 
-def mentioned(path: Path) -> dict[str, z3.ExprRef | object]:
-    """Each leaf of the path's result by its place."""
-    return dict(terms(path.result))
+def _any_of(conditions: Sequence[z3.BoolRef], overlaps: list[z3.BoolRef]) -> z3.BoolRef:
+    """One of the conditions holds; what would be an overlap among them is added to the list."""
+    if len(conditions) == 1:
+        return conditions[0]
+    half = len(conditions) // 2
+    first, second = _any_of(conditions[:half], overlaps), _any_of(conditions[half:], overlaps)
+    overlaps.append(z3.And(first, second))
+    return z3.Or(first, second)

@@ -1,0 +1,202 @@
+"""Why a few words are enough for the models: our code cannot tell the members of one class apart.
+
+The models try a few words: zero, the five codes, and one word for all others. Which inputs they take together
+is written by hand, in classes.toml and in the alphabet `Words` of the OPEN_ module; here both are read, and
+checked against the paths of the shipped `step`. A class that is too coarse for the code has a counterexample:
+two members on two paths.
+"""
+
+import re
+import tomllib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import z3
+
+from proofs.explorer.device import LOGIC, Device, Scan, scans
+from proofs.explorer.records import symbols, terms
+from proofs.explorer.values import Word, flag, word
+from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
+from proofs.mode_selection.ranges import accepted, codes
+from proofs.theorem import Queries, TheoremError, claim, control, theorem
+from proofs.words import one_of
+
+SPECIFICATION: Final = Path(__file__).parents[2] / "spec" / "mode_selection"
+OPEN_MODULE: Final = {"fplc": "FplcOpen.tla", "hmi": "HmiOpen.tla"}
+
+
+def alphabet(device: Device) -> tuple[int, ...]:
+    """The words that the device's model tries one by one, without the one that stands for all others."""
+    text = (SPECIFICATION / OPEN_MODULE[device.name]).read_text(encoding="utf-8")
+    found = re.search(r"^Words == <<(.*)>>$", text, re.MULTILINE)
+    items = [item.strip() for item in found.group(1).split(",")] if found else []
+    if "OtherWord" not in items:
+        raise TheoremError(f"{OPEN_MODULE[device.name]}: no alphabet Words with OtherWord in it")
+    listed = [item for item in items if item != "OtherWord"]
+    known = {"0": 0, **{f"RE[{mode}]": code for mode, code in enumerate(codes("RE"))}}
+    for item in listed:
+        if item not in known:
+            raise TheoremError(f"{OPEN_MODULE[device.name]}: the word {item} is unknown here")
+    return tuple(known[item] for item in listed)
+
+
+def classes(device: Device) -> list[dict[str, Any]]:
+    """The rows of classes.toml for the device."""
+    rows = tomllib.loads((SPECIFICATION / "classes.toml").read_text(encoding="utf-8"))["class"]
+    return [row for row in rows if row["device"] == device.name]
+
+
+def _same_path(scan: Scan, changed: Sequence[tuple[z3.ExprRef, z3.ExprRef]]) -> z3.BoolRef:
+    """On whichever path the first values are, the second ones are too."""
+    pairs = [(path.condition, z3.substitute(path.condition, *changed)) for path in scan.paths]
+    moved = [z3.Implies(one, other) for one, other in pairs if not one.eq(other)]
+    return z3.And(*moved) if moved else z3.BoolVal(True)
+
+
+def _refuse_results_with(scan: Scan, changed: Sequence[z3.ExprRef]) -> None:
+    """No result of a path may depend on what was changed. Raises TheoremError."""
+    names = {symbol.decl().name() for symbol in changed}
+    for path in scan.paths:
+        for place, leaf in terms(path.result):
+            if isinstance(leaf, z3.ExprRef) and names & _names(leaf):
+                raise TheoremError(
+                    f"from {scan.control.value}: {place} depends on {', '.join(sorted(names))}"
+                )
+
+
+def _names(term: z3.ExprRef) -> set[str]:
+    if z3.is_const(term):
+        return {term.decl().name()}
+    return set().union(*[_names(child) for child in term.children()])
+
+
+def _others(device: Device, row: dict[str, Any], few: int = 0) -> Iterator[tuple[str, Any, Any, z3.BoolRef]]:
+    """A class: its name, two members as (old, new) terms, and the premise. `few`: leave out listed words."""
+    listed = alphabet(device)[: -few or None]
+    old, new = word(f"in.{row['field']}").term, word(f"other.{row['field']}").term
+    both = z3.And(z3.Not(one_of(old, listed)), z3.Not(one_of(new, listed)))
+    yield f"{row['field']}: words beside the alphabet", [old], [new], both
+
+
+def _counts(row: dict[str, Any]) -> Iterator[tuple[str, Any, Any, z3.BoolRef]]:
+    """As `_others`, for a class of flags by how many of them are set."""
+    old = [flag(f"in.{name}").term for name in row["fields"]]
+    new = [flag(f"other.{name}").term for name in row["fields"]]
+    low, high = row["at_least"], row["at_most"]
+    both = z3.And(_counted(old, low, high), _counted(new, low, high))
+    yield f"{low} to {high} of {' '.join(row['fields'])}", old, new, both
+
+
+def _counted(flags: Sequence[z3.BoolRef], low: int, high: int) -> z3.BoolRef:
+    total = z3.Sum(*[z3.If(one, 1, 0) for one in flags])
+    return z3.And(total >= low, total <= high)
+
+
+def _indistinguishable(device: Device) -> Queries:
+    """For each class of the device and each control state: two members take the same path to the same end."""
+    rows = classes(device)
+    if not rows:
+        raise TheoremError(f"classes.toml has no class of {device.name}")
+    for scan in scans(device):
+        for row in rows:
+            for name, old, new, both in _others(device, row) if row["rule"] == "words" else _counts(row):
+                _refuse_results_with(scan, old)
+                given = {"all in their ranges": scan.premise, "two members of the class": both}
+                then = _same_path(scan, list(zip(old, new, strict=True)))
+                if not z3.is_true(then):
+                    yield from claim(f"{scan.control.value}: {name}", given, then, LOGIC)
+
+
+def _too_coarse(device: Device, control_state: str, field: str) -> Queries:
+    """A class that also holds the last word of the alphabet is told apart in this control state."""
+    (scan,) = [scan for scan in scans(device) if scan.control.value == control_state]
+    (row,) = [row for row in classes(device) if row.get("field") == field]
+    for name, old, new, both in _others(device, row, few=1):
+        moved = _same_path(scan, list(zip(old, new, strict=True)))
+        formulas = {"in range": scan.premise, "two members": both, "on two paths": z3.Not(moved)}
+        yield control(f"planted: {name} and the last code too, {control_state}", formulas, LOGIC)
+
+
+@theorem(clauses=["EKS-T1", "EKS-T2", "EKS-KS-8", "EKS-KS-9", "EKS-KS-6"], findings=[])
+def the_fplc_cannot_tell_the_words_of_one_class_apart() -> Queries:
+    """In every control state and with all else equal, the F-PLC does the same for any two words in MW03, or
+    in MW07, that are neither zero nor a code, and for any two to four outputs that are set.
+
+    So one such word and one such pair of outputs in the models stand for all of them. The classes are read
+    from classes.toml and from the alphabet of the model; what a scan leaves behind depends on no word itself.
+    """
+    yield from _indistinguishable(FPLC)
+    yield from _too_coarse(FPLC, "CheckSelection", "MW03")
+    yield from _too_coarse(FPLC, "CheckAcknowledgment", "MW07")
+
+
+@theorem(clauses=["EKS-T1", "EKS-T2", "EKS-KS-8", "EKS-KS-9"], findings=[])
+def the_panel_cannot_tell_the_words_of_one_class_apart() -> Queries:
+    """In every control state and with all else equal, the panel does the same for any two words in
+    ReadAuthorization, or in CheckMSO, that are neither zero nor a code.
+
+    The classes are read from classes.toml and from the alphabet of the model.
+    """
+    yield from _indistinguishable(HMI)
+    yield from _too_coarse(HMI, "Inhibited", "ReadAuthorization")
+    yield from _too_coarse(HMI, "AwaitEcho", "CheckMSO")
+
+
+@theorem(clauses=["EKS-GP-2", "EKS-2-13", "EKS-2-16", "EKS-2-21", "EKS-2-26"], findings=["E-08"])
+def the_plc_passes_words_on_and_decides_nothing_by_them() -> Queries:
+    """In every control state the PLC has one path, and each word that it keeps or writes is one that it read
+    in this scan or kept.
+
+    So its words need no classes: any renaming of words before a scan is the same renaming after it.
+    """
+    for scan in scans(PLC):
+        path = scan.paths[0]
+        if path.decisions:
+            raise TheoremError(f"from {scan.control.value} the PLC decides by its inputs")
+        known = [one.term for one in symbols((scan.state, scan.inputs)) if isinstance(one, Word)]
+        given = {"all in their ranges": scan.premise}
+        written = [leaf for _, leaf in terms(path.result) if isinstance(leaf, z3.ExprRef)]
+        then = z3.And(*[z3.Or(*[leaf == one for one in known]) for leaf in written])
+        yield from claim(f"{scan.control.value}: {len(written)} words", given, then, LOGIC)
+
+
+@theorem(clauses=["EKS-KS-1", "EKS-KS-5", "EKS-KS-8", "EKS-T1"], findings=["E-41"])
+def the_eks_cannot_tell_apart_levels_that_are_no_code_nor_keys_by_their_numbers() -> Queries:
+    """In every control state and with all else equal, the EKS takes the same path for any two level words
+    that are neither zero nor a code, in the key and in the reader, and for any two key numbers, as long as
+    the same ones are equal.
+
+    Of level words and numbers it only asks whether key and reader agree, and which code a level is; so two
+    numbers and one word that is no code are enough for the model. The access code is not covered: it is
+    compared bit by bit (EKS-KS-4).
+    """
+    listed = accepted("RE")
+    for scan in scans(EKS):
+        kept, read = scan.state.key, scan.inputs
+        level, level_read = kept.authorization_level.term, read.authorization_level.term
+        other, other_read = word("other.authorization_level").term, word("other.read_level").term
+        given = {
+            "all in their ranges": scan.premise,
+            "the level in memory stays or is no code before and after": _stays_or_is_no_code(
+                level, other, listed
+            ),
+            "the level in the reader likewise": _stays_or_is_no_code(level_read, other_read, listed),
+            "the same ones are equal": (level == level_read) == (other == other_read),
+        }
+        then = _same_path(scan, [(level, other), (level_read, other_read)])
+        if not z3.is_true(then):
+            yield from claim(f"{scan.control.value}: levels", given, then, LOGIC)
+        number, number_read = kept.KeyID.term, read.KeyID.term
+        second, second_read = z3.Int("other.KeyID"), z3.Int("other.read_KeyID")
+        given = {
+            "all in their ranges": scan.premise,
+            "the same ones are equal": (number == number_read) == (second == second_read),
+        }
+        then = _same_path(scan, [(number, second), (number_read, second_read)])
+        if not z3.is_true(then):
+            yield from claim(f"{scan.control.value}: key numbers", given, then, LOGIC)
+
+
+def _stays_or_is_no_code(old: z3.BitVecRef, new: z3.BitVecRef, listed: Sequence[int]) -> z3.BoolRef:
+    return z3.Or(old == new, z3.And(z3.Not(one_of(old, listed)), z3.Not(one_of(new, listed))))
