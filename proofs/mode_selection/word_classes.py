@@ -3,7 +3,7 @@
 The models try a few words: zero, the five codes, and one word for all others. Which inputs they take together
 is written by hand, in classes.toml and in the alphabet `Words` of the OPEN_ module; here both are read, and
 checked against the paths of the shipped `step`. A class that is too coarse for the code has a counterexample:
-two members on two paths.
+two members that lead to two ends.
 """
 
 import re
@@ -15,6 +15,7 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.device import LOGIC, Device, Scan, scans
+from proofs.explorer.explore import conjunction, disjunction
 from proofs.explorer.records import symbols, terms
 from proofs.explorer.values import Word, flag, word
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
@@ -47,11 +48,20 @@ def classes(device: Device) -> list[dict[str, Any]]:
     return [row for row in rows if row["device"] == device.name]
 
 
-def _same_path(scan: Scan, changed: Sequence[tuple[z3.ExprRef, z3.ExprRef]]) -> z3.BoolRef:
-    """On whichever path the first values are, the second ones are too."""
-    pairs = [(path.condition, z3.substitute(path.condition, *changed)) for path in scan.paths]
+def _same_end(scan: Scan, changed: Sequence[tuple[z3.ExprRef, z3.ExprRef]]) -> z3.BoolRef:
+    """Wherever the first values lead, the second ones do too.
+
+    Paths with the same result are taken together, for the code may ask more than it uses.
+    """
+    ends: dict[object, list[z3.BoolRef]] = {}
+    for path in scan.paths:
+        leaves = [
+            leaf.sexpr() if isinstance(leaf, z3.ExprRef) else repr(leaf) for _, leaf in terms(path.result)
+        ]
+        ends.setdefault(tuple(leaves), []).append(path.condition)
+    pairs = [(one, z3.substitute(one, *changed)) for one in map(disjunction, ends.values())]
     moved = [z3.Implies(one, other) for one, other in pairs if not one.eq(other)]
-    return z3.And(*moved) if moved else z3.BoolVal(True)
+    return conjunction(moved)
 
 
 def _refuse_results_with(scan: Scan, changed: Sequence[z3.ExprRef]) -> None:
@@ -94,7 +104,7 @@ def _counted(flags: Sequence[z3.BoolRef], low: int, high: int) -> z3.BoolRef:
 
 
 def _indistinguishable(device: Device) -> Queries:
-    """For each class of the device and each control state: two members take the same path to the same end."""
+    """For each class of the device and each control state: two members lead to the same end."""
     rows = classes(device)
     if not rows:
         raise TheoremError(f"classes.toml has no class of {device.name}")
@@ -103,7 +113,7 @@ def _indistinguishable(device: Device) -> Queries:
             for name, old, new, both in _others(device, row) if row["rule"] == "words" else _counts(row):
                 _refuse_results_with(scan, old)
                 given = {"all in their ranges": scan.premise, "two members of the class": both}
-                then = _same_path(scan, list(zip(old, new, strict=True)))
+                then = _same_end(scan, list(zip(old, new, strict=True)))
                 if not z3.is_true(then):
                     yield from claim(f"{scan.control.value}: {name}", given, then, LOGIC)
 
@@ -113,8 +123,8 @@ def _too_coarse(device: Device, control_state: str, field: str) -> Queries:
     (scan,) = [scan for scan in scans(device) if scan.control.value == control_state]
     (row,) = [row for row in classes(device) if row.get("field") == field]
     for name, old, new, both in _others(device, row, few=1):
-        moved = _same_path(scan, list(zip(old, new, strict=True)))
-        formulas = {"in range": scan.premise, "two members": both, "on two paths": z3.Not(moved)}
+        moved = _same_end(scan, list(zip(old, new, strict=True)))
+        formulas = {"in range": scan.premise, "two members": both, "they do not do the same": z3.Not(moved)}
         yield control(f"planted: {name} and the last code too, {control_state}", formulas, LOGIC)
 
 
@@ -163,9 +173,9 @@ def the_plc_passes_words_on_and_decides_nothing_by_them() -> Queries:
 
 @theorem(clauses=["EKS-KS-1", "EKS-KS-5", "EKS-KS-8", "EKS-T1"], findings=["E-41"])
 def the_eks_cannot_tell_apart_levels_that_are_no_code_nor_keys_by_their_numbers() -> Queries:
-    """In every control state and with all else equal, the EKS takes the same path for any two level words
-    that are neither zero nor a code, in the key and in the reader, and for any two key numbers, as long as
-    the same ones are equal.
+    """In every control state and with all else equal, the EKS does the same for any two level words that are
+    neither zero nor a code, in the key and in the reader, and for any two key numbers, as long as the same
+    ones are equal.
 
     Of level words and numbers it only asks whether key and reader agree, and which code a level is; so two
     numbers and one word that is no code are enough for the model. The access code is not covered: it is
@@ -184,7 +194,7 @@ def the_eks_cannot_tell_apart_levels_that_are_no_code_nor_keys_by_their_numbers(
             "the level in the reader likewise": _stays_or_is_no_code(level_read, other_read, listed),
             "the same ones are equal": (level == level_read) == (other == other_read),
         }
-        then = _same_path(scan, [(level, other), (level_read, other_read)])
+        then = _same_end(scan, [(level, other), (level_read, other_read)])
         if not z3.is_true(then):
             yield from claim(f"{scan.control.value}: levels", given, then, LOGIC)
         number, number_read = kept.KeyID.term, read.KeyID.term
@@ -193,7 +203,7 @@ def the_eks_cannot_tell_apart_levels_that_are_no_code_nor_keys_by_their_numbers(
             "all in their ranges": scan.premise,
             "the same ones are equal": (number == number_read) == (second == second_read),
         }
-        then = _same_path(scan, [(number, second), (number_read, second_read)])
+        then = _same_end(scan, [(number, second), (number_read, second_read)])
         if not z3.is_true(then):
             yield from claim(f"{scan.control.value}: key numbers", given, then, LOGIC)
 
