@@ -136,14 +136,15 @@ def scans(device: Device) -> tuple[Scan, ...]:
     reach.refuse_faults()
     key = (device.name, device.module.__name__, reach.fingerprint)
     if key not in _EXPLORED:
-        _EXPLORED[key] = tuple(_scan(device, control) for control in device.module.Step)
+        _EXPLORED[key] = tuple(explored_from(device, control) for control in device.module.Step)
     return _EXPLORED[key]
 
 
 _EXPLORED: dict[object, tuple[Scan, ...]] = {}
 
 
-def _scan(device: Device, control: Enum) -> Scan:
+def explored_from(device: Device, control: Enum) -> Scan:
+    """Explore `step` from one control state; nothing is linted and nothing kept."""
     params, inputs = device.params(), device.inputs()
     state = device.state(control, params)
     exploration = explore(
