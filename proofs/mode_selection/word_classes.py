@@ -28,10 +28,14 @@ OPEN_MODULE: Final = {"fplc": "FplcOpen.tla", "hmi": "HmiOpen.tla"}
 
 
 def alphabet(device: Device) -> tuple[int, ...]:
-    """The words that the device's model tries one by one, without the one that stands for all others."""
+    """The words that the device's model tries one by one, without the one that stands for all others.
+
+    Of an alphabet with a shorter choice the longest counts: what the shorter one leaves out it does not try.
+    """
     text = (SPECIFICATION / OPEN_MODULE[device.name]).read_text(encoding="utf-8")
-    found = re.search(r"^Words == <<(.*)>>$", text, re.MULTILINE)
-    items = [item.strip() for item in found.group(1).split(",")] if found else []
+    definition = re.search(r"^Words ==(.*(?:\n +.*)*)", text, re.MULTILINE)
+    lists = re.findall(r"<<(.*?)>>", definition.group(1)) if definition else []
+    items = [item.strip() for item in max(lists, key=len, default="").split(",")]
     if "OtherWord" not in items:
         raise TheoremError(f"{OPEN_MODULE[device.name]}: no alphabet Words with OtherWord in it")
     listed = [item for item in items if item != "OtherWord"]
