@@ -237,7 +237,11 @@ def _comparisons(
         yield ""
         return
     names = traces.tops[run.module].columns
-    found = [compare(walk, device, names, traces, cells) for device in walk["decided"]]
+    found = [
+        compare(walk, device, names, traces, cells)
+        for device in material.document.interface.devices
+        if device in walk["decided"]
+    ]
     parted = [one for one in found if one.begins is not None]
     yield "### The decided behaviour on the same inputs"
     yield ""

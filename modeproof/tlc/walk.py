@@ -433,6 +433,7 @@ def _walk(
     for named, walk in walks.items():
         text = json.dumps(walk, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
         write_whole(walk_path(place, document, named), text.encode("utf-8"))
+        walks[named] = json.loads(text)  # what is rendered now is what will be read back later
     return walks
 
 
