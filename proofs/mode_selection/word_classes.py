@@ -59,21 +59,28 @@ def _same_end(scan: Scan, changed: Sequence[tuple[z3.ExprRef, z3.ExprRef]]) -> z
     """
     ends: dict[object, list[z3.BoolRef]] = {}
     for path in scan.paths:
-        leaves = [
-            leaf.sexpr() if isinstance(leaf, z3.ExprRef) else repr(leaf) for _, leaf in terms(path.result)
-        ]
+        leaves = [_identity(leaf) for _, leaf in terms(path.result)]
         ends.setdefault(tuple(leaves), []).append(path.condition)
     pairs = [(one, z3.substitute(one, *changed)) for one in map(disjunction, ends.values())]
     moved = [z3.Implies(one, other) for one, other in pairs if not one.eq(other)]
     return conjunction(moved)
 
 
+def _identity(leaf: object) -> object:
+    """The same for two equal leaves: z3 keeps one term only of those that are written alike."""
+    return ("term", leaf.get_id()) if isinstance(leaf, z3.ExprRef) else repr(leaf)
+
+
 def _refuse_results_with(scan: Scan, changed: Sequence[z3.ExprRef]) -> None:
     """No result of a path may depend on what was changed. Raises TheoremError."""
     names = {symbol.decl().name() for symbol in changed}
+    seen: set[int] = set()
     for path in scan.paths:
         for place, leaf in terms(path.result):
-            if isinstance(leaf, z3.ExprRef) and names & _names(leaf):
+            if not isinstance(leaf, z3.ExprRef) or leaf.get_id() in seen:
+                continue
+            seen.add(leaf.get_id())
+            if names & _names(leaf):
                 raise TheoremError(
                     f"from {scan.control.value}: {place} depends on {', '.join(sorted(names))}"
                 )
