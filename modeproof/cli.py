@@ -381,93 +381,121 @@ def _has_proofs(place: Path, document: str) -> bool:
 
 
 def prove_document(
-    place: Path, document: str, progress: Any, patterns: tuple[str, ...] = (), limit_ms: int = 20_000
+    place: Path,
+    document: str,
+    progress: Any,
+    patterns: tuple[str, ...] = (),
+    limit_ms: int = 20_000,
+    lane: str = "full",
 ) -> list[dict[str, Any]]:
     """Prove the theorems of a document and write one piece of evidence for each.
 
-    Raises Unjudged when there is none, or when the proofs cannot be imported.
+    The lane smoke leaves out the slow ones. Raises Unjudged when there is none, or when the proofs cannot be
+    imported.
     """
     import fnmatch
 
     from modeproof import evidence
+    from modeproof.processes import Task, in_processes
 
-    try:
-        theorem = importlib.import_module("proofs.theorem")
-        runner = importlib.import_module("proofs.runner")
-    except ImportError as error:
-        raise Unjudged(f"proofs cannot be run: {error}") from None
-    try:
-        theorems = theorem.theorems_of(document)
-    except (theorem.TheoremError, ImportError) as error:
-        raise Unjudged(f"proofs of {document}: {error}") from None
-    chosen = [
-        one for one in theorems if not patterns or any(fnmatch.fnmatchcase(one.name, p) for p in patterns)
+    theorems = [
+        one
+        for one in _theorems_of(document)
+        if (not patterns or any(fnmatch.fnmatchcase(one.name, p) for p in patterns))
+        and (patterns or lane != "smoke" or not one.slow)
     ]
-    if not chosen:
-        raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns)}")
-    out = build(place) / "proofs" / document
-    rooms = [place / "proofs", place / "proofs" / "explorer", place / "proofs" / document]
-    sources = [file for room in rooms for file in room.glob("*.py")]
+    if not theorems:
+        raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns) or 'anything'}")
+    sources = [*(place / "proofs").glob("*.py"), *(place / "proofs" / document).glob("*.py")]
+    sources += [*(place / "proofs" / "explorer").glob("*.py")]
     sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
     sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
     inputs = evidence.hashes(place, sources)
-    tools = {
-        name: evidence.tool(_version(package)) for name, package in (("z3", "z3-solver"), ("cvc5", "cvc5"))
-    }
-    progress.expect(len(chosen))
-    records: list[dict[str, Any]] = []
-    for one in chosen:
-        evidence.discard(place, document, one.name)
-        started = time.time()
-        progress.begin(one.name)
-        try:
-            (result,) = runner.prove_all([one], out, lambda line: None, limit_ms)
-        except OSError as error:
-            raise Unjudged(f"{out}: {error.strerror or error}") from None
-        finally:
-            progress.end(one.name)
-        good = result.verdict == "PROVED"
-        record = evidence.make(
-            kind="proof",
-            id=one.name,
-            document=document,
-            verdict=result.verdict,
-            expected="PROVED",
-            as_expected=good,
-            strength=f"{len(result.queries)} queries, each asked of two solvers",
-            command=f"modeproof prove --document {document} {one.name}",
-            started=started,
-            seconds=result.seconds,
-            inputs=inputs,
-            tools=tools,
-            result={
-                "sentence": result.sentence,
-                "remark": result.remark,
-                "clauses": list(result.clauses),
-                "findings": list(result.findings),
-                "queries": [
-                    {
-                        "name": query.name,
-                        "expected": query.expected,
-                        "z3": query.z3,
-                        "cvc5": query.cvc5,
-                        "twin_of": query.twin_of,
-                        "seconds": round(query.seconds, 3),
-                        "detail": query.detail,
-                        "smt2": query.smt2.relative_to(place).as_posix(),
-                    }
-                    for query in result.queries
-                ],
-            },
-            reason=result.reason if not good else "",
-        )
-        evidence.write(place, record)
-        records.append(record)
+    theorems.sort(key=lambda one: not one.slow)
+    tasks: list[Task[dict[str, Any]]] = [
+        (prove_theorem, (place, document, one.name, inputs, limit_ms)) for one in theorems
+    ]
+
+    def done(record: dict[str, Any]) -> None:
         progress.say(
-            f"{'ok ' if good else 'NOT'} {document}/{one.name}: {result.verdict}; {result.seconds:.1f} s"
-            + (f"; {result.reason}" if result.reason else "")
+            f"{'ok ' if record['as_expected'] else 'NOT'} {document}/{record['id']}: {record['verdict']}; "
+            f"{record['seconds']:.1f} s" + (f"; {record['reason']}" if record["reason"] else "")
         )
-    return records
+
+    return in_processes("proofs", tasks, progress, done)
+
+
+def _theorems_of(document: str) -> list[Any]:
+    try:
+        theorem = importlib.import_module("proofs.theorem")
+    except ImportError as error:
+        raise Unjudged(f"proofs cannot be run: {error}") from None
+    try:
+        return list(theorem.theorems_of(document))
+    except (theorem.TheoremError, ImportError) as error:
+        raise Unjudged(f"proofs of {document}: {error}") from None
+
+
+def prove_theorem(
+    place: Path, document: str, name: str, inputs: dict[str, str], limit_ms: int
+) -> dict[str, Any]:
+    """Prove one theorem and write its evidence; `inputs` are the hashes of what it rests on.
+
+    Raises Unjudged when the proofs cannot be imported or a file cannot be written.
+    """
+    from modeproof import evidence
+
+    if str(place) not in sys.path:
+        sys.path.insert(0, str(place))
+    one = next(one for one in _theorems_of(document) if one.name == name)
+    runner = importlib.import_module("proofs.runner")
+    out = build(place) / "proofs" / document
+    evidence.discard(place, document, name)
+    started = time.time()
+    try:
+        (result,) = runner.prove_all([one], out, lambda line: None, limit_ms)
+    except OSError as error:
+        raise Unjudged(f"{out}: {error.strerror or error}") from None
+    good = result.verdict == "PROVED"
+    record = evidence.make(
+        kind="proof",
+        id=name,
+        document=document,
+        verdict=result.verdict,
+        expected="PROVED",
+        as_expected=good,
+        strength=f"{len(result.queries)} queries, each asked of two solvers",
+        command=f"modeproof prove --document {document} {name}",
+        started=started,
+        seconds=result.seconds,
+        inputs=inputs,
+        tools={
+            tool: evidence.tool(_version(package))
+            for tool, package in (("z3", "z3-solver"), ("cvc5", "cvc5"))
+        },
+        result={
+            "sentence": result.sentence,
+            "remark": result.remark,
+            "clauses": list(result.clauses),
+            "findings": list(result.findings),
+            "queries": [
+                {
+                    "name": query.name,
+                    "expected": query.expected,
+                    "z3": query.z3,
+                    "cvc5": query.cvc5,
+                    "twin_of": query.twin_of,
+                    "seconds": round(query.seconds, 3),
+                    "detail": query.detail,
+                    "smt2": query.smt2.relative_to(place).as_posix(),
+                }
+                for query in result.queries
+            ],
+        },
+        reason=result.reason if not good else "",
+    )
+    evidence.write(place, record)
+    return record
 
 
 def _version(package: str) -> str:
@@ -493,7 +521,7 @@ def _verify(args: argparse.Namespace) -> int:
     progress = Progress(quiet=args.quiet)
 
     def prove(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
-        return prove_document(place, document, progress)
+        return prove_document(place, document, progress, lane=lane)
 
     stages: list[tuple[str, Stage]] = [
         ("registers", check_registers),

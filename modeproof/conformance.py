@@ -8,19 +8,15 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
-from multiprocessing import active_children, get_context
 from pathlib import Path
 from typing import Any
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
+from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
 from modeproof.tlc.runs import Run, load_runs
-from modeproof.tlc.schedule import cores
 
 Record = dict[str, Any]
 REFERENCE = "refimpl"
@@ -41,54 +37,19 @@ def compare_reference(place: Path, document: str, lane: str, progress: Progress)
     if not runs:
         raise Unjudged(f"{document}: the lane {lane} has no OPEN run, so nothing is compared")
     targets = _targets(place, document, lane)
-    comparisons = [(_one, (place, run, lane)) for run in runs]
-    return _all(
-        [*comparisons, *((_over_protocol, (place, document, one, SUITES[lane])) for one in targets)], progress
-    )
+    # What takes longest comes first: a suite over the protocol.
+    tasks: list[Task[Record]] = [(_over_protocol, (place, document, one, SUITES[lane])) for one in targets]
+    tasks += [(_one, (place, run, lane)) for run in runs]
+    return in_processes("conformance", tasks, progress, lambda record: _say(record, progress))
 
 
-def _all(tasks: Sequence[tuple[Callable[..., Record], tuple[Any, ...]]], progress: Progress) -> list[Record]:
-    """Do the tasks, each in a process of its own, as many at once as there are cores; say how each went.
-
-    Raises Unjudged when a process dies. However this ends, no process is left behind.
-    """
-    if len(tasks) < 2 or cores() < 2:
-        progress.expect(len(tasks))
-        return [_said(work(*given, progress), progress) for work, given in tasks]
-    executor = ProcessPoolExecutor(min(cores(), len(tasks)), mp_context=get_context("spawn"))
-    progress.expect(1)
-    progress.begin("conformance")
-    try:
-        # The last ones first: a suite over the protocol takes longer than a comparison in process.
-        futures = [executor.submit(_quietly, work, given) for work, given in reversed(tasks)]
-        waiting = set(futures)
-        while waiting:
-            done, waiting = wait(waiting, timeout=0.5, return_when=FIRST_COMPLETED)
-            for future in done:
-                _said(future.result(), progress)
-            progress.update("conformance", f"{len(tasks) - len(waiting)} of {len(tasks)}")
-        return [future.result() for future in reversed(futures)]
-    except BrokenProcessPool as error:
-        raise Unjudged(f"a process that compares an implementation died: {error}") from None
-    finally:
-        progress.end("conformance")
-        executor.shutdown(wait=False, cancel_futures=True)
-        for child in active_children():
-            child.terminate()
-
-
-def _quietly(work: Callable[..., Record], given: tuple[Any, ...]) -> Record:
-    return work(*given, Progress(quiet=True))
-
-
-def _said(record: Record, progress: Progress) -> Record:
+def _say(record: Record, progress: Progress) -> None:
     line = f"{record['document']}/{record['id']}: {record['verdict']}; {record['strength']}"
     reason = f"; {record['reason']}" if record["reason"] else ""
     progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")
-    return record
 
 
-def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]:
+def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
     from modeproof.graph.device import compared_files
 
     assert run.graph is not None
@@ -97,9 +58,8 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
     started = time.time()
     verdict, reason, strength = "UNJUDGED", "", ""
     result: dict[str, Any] = {"run": run.id, "device": run.graph.device, "implementation": REFERENCE}
-    progress.begin(name)
     try:
-        found = _compare(place, run, name, progress)
+        found = _compare(place, run)
         verdict = found.verdict
         strength = (
             f"{found.states:,} states, {found.replayed:,} of {found.transitions:,} transitions, "
@@ -112,8 +72,6 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
             reason = f"{reason}; first: {found.differences[0]}"
     except Unjudged as error:
         reason = error.message
-    finally:
-        progress.end(name)
     good = verdict == "EQUAL"
     record = evidence.make(
         kind="conformance",
@@ -135,7 +93,7 @@ def _one(place: Path, run: Run, lane: str, progress: Progress) -> dict[str, Any]
     return record
 
 
-def _compare(place: Path, run: Run, name: str, progress: Progress) -> Any:
+def _compare(place: Path, run: Run) -> Any:
     from modeproof.graph.device import load_device_graph
     from modeproof.graph.equal import compare
     from modeproof.graph.implementation import load_implementation
@@ -143,9 +101,7 @@ def _compare(place: Path, run: Run, name: str, progress: Progress) -> Any:
     assert run.graph is not None
     graph = load_device_graph(place, run)
     code = load_implementation(REFERENCE, run.document, run.graph.device)
-    return compare(
-        graph, code, lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions")
-    )
+    return compare(graph, code)
 
 
 def _targets(place: Path, document: str, lane: str) -> list[str]:
@@ -162,9 +118,7 @@ def _targets(place: Path, document: str, lane: str) -> list[str]:
     ]
 
 
-def _over_protocol(
-    place: Path, document: str, target: str, suite_name: str, progress: Progress
-) -> dict[str, Any]:
+def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> dict[str, Any]:
     from modeproof.kit.adapter import Adapter
     from modeproof.kit.command import quoted
     from modeproof.kit.errors import Unjudged as KitUnjudged
@@ -180,7 +134,6 @@ def _over_protocol(
     verdict, reason, strength = "UNJUDGED", "", f"suite {suite_name} over the adapter protocol"
     inputs: dict[str, str] = {}
     result: dict[str, Any] = {"device": target, "implementation": REFERENCE}
-    progress.begin(name)
     try:
         inputs = evidence.hashes(place, [script, *sorted((place / REFERENCE / document).glob("*.py"))])
         suite = ready_suite(place, document, target, suite_name)
@@ -188,7 +141,6 @@ def _over_protocol(
         found = run_suite(
             suite,
             lambda: Adapter([sys.executable, str(script), target], ANSWER_SECONDS),
-            on_progress=lambda done, total: progress.update(name, f"{done:,} of {total:,} scans"),
         )
         verdict, reason = found.word, found.reason
         done, total = (sum(counts) for counts in zip(*found.covered.values(), strict=True))
@@ -201,8 +153,6 @@ def _over_protocol(
             reason = f"the program differs: {found.difference}"
     except (Unjudged, KitUnjudged) as error:
         reason = str(error)
-    finally:
-        progress.end(name)
     good = verdict == "CONFORMS"
     record = evidence.make(
         kind="conformance",

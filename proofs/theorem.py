@@ -50,6 +50,8 @@ class Theorem:
     clauses: tuple[str, ...]
     findings: tuple[str, ...]
     build: Callable[[], Queries]
+    slow: bool = False
+    """Takes too long for the lane smoke."""
 
     def queries(self) -> tuple[Query, ...]:
         """Build the queries and refuse a set that proves nothing.
@@ -62,11 +64,14 @@ class Theorem:
         return queries
 
 
-def theorem(clauses: list[str], findings: list[str]) -> Callable[[Callable[[], Queries]], Theorem]:
+def theorem(
+    clauses: list[str], findings: list[str], slow: bool = False
+) -> Callable[[Callable[[], Queries]], Theorem]:
     """Register a function as a theorem; the first paragraph of its docstring is the theorem in English.
 
     clauses, findings: ids from the registers of the document, written as literal lists so that they can be
-    read without running the code. Raises TheoremError without a sentence or without a clause.
+    read without running the code. slow: left out of the lane smoke. Raises TheoremError without a sentence or
+    without a clause.
     """
 
     def register(build: Callable[[], Queries]) -> Theorem:
@@ -76,7 +81,8 @@ def theorem(clauses: list[str], findings: list[str]) -> Callable[[Callable[[], Q
             raise TheoremError(f"theorem {name}: the docstring must say the theorem in English")
         if not clauses:
             raise TheoremError(f"theorem {name}: cites no clause")
-        return Theorem(name, paragraphs[0], " ".join(paragraphs[1:]), tuple(clauses), tuple(findings), build)
+        sentence, remark = paragraphs[0], " ".join(paragraphs[1:])
+        return Theorem(name, sentence, remark, tuple(clauses), tuple(findings), build, slow)
 
     return register
 

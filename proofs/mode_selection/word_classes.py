@@ -139,7 +139,7 @@ def _too_coarse(device: Device, control_state: str, field: str) -> Queries:
         yield control(f"planted: {name} and the last code too, {control_state}", formulas, LOGIC)
 
 
-@theorem(clauses=["EKS-T1", "EKS-T2", "EKS-KS-8", "EKS-KS-9", "EKS-KS-6"], findings=[])
+@theorem(clauses=["EKS-T1", "EKS-T2", "EKS-KS-8", "EKS-KS-9", "EKS-KS-6"], findings=[], slow=True)
 def the_fplc_cannot_tell_the_words_of_one_class_apart() -> Queries:
     """In every control state and with all else equal, the F-PLC does the same for any two words in MW03, or
     in MW07, that are neither zero nor a code, and for any two to four outputs that are set.
@@ -152,7 +152,7 @@ def the_fplc_cannot_tell_the_words_of_one_class_apart() -> Queries:
     yield from _too_coarse(FPLC, "CheckAcknowledgment", "MW07")
 
 
-@theorem(clauses=["EKS-T1", "EKS-T2", "EKS-KS-8", "EKS-KS-9"], findings=[])
+@theorem(clauses=["EKS-T1", "EKS-T2", "EKS-KS-8", "EKS-KS-9"], findings=[], slow=True)
 def the_panel_cannot_tell_the_words_of_one_class_apart() -> Queries:
     """In every control state and with all else equal, the panel does the same for any two words in
     ReadAuthorization, or in CheckMSO, that are neither zero nor a code.
@@ -182,7 +182,7 @@ def the_plc_passes_words_on_and_decides_nothing_by_them() -> Queries:
         yield from claim(f"{scan.control.value}: {len(written)} words", given, then, LOGIC)
 
 
-@theorem(clauses=["EKS-KS-1", "EKS-KS-5", "EKS-KS-8", "EKS-T1"], findings=["E-41"])
+@theorem(clauses=["EKS-KS-1", "EKS-KS-5", "EKS-KS-8", "EKS-T1"], findings=["E-41"], slow=True)
 def the_eks_cannot_tell_apart_levels_that_are_no_code_nor_keys_by_their_numbers() -> Queries:
     """In every control state and with all else equal, the EKS does the same for any two level words that are
     neither zero nor a code, in the key and in the reader, and for any two key numbers, as long as the same
