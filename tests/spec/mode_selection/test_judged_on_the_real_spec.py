@@ -256,7 +256,7 @@ UNASKED = replace(EKS, edits=(*EKS.edits, (" EveryScanIsAnswered", "")))
 
 @pytest.mark.parametrize("trial", [Trial(UNASKED, GAP)], ids=str)
 def test_a_state_without_a_step_for_some_input_is_refused(trial: Trial, trials: Run) -> None:
-    """Unless it is asked for an answer to every scan, TLC is content: a scan without a step breaks nothing."""
+    """Unless it is asked for an answer to every scan, TLC is content: no step, nothing that could break."""
     after = trials(trial)
     assert after.judgement.verdict != "VIOLATED"
     assert not judged(after, trials(Trial(UNASKED))).as_expected
