@@ -190,7 +190,7 @@ def _export(folder: Path, module: str, tools: Toolchain, library: Path | None) -
 def _complaint(said: str) -> str:
     """The first thing that SANY minds, without its progress and Java's stack."""
     lines = [line.strip() for line in said.splitlines()]
-    dull = ("Semantic processing", "Parsing file", "at ", "***", "Semantic errors")
+    dull = ("Semantic processing", "Parsing file", "at ", "***", "Semantic errors", "Picked up ")
     kept = [line for line in lines if line and not line.startswith(dull)]
     return " ".join(kept[:3])[:300] or "the parser says nothing"
 

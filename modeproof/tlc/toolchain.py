@@ -61,6 +61,11 @@ def find_java() -> Path:
     return Path(found)
 
 
+def own_words(text: str) -> list[str]:
+    """The lines that Java printed, without its notes on options that it took from the environment."""
+    return [line for line in text.strip().splitlines() if not line.startswith("Picked up ")]
+
+
 @cache
 def java_version(java: Path) -> str:
     """The first line of `java -version`. Raises Unjudged when it cannot be run."""
@@ -70,7 +75,7 @@ def java_version(java: Path) -> str:
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Unjudged(f"Java is missing: {java} cannot be run ({error})") from None
-    lines = (done.stderr + done.stdout).strip().splitlines()
+    lines = own_words(done.stderr + done.stdout)
     if done.returncode != 0 or not lines:
         raise Unjudged(f"Java is missing: {java} -version ended with status {done.returncode}")
     return lines[0]

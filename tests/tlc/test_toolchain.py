@@ -65,3 +65,10 @@ def test_no_java_anywhere_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(Unjudged, match="run `make venv`"):
         toolchain.find_java()
+
+
+def test_options_from_the_environment_are_no_part_of_javas_version(monkeypatch: pytest.MonkeyPatch) -> None:
+    java = toolchain.find_java()
+    plain = toolchain.java_version.__wrapped__(java)
+    monkeypatch.setenv("JAVA_TOOL_OPTIONS", "-Xss16m")
+    assert toolchain.java_version.__wrapped__(java) == plain and "version" in plain

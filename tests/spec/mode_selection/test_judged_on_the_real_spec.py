@@ -309,8 +309,8 @@ def test_an_emptied_property_list_is_missed(tmp_path: Path, trials: Run) -> None
     assert not found.as_expected and found.reason == "runs.toml lists no property"
     copy(tmp_path)
     path = tmp_path / "spec" / DOCUMENT / "runs.toml"
-    edit = ('properties = ["PlcTypeOK", "PrintState", "CopiesUnchanged"]', "properties = []")
-    path.write_text(change(path.read_text(), (edit,), "runs.toml"))
+    listed = ", ".join(f'"{name}"' for name in control.run.properties)
+    path.write_text(change(path.read_text(), ((f"properties = [{listed}]", "properties = []"),), "runs.toml"))
     assert "run OPEN_Plc: the property list is empty" in register_problems(tmp_path, DOCUMENT)
 
 
