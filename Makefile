@@ -37,6 +37,7 @@ $(STAMP): requirements.lock pyproject.toml
 	  $(PYTHON) -m venv --clear .venv && \
 	  $(PY) -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r requirements.lock && \
 	  $(PY) -m pip --disable-pip-version-check install --quiet --no-index --no-deps --no-build-isolation -e . && \
+	  $(PY) -m modeproof.tlc.start_up && \
 	  cp requirements.lock $(STAMP); \
 	fi
 

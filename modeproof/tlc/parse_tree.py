@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from modeproof.errors import Unjudged
+from modeproof.tlc.start_up import start_up_options
 from modeproof.tlc.toolchain import Toolchain
 
 AND = frozenset({"\\land", "$ConjList"})
@@ -162,7 +163,7 @@ def read_tree(folder: Path, module: str, tools: Toolchain, library: Path | None 
 
 
 def _export(folder: Path, module: str, tools: Toolchain, library: Path | None) -> bytes:
-    java = [str(tools.java), "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC", "-Xss16m"]
+    java = [str(tools.java), "-XX:TieredStopAtLevel=1", "-XX:+UseParallelGC", "-Xss16m", *start_up_options(tools)]
     places = [] if library is None else ["-I", str(library)]
     command = [*java, "-cp", str(tools.jar), "tla2sany.xml.XMLExporter", "-o", *places, f"{module}.tla"]
     try:

@@ -18,6 +18,7 @@ from modeproof.places import build
 from modeproof.tlc import children
 from modeproof.tlc.messages import Counts, Log, LogReader
 from modeproof.tlc.runs import Run
+from modeproof.tlc.start_up import start_up_options
 from modeproof.tlc.toolchain import Toolchain
 
 FINGERPRINT = 1
@@ -71,6 +72,7 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Pat
         "-Xss16m",
         f"-Xmx{run.heap_mb}m",
         f"-Djava.io.tmpdir={metadir / 'tmp'}",
+        *start_up_options(tools),
     ]
     if run.heap_mb <= SMALL_HEAP_MB:
         java.append("-XX:TieredStopAtLevel=1")

@@ -21,6 +21,11 @@ TEXT_ORDER = Base(
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
+ANSWERS = Base(
+    "MC_Fplc_answers",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcSmall",
+)
 FPLC_SMOKE = Base(
     "MC_Fplc_smoke",
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
@@ -700,7 +705,7 @@ FAULTS = (
     ),
     Falls(
         "EveryScanIsAnswered",
-        FPLC,
+        ANSWERS,
         Fault(
             "a key that is refused in Idle has no step",
             "Fplc.tla",

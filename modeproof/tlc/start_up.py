@@ -1,0 +1,67 @@
+"""A cache of loaded and linked classes, so that Java starts TLC in less time.
+
+Most runs are small and spend most of their time on Java's start. `make venv` lets Java write what it loaded in
+one run (JEP 514) beside the packages; without the file, or with another Java or jar, TLC runs as before.
+Java itself refuses a cache that does not fit its version or the jar's size and date.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from modeproof.errors import Unjudged
+from modeproof.tlc.toolchain import Toolchain, find_toolchain
+
+CACHE = Path(sys.prefix) / "tlc-start.aot"
+_TIME_LIMIT_S = 120.0
+_TRAINING = """---- MODULE Training ----
+EXTENDS Naturals, Sequences, FiniteSets, TLC
+VARIABLE n
+Step == n < 3 /\\ n' = n + 1 /\\ PrintT(ToString(<<"n", n>>))
+Small == n \\in 0..3 /\\ Cardinality({n}) = 1
+Grows == [][n' > n]_n
+Ends == <>(n = 3)
+Spec == n = 0 /\\ [][Step]_n /\\ WF_n(Step)
+====
+"""
+_CFG = "SPECIFICATION Spec\nINVARIANT Small\nPROPERTIES Grows Ends\n"
+
+
+def start_up_options(tools: Toolchain, cache: Path = CACHE) -> list[str]:
+    """The options with which `tools` uses the cache; none when there is none for it."""
+    own = tools.pinned and tools.java.is_relative_to(sys.prefix) and cache.is_file()
+    return [f"-XX:AOTCache={cache}", "-Xlog:aot=off", "-Xlog:cds=off"] if own else []
+
+
+def write_cache(tools: Toolchain, cache: Path = CACHE) -> None:
+    """Write the cache, whole or not at all. Raises Unjudged when Java could not."""
+    with tempfile.TemporaryDirectory(dir=cache.parent) as room:
+        (Path(room) / "Training.tla").write_text(_TRAINING, encoding="utf-8")
+        (Path(room) / "Training.cfg").write_text(_CFG, encoding="utf-8")
+        new = Path(room) / "new.aot"
+        java = [str(tools.java), "-XX:+UseParallelGC", "-XX:TieredStopAtLevel=1", f"-XX:AOTCacheOutput={new}"]
+        tlc = ["tlc2.TLC", "-tool", "-deadlock", "-workers", "2", "-metadir", room, "Training"]
+        try:
+            done = subprocess.run(
+                [*java, "-cp", str(tools.jar), *tlc],
+                cwd=room,
+                capture_output=True,
+                timeout=_TIME_LIMIT_S,
+                check=False,
+            )
+            if done.returncode != 0 or not new.is_file():
+                raise Unjudged(f"Java wrote no cache (status {done.returncode})")
+            os.replace(new, cache)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise Unjudged(f"Java wrote no cache: {error}") from None
+
+
+if __name__ == "__main__":
+    try:
+        write_cache(find_toolchain())
+    except Unjudged as error:
+        print(f"modeproof: {error}; TLC will start a little slower", file=sys.stderr)
