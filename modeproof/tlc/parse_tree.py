@@ -163,7 +163,8 @@ def read_tree(folder: Path, module: str, tools: Toolchain, library: Path | None 
 
 
 def _export(folder: Path, module: str, tools: Toolchain, library: Path | None) -> bytes:
-    java = [str(tools.java), "-XX:TieredStopAtLevel=1", "-XX:+UseParallelGC", "-Xss16m", *start_up_options(tools)]
+    java = [str(tools.java), "-XX:TieredStopAtLevel=1", "-XX:+UseParallelGC", "-Xss16m"]
+    java += start_up_options(tools)
     places = [] if library is None else ["-I", str(library)]
     command = [*java, "-cp", str(tools.jar), "tla2sany.xml.XMLExporter", "-o", *places, f"{module}.tla"]
     try:

@@ -1,7 +1,7 @@
 """A cache of loaded and linked classes, so that Java starts TLC in less time.
 
-Most runs are small and spend most of their time on Java's start. `make venv` lets Java write what it loaded in
-one run (JEP 514) beside the packages; without the file, or with another Java or jar, TLC runs as before.
+Most runs are small and spend most of their time on Java's start. `make venv` lets Java write what it loaded
+in one run (JEP 514) beside the packages; without the file, or with another Java or jar, TLC runs as before.
 Java itself refuses a cache that does not fit its version or the jar's size and date.
 """
 
