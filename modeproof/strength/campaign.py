@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from modeproof.progress import Progress
 from modeproof.strength.judge import Bench, as_record, judge
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.operators import mutants
-from modeproof.strength.register import Strength
+from modeproof.strength.register import Strength, Tier
 from modeproof.strength.results import Results, digest, without_comments
 from modeproof.strength.trial import cfg_of
 from modeproof.tlc.children import stop_all
@@ -69,15 +70,58 @@ def stated(strength: Strength) -> frozenset[str]:
     return frozenset(names | {name for tier in strength.tiers for name in tier.types})
 
 
-def inputs_of(bench: Bench, module: str) -> str:
-    """A hash of all that the judgement of this module's mutants rests on."""
-    parts = [bench.tools.jar_sha256, module]
-    texts: dict[str, str] = {}
+def stamps_of(bench: Bench, module: str) -> dict[str, str]:
+    """For each tier of this module, by its id, a hash of all that the tiers up to it rest on."""
+    stamps: dict[str, str] = {}
+    before = digest([bench.tools.jar_sha256, module])
     for tier in bench.strength.tiers_of(module):
         told = {key: value for key, value in asdict(tier).items() if key != "run"}
-        parts += [json.dumps(told, sort_keys=True), cfg_of(bench.folder, tier)]
-        texts.update(bench.texts(tier))
-    return digest([*parts, *(without_comments(text) for _, text in sorted(texts.items()))])
+        texts = (without_comments(text) for _, text in sorted(bench.texts(tier).items()))
+        before = digest([before, json.dumps(told, sort_keys=True), cfg_of(bench.folder, tier), *texts])
+        stamps[tier.id] = before
+    return stamps
+
+
+def rests_on(tiers: Sequence[Tier], record: Mapping[str, Any]) -> str:
+    """The last tier that a judgement rests on: what a killed mutant never meets decides nothing about it."""
+    asked = {answer["tier"] for answer in record["answers"]}
+    if not asked or record["complete"] or record["verdict"] not in {"KILLED", "INVALID"}:
+        return tiers[-1].id
+    return [tier.id for tier in tiers if tier.id in asked or tier.when == "always"][-1]
+
+
+def inputs_of(bench: Bench, module: str) -> str:
+    """A hash of all that the judgement of this module's mutants rests on."""
+    return list(stamps_of(bench, module).values())[-1]
+
+
+@dataclass(frozen=True)
+class Known:
+    """Which of the results on the disk hold for the specification and the tiers as they are now."""
+
+    bench: Bench
+    results: Results
+
+    @cached_property
+    def _stamps(self) -> dict[str, dict[str, str]]:
+        return {module: stamps_of(self.bench, module) for module in self.bench.strength.rules}
+
+    def stamp(self, record: Mapping[str, Any]) -> str:
+        """The hash of what a judgement rests on now; empty when a tier of it is gone."""
+        module = str(record["module"])
+        tiers = self.bench.strength.tiers_of(module)
+        stamps = self._stamps[module]
+        if any(one["tier"] not in stamps for one in record["answers"]):
+            return ""
+        return stamps[rests_on(tiers, record)]
+
+    def find(self, mutant: Mutant, complete: bool = False) -> dict[str, Any] | None:
+        """The judgement that holds; one of fewer tiers does not do when `complete` is asked for."""
+        found = None
+        for record in self.results.of(mutant.id):
+            if record["inputs"] == self.stamp(record) and (record["complete"] or not complete):
+                found = record
+        return found
 
 
 def judge_all(
@@ -92,12 +136,8 @@ def judge_all(
 
     Raises Unjudged when the original does not pass a tier. Ctrl-C ends the TLC runs; what was judged stays.
     """
-    inputs = {module: inputs_of(bench, module) for module in {one.module for one in chosen}}
-    known = {
-        one.id: found
-        for one in chosen
-        if (found := results.find(one.id, inputs[one.module], complete)) is not None
-    }
+    holding = Known(bench, results)
+    known = {one.id: found for one in chosen if (found := holding.find(one, complete)) is not None}
     waiting = [one for one in chosen if one.id not in known]
     if results.remark:
         progress.say(results.remark)
@@ -117,11 +157,11 @@ def judge_all(
             "module": mutant.module,
             "operator": mutant.operator,
             "definition": mutant.definition,
-            "inputs": inputs[mutant.module],
             "complete": complete,
             "seconds": round(verdict.seconds, 2),
             **as_record(verdict),
         }
+        record["inputs"] = holding.stamp(record)
         results.add(record)  # here, so that an interruption loses nothing that was judged
         return record
 

@@ -12,13 +12,13 @@ from typing import Any
 
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
 from modeproof.places import documents, root
-from modeproof.strength.campaign import WORDS, Judged, all_mutants, default_jobs, inputs_now, judge_all
+from modeproof.strength.campaign import WORDS, Judged, Known, all_mutants, default_jobs, judge_all
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.page import render
 from modeproof.strength.register import load_strength, path_of
-from modeproof.strength.results import read_results, results_path
+from modeproof.strength.results import Results, read_results, results_path
 
 
 def add_parser(commands: Any) -> None:
@@ -64,7 +64,7 @@ def _mutate(args: argparse.Namespace) -> int:
         print(f"{len(chosen)} mutants")
         return 0
     if args.show is not None:
-        return _show(bench, chosen[0], results.records)
+        return _show(bench, chosen[0], results)
     if args.render:
         status = render(bench, every, results)
         print("docs/strength.md is written")
@@ -104,13 +104,12 @@ def _chosen(every: Sequence[Mutant], args: argparse.Namespace) -> list[Mutant]:
     return chosen
 
 
-def _show(bench: Bench, mutant: Mutant, records: dict[tuple[str, str], dict[str, Any]]) -> int:
+def _show(bench: Bench, mutant: Mutant, results: Results) -> int:
     print(mutant)
     print(diff(bench.tree_of(mutant.module).texts[mutant.module], mutant))
-    now = inputs_now(bench)[mutant.module]
-    found = records.get((mutant.id, now))
+    found = Known(bench, results).find(mutant)
     if found is None:
-        stale = any(id == mutant.id for id, _ in records)
+        stale = bool(results.of(mutant.id))
         print("not judged" + (" since the specification or the tiers changed" if stale else " yet"))
         return 0
     print(f"{found['verdict']}  {', '.join(found['killers'])}")

@@ -20,7 +20,7 @@ from pathlib import Path
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.registers.load import load_document
-from modeproof.strength.campaign import WORDS, Judged, inputs_now
+from modeproof.strength.campaign import WORDS, Judged, Known, inputs_now
 from modeproof.strength.explain import explanation_of, explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
@@ -53,8 +53,8 @@ def render(bench: Bench, every: Sequence[Mutant], results: Results) -> int:
 
 def known(bench: Bench, every: Sequence[Mutant], results: Results) -> list[Judged]:
     """The mutants that are judged for the inputs as they are now."""
-    now = inputs_now(bench)
-    found = ((one, results.find(one.id, now[one.module], False)) for one in every)
+    holding = Known(bench, results)
+    found = ((one, holding.find(one)) for one in every)
     return [Judged(one, record) for one, record in found if record is not None]
 
 

@@ -20,7 +20,7 @@ from modeproof.errors import Unjudged
 from modeproof.places import build
 
 FORMAT = 1
-_FIELDS = {"mutant", "inputs", "complete", "verdict", "killers", "reason", "answers"}
+_FIELDS = {"mutant", "module", "inputs", "complete", "verdict", "killers", "reason", "answers"}
 
 
 @dataclass
@@ -32,10 +32,9 @@ class Results:
     remark: str = ""
     _guard: threading.Lock = field(default_factory=threading.Lock)
 
-    def find(self, mutant: str, inputs: str, complete: bool) -> dict[str, Any] | None:
-        """The result for these inputs; one of fewer tiers does not do when `complete` is asked for."""
-        found = self.records.get((mutant, inputs))
-        return None if found is None or (complete and not found["complete"]) else found
+    def of(self, mutant: str) -> list[dict[str, Any]]:
+        """All results of a mutant, in the order in which they were found."""
+        return [record for (known, _), record in self.records.items() if known == mutant]
 
     def add(self, record: Mapping[str, Any]) -> None:
         """Append one result. Raises Unjudged when it cannot be written."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 import modeproof.strength.campaign as campaign
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.strength.campaign import Judged, inputs_of, judge_all
+from modeproof.strength.campaign import Judged, Known, inputs_of, judge_all, rests_on
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Answer, Bench, Verdict
 from modeproof.strength.mutant import Mutant
@@ -110,6 +111,29 @@ def test_results_hold_for_the_texts_they_were_made_from_and_comments_are_none(tm
     path = changed.folder / "LampOpen.tla"
     path.write_text(path.read_text().replace("count # 0", "count = 3"))
     assert inputs_of(commented, "Lamp") == now != inputs_of(changed, "Lamp")
+
+
+def test_a_killed_mutant_need_not_be_judged_again_when_a_later_tier_changes(tmp_path: Path) -> None:
+    bench = lamp(tmp_path)
+    tiers = bench.strength.tiers_of("Lamp")
+    first = next(tier for tier in tiers if tier.when == "always")
+    killed = {"module": "Lamp", "verdict": "KILLED", "complete": False, "answers": [{"tier": first.id}]}
+    last_always = [tier.id for tier in tiers if tier.when == "always"][-1]
+    assert rests_on(tiers, killed) == last_always
+    for other in ({"verdict": "SURVIVED"}, {"verdict": "EQUIVALENT"}, {"complete": True}):
+        assert rests_on(tiers, killed | other) == tiers[-1].id
+    before = Known(bench, read_results(tmp_path / "none"))
+    changed = replace(
+        bench.strength,
+        tiers=tuple(
+            replace(tier, timeout_s=7) if tier is tiers[-1] else tier for tier in bench.strength.tiers
+        ),
+    )
+    after = Known(replace(bench, strength=changed), read_results(tmp_path / "none"))
+    assert tiers[-1].id != last_always
+    assert before.stamp(killed) == after.stamp(killed)
+    assert before.stamp(killed | {"verdict": "SURVIVED"}) != after.stamp(killed | {"verdict": "SURVIVED"})
+    assert before.stamp(killed | {"answers": [{"tier": "gone"}]}) == ""
 
 
 def test_a_string_that_looks_like_a_comment_is_none() -> None:
