@@ -250,10 +250,12 @@ def permitted(MW01: int, MW03: int) -> bool:
     """Figure 5: whether the level in MW01 permits the selection in MW03.
 
     True is row EKS-5-9, False row EKS-5-10. The order of the levels is total: EKS-T2-2, E-47. The figure lets
-    every word of MW01 pass when MSO 0 is selected, and every non-code of MW03; so the last two lines first
-    demand a level (E-12). Words are 0..65535; MW01 is the word of the private authority, not the flag word
-    read back (E-18).
+    every word of MW01 pass when MSO 0 is selected, and every non-code of MW03; so both words must mean
+    something before the last row says yes (E-12). Words are 0..65535; MW01 is the word of the private
+    authority, not the flag word read back (E-18).
     """
+    if echo(MW03) == ZERO:
+        return False
     if MW01 == RE[4]:  # EKS-5-1
         return True
     if MW03 == SE[4]:  # EKS-5-2, constant as in Table 2: E-04
@@ -270,7 +272,7 @@ def permitted(MW01: int, MW03: int) -> bool:
         return True
     if MW03 == SE[1]:  # EKS-5-8
         return False
-    return MW01 == RE[0] and MW03 == SE[0]
+    return MW01 == RE[0]
 
 
 def within_authority(params: Params, authority: int, MW03: int) -> bool:
@@ -279,8 +281,6 @@ def within_authority(params: Params, authority: int, MW03: int) -> bool:
     EKS-2-18, E-14. Figure 5 comes first and with the private authority (E-18); then the machine may permit
     less by its parameters. They cannot permit more, and by default take nothing away (E-47).
     """
-    if echo(MW03) == ZERO:
-        return False
     if not permitted(encode(RE, authority), MW03):
         return False
     return is_among(

@@ -337,8 +337,12 @@ def test_figure_5_permits_a_mode_up_to_the_level_and_no_other(level: int, mode: 
 def test_by_default_step_18_is_figure_5_for_every_word(level: int) -> None:
     RE_word = RE[level] if level >= 0 else 0
     for MW03 in range(0x10000):
-        by_figure = fplc.echo(MW03) != 0 and fplc.permitted(RE_word, MW03)
-        assert fplc.within_authority(Params(), level, MW03) == by_figure
+        assert fplc.within_authority(Params(), level, MW03) == fplc.permitted(RE_word, MW03)
+
+
+def test_figure_5_permits_no_word_that_is_no_mode() -> None:
+    for MW03 in set(range(0x10000)) - set(SE):
+        assert not any(fplc.permitted(MW01, MW03) for MW01 in (*RE, 0))
 
 
 @pytest.mark.parametrize("level", range(5))
