@@ -1,0 +1,188 @@
+"""Inductive invariants of the devices: what is true after every scan, whatever the inputs were.
+
+`FPLC_INVARIANT` holds in every reachable state of the F-PLC in the environment `arbitrary`: any LA and
+outputs, all 65,536 words in MW03 and MW07, any elapsed time, all parameters that the code accepts. Each
+conjunct is a sentence and a formula over the memory (`s`), the parameters (`p`) and what an observer of the
+wires has seen (`seen`, observer.py). In words: no level, output or selection is kept while no key is
+accepted; from Authorize on there is an accepted output, and the authority is its level; a selection is kept
+only while a transaction runs, and the machine permits it to that level; a running wait is below its deadline;
+and what the F-PLC relies on was really on the wires in this insertion.
+
+For other proofs: `holds(FPLC_INVARIANT, FPLC, state, seen)` is the whole as one formula, `conjuncts(..)` the
+same by name. That they are true at power-up and after every scan are the theorems of fplc_invariant.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final
+
+import z3
+
+from proofs.explorer.device import Device
+from proofs.explorer.ends import TRUE
+from proofs.mode_selection.observer import SEEN, Seen
+from proofs.mode_selection.scanned import NONE, control, is_mode, memory, parameters, permits
+
+TRANSACTION: Final = frozenset(
+    {"EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
+)
+AUTHORIZED: Final = TRANSACTION | {"AwaitSelection", "CheckSelection"}
+HOLDING: Final = AUTHORIZED | {"Authorize", "Settle"}
+"""The states in which one output is accepted."""
+ON_ERROR_NONE: Final = 1
+"""The value "none" of ON_ERROR in terms: its place in interface.toml."""
+
+Formula = Callable[[str, Any, Any, Seen], z3.BoolRef]
+
+
+@dataclass(frozen=True)
+class Conjunct:
+    """One sentence of an invariant; `formula` gets the control state, memory, parameters and the observer."""
+
+    name: str
+    sentence: str
+    formula: Formula
+
+
+def conjuncts(
+    invariant: tuple[Conjunct, ...], device: Device, state: Any, seen: Seen = SEEN
+) -> dict[str, z3.BoolRef]:
+    """The conjuncts that say something of this state, by name. `state`: a State record of the device."""
+    s, p, where = memory(device, state), parameters(device, state), control(device, state)
+    found = {one.name: one.formula(where, s, p, seen) for one in invariant}
+    return {name: formula for name, formula in found.items() if not z3.is_true(formula)}
+
+
+def holds(invariant: tuple[Conjunct, ...], device: Device, state: Any, seen: Seen = SEEN) -> z3.BoolRef:
+    """The whole invariant of this state as one formula."""
+    return z3.And(*conjuncts(invariant, device, state, seen).values())
+
+
+# ---------------------------------------------------------------- F-PLC
+
+
+def _values_in_range(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    modes = (s.accepted, s.authority, s.selection, s.mode)
+    return z3.And(s.elapsed_ms >= 0, *[z3.And(one >= NONE, one <= 4) for one in modes])
+
+
+def _nothing_without_key(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    if c in HOLDING:
+        return TRUE
+    return z3.And(s.accepted == NONE, s.authority == NONE, s.selection == NONE)
+
+
+def _one_output_accepted(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return is_mode(s.accepted) if c in HOLDING else TRUE
+
+
+def _authority_is_the_accepted_level(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    if c not in HOLDING:
+        return TRUE
+    return s.authority == (NONE if c == "Authorize" else s.accepted)
+
+
+def _selection_only_in_a_transaction(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return s.selection == NONE if c in HOLDING - TRANSACTION else TRUE
+
+
+def _selection_is_permitted(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return permits(p, s.authority, s.selection) if c in TRANSACTION else TRUE
+
+
+def _wait_is_below_its_deadline(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    if c == "PulseOnes":
+        return s.elapsed_ms < p.T_ON_ms
+    if c in ("PulseZeros", "OneOutput"):
+        return s.elapsed_ms < p.T_SEQ_ms
+    return s.elapsed_ms < p.T_REM_ms if c in ("Clear", "AwaitZeros") else TRUE
+
+
+def _no_mode_before_a_switchover(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return s.mode == NONE if c == "Start" else TRUE
+
+
+def _error_drops_the_mode_where_set(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return z3.Implies(p.ON_ERROR == ON_ERROR_NONE, s.mode == NONE) if c == "Error" else TRUE
+
+
+def _pulse_was_seen(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    if c == "PulseZeros":
+        return seen.pulse == 1
+    return seen.pulse == 2 if c in HOLDING or c == "OneOutput" else TRUE
+
+
+def _zeros_were_seen(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return seen.cleared if c in AUTHORIZED else TRUE
+
+
+def _selection_was_seen(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return seen.selected == s.selection if c in TRANSACTION else TRUE
+
+
+def _echo_was_seen(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return seen.echoed if c in ("CheckAcknowledgment", "Match", "Switch") else TRUE
+
+
+def _timer_is_the_time_waited(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    timed = ("PulseOnes", "PulseZeros", "OneOutput", "Clear", "AwaitZeros")
+    return seen.waited == s.elapsed_ms if c in timed else TRUE
+
+
+FPLC_INVARIANT: Final = (
+    Conjunct(
+        "ValuesInRange", "Levels and modes are 0 to 4 or none, times are not negative.", _values_in_range
+    ),
+    Conjunct(
+        "NothingWithoutKey",
+        "Before an output is accepted, in the removal and in the error mode no output, level or selection is "
+        "kept.",
+        _nothing_without_key,
+    ),
+    Conjunct("OneOutputAccepted", "From Authorize to Settle one output is accepted.", _one_output_accepted),
+    Conjunct(
+        "AuthorityIsTheAcceptedLevel",
+        "The authority is the level of the accepted output; in Authorize there is none yet.",
+        _authority_is_the_accepted_level,
+    ),
+    Conjunct(
+        "SelectionOnlyInATransaction",
+        "Outside EchoSelection to Switch no selection is kept.",
+        _selection_only_in_a_transaction,
+    ),
+    Conjunct(
+        "SelectionIsPermitted",
+        "A kept selection is one that the machine permits to the authority.",
+        _selection_is_permitted,
+    ),
+    Conjunct("WaitIsBelowItsDeadline", "A running wait is below its deadline.", _wait_is_below_its_deadline),
+    Conjunct("NoModeInStart", "In Start no mode is active.", _no_mode_before_a_switchover),
+    Conjunct(
+        "ErrorDropsTheModeWhereSet",
+        "With ON_ERROR = none no mode is active in Error.",
+        _error_drops_the_mode_where_set,
+    ),
+    Conjunct(
+        "PulseWasSeen",
+        "In PulseZeros all outputs were seen in this insertion; from OneOutput on also none after all.",
+        _pulse_was_seen,
+    ),
+    Conjunct(
+        "ZerosWereSeen",
+        "From AwaitSelection to Switch both words were zero beside LA and one output, since the last echo.",
+        _zeros_were_seen,
+    ),
+    Conjunct(
+        "SelectionWasSeen",
+        "The kept selection stood in MW03 after those zeros, while MW07 was still zero.",
+        _selection_was_seen,
+    ),
+    Conjunct("EchoWasSeen", "From CheckAcknowledgment on MW05 has shown it.", _echo_was_seen),
+    Conjunct(
+        "TimerIsTheTimeWaited",
+        "In the insertion and in the removal the timer is the time since it began.",
+        _timer_is_the_time_waited,
+    ),
+)
