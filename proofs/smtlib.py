@@ -1,5 +1,6 @@
 """A query as an SMT-LIB 2 file that a person can read and any solver can judge."""
 
+import re
 import textwrap
 
 import z3
@@ -27,10 +28,13 @@ def to_smtlib(theorem: Theorem, query: Query) -> str:
     if query.twin_of:
         header.append(("Twin of", query.twin_of))
     lines = [line for label, text in header for line in _comment(label, text)]
-    lines += [f"(set-logic {query.logic})", *_declarations(query)]
-    for name, formula in query.formulas.items():
-        lines += _comment("Assert", name)
-        lines.append(f"(assert {formula.sexpr()})")
+    printed = {name: _printed(formula) for name, formula in query.formulas.items()}
+    lines += [
+        f"(set-logic {query.logic})",
+        *sorted({one for symbols, _ in printed.values() for one in symbols}),
+    ]
+    for name, (_, assertion) in printed.items():
+        lines += [*_comment("Assert", name), assertion]
     lines += ["(check-sat)", ""]
     return "\n".join(lines)
 
@@ -39,17 +43,26 @@ def _comment(label: str, text: str) -> list[str]:
     return textwrap.wrap(f"{label}: {text}", 100, initial_indent="; ", subsequent_indent=";   ")
 
 
-def _declarations(query: Query) -> list[str]:
-    """One `declare-const` for each free symbol, by name."""
-    symbols: dict[str, z3.FuncDeclRef] = {}
-    seen: set[int] = set()
-    stack: list[z3.AstRef] = list(query.formulas.values())
-    while stack:
-        node = stack.pop()
-        if node.get_id() in seen:
-            continue
-        seen.add(node.get_id())
-        if z3.is_const(node) and node.decl().kind() == z3.Z3_OP_UNINTERPRETED:
-            symbols[node.decl().name()] = node.decl()
-        stack.extend(node.children())
-    return [symbols[name].sexpr() for name in sorted(symbols)]
+_DECLARATION = re.compile(r"^\(declare-fun .*\)$", re.MULTILINE)
+_SHARED = re.compile(r"([?$])x\d+")
+_NUMERAL = re.compile(r"\(_ bv(\d+) 16\)")
+
+
+def _printed(formula: z3.BoolRef) -> tuple[list[str], str]:
+    """The declarations of the formula's free symbols, and the formula as z3's plain printer writes it: every
+    term that occurs more than once has a name.
+
+    The names are z3's own numbers of terms, which differ from run to run; they are counted anew from 1.
+    Words are written as four hexadecimal digits.
+    """
+    solver = z3.Solver()
+    solver.add(formula)
+    text = solver.to_smt2()
+    symbols = _DECLARATION.findall(text)
+    if "(assert" not in text:  # z3 leaves out what is true by itself
+        return symbols, "(assert true)"
+    text = text[text.index("(assert") : text.rindex("(check-sat)")]
+    numbers: dict[str, str] = {}
+    text = _SHARED.sub(lambda found: numbers.setdefault(found[0], f"{found[1]}x{len(numbers) + 1}"), text)
+    text = _NUMERAL.sub(lambda found: f"#x{int(found[1]):04x}", text)
+    return symbols, re.sub(r"\A\(assert\s+", "(assert ", text.rstrip())

@@ -19,7 +19,7 @@ from modeproof.registers import Device as Register
 from modeproof.registers import Signal
 from proofs.explorer import lint
 from proofs.explorer.errors import ConcretizationError
-from proofs.explorer.explore import Exploration, Path, StandIn, disjunction, explore
+from proofs.explorer.explore import Exploration, Path, StandIn, conjunction, disjunction, explore
 from proofs.explorer.records import unvalidated
 from proofs.explorer.values import Opaque, flag, number, text, word
 
@@ -183,5 +183,5 @@ def _any_of(conditions: Sequence[z3.BoolRef], overlaps: list[z3.BoolRef]) -> z3.
         return conditions[0]
     half = len(conditions) // 2
     first, second = _any_of(conditions[:half], overlaps), _any_of(conditions[half:], overlaps)
-    overlaps.append(z3.And(first, second))
-    return z3.Or(first, second)
+    overlaps.append(conjunction([first, second]))
+    return disjunction([first, second])

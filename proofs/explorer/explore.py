@@ -76,7 +76,7 @@ class Path:
     example: z3.ModelRef
     """A member of the path."""
 
-    @property
+    @cached_property
     def condition(self) -> z3.BoolRef:
         """All answers of the path."""
         return conjunction([decision.literal for decision in self.decisions])
@@ -111,14 +111,21 @@ def conjunction(literals: Sequence[z3.BoolRef]) -> z3.BoolRef:
     """All the literals; SMT-LIB has no conjunction of none or of one."""
     if not literals:
         return z3.BoolVal(True)
-    return literals[0] if len(literals) == 1 else z3.And(*literals)
+    return literals[0] if len(literals) == 1 else _joined(z3.Z3_mk_and, literals)
 
 
 def disjunction(literals: Sequence[z3.BoolRef]) -> z3.BoolRef:
     """One of the literals at least."""
     if not literals:
         return z3.BoolVal(False)
-    return literals[0] if len(literals) == 1 else z3.Or(*literals)
+    return literals[0] if len(literals) == 1 else _joined(z3.Z3_mk_or, literals)
+
+
+def _joined(make: Callable[..., Any], literals: Sequence[z3.BoolRef]) -> z3.BoolRef:
+    """As z3.And and z3.Or, which look at the type of every literal once more."""
+    context = literals[0].ctx
+    terms = (z3.Ast * len(literals))(*[literal.as_ast() for literal in literals])
+    return z3.BoolRef(make(context.ref(), len(literals), terms), context)
 
 
 def explore(

@@ -52,7 +52,9 @@ def _real(value: Fraction) -> z3.RatNumRef:
 
 def _power(base: z3.ArithRef, exponent: int) -> z3.ArithRef:
     """The power written out as a product, which every solver reads alike."""
-    return z3.Product(*[base] * exponent) if exponent else z3.RealVal(1)
+    if exponent < 2:  # SMT-LIB has no product of one
+        return base if exponent else z3.RealVal(1)
+    return z3.Product(*[base] * exponent)
 
 
 def _flips(rate: z3.ArithRef, bits: int, number: int) -> z3.ArithRef:

@@ -9,6 +9,7 @@ two members that lead to two ends.
 import re
 import tomllib
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
@@ -53,17 +54,38 @@ def classes(device: Device) -> list[dict[str, Any]]:
 
 
 def _same_end(scan: Scan, changed: Sequence[tuple[z3.ExprRef, z3.ExprRef]]) -> z3.BoolRef:
-    """Wherever the first values lead, the second ones do too.
-
-    Paths with the same result are taken together, for the code may ask more than it uses.
-    """
-    ends: dict[object, list[z3.BoolRef]] = {}
-    for path in scan.paths:
-        leaves = [_identity(leaf) for _, leaf in terms(path.result)]
-        ends.setdefault(tuple(leaves), []).append(path.condition)
-    pairs = [(one, z3.substitute(one, *changed)) for one in map(disjunction, ends.values())]
+    """Wherever the first values lead, the second ones do too."""
+    pairs = [(one, z3.substitute(one, *changed)) for one in _results(scan).reached]
     moved = [z3.Implies(one, other) for one, other in pairs if not one.eq(other)]
     return conjunction(moved)
+
+
+@dataclass(frozen=True)
+class _Results:
+    """When each result of a control state is reached, and on which symbols each place of a result depends."""
+
+    reached: tuple[z3.BoolRef, ...]
+    symbols: dict[str, set[str]]
+
+
+_KEPT: dict[int, tuple[Scan, _Results]] = {}
+
+
+def _results(scan: Scan) -> _Results:
+    """Paths with the same result are taken together, for the code may ask more than it uses."""
+    if id(scan) not in _KEPT:
+        ends: dict[object, list[z3.BoolRef]] = {}
+        names: dict[str, set[str]] = {}
+        seen: set[int] = set()
+        for path in scan.paths:
+            leaves = list(terms(path.result))
+            ends.setdefault(tuple(_identity(leaf) for _, leaf in leaves), []).append(path.condition)
+            for place, leaf in leaves:
+                if isinstance(leaf, z3.ExprRef) and leaf.get_id() not in seen:
+                    seen.add(leaf.get_id())
+                    names.setdefault(place, set()).update(_names(leaf))
+        _KEPT[id(scan)] = scan, _Results(tuple(map(disjunction, ends.values())), names)
+    return _KEPT[id(scan)][1]
 
 
 def _identity(leaf: object) -> object:
@@ -74,16 +96,9 @@ def _identity(leaf: object) -> object:
 def _refuse_results_with(scan: Scan, changed: Sequence[z3.ExprRef]) -> None:
     """No result of a path may depend on what was changed. Raises TheoremError."""
     names = {symbol.decl().name() for symbol in changed}
-    seen: set[int] = set()
-    for path in scan.paths:
-        for place, leaf in terms(path.result):
-            if not isinstance(leaf, z3.ExprRef) or leaf.get_id() in seen:
-                continue
-            seen.add(leaf.get_id())
-            if names & _names(leaf):
-                raise TheoremError(
-                    f"from {scan.control.value}: {place} depends on {', '.join(sorted(names))}"
-                )
+    for place, found in _results(scan).symbols.items():
+        if names & found:
+            raise TheoremError(f"from {scan.control.value}: {place} depends on {', '.join(sorted(names))}")
 
 
 def _names(term: z3.ExprRef) -> set[str]:
