@@ -478,6 +478,7 @@ def prove_theorem(
             "remark": result.remark,
             "clauses": list(result.clauses),
             "findings": list(result.findings),
+            "properties": list(one.properties),
             "queries": [
                 {
                     "name": query.name,

@@ -8,7 +8,7 @@ be met at all. `control` gives a `sat` query that must find an example, such as 
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -52,6 +52,8 @@ class Theorem:
     build: Callable[[], Queries]
     slow: bool = False
     """Takes too long for the lane smoke."""
+    properties: tuple[str, ...] = ()
+    """Ids of the properties of the document that it proves of the shipped code."""
 
     def queries(self) -> tuple[Query, ...]:
         """Build the queries and refuse a set that proves nothing.
@@ -65,13 +67,13 @@ class Theorem:
 
 
 def theorem(
-    clauses: list[str], findings: list[str], slow: bool = False
+    clauses: list[str], findings: list[str], slow: bool = False, properties: Sequence[str] = ()
 ) -> Callable[[Callable[[], Queries]], Theorem]:
     """Register a function as a theorem; the first paragraph of its docstring is the theorem in English.
 
-    clauses, findings: ids from the registers of the document, written as literal lists so that they can be
-    read without running the code. slow: left out of the lane smoke. Raises TheoremError without a sentence or
-    without a clause.
+    clauses, findings, properties: ids from the registers of the document, written as literal lists so that
+    they can be read without running the code. slow: left out of the lane smoke. Raises TheoremError without a
+    sentence or without a clause.
     """
 
     def register(build: Callable[[], Queries]) -> Theorem:
@@ -82,7 +84,9 @@ def theorem(
         if not clauses:
             raise TheoremError(f"theorem {name}: cites no clause")
         sentence, remark = paragraphs[0], " ".join(paragraphs[1:])
-        return Theorem(name, sentence, remark, tuple(clauses), tuple(findings), build, slow)
+        return Theorem(
+            name, sentence, remark, tuple(clauses), tuple(findings), build, slow, tuple(properties)
+        )
 
     return register
 

@@ -31,6 +31,7 @@ def cross_check(document: Document, sources: Sources) -> list[Problem]:
         *_clauses(document),
         *_interface(document),
         *_properties(document, sources),
+        *_theorems(document, sources),
         *_findings(document, sources),
         *_assumptions(document),
         *_runs(document, sources),
@@ -139,6 +140,17 @@ def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(
                 file, one.id, f"{one.module}.tla does not define {one.tla}; {suggestion_of(one.tla, defined)}"
             )
+
+
+def _theorems(document: Document, sources: Sources) -> Iterator[Problem]:
+    """A theorem that says that it proves a property names one that the register has."""
+    known = [one.id for one in document.properties]
+    for module in sources.proofs:
+        for theorem in module.theorems:
+            for name in theorem.properties:
+                if name not in known:
+                    text = f"proves the unknown property {name!r}; {suggestion_of(name, known)}"
+                    yield Problem(module.file, theorem.name, text)
 
 
 def suggestion_of(name: str, allowed: list[str]) -> str:

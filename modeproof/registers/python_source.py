@@ -37,6 +37,7 @@ class PythonTheorem:
     sentence: str
     clauses: tuple[str, ...]
     findings: tuple[str, ...]
+    properties: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -155,6 +156,9 @@ def _theorem(node: ast.FunctionDef, file: str) -> PythonTheorem | None:
             sentence=" ".join(document.split()),
             clauses=_literal(keywords.get("clauses"), f"{file}: line {node.lineno}: {node.name}: clauses"),
             findings=_literal(keywords.get("findings"), f"{file}: line {node.lineno}: {node.name}: findings"),
+            properties=_literal(
+                keywords.get("properties"), f"{file}: line {node.lineno}: {node.name}: properties"
+            ),
         )
     return None
 

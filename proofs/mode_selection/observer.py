@@ -8,6 +8,7 @@ proofs as a second machine that takes each scan with the F-PLC.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Final
 
 import z3
@@ -27,7 +28,7 @@ INSERTION: Final = frozenset({"PulseOnes", "PulseZeros", "OneOutput"})
 REMOVAL: Final = frozenset({"Clear", "AwaitZeros"})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Seen:
     """The observer's memory.
 
@@ -57,6 +58,7 @@ NOTHING: Final = Seen(z3.BoolVal(False), z3.IntVal(0), z3.IntVal(NONE), z3.BoolV
 """At power-up nothing was seen."""
 
 
+@cache
 def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a scan of the F-PLC."""
     i, flags = one.inputs, vector(one.inputs)

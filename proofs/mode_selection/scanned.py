@@ -23,7 +23,7 @@ LEVELS: Final = range(5)
 NONE: Final = -1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Scanned:
     """One way through a scan. `sent` are the outputs of the state before it, `sends` those of this scan."""
 
@@ -31,6 +31,7 @@ class Scanned:
     params: Any
     before: Any
     inputs: Any
+    """None at power-up."""
     sent: Any
     after: Any
     sends: Any
@@ -77,7 +78,7 @@ def scanned(device: Device, state: Any, inputs: Any, result: Any, sent: Any) -> 
         device,
         parameters(device, state),
         memory(device, state),
-        in_terms(inputs, device.register.inputs),
+        None if inputs is None else in_terms(inputs, device.register.inputs),
         sent,
         memory(device, after),
         in_terms(sends, device.register.outputs),

@@ -19,7 +19,12 @@ def _exactly_one_path(device: Device) -> Queries:
             yield from claim(f"{name}: no two apply", given, no_two_paths(conditions), LOGIC)
 
 
-@theorem(clauses=["EKS-GP-2-FPLC", "EKS-GP-3"], findings=["E-38", "E-47"], slow=True)
+@theorem(
+    clauses=["EKS-GP-2-FPLC", "EKS-GP-3"],
+    findings=["E-38", "E-47"],
+    properties=["EveryScanIsAnswered"],
+    slow=True,
+)
 def every_scan_of_the_fplc_takes_exactly_one_path() -> Queries:
     """In every control state of the F-PLC, with any memory, inputs, times and parameters in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
@@ -30,13 +35,18 @@ def every_scan_of_the_fplc_takes_exactly_one_path() -> Queries:
     yield from _exactly_one_path(FPLC)
 
 
-@theorem(clauses=["EKS-GP-2", "EKS-GP-3"], findings=["E-08"])
+@theorem(clauses=["EKS-GP-2", "EKS-GP-3"], findings=["E-08"], properties=["EveryScanIsAnswered"])
 def every_scan_of_the_plc_takes_exactly_one_path() -> Queries:
     """In every control state of the PLC, with any words, `step` has one path only: the copy that is due."""
     yield from _exactly_one_path(PLC)
 
 
-@theorem(clauses=["EKS-GP-3", "EKS-3-0", "EKS-9-0"], findings=["E-47"], slow=True)
+@theorem(
+    clauses=["EKS-GP-3", "EKS-3-0", "EKS-9-0"],
+    findings=["E-47"],
+    properties=["EveryScanIsAnswered"],
+    slow=True,
+)
 def every_scan_of_the_panel_takes_exactly_one_path() -> Queries:
     """In every control state of the panel, with any memory, words, touch and permissions in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
@@ -44,7 +54,7 @@ def every_scan_of_the_panel_takes_exactly_one_path() -> Queries:
     yield from _exactly_one_path(HMI)
 
 
-@theorem(clauses=["EKS-GP-3", "EKS-KS-1", "EKS-KS-7"], findings=["E-41"])
+@theorem(clauses=["EKS-GP-3", "EKS-KS-1", "EKS-KS-7"], findings=["E-41"], properties=["EveryScanIsAnswered"])
 def every_scan_of_the_eks_takes_exactly_one_path() -> Queries:
     """In every control state of the EKS, with any key in memory and in the reader and any settings, exactly
     one path of `step` applies, and it ends with a state and outputs.

@@ -63,6 +63,12 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
         (CODE, '"""E-01"""', '"""Shut."""', "_shut: the function implements a state and cites no clause"),
         (SPEC + "properties.toml", '["DR-1-2"]', "[]", "OpenIsUnlocked: the property cites no clause"),
         (PROOF, '["DR-1-2"]', "[]", "the_bolt_moves: the theorem cites no clause"),
+        (
+            PROOF,
+            'findings=["E-01"]',
+            'findings=["E-01"], properties=["OpenIsUnlockd"]',
+            "the_bolt_moves: proves the unknown property 'OpenIsUnlockd'; did you mean 'OpenIsUnlocked'",
+        ),
         # registers that contradict each other
         (SPEC + "document.toml", '"DR"', '"DX"', "DR-1-1: the id does not begin with the prefix DX-"),
         (SPEC + "clauses.toml", '["latch"]', '["lach"]', "unknown device 'lach'; did you mean 'latch'?"),

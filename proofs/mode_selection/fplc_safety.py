@@ -1,0 +1,535 @@
+"""Every safety property that is the F-PLC's alone, for all words, times, inputs and parameters.
+
+Each theorem proves the property of properties.toml that it names. It is written like the TLA+ of that
+property and judged on every path of the shipped `step`, from every state of the invariant
+(fplc_invariant.py); what is said of states also at power-up.
+"""
+
+# ruff: noqa: SIM300 -- the names of words are upper case
+from __future__ import annotations
+
+from typing import Any, Final
+
+import z3
+
+from proofs.explorer.ends import TRUE
+from proofs.mode_selection.fplc_invariant import JUDGE
+from proofs.mode_selection.invariants import HOLDING, ON_ERROR_NONE
+from proofs.mode_selection.observer import FROM_ONES, INSERTION, REMOVAL, SEEN, Seen
+from proofs.mode_selection.scanned import (
+    LEVELS,
+    NONE,
+    Scanned,
+    code,
+    is_mode,
+    mode,
+    none_set,
+    only,
+    only_of,
+    permits,
+    several_set,
+    vector,
+)
+from proofs.mode_selection.sentences import Said, Sentence
+from proofs.theorem import Queries, theorem
+
+TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL))
+
+# ---------------------------------------------------------------- what sentences have in common
+
+
+def switched(one: Scanned) -> bool:
+    """The scan writes the active mode, and not none: also a switchover to the mode that is active. E-71"""
+    return not one.kept("mode") and not one.after.mode.eq(z3.IntVal(NONE))
+
+
+def mode_outputs(sends: Any) -> tuple[z3.BoolRef, ...]:
+    """The mode outputs by mode."""
+    return sends.MSO_0, sends.MSO_1, sends.MSO_2, sends.MSO_3, sends.MSO_4
+
+
+def now(one: Scanned) -> z3.ArithRef:
+    """The timer of the state as this scan reads it."""
+    return one.before.elapsed_ms + one.inputs.dt_ms
+
+
+def zeros_everywhere(one: Scanned) -> z3.BoolRef:
+    """LA, all outputs of the EKS and both words are zero, and the dwell time is over. E-52"""
+    i = one.inputs
+    zeros = z3.And(z3.Not(i.LA), none_set(vector(i)), i.MW03 == 0, i.MW07 == 0)
+    return z3.And(zeros, now(one) >= one.params.T_DWELL_ms)
+
+
+def mode_is_held(one: Scanned) -> z3.BoolRef:
+    """The active mode is what it was, or is dropped because the parameter says so."""
+    dropped = z3.And(one.params.ON_ERROR == ON_ERROR_NONE, one.after.mode == NONE)
+    return z3.Or(one.after.mode == one.before.mode, dropped)
+
+
+def deadline(c: str, params: Any) -> z3.ArithRef:
+    """The deadline of a state that has one."""
+    if c == "PulseOnes":
+        return params.T_ON_ms
+    return params.T_REM_ms if c in REMOVAL else params.T_SEQ_ms
+
+
+# ---------------------------------------------------------------- outputs and memory
+
+
+def at_most_one_mode_output(one: Scanned, seen: Seen) -> z3.BoolRef:
+    same = [flag == (one.after.mode == number) for number, flag in enumerate(mode_outputs(one.sends))]
+    return z3.And(z3.Not(several_set(mode_outputs(one.sends))), *same)
+
+
+@theorem(
+    clauses=["EKS-KS-5", "EKS-SD-6", "EKS-FD-1"], findings=[], properties=["AtMostOneModeOutput"], slow=True
+)
+def the_fplc_never_sets_two_mode_outputs() -> Queries:
+    """At power-up and after every scan the F-PLC sets at most one mode output, that of the active mode."""
+    yield from JUDGE.after_every_scan(at_most_one_mode_output)
+    none: Sentence = lambda one: (TRUE, none_set(mode_outputs(one.sends)))  # noqa: E731
+    yield JUDGE.too_strong("no mode output is ever set", none, "Switch")
+
+
+def echo_is_the_selection(one: Scanned, seen: Seen) -> z3.BoolRef:
+    s, o = one.after, one.sends
+    shown = z3.And(
+        s.selection != NONE,
+        o.MW05 == code("CH", s.selection),
+        permits(one.params, s.authority, s.selection),
+        o.MW01 == code("RE", s.authority),
+    )
+    return z3.Implies(o.MW05 != 0, shown)
+
+
+@theorem(clauses=["EKS-2-20", "EKS-6-12"], findings=[], properties=["EchoIsTheSelection"], slow=True)
+def the_fplc_echoes_only_its_latched_selection() -> Queries:
+    """At power-up and after every scan MW05 is zero, or it is the word of the latched selection, which the
+    machine permits to the level that MW01 shows.
+    """
+    yield from JUDGE.after_every_scan(echo_is_the_selection)
+    sentence = JUDGE.after_a_scan(echo_is_the_selection)
+    yield JUDGE.without(sentence, "EchoSelection", "SelectionIsPermitted")
+
+
+def words_zero_without_key(one: Scanned, seen: Seen) -> z3.BoolRef:
+    zero = z3.And(one.sends.MW01 == 0, one.sends.MW05 == 0)
+    return z3.Implies(one.after.accepted == NONE, zero)
+
+
+@theorem(clauses=["EKS-8-6", "EKS-8-8"], findings=["E-27"], properties=["WordsZeroWithoutKey"], slow=True)
+def the_fplc_sends_zeros_without_an_accepted_key() -> Queries:
+    """At power-up and after every scan that leaves no output accepted, MW01 and MW05 are zero."""
+    yield from JUDGE.after_every_scan(words_zero_without_key)
+    sentence = JUDGE.after_a_scan(words_zero_without_key)
+    yield JUDGE.without(sentence, "AwaitSelection", "OneOutputAccepted", "AuthorityIsTheAcceptedLevel")
+
+
+def selection_within_authority(one: Scanned, seen: Seen) -> z3.BoolRef:
+    s = one.after
+    return z3.And(
+        z3.Implies(s.selection != NONE, permits(one.params, s.authority, s.selection)),
+        z3.Implies(s.authority != NONE, s.authority == s.accepted),
+    )
+
+
+@theorem(
+    clauses=["EKS-2-18", "EKS-T2-2", "EKS-SD-14"],
+    findings=["E-12", "E-18"],
+    properties=["SelectionWithinAuthority"],
+    slow=True,
+)
+def the_fplc_keeps_no_selection_beyond_the_accepted_level() -> Queries:
+    """At power-up and after every scan a latched selection is one that the machine permits to the authority,
+    and the authority is the level of the accepted output.
+    """
+    yield from JUDGE.after_every_scan(selection_within_authority)
+    sentence = JUDGE.after_a_scan(selection_within_authority)
+    yield JUDGE.without(sentence, "Match", "SelectionIsPermitted")
+    yield JUDGE.without(sentence, "Idle", "NothingWithoutKey")
+    yield JUDGE.without(sentence, "AwaitSelection", "SelectionOnlyInATransaction")
+
+
+def error_drops_mode(one: Scanned, seen: Seen) -> z3.BoolRef:
+    if not one.becomes("Error"):
+        return TRUE
+    return z3.Implies(one.params.ON_ERROR == ON_ERROR_NONE, one.after.mode == NONE)
+
+
+@theorem(clauses=["EKS-KS-6"], findings=["E-24"], properties=["ErrorDropsMode"], slow=True)
+def the_fplc_drops_the_mode_in_error_where_it_is_so_set() -> Queries:
+    """With ON_ERROR = none, no mode is active after any scan that ends in the error mode."""
+    yield from JUDGE.after_every_scan(error_drops_mode)
+    yield JUDGE.without(JUDGE.after_a_scan(error_drops_mode), "Error", "ErrorDropsTheModeWhereSet")
+
+
+# ---------------------------------------------------------------- the switchover
+
+
+def switch_needs_matching_pair(one: Scanned) -> Said:
+    if not switched(one):
+        return None
+    m, i = one.after.mode, one.inputs
+    pair = z3.And(is_mode(m), i.MW03 == code("SE", m), i.MW07 == code("SW", m))
+    return TRUE, z3.And(pair, SEEN.cleared, SEEN.selected == m, SEEN.echoed)
+
+
+@theorem(
+    clauses=["EKS-2-28", "EKS-2-29", "EKS-SD-2"],
+    findings=["E-01", "E-15", "E-16"],
+    properties=["SwitchNeedsMatchingPair"],
+    slow=True,
+)
+def the_fplc_switches_only_on_the_pair_of_this_insertion() -> Queries:
+    """A scan that writes a mode finds that mode's word in MW03 and in MW07; MW03 came after zeros of this
+    insertion with MW07 still zero, and MW05 has shown it since.
+    """
+    yield from JUDGE.in_every_scan(switch_needs_matching_pair)
+    for conjunct in ("ZerosWereSeen", "SelectionWasSeen", "EchoWasSeen"):
+        yield JUDGE.without(switch_needs_matching_pair, "Switch", conjunct)
+
+
+def authorization_respected(one: Scanned) -> Said:
+    if not switched(one):
+        return None
+    signalled = [
+        z3.And(only(vector(one.inputs), level), permits(one.params, z3.IntVal(level), one.after.mode))
+        for level in LEVELS
+    ]
+    return TRUE, z3.Or(*signalled)
+
+
+@theorem(
+    clauses=["EKS-2-18", "EKS-5-10", "EKS-T2-2", "EKS-FD-3", "EKS-FD-4"],
+    findings=["E-12", "E-16", "E-18", "E-47"],
+    properties=["AuthorizationRespected"],
+    slow=True,
+)
+def the_fplc_never_switches_beyond_the_signalled_level() -> Queries:
+    """In a scan that writes a mode exactly one output of the EKS is set, and the machine permits the mode to
+    its level.
+
+    Any table of permissions that permits each level its own mode and none above it.
+    """
+    yield from JUDGE.in_every_scan(authorization_respected)
+    yield JUDGE.without(authorization_respected, "Switch", "SelectionIsPermitted")
+
+
+def authorization_by_the_text(one: Scanned) -> Said:
+    if not switched(one):
+        return None
+    flags, m = vector(one.inputs), one.after.mode
+    own = [z3.And(only(flags, level), m == level) for level in LEVELS]
+    return TRUE, z3.Or(*own, z3.And(only(flags, 3), z3.Or(m == 1, m == 2)))
+
+
+@theorem(
+    clauses=["EKS-T2-2", "EKS-2-18"], findings=["E-47"], properties=["AuthorizationByTheText"], slow=True
+)
+def the_fplc_switches_by_the_text_alone_where_it_is_so_set() -> Queries:
+    """Where each level permits its own mode and level 3 modes 1 and 2 besides, no other mode is switched
+    under it.
+    """
+    params = JUDGE.scans()[0].scan.state.params
+    beyond = [
+        z3.Not(getattr(params, f"PERMITS_{level}")[number].term)
+        for level in LEVELS
+        for number in range(level)
+        if (level, number) not in ((3, 1), (3, 2))
+    ]
+    yield from JUDGE.in_every_scan(authorization_by_the_text, {"as the text orders them": z3.And(*beyond)})
+    yield JUDGE.too_strong("by any table of permissions", authorization_by_the_text, "Switch")
+
+
+def no_change_without_la(one: Scanned) -> Said:
+    return (TRUE, one.inputs.LA) if switched(one) else None
+
+
+@theorem(clauses=["EKS-SD-2"], findings=["E-42"], properties=["NoChangeWithoutLA"], slow=True)
+def the_fplc_switches_nothing_without_la() -> Queries:
+    """No mode is written in a scan in which LA is off."""
+    yield from JUDGE.in_every_scan(no_change_without_la)
+    str_too: Sentence = lambda one: (TRUE, one.inputs.STR) if switched(one) else None  # noqa: E731
+    yield JUDGE.too_strong("nor without STR", str_too, "Switch")
+
+
+def no_change_beside_switchover(one: Scanned) -> Said:
+    if one.was("Switch") and one.becomes("Settle"):
+        return TRUE, z3.Or(one.after.mode == one.before.mode, is_mode(one.after.mode))
+    return TRUE, one.after.mode == one.before.mode if not one.becomes("Error") else mode_is_held(one)
+
+
+@theorem(
+    clauses=["EKS-8-8", "EKS-SD-7", "EKS-BD-5", "EKS-SD-20"],
+    findings=["E-24"],
+    properties=["NoChangeBesideSwitchover"],
+    slow=True,
+)
+def nothing_but_the_switchover_changes_the_mode() -> Queries:
+    """The active mode is the same after every scan but one that goes from Switch to Settle, and, with
+    ON_ERROR = none, one that ends in the error mode without a mode.
+    """
+    yield from JUDGE.in_every_scan(no_change_beside_switchover)
+    held: Sentence = lambda one: (TRUE, one.after.mode == one.before.mode)  # noqa: E731
+    yield JUDGE.too_strong("the mode never changes", held, "Switch")
+    yield JUDGE.too_strong("an error never drops it", held, "Idle")
+
+
+# ---------------------------------------------------------------- faults of the EKS, removal
+
+
+def two_outputs_lead_to_error(one: Scanned) -> Said:
+    if one.was("PulseOnes", "PulseZeros"):
+        return None
+    several = several_set(vector(one.inputs))
+    given = z3.And(several, z3.Not(one.inputs.LA)) if one.was("Idle") else several
+    if not one.becomes("Error"):
+        return given, z3.BoolVal(False)
+    return given, z3.And(one.sends.ERROR, mode_is_held(one))
+
+
+@theorem(
+    clauses=["EKS-KS-6", "EKS-2-11", "EKS-GP-2-FPLC", "EKS-SD-10"],
+    findings=["E-09", "E-06b"],
+    properties=["TwoOutputsLeadToError"],
+    slow=True,
+)
+def two_outputs_lead_the_fplc_to_error_in_that_scan() -> Queries:
+    """Two outputs of the EKS or more, outside the pulse window, lead to the error mode in that scan, with
+    ERROR set and no mode switched.
+    """
+    yield from JUDGE.in_every_scan(two_outputs_lead_to_error)
+
+    def without_window(one: Scanned) -> Said:
+        return several_set(vector(one.inputs)), TRUE if one.becomes("Error") else z3.BoolVal(False)
+
+    yield JUDGE.too_strong("in the pulse window too", without_window, "PulseOnes")
+
+
+def removal_seen_at_once(one: Scanned) -> Said:
+    if not one.was(*HOLDING):
+        return None
+    gone = z3.Not(z3.And(one.inputs.LA, only_of(vector(one.inputs), one.before.accepted)))
+    zero = z3.And(one.sends.MW01 == 0, one.sends.MW05 == 0)
+    return gone, zero if one.becomes("Clear", "Error") else z3.BoolVal(False)
+
+
+@theorem(
+    clauses=["EKS-GP-4", "EKS-3-1-FPLC", "EKS-3-0", "EKS-9-0", "EKS-SD-16"],
+    findings=[],
+    properties=["RemovalSeenAtOnce"],
+    slow=True,
+)
+def the_fplc_ends_a_transaction_in_the_scan_without_its_key() -> Queries:
+    """In a scan in which LA is off or another vector than the accepted output is set, MW01 and MW05 fall to
+    zero and the F-PLC goes to the removal or to the error mode.
+    """
+    yield from JUDGE.in_every_scan(removal_seen_at_once)
+    yield JUDGE.without(removal_seen_at_once, "AwaitSelection", "OneOutputAccepted")
+
+
+def idle_only_over_zeros(one: Scanned) -> Said:
+    return (TRUE, zeros_everywhere(one)) if one.becomes("Idle") and not one.was("Idle") else None
+
+
+@theorem(
+    clauses=["EKS-8-12", "EKS-8-13", "EKS-8-14", "EKS-8-18", "EKS-SD-9", "EKS-SUM-9"],
+    findings=["E-17", "E-23", "E-29"],
+    properties=["IdleOnlyOverZeros"],
+    slow=True,
+)
+def the_fplc_comes_to_idle_only_over_zeros() -> Queries:
+    """A scan that leads to Idle finds LA, all five outputs, MW03 and MW07 zero, and the dwell time over."""
+    yield from JUDGE.in_every_scan(idle_only_over_zeros)
+
+    def later(one: Scanned) -> Said:
+        return (TRUE, now(one) > one.params.T_DWELL_ms) if idle_only_over_zeros(one) else None
+
+    yield JUDGE.too_strong("and a millisecond more", later, "AwaitZeros")
+
+
+def error_only_over_zeros(one: Scanned) -> Said:
+    goes_off = z3.And(one.sent.ERROR, z3.Not(one.sends.ERROR))
+    if one.was("Error"):
+        return goes_off, zeros_everywhere(one)
+    return TRUE, z3.Implies(goes_off, zeros_everywhere(one))
+
+
+@theorem(
+    clauses=["EKS-3-0", "EKS-9-0", "EKS-GP-4"],
+    findings=["E-23", "E-23b"],
+    properties=["ErrorOnlyOverZeros"],
+    slow=True,
+)
+def the_error_mode_ends_only_over_zeros() -> Queries:
+    """A scan in which ERROR goes off finds LA, all five outputs, MW03 and MW07 zero, and the dwell time
+    over.
+    """
+    yield from JUDGE.in_every_scan(error_only_over_zeros)
+
+    def later(one: Scanned) -> Said:
+        return z3.Not(one.sends.ERROR), now(one) > one.params.T_DWELL_ms
+
+    yield JUDGE.too_strong("and a millisecond more", later, "Error")
+
+
+# ---------------------------------------------------------------- what the words rest on
+
+
+def selection_needs_level(one: Scanned) -> Said:
+    if not (one.was("CheckSelection") and one.becomes("EchoSelection")):
+        return None
+    return TRUE, permits(one.params, mode("RE", one.sent.MW01), mode("SE", one.inputs.MW03))
+
+
+@theorem(
+    clauses=["EKS-2-18", "EKS-5-1", "EKS-KS-8"],
+    findings=["E-12"],
+    properties=["SelectionNeedsLevel"],
+    slow=True,
+)
+def the_fplc_accepts_a_selection_only_under_the_level_that_it_shows() -> Queries:
+    """A selection is accepted only in a scan before which MW01 shows a level to which the machine permits the
+    mode in MW03.
+    """
+    yield from JUDGE.in_every_scan(selection_needs_level)
+
+    def own_mode(one: Scanned) -> Said:
+        return (
+            None if selection_needs_level(one) is None else (TRUE, one.after.selection == one.after.authority)
+        )
+
+    yield JUDGE.too_strong("only its own mode", own_mode, "CheckSelection")
+
+
+def echo_needs_selection(one: Scanned) -> Said:
+    if z3.is_bv_value(one.sends.MW05) and one.sends.MW05.as_long() == 0:
+        return None
+    shown, flags = mode("CH", one.sends.MW05), vector(one.inputs)
+    permitted = [z3.And(only(flags, level), permits(one.params, z3.IntVal(level), shown)) for level in LEVELS]
+    return one.sends.MW05 != 0, z3.And(one.inputs.MW03 == code("SE", shown), z3.Or(*permitted))
+
+
+@theorem(clauses=["EKS-2-20", "EKS-6-12"], findings=["E-16"], properties=["EchoNeedsSelection"], slow=True)
+def the_fplc_echoes_only_what_stands_in_mw03() -> Queries:
+    """In every scan that sends an echo, MW03 carries the word of the same mode, one output is set, and the
+    machine permits the mode to its level.
+    """
+    yield from JUDGE.in_every_scan(echo_needs_selection)
+    yield JUDGE.without(echo_needs_selection, "EchoSelection", "SelectionIsPermitted")
+
+
+def level_needs_pulse(one: Scanned) -> Said:
+    appears = z3.And(one.sent.MW01 == 0, one.sends.MW01 != 0)
+    if one.was("Authorize", "Settle") and one.becomes("AwaitSelection"):
+        return appears, SEEN.pulse == 2
+    return TRUE, z3.Implies(appears, SEEN.pulse == 2)
+
+
+@theorem(
+    clauses=["EKS-2-10", "EKS-4-1", "EKS-4-3"], findings=["E-10"], properties=["LevelNeedsPulse"], slow=True
+)
+def the_fplc_shows_a_level_only_after_the_test_pulse() -> Queries:
+    """A scan in which MW01 turns from zero to a level comes after all outputs and then none were seen, with
+    LA on since.
+    """
+    yield from JUDGE.in_every_scan(level_needs_pulse)
+    yield JUDGE.without(level_needs_pulse, "Authorize", "PulseWasSeen")
+
+
+# ---------------------------------------------------------------- times
+
+
+def no_wait_beyond_deadline(one: Scanned, seen: Seen) -> z3.BoolRef:
+    for c in TIMED:
+        if one.becomes(c):
+            return one.after.elapsed_ms < deadline(c, one.params)
+    return TRUE
+
+
+@theorem(
+    clauses=["EKS-2-8", "EKS-4-4", "EKS-4-6", "EKS-8-11"],
+    findings=["E-03", "E-30"],
+    properties=["NoWaitBeyondDeadline"],
+    slow=True,
+)
+def no_wait_of_the_fplc_outlasts_its_deadline() -> Queries:
+    """After every scan the timer of a state that has a deadline is below it."""
+    yield from JUDGE.after_every_scan(no_wait_beyond_deadline)
+
+    def sooner(one: Scanned) -> Said:
+        return (TRUE, now(one) + 1 < one.params.T_REM_ms) if one.becomes("AwaitZeros") else None
+
+    yield JUDGE.too_strong("nor comes within a millisecond of it", sooner, "AwaitZeros")
+
+
+def expiry_ends_the_wait(one: Scanned) -> Said:
+    for c in TIMED:
+        if one.was(c):
+            ends = one.becomes("Error") or (c in INSERTION and one.becomes("Clear"))
+            return now(one) >= deadline(c, one.params), TRUE if ends else z3.BoolVal(False)
+    return None
+
+
+@theorem(
+    clauses=["EKS-2-8", "EKS-4-4", "EKS-4-6", "EKS-8-11"],
+    findings=["E-03", "E-25d", "E-30", "E-64"],
+    properties=["NoWaitBeyondDeadline"],
+    slow=True,
+)
+def every_wait_with_a_deadline_ends_in_the_scan_that_reaches_it() -> Queries:
+    """A scan that finds the deadline reached ends the wait, whatever else it finds: in the error mode, or, of
+    an insertion, in the removal.
+    """
+    yield from JUDGE.in_every_scan(expiry_ends_the_wait)
+
+    def success_counts(one: Scanned) -> Said:
+        said = expiry_ends_the_wait(one)
+        return None if said is None else (said[0], TRUE if one.becomes("Error") else z3.BoolVal(False))
+
+    yield JUDGE.too_strong("always in the error mode", success_counts, "PulseOnes")
+
+
+def shared_deadline_holds(one: Scanned, seen: Seen) -> z3.BoolRef:
+    p = one.params
+    if one.becomes("PulseOnes"):
+        whole = z3.Or(p.T_SEQ_FROM == FROM_ONES, seen.waited < p.T_SEQ_ms)
+        return z3.And(seen.waited < p.T_ON_ms, whole)
+    if one.becomes(*INSERTION):
+        return seen.waited < p.T_SEQ_ms
+    return seen.waited < p.T_REM_ms if one.becomes(*REMOVAL) else TRUE
+
+
+@theorem(
+    clauses=["EKS-2-6", "EKS-2-8", "EKS-4-2", "EKS-8-3", "EKS-8-11"],
+    findings=["E-03", "E-30", "E-38"],
+    properties=["SharedDeadlineHolds"],
+    slow=True,
+)
+def all_waits_of_the_fplc_together_stay_within_their_deadline() -> Queries:
+    """After every scan the time since LA was seen (or all outputs, as T_SEQ_FROM says) is below the deadline
+    until one output is accepted, and the time since the key went below that of the removal.
+    """
+    yield from JUDGE.after_every_scan(shared_deadline_holds)
+    for start in ("PulseZeros", "Clear"):
+        yield JUDGE.without(JUDGE.after_a_scan(shared_deadline_holds), start, "TimerIsTheTimeWaited")
+
+
+def removal_timer_goes_on(one: Scanned) -> Said:
+    if not (one.was(*REMOVAL) and one.becomes(*REMOVAL)):
+        return None
+    return TRUE, one.after.elapsed_ms >= now(one)
+
+
+@theorem(clauses=["EKS-8-3", "EKS-8-11"], findings=["E-36"], properties=["RemovalTimerGoesOn"], slow=True)
+def nothing_restarts_the_timer_of_a_removal() -> Queries:
+    """From the scan that sees the key go until the removal is over the timer grows by the time that passes,
+    whatever LA and the outputs do.
+    """
+    yield from JUDGE.in_every_scan(removal_timer_goes_on)
+
+    def faster(one: Scanned) -> Said:
+        said = removal_timer_goes_on(one)
+        return None if said is None else (TRUE, one.after.elapsed_ms > now(one))
+
+    yield JUDGE.too_strong("and runs ahead", faster, "AwaitZeros")

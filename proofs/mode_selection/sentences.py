@@ -1,0 +1,172 @@
+"""How a property becomes queries: judged after every scan from every state of the invariant.
+
+An `Always` speaks of states, a `Sentence` of scans. The premises of a query are what is known of the state
+before the scan; `it is spoken of` is what the sentence itself supposes, so that the twin shows that this
+occurs. A control is a query that must find an example: the same without the part of the invariant that the
+sentence rests on, or with a stronger sentence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import z3
+
+from proofs.explorer.device import LOGIC, Device, Scan
+from proofs.explorer.ends import FALSE, TRUE, in_terms
+from proofs.explorer.explore import conjunction, explore
+from proofs.mode_selection.invariants import Conjunct, conjuncts
+from proofs.mode_selection.scanned import Property, Scanned, Scans, scanned, scans_of
+from proofs.mode_selection.scanned import control as control_of
+from proofs.theorem import Queries, Query, claim, control
+
+Said = tuple[z3.BoolRef, z3.BoolRef] | None
+"""What is supposed of a scan, and what is then demanded; None where a path is not spoken of."""
+Sentence = Callable[[Scanned], Said]
+Always = Callable[[Scanned, Any], z3.BoolRef]
+"""What is demanded of the state after a scan, of its outputs, and of what the observer has seen by then."""
+Known = Mapping[str, z3.BoolRef]
+
+
+def supposed(sentence: Sentence) -> Property:
+    """The sentence speaks of the scan."""
+
+    def of(one: Scanned) -> z3.BoolRef:
+        said = sentence(one)
+        return FALSE if said is None else said[0]
+
+    return of
+
+
+def demanded(sentence: Sentence) -> Property:
+    """Where the sentence speaks of the scan, what it demands is so."""
+
+    def of(one: Scanned) -> z3.BoolRef:
+        said = sentence(one)
+        return TRUE if said is None else z3.Implies(*said)
+
+    return of
+
+
+@dataclass(frozen=True)
+class Judge:
+    """A device, the invariant that its sentences may rest on, and the observer that goes with it.
+
+    seen: the observer's memory before a scan, as symbols; sees: after it; nothing: at power-up. explored:
+    scans to be judged instead of those of the shipped step.
+    """
+
+    device: Device
+    invariant: tuple[Conjunct, ...]
+    seen: Any = None
+    sees: Callable[[Scanned], Any] = lambda one: None
+    nothing: Any = None
+    explored: tuple[Scan, ...] = ()
+
+    def scans(self) -> tuple[Scans, ...]:
+        """The scans from each control state."""
+        return scans_of(self.device, self.explored)
+
+    def begin(self, name: str) -> Scans:
+        """The scans from this control state."""
+        return next(scans for scans in self.scans() if scans.control == name)
+
+    def premises(self, scans: Scans, without: tuple[str, ...] = ()) -> dict[str, z3.BoolRef]:
+        """All values in their ranges, and the invariant of the state before the scan."""
+        known = conjuncts(self.invariant, self.device, scans.scan.state, self.seen)
+        kept = {f"before: {name}": formula for name, formula in known.items() if name not in without}
+        return {"memory, inputs and parameters in their ranges": scans.scan.premise, **kept}
+
+    # ---- the invariant
+
+    def initiation(self) -> Queries:
+        """Each conjunct is true at power-up."""
+        one, premise = self._power_up()
+        for name, formula in conjuncts(self.invariant, self.device, one.result, self.nothing).items():
+            yield from claim(name, {"parameters in their ranges": premise}, formula, LOGIC)
+
+    def consecution(self) -> Queries:
+        """Every scan keeps the invariant: a claim for each control state and each one that follows it."""
+        for scans in self.scans():
+            for end in dict.fromkeys(control_of(self.device, one.after) for one in scans.read.values()):
+                given = {**self.premises(scans), f"it leads to {end}": scans.some(_leads_to(end))}
+                yield from claim(f"{scans.control} to {end}", given, scans.always(self.kept(end)), LOGIC)
+
+    def kept(self, end: str = "") -> Property:
+        """The invariant after a scan, or after one that leads to the control state `end`."""
+
+        def after(one: Scanned) -> z3.BoolRef:
+            if end and not one.becomes(end):
+                return TRUE
+            return conjunction([*self.after(one).values()])
+
+        return after
+
+    def after(self, one: Scanned) -> dict[str, z3.BoolRef]:
+        """The conjuncts of the state after a scan, by name."""
+        return conjuncts(self.invariant, self.device, one.result, self.sees(one))
+
+    # ---- what follows from it
+
+    def in_every_scan(self, sentence: Sentence, also: Known | None = None) -> Queries:
+        """The claim for each control state that the sentence speaks of; `also`: further premises."""
+        sentence = cache(sentence)
+        for scans in self.scans():
+            if any(sentence(one) is not None for one in scans.read.values()):
+                spoken = {"it is spoken of": scans.some(supposed(sentence))}
+                given = {**self.premises(scans), **(also or {}), **spoken}
+                yield from claim(f"from {scans.control}", given, scans.always(demanded(sentence)), LOGIC)
+
+    def after_every_scan(self, always: Always) -> Queries:
+        """The claim on the state after a scan, for each control state before it; and at power-up."""
+        yield from self.at_power_up(always)
+        for scans in self.scans():
+            then = scans.always(lambda one: always(one, self.sees(one)))
+            yield from claim(f"from {scans.control}", self.premises(scans), then, LOGIC)
+
+    def at_power_up(self, always: Always) -> Queries:
+        """The claim on the state after power-up and the outputs that belong to it."""
+        one, premise = self._power_up()
+        given = {"parameters in their ranges": premise}
+        yield from claim(f"{self.device.name} at power-up", given, always(one, self.nothing), LOGIC)
+
+    def _power_up(self) -> tuple[Scanned, z3.BoolRef]:
+        """Power-up in the form of a scan: before it is the same as after it; and the premise."""
+        module, params = self.device.module, self.device.params()
+        found = explore(
+            lambda given: (module.power_up(given), module.outputs(module.power_up(given))),
+            (params,),
+            self.device.parameters_fit(params),
+        )
+        (path,) = found.paths
+        state, outputs = path.result
+        sends = in_terms(outputs, self.device.register.outputs)
+        return scanned(self.device, state, None, (state, outputs), sends), found.premise
+
+    # ---- controls
+
+    def without(self, sentence: Sentence, start: str, *names: str) -> Query:
+        """A control: without these conjuncts of the invariant a scan from this control state breaks it."""
+        scans = self.begin(start)
+        what = f"without {' and '.join(names)}"
+        return self._broken(what, scans, self.premises(scans, without=names), sentence)
+
+    def too_strong(self, what: str, sentence: Sentence, start: str) -> Query:
+        """A control: a scan from this control state breaks this stronger sentence."""
+        scans = self.begin(start)
+        return self._broken(what, scans, self.premises(scans), sentence)
+
+    def after_a_scan(self, always: Always) -> Sentence:
+        """What is said of a state, as a sentence on the scan that leads there."""
+        return lambda one: (TRUE, always(one, self.sees(one)))
+
+    def _broken(self, what: str, scans: Scans, given: Known, sentence: Sentence) -> Query:
+        broken = z3.Not(scans.always(demanded(sentence)))
+        return control(f"control: {what}, from {scans.control}", {**given, "broken": broken}, LOGIC)
+
+
+def _leads_to(end: str) -> Property:
+    return lambda one: TRUE if one.becomes(end) else FALSE

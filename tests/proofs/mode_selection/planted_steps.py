@@ -1,0 +1,81 @@
+"""Copies of a shipped device with one planted fault, and examples of the solver run on the real code."""
+
+import itertools
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import z3
+
+from proofs.explorer.device import Device, Scan, explored_from
+from proofs.explorer.ends import End, ends
+from proofs.explorer.records import evaluated, filled
+from proofs.mode_selection.scanned import Scans
+from proofs.mode_selection.sentences import Judge, Sentence, demanded
+
+_NUMBER = itertools.count()
+
+
+@contextmanager
+def planted(device: Device, *edits: tuple[str, str]) -> Iterator[Device]:
+    """The device with a copy of its module in which each text is replaced wherever it stands."""
+    source = Path(device.module.__file__ or "").read_text(encoding="utf-8")
+    for old, new in edits:
+        assert old in source, old
+        source = source.replace(old, new)
+    module = ModuleType(f"planted_{device.name}_{next(_NUMBER)}")
+    sys.modules[module.__name__] = module
+    try:
+        exec(compile(source, module.__name__, "exec"), vars(module))
+        yield replace(device, module=module)
+    finally:
+        del sys.modules[module.__name__]
+
+
+def begun_in(device: Device, control: str) -> Scan:
+    """The scans of a device from one control state, explored anew."""
+    return explored_from(device, next(one for one in device.module.Step if one.value == control))
+
+
+def refuted(judge: Judge, sentence: Sentence, control: str) -> bool:
+    """A scan from this control state breaks the sentence, and so does its example in the real step.
+
+    The example is a state of the invariant with inputs in their ranges, built by the code's constructors.
+    """
+    (scans,) = [one for one in judge.scans() if one.control == control]
+    solver = z3.SimpleSolver()
+    solver.add(*judge.premises(scans).values(), z3.Not(scans.always(demanded(sentence))))
+    answer = solver.check()
+    assert answer != z3.unknown
+    if answer == z3.unsat:
+        return False
+    assert breaks(scans, sentence, solver.model())
+    return True
+
+
+def breaks(scans: Scans, sentence: Sentence, model: z3.ModelRef) -> bool:
+    """Run the example on the real step: it ends where the explorer says, and there the sentence is false."""
+    state, inputs = filled(scans.scan.state, model), filled(scans.scan.inputs, model)
+    end = _end_of(scans, model)
+    assert scans.device.module.step(state, inputs) == _plain(end, model, state)
+    return z3.is_false(
+        model.eval(z3.simplify(demanded(sentence)(scans.read[id(end)])), model_completion=True)
+    )
+
+
+def _end_of(scans: Scans, model: z3.ModelRef) -> End:
+    node: Any = scans.root
+    while not isinstance(node, End):
+        yes = z3.is_true(model.eval(node.question, model_completion=True))
+        node = node.yes if yes else node.no
+    assert node in ends(scans.root)
+    return node
+
+
+def _plain(end: End, model: z3.ModelRef, state: Any) -> Any:
+    after, outputs = end.result
+    return evaluated(after, model), evaluated(outputs, model)

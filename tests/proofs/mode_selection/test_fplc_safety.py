@@ -1,0 +1,286 @@
+"""The F-PLC's theorems are proved, what they rest on is needed, and each sees a fault in a copied step."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import z3
+
+from proofs.mode_selection import every_device, fplc_invariant, fplc_safety
+from proofs.mode_selection.devices import DEVICES, FPLC
+from proofs.mode_selection.fplc_invariant import JUDGE
+from proofs.mode_selection.invariants import FPLC_INVARIANT
+from proofs.mode_selection.scanned import Scanned, Scans
+from proofs.mode_selection.sentences import Judge, Said, Sentence
+from proofs.runner import prove_all
+from proofs.solvers import ask_z3
+from proofs.theorem import Query, Theorem
+from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
+
+SAFETY = [one for one in vars(fplc_safety).values() if isinstance(one, Theorem)]
+QUICK = [
+    fplc_invariant.the_invariant_of_the_fplc_is_true_at_power_up,
+    every_device.every_device_is_safe_from_the_first_moment,
+]
+
+
+@pytest.mark.parametrize("item", QUICK, ids=lambda item: item.name)
+def test_what_is_said_of_power_up_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
+    (result,) = prove_all([item], tmp_path, lambda line: None)
+    assert (result.verdict, result.reason) == ("PROVED", "")
+
+
+@pytest.mark.parametrize("item", SAFETY, ids=lambda item: item.name)
+def test_every_claim_holds_and_every_control_has_an_example(item: Theorem) -> None:
+    queries = item.queries()
+    assert item.properties
+    assert {query.name for query in queries if query.name.startswith("control")}
+    assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
+
+
+def test_every_scan_keeps_the_invariant() -> None:
+    queries = fplc_invariant.every_scan_of_the_fplc_keeps_its_invariant.queries()
+    assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
+
+
+def test_the_examples_of_all_controls_happen_in_the_real_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept: list[tuple[Query, Scans, Sentence]] = []
+    shipped = Judge._broken
+
+    def remembered(self: Judge, what: str, scans: Scans, given: Any, sentence: Sentence) -> Query:
+        query = shipped(self, what, scans, given, sentence)
+        kept.append((query, scans, sentence))
+        return query
+
+    monkeypatch.setattr(Judge, "_broken", remembered)
+    for item in SAFETY:
+        item.queries()
+    assert len(kept) >= len(SAFETY)
+    for query, scans, sentence in kept:
+        solver = z3.SimpleSolver()
+        solver.add(*query.formulas.values())
+        assert solver.check() == z3.sat, query.name
+        assert breaks(scans, sentence, solver.model()), query.name
+
+
+def test_every_conjunct_of_the_invariant_is_needed_by_some_theorem() -> None:
+    """The ranges are needed in another way: they are the premise under which the step is explored."""
+    dropped = {
+        name.name
+        for item in SAFETY
+        for query in item.queries()
+        if query.name.startswith("control: without")
+        for name in FPLC_INVARIANT
+        if name.name in query.name
+    }
+    assert dropped == {one.name for one in FPLC_INVARIANT} - {"ValuesInRange"}
+
+
+def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
+    return JUDGE.after_a_scan(always)
+
+
+def _kept(one: Scanned) -> Said:
+    return z3.BoolVal(True), JUDGE.kept()(one)
+
+
+ANY_CODE = ("if not within_authority(s.params, s.authority, i.MW03):", "if echo(i.MW03) == ZERO:")
+ANY_WORD = ("if i.MW03 != encode(SE, s.selection):", "if i.MW03 == ZERO:")
+ANY_OUTPUT = ("if output != s.accepted:", "if output == NO_OUTPUT:")
+A_SCAN_LATE = ("if elapsed >= s.params.T_SEQ_ms:", "if elapsed > s.params.T_SEQ_ms:")
+EXPIRY_FIRST = """    if elapsed >= s.params.T_REM_ms:
+        return _enter_error(s)  # DeadlineExpired: E-30
+    if _no_key_and_zeros_returned(s, i, output, elapsed):
+"""
+SUCCESS_FIRST = "    if _no_key_and_zeros_returned(s, i, output, elapsed):\n"
+
+FAULTS = [
+    ("AtMostOneModeOutput", "Settle", _state(fplc_safety.at_most_one_mode_output), [("m == 1,", "m <= 1,")]),
+    (
+        "EchoIsTheSelection",
+        "EchoSelection",
+        _state(fplc_safety.echo_is_the_selection),
+        [("MW05 = echo(encode(SE, s.selection))", "MW05 = echo(encode(SE, s.authority))")],
+    ),
+    (
+        "WordsZeroWithoutKey",
+        "Settle",
+        _state(fplc_safety.words_zero_without_key),
+        [
+            ("elif c == AWAIT_SELECTION or", "elif c == CLEAR or c == AWAIT_SELECTION or"),
+            ("State(s.params, CLEAR, NONE, NONE,", "State(s.params, CLEAR, NONE, s.authority,"),
+        ],
+    ),
+    (
+        "SelectionWithinAuthority",
+        "CheckSelection",
+        _state(fplc_safety.selection_within_authority),
+        [ANY_CODE],
+    ),
+    (
+        "ErrorDropsMode",
+        "Idle",
+        _state(fplc_safety.error_drops_mode),
+        [('if s.params.ON_ERROR == "none":', 'if s.params.ON_ERROR == "hold":')],
+    ),
+    ("SwitchNeedsMatchingPair", "Switch", fplc_safety.switch_needs_matching_pair, [ANY_WORD]),
+    ("AuthorizationRespected", "Switch", fplc_safety.authorization_respected, [ANY_OUTPUT]),
+    (
+        "AuthorizationByTheText",
+        "Switch",
+        fplc_safety.authorization_by_the_text,
+        [("NONE, s.selection, 0)  # SwitchMode", "NONE, 0, 0)  # SwitchMode")],
+    ),
+    (
+        "NoChangeWithoutLA",
+        "Switch",
+        fplc_safety.no_change_without_la,
+        [
+            (
+                "if not i.LA:\n        return _enter_clear",
+                "if not i.LA and c != SWITCH:\n        return _enter_clear",
+            )
+        ],
+    ),
+    (
+        "NoChangeBesideSwitchover",
+        "Match",
+        fplc_safety.no_change_beside_switchover,
+        [("s.authority, NONE, s.mode, 0)", "s.authority, NONE, s.selection, 0)")],
+    ),
+    (
+        "TwoOutputsLeadToError",
+        "Clear",
+        fplc_safety.two_outputs_lead_to_error,
+        [("c != PULSE_ZEROS and _too_many", "c != PULSE_ZEROS and c != CLEAR and _too_many")],
+    ),
+    ("RemovalSeenAtOnce", "AwaitSelection", fplc_safety.removal_seen_at_once, [ANY_OUTPUT]),
+    (
+        "IdleOnlyOverZeros",
+        "AwaitZeros",
+        fplc_safety.idle_only_over_zeros,
+        [("return output == NO_OUTPUT and _zeros", "return _zeros")],
+    ),
+    (
+        "ErrorOnlyOverZeros",
+        "Error",
+        fplc_safety.error_only_over_zeros,
+        [("i.MW03 == ZERO and i.MW07 == ZERO and elapsed", "i.MW03 == ZERO and elapsed")],
+    ),
+    ("SelectionNeedsLevel", "CheckSelection", fplc_safety.selection_needs_level, [ANY_CODE]),
+    ("EchoNeedsSelection", "AwaitAcknowledgment", fplc_safety.echo_needs_selection, [ANY_WORD]),
+    (
+        "LevelNeedsPulse",
+        "PulseOnes",
+        fplc_safety.level_needs_pulse,
+        [("PULSE_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_SELECTION, 0, 0, NONE, s.mode, 0")],
+    ),
+    ("NoWaitBeyondDeadline", "OneOutput", _state(fplc_safety.no_wait_beyond_deadline), [A_SCAN_LATE]),
+    (
+        "NoWaitBeyondDeadline",
+        "AwaitZeros",
+        fplc_safety.expiry_ends_the_wait,
+        [(EXPIRY_FIRST, SUCCESS_FIRST)],
+    ),
+    ("SharedDeadlineHolds", "OneOutput", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
+    (
+        "RemovalTimerGoesOn",
+        "Clear",
+        fplc_safety.removal_timer_goes_on,
+        [("AWAIT_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_ZEROS, NONE, NONE, NONE, s.mode, 0")],
+    ),
+    # what breaks no property in the scan itself breaks the invariant
+    (
+        "TimerIsTheTimeWaited",
+        "PulseZeros",
+        _kept,
+        [("ONE_OUTPUT, NONE, NONE, NONE, s.mode, elapsed", "ONE_OUTPUT, NONE, NONE, NONE, s.mode, 0")],
+    ),
+    (
+        "PulseWasSeen",
+        "PulseZeros",
+        _kept,
+        [
+            (
+                "== NO_OUTPUT:\n        return State(s.params, ONE",
+                "!= ALL_OUTPUTS:\n        return State(s.params, ONE",
+            )
+        ],
+    ),
+    (
+        "NothingWithoutKey",
+        "Error",
+        _kept,
+        [("State(s.params, IDLE, NONE, NONE, NONE,", "State(s.params, IDLE, 0, NONE, NONE,")],
+    ),
+    (
+        "ZerosWereSeen",
+        "Settle",
+        _kept,
+        [("return i.MW03 == ZERO and i.MW07 == ZERO and elapsed", "return elapsed")],
+    ),
+    (
+        "SelectionWasSeen",
+        "CheckSelection",
+        _kept,
+        [("    selection = decode(SE, i.MW03)\n", "    selection = 0\n")],
+    ),
+    (
+        "EchoWasSeen",
+        "EchoSelection",
+        _kept,
+        [("_enter(s, AWAIT_ACKNOWLEDGMENT)", "_enter(s, CHECK_ACKNOWLEDGMENT)")],
+    ),
+    (
+        "OneOutputAccepted",
+        "OneOutput",
+        _kept,
+        [("State(s.params, AUTHORIZE, output,", "State(s.params, AUTHORIZE, NONE,")],
+    ),
+    (
+        "ValuesInRange",
+        "OneOutput",
+        _kept,
+        [("State(s.params, AUTHORIZE, output,", "State(s.params, AUTHORIZE, 5,")],
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "control", "sentence", "edits"), FAULTS, ids=lambda one: one if isinstance(one, str) else ""
+)
+def test_a_planted_fault_is_refuted_with_an_example_that_happens(
+    name: str, control: str, sentence: Sentence, edits: list[tuple[str, str]]
+) -> None:
+    with planted(FPLC, *edits) as device:
+        scan = begun_in(device, control)
+        judge = Judge(device, FPLC_INVARIANT, JUDGE.seen, JUDGE.sees, JUDGE.nothing, (scan,))
+        assert refuted(judge, sentence, control)
+    assert not refuted(JUDGE, sentence, control) or name == "AuthorizationByTheText"
+
+
+def test_every_property_that_a_theorem_of_the_fplc_names_has_a_planted_fault() -> None:
+    named = {name for item in SAFETY for name in item.properties}
+    assert named <= {name for name, *_ in FAULTS}
+    assert {one.name for one in FPLC_INVARIANT} - named <= {name for name, *_ in FAULTS} | {
+        "AuthorityIsTheAcceptedLevel",
+        "SelectionIsPermitted",
+        "SelectionOnlyInATransaction",
+        "ErrorDropsTheModeWhereSet",
+    }
+
+
+POWER_UP = {
+    "fplc": ("START, NONE, NONE, NONE, NONE, 0)", "START, NONE, NONE, NONE, 0, 0)"),
+    "plc": ("ZERO, ZERO, ZERO, ZERO)", "ZERO, 0x0FF0, ZERO, ZERO)"),
+    "hmi": ("Step.INHIBITED, NONE, NONE)", "Step.SELECT, 0, NONE)"),
+    "eks": ("Step.EMPTY, NO_KEY, 0)", "Step.TEST_ONES, NO_KEY, 0)"),
+}
+
+
+@pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
+def test_a_device_that_wakes_up_otherwise_is_seen(device: Any) -> None:
+    with planted(device, POWER_UP[device.name]) as other:
+        claims = [*Judge(other, ()).at_power_up(every_device.SAFE[device.name])]
+        assert ask_z3(claims[0], "", 20_000).answer == "sat"
