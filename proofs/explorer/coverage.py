@@ -1,8 +1,9 @@
 """How much of a step its feasible paths pass through: lines, branches, and outcomes of each guard.
 
-Every run of the explorer is a run of the code on a feasible path, so what its runs pass through is not dead.
-What they never pass through is listed, line by line, for a person to judge: with the claim that the paths are
-exhaustive, it is unreachable for every input in range.
+Of every feasible path one member is run in the plain interpreter, so what these runs pass through is not
+dead. All members of a path take the same way; so, with the claim that the paths are exhaustive, what is never
+passed through is unreachable for every input in range. Each such place must be explained in the document's
+register `unreached.toml`, and the register may explain nothing else.
 """
 
 from __future__ import annotations
@@ -11,16 +12,23 @@ import ast
 import inspect
 import sys
 import textwrap
+import tomllib
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path as File
 from types import CodeType, FrameType, FunctionType
 from typing import Any
 
+import z3
+
 from proofs.explorer import lint
-from proofs.explorer.device import Device, explored_from
-from proofs.explorer.explore import Place
+from proofs.explorer.device import Device, Scan, scans
+from proofs.explorer.errors import ExplorationError
+from proofs.explorer.explore import Path, Place
+from proofs.explorer.records import plain
 
 Line = tuple[str, int]
 Branch = tuple[str, int, bool]
@@ -31,6 +39,11 @@ Branch = tuple[str, int, bool]
 class Coverage:
     """What the feasible paths of a step pass through, and all that there is."""
 
+    device: str
+    states: int
+    paths: int
+    functions: Mapping[Line, str]
+    """The function that each line belongs to."""
     lines: frozenset[Line]
     passed_lines: frozenset[Line]
     branches: frozenset[Branch]
@@ -47,42 +60,133 @@ class Coverage:
             f"answers of guards by control state {len(self.passed_guards)} of {len(self.guards)}"
         )
 
-    def missing_lines(self) -> tuple[str, ...]:
-        """Each line that no path passes: file:line: its text."""
-        missing = sorted(self.lines - self.passed_lines)
-        return tuple(f"{File(file).name}:{line}: {_text(file, line)}" for file, line in missing)
+    def missing(self) -> tuple[str, ...]:
+        """Everything that no path passes, by name: the function and the text, so that it survives a move."""
+        lines = [
+            f"line {self.functions[line]}: {_text(*line)}" for line in sorted(self.lines - self.passed_lines)
+        ]
+        branches = [
+            f"branch {self.functions[file, line]}: {_text(file, line)} {_word(entered)}"
+            for file, line, entered in sorted(self.branches - self.passed_branches)
+        ]
+        guards = [
+            f"guard {control}: {place.function}: {_text(place.file, place.line, place.columns)}: "
+            f"{_word(answer)}"
+            for control, place, answer in self.guards - self.passed_guards
+        ]
+        return (*lines, *branches, *sorted(guards))
 
 
-def _text(file: str, line: int) -> str:
-    return File(file).read_text(encoding="utf-8").splitlines()[line - 1].strip()
+def _word(answer: bool) -> str:
+    return "yes" if answer else "no"
+
+
+@cache
+def _source(file: str) -> tuple[str, ...]:
+    return tuple(File(file).read_text(encoding="utf-8").splitlines())
+
+
+def _text(file: str, line: int, columns: tuple[int, int] | None = None) -> str:
+    text = _source(file)[line - 1]
+    return text.split("  #")[0].strip() if columns is None else text[slice(*columns)]
+
+
+@dataclass(frozen=True)
+class Explained:
+    """What no path of a device passes, each with its reason; and what is wrong with the explanations."""
+
+    coverage: Coverage
+    reasons: tuple[tuple[str, str], ...]
+    unexplained: tuple[str, ...]
+    idle: tuple[str, ...]
+    """Explained, and yet passed, or not there at all."""
+
+
+def explained(device: Device, register: File) -> Explained:
+    """The coverage of a device beside what `register` says of it. Raises ExplorationError."""
+    rows = _rows(register)
+    coverage = coverage_of(device)
+    missing = coverage.missing()
+    reasons = {what: row["why"] for row in rows if device.name in row["devices"] for what in row["unreached"]}
+    return Explained(
+        coverage,
+        tuple((what, reasons[what]) for what in missing if what in reasons),
+        tuple(what for what in missing if what not in reasons),
+        tuple(what for what in reasons if what not in missing),
+    )
+
+
+def _rows(register: File) -> list[dict[str, Any]]:
+    """The rows of the register: devices, unreached and why, none of them empty. Raises ExplorationError."""
+    try:
+        rows: list[dict[str, Any]] = tomllib.loads(register.read_text(encoding="utf-8"))["place"]
+    except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
+        raise ExplorationError(f"{register.name} cannot be read: {error!r}") from None
+    for number, row in enumerate(rows, start=1):
+        if set(row) != {"devices", "unreached", "why"} or not all(row.values()):
+            raise ExplorationError(f"{register.name}: row {number} must have devices, unreached and why")
+    return rows
 
 
 def coverage_of(device: Device) -> Coverage:
-    """Explore the device anew, from every control state, and watch what runs."""
+    """Run a member of every path from every control state, and watch what runs."""
     reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
     reach.refuse_faults()
+    explored = scans(device)
     watch = _Watch({function.__code__ for function in reach.functions})
     asked: dict[tuple[str, Place], set[bool]] = defaultdict(set)
-    with watch:
-        for control in device.module.Step:
-            for path in explored_from(device, control).paths:
-                for one in path.decisions:
-                    asked[control.value, one.place].add(one.answer)
+    for scan in explored:
+        for path in scan.paths:
+            _run_member(device, scan, path, watch)
+            for place, answer in path.asked:
+                asked[scan.control.value, place].add(answer)
     branches = frozenset(
         (file, line, entered)
         for function in reach.functions
         for file, line, _, _ in _ifs(function)
         for entered in (True, False)
     )
-    passed = {branch for function in reach.functions for branch in _passed(function, watch.arcs)}
+    functions = {line: function.__qualname__ for function in reach.functions for line in _lines(function)}
     return Coverage(
-        frozenset(line for function in reach.functions for line in _lines(function)),
+        device.name,
+        len(explored),
+        sum(len(scan.paths) for scan in explored),
+        functions,
+        frozenset(functions),
         frozenset(watch.lines),
         branches,
-        frozenset(passed),
+        frozenset(branch for function in reach.functions for branch in _passed(function, watch.arcs)),
         frozenset((control, place, answer) for control, place in asked for answer in (True, False)),
         frozenset((control, place, answer) for (control, place), found in asked.items() for answer in found),
     )
+
+
+def _run_member(device: Device, scan: Scan, path: Path, watch: _Watch) -> None:
+    """Run the example of a path in the plain interpreter, watched. Raises ExplorationError if it raises."""
+    state, inputs = plain(scan.state, path.example), plain(scan.inputs, path.example)
+    with _answering(device, path.example):
+        try:
+            with watch:
+                device.module.step(state, inputs)
+        except Exception as error:
+            if type(error) is not type(path.raised):
+                raise ExplorationError(
+                    f"{device.name}: a member of a path from {scan.control.value} raises {error!r}"
+                ) from error
+
+
+@contextmanager
+def _answering(device: Device, model: z3.ModelRef) -> Iterator[None]:
+    """In place of what the device takes from outside, the answers of the example."""
+    before = [(one.module, one.name, getattr(one.module, one.name)) for one in device.stand_ins]
+    try:
+        for one in device.stand_ins:
+            answer = plain(one.answer, model)
+            setattr(one.module, one.name, lambda *_, answer=answer: answer)
+        yield
+    finally:
+        for module, name, function in before:
+            setattr(module, name, function)
 
 
 class _Watch:

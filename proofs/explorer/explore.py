@@ -15,9 +15,9 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path as File
-from types import FrameType, ModuleType
+from types import CodeType, FrameType, ModuleType
 from typing import Any, Final, NoReturn
 
 import z3
@@ -75,6 +75,8 @@ class Path:
     raised: Exception | None
     example: z3.ModelRef
     """A member of the path."""
+    asked: frozenset[tuple[Place, bool]] = frozenset()
+    """Where the code asked what, and the answer it got; also where the answer was known before."""
 
     @cached_property
     def condition(self) -> z3.BoolRef:
@@ -276,6 +278,7 @@ class _Run:
     taken: list[Decision] = field(default_factory=list)
     branches: list[tuple[tuple[Decision, ...], z3.ModelRef]] = field(default_factory=list)
     answered: dict[int, bool] = field(default_factory=dict)
+    asked: set[tuple[Place, bool]] = field(default_factory=set)
     refusal: str = ""
     said: bool = False
     over: bool = False
@@ -286,21 +289,26 @@ class _Run:
         if self.over:
             raise HiddenStateError("a symbolic value of an earlier run is used: the code keeps state")
         atom = self.explorer.atom(question)
-        if atom.always is not None:
-            return atom.always
+        place = _here()
+        answer = atom.always if atom.always is not None else self._answer(atom, place) != atom.negated
+        self.asked.add((place, answer))
+        return answer
+
+    def _answer(self, atom: _Atom, place: Place) -> bool:
+        """The answer to the question of the atom, as it stands without its negation."""
         asked = atom.question.get_id()
         if asked in self.answered:  # asked before on this path
-            return self.answered[asked] != atom.negated
+            return self.answered[asked]
         if len(self.taken) >= MAX_DECISIONS:
-            raise TooManyPathsError(f"more than {MAX_DECISIONS} decisions on one path, at {_here()}")
+            raise TooManyPathsError(f"more than {MAX_DECISIONS} decisions on one path, at {place}")
         number = len(self.taken)
         if number < len(self.prefix):
             decision = self._replayed(self.prefix[number], atom.question)
         else:
-            decision = self._new(atom.question, not atom.negated)
+            decision = self._new(atom.question, not atom.negated, place)
         self.taken.append(decision)
         self.answered[asked] = decision.answer
-        return decision.answer != atom.negated
+        return decision.answer
 
     def refuse(self, why: str) -> NoReturn:
         place = _here()
@@ -336,7 +344,7 @@ class _Run:
             )
         if len(self.taken) < len(self.prefix):
             raise HiddenStateError("the same path run again asks fewer questions: the code keeps state")
-        return Path(tuple(self.taken), result, raised, self.model)
+        return Path(tuple(self.taken), result, raised, self.model, frozenset(self.asked))
 
     def _replayed(self, expected: Decision, question: z3.BoolRef) -> Decision:
         if expected.question.get_id() != question.get_id():
@@ -346,9 +354,8 @@ class _Run:
             )
         return expected
 
-    def _new(self, question: z3.BoolRef, first: bool) -> Decision:
+    def _new(self, question: z3.BoolRef, first: bool, place: Place) -> Decision:
         """first: the answer that means yes to the question as the code asked it."""
-        place = _here()
         self.explorer.assume([decision.literal for decision in self.taken if not decision.forced])
         answer = z3.is_true(self.model.eval(question, model_completion=True))
         otherwise = self.explorer.check(z3.Not(question) if answer else question)
@@ -368,7 +375,11 @@ def _here() -> Place:
         frame = frame.f_back
     if frame is None:
         return Place("", "", 0, (0, 0))
-    code = frame.f_code
-    line, _, start, end = list(code.co_positions())[frame.f_lasti // 2]
+    return _place(frame.f_code, frame.f_lasti)
+
+
+@cache
+def _place(code: CodeType, instruction: int) -> Place:
+    line, _, start, end = list(code.co_positions())[instruction // 2]
     name = getattr(code, "co_qualname", code.co_name)
-    return Place(code.co_filename, name, line or frame.f_lineno, (start or 0, end or 0))
+    return Place(code.co_filename, name, line or code.co_firstlineno, (start or 0, end or 0))

@@ -87,6 +87,17 @@ def filled(value: Any, model: z3.ModelRef) -> Any:
     return value
 
 
+def plain(value: Any, model: z3.ModelRef) -> Any:
+    """As `filled`, without the checks of constructors, so that what the code only hands on may stay."""
+    if isinstance(value, (Flag, Word, Number, Text)):
+        return value.python(model.eval(value.term, model_completion=True))
+    if isinstance(value, tuple):
+        return tuple(plain(part, model) for part in value)
+    if _is_record(value):
+        return unvalidated(type(value), {name: plain(part, model) for name, part in _parts(value).items()})
+    return value
+
+
 def evaluated(value: Any, model: z3.ModelRef) -> Any:
     """A result of a run with the model's values in place of symbolic ones."""
     if isinstance(value, Proxy):

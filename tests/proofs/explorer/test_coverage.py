@@ -1,41 +1,84 @@
-"""What the feasible paths of a step pass through: all but the refusals of states that cannot be."""
+"""What the feasible paths of a step pass through: all but what the register explains."""
+
+from pathlib import Path
 
 import pytest
 
-from proofs.explorer.coverage import coverage_of
-from proofs.mode_selection.devices import EKS, HMI, PLC
+from proofs.explorer.coverage import coverage_of, explained
+from proofs.explorer.errors import ExplorationError
+from proofs.mode_selection.devices import DEVICES, EKS, FPLC, HMI, PLC
 from refimpl.mode_selection import plc
+
+REGISTER = Path(__file__).parents[3] / "proofs" / "mode_selection" / "unreached.toml"
+
+
+@pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
+def test_all_that_no_path_of_a_device_passes_is_explained_and_nothing_else_is(device: object) -> None:
+    assert device in (FPLC, PLC, HMI, EKS)
+    found = explained(device, REGISTER)  # type: ignore[arg-type]
+    assert (found.unexplained, found.idle) == ((), ())
+    assert len(found.reasons) == len(found.coverage.missing()) > 0
 
 
 def test_every_line_of_the_plc_and_the_eks_but_one_refusal_lies_on_a_feasible_path() -> None:
     for device in (PLC, EKS):
         found = coverage_of(device)
-        (missing,) = found.missing_lines()
-        assert "raise StateError" in missing
-        (branch,) = found.branches - found.passed_branches
-        assert branch[2] is False
+        line, branch = found.missing()
+        assert "raise StateError" in line
+        assert branch.startswith("branch ")
         assert found.passed_guards == found.guards
-
-
-def test_what_no_scan_of_the_panel_passes_is_refusals_and_the_permissions_of_no_level() -> None:
-    found = coverage_of(HMI)
-    assert [line.split(": ", 1)[1] for line in found.missing_lines()] == [
-        'raise InputError("mode", mode, "a mode 0..4 or -1 for none")',
-        'raise StateError("state", s.state, "a Step of the HMI")',
-        "return NO_MODES",
-    ]
-    assert len(found.branches - found.passed_branches) == 3
 
 
 def _never(s: plc.State, i: plc.Inputs) -> plc.State:
     if i.dt_ms < 5 and i.dt_ms > 5:
         return s
-    return s
+    return plc.State(s.params, plc.Step.COPY_CHECK_MSO, s.ReadAuthorization, i.SelectMSO, s.CheckMSO, s.MW07)
 
 
-def test_a_dead_line_is_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def _dead_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(_never, "__module__", "refimpl.mode_selection.plc")
     monkeypatch.setattr(plc, "_copy_mw03", _never)
-    found = coverage_of(PLC)
-    assert [line for line in found.missing_lines() if line.startswith("test_coverage.py")]
-    assert found.passed_guards != found.guards or found.passed_lines != found.lines
+
+
+@pytest.mark.usefixtures("_dead_line")
+def test_a_dead_line_its_branch_and_its_guard_are_listed_by_name() -> None:
+    assert [name for name in coverage_of(PLC).missing() if "_never" in name] == [
+        "line _never: return s",
+        "branch _never: if i.dt_ms < 5 and i.dt_ms > 5: yes",
+        "guard CopyMW03: _never: i.dt_ms > 5: yes",
+    ]
+    found = explained(PLC, REGISTER)
+    assert len(found.unexplained) == 3
+    assert found.idle == ()
+
+
+def _without(text: str, line: str) -> str:
+    assert line in text
+    return text.replace(line, "")
+
+
+def test_a_place_that_the_register_forgets_is_unexplained(tmp_path: Path) -> None:
+    changed = tmp_path / "unreached.toml"
+    text = REGISTER.read_text(encoding="utf-8")
+    changed.write_text(_without(text, "    'branch step: elif state.turn == Step.COPY_MW07: no',\n"))
+    assert explained(PLC, changed).unexplained == ("branch step: elif state.turn == Step.COPY_MW07: no",)
+
+
+def test_an_explanation_of_what_is_passed_is_idle(tmp_path: Path) -> None:
+    changed = tmp_path / "unreached.toml"
+    text = REGISTER.read_text(encoding="utf-8")
+    changed.write_text(
+        f'{text}\n[[place]]\ndevices = ["plc"]\nunreached = ["line step: pass"]\nwhy = "planted"\n'
+    )
+    assert explained(PLC, changed).idle == ("line step: pass",)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "[[place]]\n", '[[place]]\ndevices = ["plc"]\nunreached = ["x"]\nwhy = ""\n', "place = ["]
+)
+def test_a_register_that_explains_nothing_cannot_be_judged(text: str, tmp_path: Path) -> None:
+    changed = tmp_path / "unreached.toml"
+    changed.write_text(text)
+    with pytest.raises(ExplorationError, match=r"unreached\.toml"):
+        explained(PLC, changed)
