@@ -100,10 +100,18 @@ def symbol_of(signal: Signal, name: str) -> Any:
         return Opaque(name)
     if signal.type == "ms" or signal.type == "int":
         low, high = signal.minimum or 0, signal.maximum
-        if signal.type == "int" and low >= 0 and high is not None and high <= WORD_MAX:
-            return word(name, low, high)
+        if is_word(signal):
+            return word(name, low, high or 0)
         return number(name, low, high)
     raise ConcretizationError(f"{name}: no symbol for type {signal.type!r}")
+
+
+def is_word(signal: Signal) -> bool:
+    """Whether the signal is a vector of 16 bits for the solver: a word, or a number that fits into one."""
+    low, high = signal.minimum or 0, signal.maximum
+    return signal.type == "word" or (
+        signal.type == "int" and low >= 0 and high is not None and high <= WORD_MAX
+    )
 
 
 @dataclass(frozen=True)

@@ -8,15 +8,16 @@ one line a path, and far smaller.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, is_dataclass
 from typing import Any, Final
 
 import z3
 
 from modeproof.registers import Signal
+from proofs.explorer.device import is_word
 from proofs.explorer.explore import Exploration, Path
 from proofs.explorer.records import terms, unvalidated
-from proofs.explorer.values import WORD_BITS, Flag, Number, Proxy, Text, Word
+from proofs.explorer.values import WORD_BITS, Flag, Number, Opaque, Proxy, Text, Word
 
 TRUE: Final = z3.BoolVal(True)
 FALSE: Final = z3.BoolVal(False)
@@ -148,26 +149,27 @@ def value(exploration: Exploration, of: Callable[[Any], z3.ExprRef]) -> z3.ExprR
 
 
 def in_terms(record: Any, signals: Mapping[str, Signal]) -> Any:
-    """The record with a solver term for each field that is a signal: symbols, proxies and plain values alike.
+    """The record with solver terms in it: for symbols and proxies, and for plain values of signals.
 
-    Fields that are no signal, and those of type text (the control state), stay as they are.
+    Other plain values, such as the control state, stay as they are; a record in a field that is a signal is
+    taken by the names of its own fields.
     """
-    types = {one.python: one.type for one in signals.values()}
+    by_name = {one.python: one for one in signals.values()}
     values = {
-        name: _term(getattr(record, name), types.get(name, "text")) for name in record.__dataclass_fields__
+        name: _term(getattr(record, name), by_name.get(name), signals) for name in record.__dataclass_fields__
     }
     return unvalidated(type(record), values)
 
 
-def _term(found: Any, type_: str) -> Any:
-    if isinstance(found, tuple):
-        return tuple(_term(part, "bool") for part in found)
+def _term(found: Any, signal: Signal | None, signals: Mapping[str, Signal]) -> Any:
     if isinstance(found, (Flag, Word, Number, Text, Proxy)):
         return found.term
-    if isinstance(found, z3.ExprRef) or type_ in ("text", "function"):
+    if signal is None or isinstance(found, Opaque):
         return found
+    if isinstance(found, tuple):
+        return tuple(_term(part, signal, signals) for part in found)
     if type(found) is bool:
         return z3.BoolVal(found)
     if type(found) is int:
-        return z3.BitVecVal(found, WORD_BITS) if type_ == "word" else z3.IntVal(found)
-    return found
+        return z3.BitVecVal(found, WORD_BITS) if is_word(signal) else z3.IntVal(found)
+    return in_terms(found, signals) if is_dataclass(found) else found

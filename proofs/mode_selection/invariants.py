@@ -8,9 +8,10 @@ accepted; from Authorize on there is an accepted output, and the authority is it
 only while a transaction runs, and the machine permits it to that level; and what the F-PLC relies on was
 really on the wires in this insertion. Every conjunct is needed: a control of some theorem drops it.
 
-For other proofs: `holds(FPLC_INVARIANT, FPLC, state, seen)` is the whole as one formula, `conjuncts(..)` the
-same by name. That they are true at power-up and after every scan are the theorems of
-fplc_invariant.py.
+The panel and the EKS have one each below, the PLC needs none. For other proofs:
+`holds(FPLC_INVARIANT, FPLC, state, seen)` is the whole as one formula, `conjuncts(..)` the same by name. That
+they are true at power-up and after every scan are theorems of fplc_invariant.py, panel_safety.py and
+eks_safety.py.
 """
 
 from __future__ import annotations
@@ -23,8 +24,11 @@ import z3
 
 from proofs.explorer.device import Device
 from proofs.explorer.ends import TRUE
+from proofs.mode_selection.devices import KEY_ID_MAX
 from proofs.mode_selection.observer import SEEN, Seen
+from proofs.mode_selection.ranges import codes
 from proofs.mode_selection.scanned import NONE, control, is_mode, memory, parameters, permits
+from proofs.words import one_of
 
 TRANSACTION: Final = frozenset(
     {"EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
@@ -171,5 +175,82 @@ FPLC_INVARIANT: Final = (
         "TimerIsTheTimeWaited",
         "In the insertion and in the removal the timer is the time since it began.",
         _timer_is_the_time_waited,
+    ),
+)
+
+
+# ---------------------------------------------------------------- panel
+
+PENDING: Final = frozenset({"AwaitEcho", "Confirm", "AwaitSwitch"})
+"""The states of the panel in which a selection is sent."""
+
+
+def _panel_values_in_range(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return z3.And(*[z3.And(one >= NONE, one <= 4) for one in (s.offered, s.selection)])
+
+
+def _selection_is_offered(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return permits(p, s.offered, s.selection) if c in PENDING else s.selection == NONE
+
+
+HMI_INVARIANT: Final = (
+    Conjunct(
+        "ValuesInRange", "The level offered and the selection are 0 to 4 or none.", _panel_values_in_range
+    ),
+    Conjunct(
+        "SelectionIsOffered",
+        "A selection is kept only while it is sent, and is one that the machine permits to the level with "
+        "which the screen was opened.",
+        _selection_is_offered,
+    ),
+)
+
+# ---------------------------------------------------------------- EKS
+
+SIGNALLING: Final = frozenset({"StartTest", "TestOnes", "TestZeros", "Signal"})
+"""The states of the EKS in which LA is on."""
+
+
+def key_accepted(p: Any, key: Any) -> z3.BoolRef:
+    """Operating state, access code and level of a key (in terms) are right. EKS-KS-2 to EKS-KS-5, E-48"""
+    code_fits = z3.If(
+        p.operating_state == 6, key.access_code == p.dip_switches, key.access_code & p.dip_switches != 0
+    )
+    ten_bits = z3.ULE(key.access_code, 0x3FF)
+    level = one_of(key.authorization_level, codes("RE"))
+    return z3.And(key.operating_state == p.operating_state, ten_bits, code_fits, level)
+
+
+def _checksum_was_right(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return seen.agrees if c in SIGNALLING | {"CheckLevel", "SetLA"} else TRUE
+
+
+def _key_was_accepted(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return key_accepted(p, s.key) if c in SIGNALLING | {"SetLA"} else TRUE
+
+
+def _timer_is_the_time_of_this_half(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return seen.lasted == s.elapsed_ms if c in ("TestOnes", "TestZeros") else TRUE
+
+
+def _key_in_range(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    number = z3.And(s.key.KeyID >= 0, s.key.KeyID <= KEY_ID_MAX)
+    return z3.And(s.elapsed_ms >= 0, z3.ULE(s.key.operating_state, 0xFF), number)
+
+
+EKS_INVARIANT: Final = (
+    Conjunct("ValuesInRange", "The key in memory is one that fits into 15 bytes.", _key_in_range),
+    Conjunct(
+        "ChecksumWasRight", "From CheckLevel to Signal the checksum agrees with the key.", _checksum_was_right
+    ),
+    Conjunct(
+        "KeyWasAccepted",
+        "From SetLA to Signal the key in memory has the right operating state and access code and a level.",
+        _key_was_accepted,
+    ),
+    Conjunct(
+        "TimerIsTheTimeOfThisHalf",
+        "In the test pulse the timer is the time for which the outputs have stood.",
+        _timer_is_the_time_of_this_half,
     ),
 )

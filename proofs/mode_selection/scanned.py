@@ -15,7 +15,9 @@ import z3
 
 from proofs.explorer.device import Device, Scan, scans
 from proofs.explorer.ends import Tree, always, ends, in_terms, some, tree, value
-from proofs.explorer.explore import explore
+from proofs.explorer.errors import ConcretizationError
+from proofs.explorer.explore import Exploration, explore
+from proofs.explorer.records import terms, unvalidated
 from proofs.mode_selection.ranges import codes
 from proofs.words import constant
 
@@ -62,8 +64,8 @@ def control(device: Device, state: Any) -> str:
 
 
 def memory(device: Device, state: Any) -> Any:
-    """A State record in terms."""
-    return in_terms(state, device.register.memory)
+    """A State record in terms, with the records in it."""
+    return in_terms(state, {**device.register.inputs, **device.register.memory})
 
 
 def parameters(device: Device, state: Any) -> Any:
@@ -72,8 +74,13 @@ def parameters(device: Device, state: Any) -> Any:
 
 
 def scanned(device: Device, state: Any, inputs: Any, result: Any, sent: Any) -> Scanned:
-    """The scan from `state` with `inputs` to `result`, from records with symbols or with plain values."""
+    """The scan from `state` with `inputs` to `result`, from records with symbols or with plain values.
+
+    Raises ConcretizationError when the scan changes the parameters.
+    """
     after, sends = result
+    if not _equal(parameters(device, state), parameters(device, after)):
+        raise ConcretizationError(f"{device.name}: step changes its parameters")
     return Scanned(
         device,
         parameters(device, state),
@@ -83,6 +90,14 @@ def scanned(device: Device, state: Any, inputs: Any, result: Any, sent: Any) -> 
         memory(device, after),
         in_terms(sends, device.register.outputs),
         after,
+    )
+
+
+def _equal(one: Any, other: Any) -> bool:
+    pairs = zip(terms(one), terms(other), strict=True)
+    return all(
+        first.eq(second) if isinstance(first, z3.ExprRef) else first == second
+        for (_, first), (_, second) in pairs
     )
 
 
@@ -127,19 +142,33 @@ _KNOWN: dict[int, Scans] = {}
 
 
 def outputs_of(device: Device, state: Any) -> Any:
-    """The row of outputs that the shipped `outputs` gives to a state with symbols, in terms."""
-    found = explore(device.module.outputs, (state,), device.parameters_fit(state.params))
-    record = in_terms(found.paths[0].result, device.register.outputs)
+    """The row of outputs that the shipped `outputs` gives to a state with symbols, in terms.
+
+    Raises ConcretizationError when a text depends on more than the control state.
+    """
+    found = explore(device.module.outputs, (state,), device.parameters_fit(state.params), device.stand_ins)
     rows = {id(path.result): in_terms(path.result, device.register.outputs) for path in found.paths}
-    values = {
-        name: one if not isinstance(one, z3.ExprRef) else value(found, _field_of(rows, name))
-        for name, one in ((name, getattr(record, name)) for name in record.__dataclass_fields__)
-    }
-    return type("Sent", (), values)
+    first = rows[id(found.paths[0].result)]
+    values = {name: _joined(found, rows, name) for name in first.__dataclass_fields__}
+    return unvalidated(type(first), values)
 
 
-def _field_of(rows: Mapping[int, Any], name: str) -> Callable[[Any], z3.ExprRef]:
-    return lambda result: getattr(rows[id(result)], name)
+def _joined(found: Exploration, rows: Mapping[int, Any], name: str) -> Any:
+    """A field of the row as one term, or one for each of its parts."""
+    columns = [getattr(row, name) for row in rows.values()]
+    if isinstance(columns[0], tuple):
+        return tuple(value(found, _part(rows, name, number)) for number in range(len(columns[0])))
+    if isinstance(columns[0], z3.ExprRef):
+        return value(found, _part(rows, name))
+    if any(one != columns[0] for one in columns):
+        raise ConcretizationError(f"the output {name} is a text and depends on memory: {columns}")
+    return columns[0]
+
+
+def _part(rows: Mapping[int, Any], name: str, number: int | None = None) -> Callable[[Any], z3.ExprRef]:
+    if number is None:
+        return lambda result: getattr(rows[id(result)], name)
+    return lambda result: getattr(rows[id(result)], name)[number]
 
 
 # ---------------------------------------------------------------- words and modes

@@ -14,6 +14,7 @@ import z3
 from proofs.explorer.device import Device, Scan, explored_from
 from proofs.explorer.ends import End, ends
 from proofs.explorer.records import evaluated, filled
+from proofs.mode_selection.devices import CHECKSUM_AGREES
 from proofs.mode_selection.scanned import Scans
 from proofs.mode_selection.sentences import Judge, Sentence, demanded
 
@@ -31,7 +32,8 @@ def planted(device: Device, *edits: tuple[str, str]) -> Iterator[Device]:
     sys.modules[module.__name__] = module
     try:
         exec(compile(source, module.__name__, "exec"), vars(module))
-        yield replace(device, module=module)
+        stand_ins = tuple(replace(one, module=module) for one in device.stand_ins)
+        yield replace(device, module=module, stand_ins=stand_ins)
     finally:
         del sys.modules[module.__name__]
 
@@ -59,7 +61,7 @@ def refuted(judge: Judge, sentence: Sentence, control: str) -> bool:
 
 def breaks(scans: Scans, sentence: Sentence, model: z3.ModelRef) -> bool:
     """Run the example on the real step: it ends where the explorer says, and there the sentence is false."""
-    state, inputs = filled(scans.scan.state, model), filled(scans.scan.inputs, model)
+    state, inputs = _state(scans, model), filled(scans.scan.inputs, model)
     end = _end_of(scans, model)
     assert scans.device.module.step(state, inputs) == _plain(end, model, state)
     return z3.is_false(
@@ -76,6 +78,27 @@ def _end_of(scans: Scans, model: z3.ModelRef) -> End:
     return node
 
 
+def _state(scans: Scans, model: z3.ModelRef) -> Any:
+    """The state of the example; a checksum that is a parameter says what the example says."""
+    symbolic, module = scans.scan.state, scans.device.module
+    if not hasattr(symbolic.params, "checksum"):
+        return filled(symbolic, model)
+    agrees = z3.is_true(model.eval(CHECKSUM_AGREES.term, model_completion=True))
+    key = filled(symbolic.key, model)
+    params = module.Params(
+        checksum=lambda data: key.KEYCRC if agrees else key.KEYCRC ^ 1,
+        operating_state=filled(symbolic.params.operating_state, model),
+        dip_switches=filled(symbolic.params.dip_switches, model),
+        T_PULSE_ms=filled(symbolic.params.T_PULSE_ms, model),
+    )
+    return module.State(params, symbolic.state, key, filled(symbolic.elapsed_ms, model))
+
+
 def _plain(end: End, model: z3.ModelRef, state: Any) -> Any:
+    """The end of a path with the example's values; parameters are never written."""
     after, outputs = end.result
-    return evaluated(after, model), evaluated(outputs, model)
+    values = {
+        name: state.params if name == "params" else evaluated(getattr(after, name), model)
+        for name in after.__dataclass_fields__
+    }
+    return type(after)(**values), evaluated(outputs, model)

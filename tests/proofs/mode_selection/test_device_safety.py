@@ -1,0 +1,315 @@
+"""The theorems of panel, PLC and EKS, and of the F-PLC's response, with the planted faults that they see."""
+
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+import z3
+
+from proofs.mode_selection import eks_safety, fplc_response, panel_safety, plc_safety
+from proofs.mode_selection.scanned import Scanned, Scans
+from proofs.mode_selection.sentences import Judge, Said, Sentence
+from proofs.runner import prove_all
+from proofs.solvers import ask_z3
+from proofs.theorem import Query, Theorem
+from refimpl.mode_selection import fplc
+from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
+
+MODULES: list[Any] = [panel_safety, plc_safety, eks_safety, fplc_response]
+
+
+def _theorems(module: ModuleType) -> list[Theorem]:
+    return [one for one in vars(module).values() if isinstance(one, Theorem)]
+
+
+SMALL = [item for module in MODULES[:3] for item in _theorems(module)]
+
+
+@pytest.mark.parametrize("item", SMALL, ids=lambda item: item.name)
+def test_every_theorem_of_panel_plc_and_eks_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
+    (result,) = prove_all([item], tmp_path, lambda line: None)
+    assert (result.verdict, result.reason) == ("PROVED", "")
+
+
+@pytest.mark.parametrize("item", _theorems(fplc_response), ids=lambda item: item.name)
+def test_every_theorem_of_the_response_holds(item: Theorem) -> None:
+    queries = item.queries()
+    assert [query for query in queries if query.name.startswith("control")]
+    assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__.rsplit(".", 1)[-1])
+def test_the_examples_of_all_controls_happen_in_the_real_step(
+    module: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept: list[tuple[Query, Scans, Sentence]] = []
+    shipped = Judge._broken
+
+    def remembered(self: Judge, what: str, scans: Scans, given: Any, sentence: Sentence) -> Query:
+        query = shipped(self, what, scans, given, sentence)
+        kept.append((query, scans, sentence))
+        return query
+
+    monkeypatch.setattr(Judge, "_broken", remembered)
+    for item in _theorems(module):
+        item.queries()
+    assert kept
+    for query, scans, sentence in kept:
+        solver = z3.SimpleSolver()
+        solver.add(*query.formulas.values())
+        assert solver.check() == z3.sat, query.name
+        assert breaks(scans, sentence, solver.model()), query.name
+
+
+def _state(judge: Judge, always: Callable[..., z3.BoolRef]) -> Sentence:
+    return judge.after_a_scan(always)
+
+
+def _kept(judge: Judge) -> Sentence:
+    def sentence(one: Scanned) -> Said:
+        return z3.BoolVal(True), judge.kept()(one)
+
+    return sentence
+
+
+PANEL, PLC, EKS = panel_safety.JUDGE, plc_safety.JUDGE, eks_safety.JUDGE
+RESPONSE = fplc_response.JUDGE
+FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
+    (
+        "SelectionWithinOffer",
+        PANEL,
+        "Select",
+        _state(PANEL, panel_safety.selection_within_offer),
+        [("if is_among(touched, _open_fields(s)):", "if touched != NONE:")],
+    ),
+    (
+        "InhibitedSendsZeros",
+        PANEL,
+        "Confirm",
+        _state(PANEL, panel_safety.inhibited_sends_zeros),
+        [
+            (
+                "return State(s.params, Step.INHIBITED, NONE, NONE)",
+                "return State(s.params, Step.INHIBITED, NONE, 0)",
+            ),
+            ('Outputs(ZERO, ZERO, "inhibited"', 'Outputs(encode(SE, s.selection), ZERO, "inhibited"'),
+        ],
+    ),
+    (
+        "SelectionNeedsEnable",
+        PANEL,
+        "AwaitEcho",
+        panel_safety.selection_needs_enable,
+        [("if level == NONE or level != s.offered:", "if level == NONE:")],
+    ),
+    (
+        "SelectionNeedsEnable",
+        PANEL,
+        "Inhibited",
+        panel_safety.selection_needs_enable,
+        [("if level != NONE and i.CheckMSO == ZERO:", "if level != NONE:")],
+    ),
+    (
+        "SelectionNeedsTouch",
+        PANEL,
+        "Select",
+        panel_safety.selection_needs_touch,
+        [("Step.AWAIT_ECHO, s.offered, touched)", "Step.AWAIT_ECHO, s.offered, s.offered)")],
+    ),
+    (
+        "AcknowledgmentNeedsConfirm",
+        PANEL,
+        "Confirm",
+        panel_safety.acknowledgment_needs_confirm,
+        [
+            (
+                "    if i.CheckMSO != encode(CH, s.selection):\n        return _withdraw(s)",
+                "    if False:\n        return s",
+            )
+        ],
+    ),
+    (
+        "AcknowledgmentNeedsConfirm",
+        PANEL,
+        "AwaitEcho",
+        panel_safety.acknowledgment_needs_confirm,
+        [("return State(s.params, Step.CONFIRM,", "return State(s.params, Step.AWAIT_SWITCH,")],
+    ),
+    (
+        "InhibitAtOnce",
+        PANEL,
+        "AwaitSwitch",
+        panel_safety.inhibit_at_once,
+        [("if level == NONE or level != s.offered:", "if level != NONE and level != s.offered:")],
+    ),
+    (
+        "SelectionIsOffered",
+        PANEL,
+        "Confirm",
+        _kept(PANEL),
+        [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, s.offered, 0)")],
+    ),
+    (
+        "CopiesUnchanged",
+        PLC,
+        "CopyMW03",
+        plc_safety.copies_unchanged,
+        [
+            (
+                "s.ReadAuthorization, i.SelectMSO, s.CheckMSO",
+                "s.ReadAuthorization, i.SelectMSO & 0xFFFE, s.CheckMSO",
+            )
+        ],
+    ),
+    (
+        "CopiesTakeTurns",
+        PLC,
+        "CopyCheckMSO",
+        plc_safety.copies_take_turns,
+        [("State(s.params, Step.COPY_MW07,", "State(s.params, Step.COPY_READ_AUTHORIZATION,")],
+    ),
+    (
+        "OneOutputOutsideThePulse",
+        EKS,
+        "TestZeros",
+        _state(EKS, eks_safety.one_output_outside_the_pulse),
+        [("level == 0, level == 1,", "level == 0, level <= 1,")],
+    ),
+    (
+        "NoOutputWithoutLA",
+        EKS,
+        "TestZeros",
+        _state(EKS, eks_safety.no_output_without_la),
+        [("Outputs(c == Step.SIGNAL, level == 0", "Outputs(False, level == 0")],
+    ),
+    (
+        "LAOnlyForAcceptedKeys",
+        EKS,
+        "CheckLevel",
+        _state(EKS, eks_safety.la_only_for_accepted_keys),
+        [
+            ("    if access_code > ACCESS_CODE_MAX:\n        return False\n", ""),
+            ("return _enter(s, Step.SET_LA)", "return _enter(s, Step.START_TEST)"),
+        ],
+    ),
+    (
+        "LADropsAtOnce",
+        EKS,
+        "Signal",
+        eks_safety.la_drops_at_once,
+        [("        and key.KeyID == i.KeyID\n", "")],
+    ),
+    (
+        "PulseBeforeOutput",
+        EKS,
+        "TestOnes",
+        eks_safety.pulse_before_output,
+        [("return _enter(s, Step.TEST_ZEROS)", "return _enter(s, Step.SIGNAL)")],
+    ),
+    (
+        "PulseHalvesLast",
+        EKS,
+        "TestOnes",
+        eks_safety.pulse_halves_last,
+        [("if elapsed >= s.params.T_PULSE_ms:", "if elapsed > s.params.T_PULSE_ms:")],
+    ),
+    (
+        "FaultIsLatched",
+        EKS,
+        "Fault",
+        eks_safety.fault_is_latched,
+        [("        return s  # StayInFault", "        return _empty(s, i)  # StayInFault")],
+    ),
+    (
+        "ChecksumWasRight",
+        EKS,
+        "CheckChecksum",
+        _kept(EKS),
+        [("return _enter(s, Step.REJECTED)  # RefuseChecksum", "return _enter(s, Step.CHECK_LEVEL)")],
+    ),
+    (
+        "KeyWasAccepted",
+        EKS,
+        "CheckLevel",
+        _kept(EKS),
+        [("if decode(RE, s.key.authorization_level) == NONE:", "if False:")],
+    ),
+    (
+        "TimerIsTheTimeOfThisHalf",
+        EKS,
+        "TestOnes",
+        _kept(EKS),
+        [("State(s.params, Step.TEST_ONES, s.key, elapsed)", "State(s.params, Step.TEST_ONES, s.key, 0)")],
+    ),
+    (
+        "comes closer",
+        RESPONSE,
+        "Error",
+        fplc_response.comes_closer,
+        [
+            (
+                "if elapsed >= s.params.T_DWELL_ms:\n        return _wait(s, s.params.T_DWELL_ms)",
+                "if elapsed >= s.params.T_DWELL_ms:\n        return _wait(s, 0)",
+            ),
+            ("and elapsed >= s.params.T_DWELL_ms", "and elapsed > s.params.T_DWELL_ms"),
+        ],
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "judge", "control", "sentence", "edits"),
+    FAULTS,
+    ids=lambda one: one if isinstance(one, str) else "",
+)
+def test_a_planted_fault_is_refuted_with_an_example_that_happens(
+    name: str, judge: Judge, control: str, sentence: Sentence, edits: list[tuple[str, str]]
+) -> None:
+    with planted(judge.device, *edits) as device:
+        scan = begun_in(device, control)
+        assert refuted(replace(judge, device=device, explored=(scan,)), sentence, control)
+    assert not refuted(judge, sentence, control)
+
+
+def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
+    named = {name for item in SMALL for name in item.properties}
+    assert len(named) >= 14
+    assert named <= {name for name, *_ in FAULTS}
+
+
+QUIET: dict[str, Any] = {
+    "LA": False,
+    **dict.fromkeys(["A", "B", "C", "D", "STR"], False),
+    "MW03": 0,
+    "MW07": 0,
+}
+
+
+def _ms_until_idle(state: fplc.State, between: int, random_: random.Random) -> int:
+    """Time from the first quiet scan to the last one before Idle."""
+    state, _ = fplc.step(state, fplc.Inputs(random_.choice((0, between)), **QUIET))
+    passed = last = 0
+    while state.state != fplc.IDLE:
+        last = passed
+        dt_ms = random_.choice((1, between // 2, between - 1, between))
+        state, _ = fplc.step(state, fplc.Inputs(dt_ms, **QUIET))
+        passed += dt_ms
+    return last
+
+
+def test_real_runs_stay_below_the_proved_time_and_exceed_half_of_it() -> None:
+    random_ = random.Random(3)
+    longest = 0.0
+    for _ in range(4_000):
+        dwell, between = random_.choice((0, 5, 40)), random_.choice((2, 10, 60))
+        params = fplc.Params(T_REM_ms=dwell + random_.choice((1, between)), T_DWELL_ms=dwell)
+        elapsed = random_.choice((0, 1, params.T_REM_ms))
+        state = fplc.State(params, random_.choice([*fplc.Step]), -1, -1, -1, -1, elapsed)
+        passed = _ms_until_idle(state, between, random_)
+        assert passed <= 2 * dwell + 2 * between
+        longest = max(longest, passed / (2 * dwell + 2 * between))
+    assert longest > 0.5
