@@ -377,6 +377,9 @@ def _prove(args: argparse.Namespace) -> int:
         for name in names:
             records += prove_document(place, name, progress, tuple(args.theorems), args.limit)
     status = max(status_of(record) for record in records)
+    for record in records:
+        for name in record["result"]["unused"]:
+            print(f"no proof needs it: {record['id']}: {name}")
     print(counted("proofs", records, "PROVED by Z3, re-checked by cvc5"))
     _write_json(args, status, proofs=records)
     return status
@@ -485,6 +488,7 @@ def prove_theorem(
             "clauses": list(result.clauses),
             "findings": list(result.findings),
             "properties": list(one.properties),
+            "unused": list(result.unused),
             "queries": [
                 {
                     "name": query.name,
@@ -494,6 +498,7 @@ def prove_theorem(
                     "twin_of": query.twin_of,
                     "seconds": round(query.seconds, 3),
                     "detail": query.detail,
+                    "core": None if query.core is None else list(query.core),
                     "smt2": query.smt2.relative_to(place).as_posix(),
                 }
                 for query in result.queries

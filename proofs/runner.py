@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Literal
 
 from proofs.smtlib import to_smtlib
-from proofs.solvers import Judgment, Solver, ask_cvc5, ask_z3
-from proofs.theorem import Query, Theorem, TheoremError, theorems_of
+from proofs.solvers import Judgment, Solver, ask_cvc5, ask_z3, core_of
+from proofs.theorem import COUNTEREXAMPLE, Query, Theorem, TheoremError, theorems_of
 
 Verdict = Literal["PROVED", "VIOLATED", "INCONCLUSIVE", "UNJUDGED"]
 LIMIT_MS = 20_000
@@ -36,6 +36,8 @@ class QueryResult:
     twin_of: str = ""
     detail: str = ""
     """Of a query not as expected: the example found, or why there is no answer."""
+    core: tuple[str, ...] | None = None
+    """Of an `unsat` query: the formulas that contradict one another, none too many; None when not known."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,8 @@ class TheoremResult:
     reason: str
     queries: tuple[QueryResult, ...]
     seconds: float
+    unused: tuple[str, ...] = ()
+    """Premises that no proof of the theorem needs."""
 
 
 def prove(
@@ -92,6 +96,7 @@ def _prove_one(
 ) -> TheoremResult:
     started = time.monotonic()
     queries: list[QueryResult] = []
+    built: tuple[Query, ...] = ()
     try:
         built = item.queries()
         _empty(folder)
@@ -115,6 +120,7 @@ def _prove_one(
         reason,
         tuple(queries),
         seconds,
+        unused_premises(built, queries) if verdict == "PROVED" else (),
     )
 
 
@@ -135,7 +141,19 @@ def _ask(
         file,
         query.twin_of,
         "" if as_expected else _detail(first, second),
+        core_of(query) if as_expected and query.expected == "unsat" else None,
     )
+
+
+def unused_premises(built: Iterable[Query], results: Iterable[QueryResult]) -> tuple[str, ...]:
+    """Names of premises that are in no core of a theorem's claims; none as long as a core is not known."""
+    premises: dict[str, None] = {}
+    used: set[str] = set()
+    for query, result in zip(built, results, strict=True):
+        if query.expected == "unsat":
+            premises |= dict.fromkeys(query.formulas)
+            used |= set(query.formulas if result.core is None else result.core)
+    return tuple(name for name in premises if name not in used and name != COUNTEREXAMPLE)
 
 
 def judge(queries: list[QueryResult]) -> tuple[Verdict, str]:

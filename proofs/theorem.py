@@ -10,11 +10,13 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Final, Literal
 
 import z3
 
 Expected = Literal["unsat", "sat"]
+COUNTEREXAMPLE: Final = "counterexample"
+"""The name of the negated conclusion in the query of a claim."""
 
 
 class TheoremError(ValueError):
@@ -97,9 +99,9 @@ def claim(
     """The claim that `then` follows from the premises `given`: the `unsat` query and its `sat` twin."""
     if not given:
         raise TheoremError(f"claim {name}: without premises its twin would say nothing")
-    if "counterexample" in given:
+    if COUNTEREXAMPLE in given:
         raise TheoremError(f"claim {name}: the name counterexample is taken")
-    refutation = Query(name, {**given, "counterexample": z3.Not(then)}, "unsat", logic)
+    refutation = Query(name, {**given, COUNTEREXAMPLE: z3.Not(then)}, "unsat", logic)
     return refutation, Query(f"{name}: premises can be met", dict(given), "sat", logic, twin_of=name)
 
 

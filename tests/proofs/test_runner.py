@@ -4,13 +4,14 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 import z3
 
-from proofs.runner import TheoremResult, prove, prove_all
-from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3
+from proofs.runner import TheoremResult, prove, prove_all, unused_premises
+from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3, core_of
 from proofs.theorem import Queries, Query, Theorem, claim, control, theorem
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -249,3 +250,35 @@ def test_the_exported_text_is_the_same_in_every_run() -> None:
         return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
 
     assert text("1") == text("2") != ""
+
+
+@theorem(clauses=["EKS-T2"], findings=[])
+def a_premise_is_not_needed() -> Queries:
+    """Small numbers are less than 20, also when they are odd."""
+    odd = {**SMALL, "x is odd": X & 1 == 1}
+    yield from claim("less than 20", odd, z3.ULT(X, 20))
+    yield from claim("less than 30", odd, z3.ULT(X, 30))
+
+
+def test_a_premise_that_no_proof_needs_is_named_and_one_that_is_needed_is_not(tmp_path: Path) -> None:
+    result = _one(a_premise_is_not_needed, tmp_path)
+    assert (result.verdict, result.unused) == ("PROVED", ("x is odd",))
+    assert [query.core for query in result.queries if query.expected == "unsat"] == [
+        ("x is small", "counterexample"),
+    ] * 2
+    assert _one(small_numbers_are_less_than_twenty, tmp_path).unused == ()
+
+
+def test_a_core_has_no_formula_that_can_be_left_out() -> None:
+    a, b, c = z3.Bools("a b c")
+    formulas = {"a": a, "a or b": z3.Or(a, b), "not b": z3.Not(b), "b or c": z3.Or(b, c), "not a": z3.Not(a)}
+    assert core_of(Query("q", formulas, "unsat")) == ("a", "not a")
+    assert core_of(control("q", {"a": a})) is None
+
+
+def test_a_premise_counts_as_needed_as_long_as_a_core_is_not_known(tmp_path: Path) -> None:
+    result = _one(a_premise_is_not_needed, tmp_path)
+    built = a_premise_is_not_needed.queries()
+    without = [replace(query, core=None) for query in result.queries]
+    assert unused_premises(built, result.queries) == ("x is odd",)
+    assert unused_premises(built, without) == ()
