@@ -125,6 +125,9 @@ def make_parser() -> argparse.ArgumentParser:
     other.add_argument(
         "--coverage", action="store_true", help="instead: what of each step the feasible paths pass through"
     )
+    other.add_argument(
+        "--render", action="store_true", help="instead: write docs/proofs.md from the evidence of both"
+    )
 
     _plug_in(commands, "conform", "modeproof.suites.command", "modeproof.kit.command")
     _plug_in(commands, "trace", "modeproof.trace.command")
@@ -372,6 +375,8 @@ def _prove(args: argparse.Namespace) -> int:
         raise Unjudged("no document has proofs (proofs/<document>/)")
     if args.coverage:
         return _coverage(args, place, names, progress)
+    if args.render:
+        return _render_proofs(args, place)
     records: list[dict[str, Any]] = []
     with only_one(place):
         for name in names:
@@ -381,6 +386,8 @@ def _prove(args: argparse.Namespace) -> int:
         for name in record["result"]["unused"]:
             print(f"no proof needs it: {record['id']}: {name}")
     print(counted("proofs", records, "PROVED by Z3, re-checked by cvc5"))
+    if not args.theorems and args.document is None and status == 0:
+        status = _compare_proofs_page(place)
     _write_json(args, status, proofs=records)
     return status
 
@@ -508,6 +515,63 @@ def prove_theorem(
     )
     evidence.write(place, record)
     return record
+
+
+def _proofs_page(place: Path) -> str:
+    """docs/proofs.md as the evidence gives it.
+
+    Raises Unjudged with what to run when evidence is missing, not as expected, or of other files.
+    """
+    from modeproof import evidence
+    from modeproof.registers.load import load_document
+    from modeproof.registers.proofs_page import theorems_by_file
+    from modeproof.report.proofs import render_proofs
+
+    chosen = [load_document(place, name) for name in documents(place) if _has_proofs(place, name)]
+    found: dict[str, dict[str, Any]] = {}
+    for document in chosen:
+        names = [one.name for rows in theorems_by_file(document).values() for one in rows]
+        for name in [*names, "coverage"]:
+            record = evidence.read(evidence.evidence_path(place, document.name, name))
+            again = "modeproof prove --coverage" if name == "coverage" else f"modeproof prove {name}"
+            if not record["as_expected"]:
+                raise Unjudged(f"{name}: its evidence is not as expected; run {again}")
+            paths = [place / path for path in record["inputs"]]
+            gone = [path for path in paths if not path.is_file()]
+            if gone or evidence.hashes(place, paths) != record["inputs"]:
+                raise Unjudged(f"{name}: files have changed since; run {again}")
+            found.setdefault(document.name, {})[name] = record
+    return render_proofs(chosen, found)
+
+
+def _render_proofs(args: argparse.Namespace, place: Path) -> int:
+    from modeproof.evidence.files import write_whole
+    from modeproof.registers.proofs_page import PAGE
+
+    if args.theorems or args.document:
+        raise Unjudged("--render writes the page of all theorems: give it no name")
+    write_whole(place / PAGE, _proofs_page(place).encode("utf-8"))
+    print(f"{PAGE} rendered")
+    _write_json(args, 0, page=PAGE)
+    return 0
+
+
+def _compare_proofs_page(place: Path) -> int:
+    """0 when the page says what this run gave, or there is none; 1 when it has drifted."""
+    from modeproof.registers.proofs_page import PAGE, comparable
+
+    path = place / PAGE
+    if not path.is_file():
+        return 0
+    try:
+        now = _proofs_page(place)
+    except Unjudged as error:
+        print(f"{PAGE}: not compared: {error.message}")
+        return 0
+    if comparable(path.read_text(encoding="utf-8")) == comparable(now):
+        return 0
+    print(f"{PAGE}: the page differs from what this run gave; run modeproof prove --render")
+    return EXIT_NOT_AS_EXPECTED
 
 
 def _coverage(args: argparse.Namespace, place: Path, names: Sequence[str], progress: Any) -> int:

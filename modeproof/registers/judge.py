@@ -10,6 +10,7 @@ from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.load import documents, load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
+from modeproof.registers.proofs_page import check_proofs_page
 from modeproof.registers.rooms import check_imports, check_no_document_known
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.stamps import check_findings_pages
@@ -58,6 +59,7 @@ def judge_tree(root: Path) -> list[Problem]:
         *check_imports(root),
         *check_no_document_known(root, [one.interface for one in loaded], loaded),
         *check_pages(root, loaded),
+        *check_proofs_page(root, loaded),
     ]
 
 

@@ -1,0 +1,126 @@
+"""The page of proofs, from evidence: every theorem as one sentence, with what it cites and rests on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from modeproof.registers.proofs_page import stamped_proofs, theorems_by_file
+from modeproof.registers.rows import Document
+
+Record = Mapping[str, Any]
+
+INTRODUCTION = """# What is proved of the shipped code
+
+Each row is a theorem about the very Python in `refimpl/`, run path by path on symbolic values, or about the
+tables. PROVED means: z3 found no counterexample among all values named, and cvc5, which reads the exported
+file alone, found none either. A *claim* is one such question; its *twin* shows that its premises can be met;
+an *example* must be found, mostly one that shows that a planted fault or the printed text is noticed.
+
+```
+.venv/bin/modeproof prove               # all of it; one theorem by its name
+.venv/bin/modeproof prove --coverage    # what of each step the paths pass through
+.venv/bin/modeproof prove --render      # this page, from the evidence of these two
+```
+
+Every question is a file, `build/proofs/<document>/<theorem>/*.smt2`, with theorem, clauses and expected
+answer at its top. What is not proved is in [limits](limits.md).
+"""
+
+
+def render_proofs(documents: Sequence[Document], evidence: Mapping[str, Mapping[str, Record]]) -> str:
+    """The whole page, stamped. `evidence`: by document, then by the name of the theorem, and `coverage`."""
+    lines = [INTRODUCTION]
+    for document in documents:
+        lines += _section(document, evidence[document.name])
+    return stamped_proofs(documents, "\n".join(lines))
+
+
+def _section(document: Document, records: Mapping[str, Record]) -> Iterator[str]:
+    theorems = theorems_by_file(document)
+    own = [records[one.name] for rows in theorems.values() for one in rows]
+    yield f"## {document.about.title}"
+    yield ""
+    versions = own[0]["tools"]
+    asked = f"z3 {versions['z3']['version']} and cvc5 {versions['cvc5']['version']}"
+    queries = [query for record in own for query in record["result"]["queries"]]
+    yield (
+        f"{len(own)} theorems, {len(queries):,} questions to each of {asked}: {_counts(queries)}. "
+        "Seconds are those of one theorem with both solvers, and of its cores; two run at once."
+    )
+    for file, rows in theorems.items():
+        yield ""
+        yield f"### `{file}`"
+        yield ""
+        yield "| theorem | cites | strength | questions | seconds |"
+        yield "|---|---|---|---|---|"
+        for one in rows:
+            record = records[one.name]
+            cited = ", ".join([*record["result"]["clauses"], *record["result"]["findings"]])
+            named = ", ".join(record["result"].get("properties", ()))
+            result = f"{record['verdict']}{f'; proves {named}' if named else ''}"
+            sentence = record["result"]["sentence"].replace("|", "\\|")
+            yield (
+                f"| {sentence} `{one.name}` | {cited} | {result} | "
+                f"{_counts(record['result']['queries'])} | {record['seconds']:,.1f} |"
+            )
+    total = sum(float(record["seconds"]) for record in own)
+    yield ""
+    yield "| all theorems | seconds |"
+    yield "|---|---|"
+    yield f"| {len(own)} | {total:,.1f} |"
+    yield from _premises(document, own)
+    yield from _coverage(records["coverage"])
+
+
+def _counts(queries: Sequence[Mapping[str, Any]]) -> str:
+    claims = sum(1 for query in queries if query["expected"] == "unsat")
+    twins = sum(1 for query in queries if query["twin_of"])
+    examples = len(queries) - claims - twins
+    return f"{claims:,} claims, {twins:,} twins, {examples:,} examples"
+
+
+def _premises(document: Document, records: Sequence[Record]) -> Iterator[str]:
+    """Premises that no proof needs."""
+    yield ""
+    yield "### Premises that no proof of their theorem needs"
+    yield ""
+    claims = [
+        query for record in records for query in record["result"]["queries"] if query["expected"] == "unsat"
+    ]
+    known = sum(1 for query in claims if query["core"] is not None)
+    yield (
+        f"By a set of formulas of which none can be left out, known for {known:,} of {len(claims):,} claims. "
+        "Where none is known (products of reals) all premises count as needed. "
+        "The theorem holds without those listed."
+    )
+    yield ""
+    rows = [(record["id"], name) for record in records for name in record["result"]["unused"]]
+    yield from (f"- `{theorem}`: {name}" for theorem, name in rows)
+    if not rows:
+        yield "None."
+
+
+def _coverage(record: Record) -> Iterator[str]:
+    """What the feasible paths pass through."""
+    yield ""
+    yield "### What of each step lies on a feasible path"
+    yield ""
+    yield "A member of every feasible path is run in the plain interpreter, and watched."
+    yield ""
+    yield "| device | control states | paths | lines | branches | answers of guards by control state |"
+    yield "|---|---|---|---|---|---|"
+    devices = record["result"]["devices"]
+    for name, one in devices.items():
+        counts = " | ".join(f"{one[key][0]} of {one[key][1]}" for key in ("lines", "branches", "answers"))
+        yield f"| `{name}` | {one['states']} | {one['paths']:,} | {counts} |"
+    yield ""
+    yield "All that is missing is unreachable for every memory, input and parameter in range:"
+    yield ""
+    whys: dict[str, list[str]] = {}
+    for name, one in devices.items():
+        for entry in one["unreachable"]:
+            whys.setdefault(entry["why"], []).append(f"`{name}` {entry['what']}")
+    for why, places in whys.items():
+        yield f"- {why}"
+        yield from (f"  - {place}" for place in places)
