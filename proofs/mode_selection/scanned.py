@@ -14,11 +14,12 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.device import Device, Scan, scans
-from proofs.explorer.ends import Tree, always, ends, in_terms, some, tree, value
+from proofs.explorer.ends import FALSE, Tree, always, ends, in_terms, some, tree, value
 from proofs.explorer.errors import ConcretizationError
 from proofs.explorer.explore import Exploration, explore
 from proofs.explorer.records import terms, unvalidated
 from proofs.mode_selection.ranges import codes
+from proofs.theorem import TheoremError
 from proofs.words import constant
 
 LEVELS: Final = range(5)
@@ -125,11 +126,17 @@ class Scans:
 
 
 def scans_of(device: Device, explored: Sequence[Scan] = ()) -> tuple[Scans, ...]:
-    """The scans of a device from each control state. explored: these instead of the shipped ones."""
+    """The scans of a device from each control state. explored: these instead of the shipped ones.
+
+    Raises TheoremError when a path of the step raises, ConcretizationError when one changes the parameters.
+    """
     return tuple(_scans_from(device, scan) for scan in explored or scans(device))
 
 
 def _scans_from(device: Device, scan: Scan) -> Scans:
+    for path in scan.paths:
+        if path.raised is not None:
+            raise TheoremError(f"from {control(device, scan.state)} step raises: {path.raised}")
     if id(scan) not in _KNOWN:
         root = tree(scan.paths)
         sent = outputs_of(device, scan.state)
@@ -176,6 +183,9 @@ def _part(rows: Mapping[int, Any], name: str, number: int | None = None) -> Call
 
 def code(name: str, mode: z3.ArithRef) -> z3.BitVecRef:
     """The word of the mode in a range of Table 2; zero for none."""
+    if z3.is_int_value(mode):
+        known = mode.as_long()
+        return constant(codes(name)[known] if known in LEVELS else 0)
     term: z3.BitVecRef = constant(0)
     for number, word in enumerate(codes(name)):
         term = z3.If(mode == number, constant(word), term)
@@ -184,6 +194,9 @@ def code(name: str, mode: z3.ArithRef) -> z3.BitVecRef:
 
 def mode(name: str, word: z3.BitVecRef) -> z3.ArithRef:
     """The mode that the word means in a range of Table 2; -1 for none."""
+    if z3.is_bv_value(word):
+        known, listed = word.as_long(), codes(name)
+        return z3.IntVal(listed.index(known) if known in listed else NONE)
     term: z3.ArithRef = z3.IntVal(NONE)
     for number, known in enumerate(codes(name)):
         term = z3.If(word == constant(known), z3.IntVal(number), term)
@@ -192,13 +205,19 @@ def mode(name: str, word: z3.BitVecRef) -> z3.ArithRef:
 
 def permits(params: Any, level: z3.ArithRef, selected: z3.ArithRef) -> z3.BoolRef:
     """This machine permits the mode to the level; none permits nothing. EKS-T2-2, E-47"""
-    return z3.Or(
-        *[
-            z3.And(level == own, selected == other, getattr(params, f"PERMITS_{own}")[other])
-            for own in LEVELS
-            for other in range(own + 1)
-        ]
-    )
+    if z3.is_int_value(level):
+        return _permits_own(params, level.as_long(), selected)
+    return z3.Or(*[z3.And(level == own, _permits_own(params, own, selected)) for own in LEVELS])
+
+
+def _permits_own(params: Any, level: int, selected: z3.ArithRef) -> z3.BoolRef:
+    if level not in LEVELS:
+        return FALSE
+    row = getattr(params, f"PERMITS_{level}")
+    if z3.is_int_value(selected):
+        known = selected.as_long()
+        return row[known] if known in LEVELS else FALSE
+    return z3.Or(*[z3.And(selected == number, row[number]) for number in range(level + 1)])
 
 
 def is_mode(term: z3.ArithRef) -> z3.BoolRef:

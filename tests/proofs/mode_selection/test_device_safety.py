@@ -10,12 +10,15 @@ from typing import Any
 import pytest
 import z3
 
+from modeproof.registers import load_document
+from proofs.explorer.errors import ConcretizationError
 from proofs.mode_selection import eks_safety, fplc_response, panel_safety, plc_safety
+from proofs.mode_selection.devices import ROOT
 from proofs.mode_selection.scanned import Scanned, Scans
 from proofs.mode_selection.sentences import Judge, Said, Sentence
 from proofs.runner import prove_all
 from proofs.solvers import ask_z3
-from proofs.theorem import Query, Theorem
+from proofs.theorem import Query, Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
 from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
 
@@ -279,6 +282,29 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     named = {name for item in SMALL for name in item.properties}
     assert len(named) >= 14
     assert named <= {name for name, *_ in FAULTS}
+
+
+def test_every_property_of_one_device_alone_is_proved_of_the_shipped_code() -> None:
+    """What holds under arbitrary inputs is a promise of one device: TLC's result has a theorem beside it."""
+    properties = load_document(ROOT, "mode_selection").properties
+    alone = {one.id for one in properties if "arbitrary" in one.environments}
+    named = {name for item in theorems_of("mode_selection") for name in item.properties}
+    assert len(alone) > 30
+    assert alone <= named
+
+
+@pytest.mark.parametrize(
+    ("other", "error", "why"),
+    [
+        ("State(Params(), Step.INHIBITED, NONE, NONE)", ConcretizationError, "changes its parameters"),
+        ("_planted()", TheoremError, "from Confirm step raises: name '_planted' is not defined"),
+    ],
+)
+def test_a_step_that_cannot_be_judged_is_refused(other: str, error: type[Exception], why: str) -> None:
+    with planted(PANEL.device, ("State(s.params, Step.INHIBITED, NONE, NONE)", other)) as device:
+        judge = replace(PANEL, device=device, explored=(begun_in(device, "Confirm"),))
+        with pytest.raises(error, match=why):
+            judge.scans()
 
 
 QUIET: dict[str, Any] = {
