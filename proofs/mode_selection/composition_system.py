@@ -1,0 +1,283 @@
+"""All devices and the user at one moment, the steps that lead to the next, and what is taken for granted.
+
+One step is one scan of one device, or the user putting in a key, as in refimpl's `key_flows` and in KeyFlows:
+any order, any number of times. What the devices do in a scan is not in here: that are their guarantees.
+Taking a key out changes nothing but the reader, which the EKS alone sees; whatever it then does is allowed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import Any, Final
+
+import z3
+
+from proofs.mode_selection import composition_views as views
+from proofs.mode_selection.composition_guarantees import ECHOING, OFFERING, UNKEYED
+from proofs.mode_selection.composition_views import Eks, EksScan, Fplc, FplcScan, Hmi, HmiScan, Mode
+from proofs.mode_selection.composition_views import Plc, PlcScan, permissions_fit
+from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
+
+STEPS: Final = ("insert", "eks", "fplc", "plc", "hmi")
+"""Who acts; `insert` is the user."""
+
+
+@dataclass(frozen=True)
+class History:
+    """What the user did and saw since the key went in, each -1 for nothing; only user and panel set it.
+
+    unseen: a key was put in while a selection of the key before was going on, which goes on still.
+    """
+
+    touched: Mode
+    seen: Mode
+    confirmed: Mode
+    unseen: z3.BoolRef
+
+
+@dataclass(frozen=True)
+class System:
+    """Every device with what it last wrote, and the user's history."""
+
+    fplc: Fplc
+    hmi: Hmi
+    plc: Plc
+    eks: Eks
+    history: History
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of one actor, with what the actor reads."""
+
+    actor: str
+    before: System
+    after: System
+    fplc: FplcScan
+    hmi: HmiScan
+    plc: PlcScan
+    eks: EksScan
+
+    @property
+    def scan(self) -> Any:
+        """The scan of the device that acts; None for the user."""
+        return {"fplc": self.fplc, "hmi": self.hmi, "plc": self.plc, "eks": self.eks}.get(self.actor)
+
+
+def _system(when: str) -> System:
+    history = History(
+        *[views.small(f"user.{one}{when}") for one in ("touched", "seen", "confirmed")],
+        z3.Bool(f"user.unseen{when}"),
+    )
+    return System(
+        views.fplc_symbols(when),
+        views.hmi_symbols(when),
+        views.plc_symbols(when),
+        views.eks_symbols(when),
+        history,
+    )
+
+
+NOW: Final = _system("")
+NEXT: Final = _system(" next")
+ROWS: Final = views.permission_symbols()
+HOLDS: Final = z3.Bool("fplc.holds_mode_on_error")
+"""ON_ERROR is "hold" (E-24)."""
+
+
+def _step(actor: str) -> Step:
+    return Step(
+        actor,
+        NOW,
+        NEXT,
+        FplcScan(
+            NOW.fplc,
+            NEXT.fplc,
+            z3.Bool("fplc reads LA"),
+            views.flags("fplc reads output"),
+            views.word("fplc reads MW03"),
+            views.word("fplc reads MW07"),
+            z3.Bool("fplc has dwelt"),
+            z3.Bool("fplc switches"),
+            HOLDS,
+            ROWS,
+        ),
+        HmiScan(
+            NOW.hmi,
+            NEXT.hmi,
+            views.word("hmi reads ReadAuthorization"),
+            views.word("hmi reads CheckMSO"),
+            views.small("hmi reads ActiveMSO"),
+            views.small("hmi touch"),
+            ROWS,
+        ),
+        PlcScan(
+            NOW.plc,
+            NEXT.plc,
+            *[views.word(f"plc reads {one}") for one in ("MW01", "MW05", "SelectMSO", "SwitchMSO")],
+        ),
+        EksScan(NOW.eks, NEXT.eks),
+    )
+
+
+STEP: Final[Mapping[str, Step]] = {actor: _step(actor) for actor in STEPS}
+
+# ---------------------------------------------------------------- what a step leaves alone
+
+
+def same(one: Any, other: Any) -> z3.BoolRef:
+    """Two records of terms are equal, field by field; the second may come from the code, with integers."""
+    equal: list[z3.BoolRef] = []
+    for field in fields(one):
+        left, right = getattr(one, field.name), getattr(other, field.name)
+        pairs = zip(left, right, strict=True) if isinstance(left, tuple) else [(left, right)]
+        equal += [a == (b.as_long() if z3.is_int_value(b) else b) for a, b in pairs]
+    return z3.And(*equal)
+
+
+def others_stay(step: Step) -> z3.BoolRef:
+    """The devices that do not act keep their memory and what they wrote."""
+    devices = [one for one in ("fplc", "hmi", "plc", "eks") if one != step.actor]
+    return z3.And(*[same(getattr(step.before, one), getattr(step.after, one)) for one in devices])
+
+
+def states_are_states(system: System) -> z3.BoolRef:
+    """Each control state is one of its module's Step; that is how the records are made."""
+    counted = [(system.fplc, FPLC), (system.hmi, HMI), (system.eks, EKS)]
+    return z3.And(*[z3.And(one.state >= 0, one.state < len(by.module.Step)) for one, by in counted])
+
+
+def history_kept(step: Step) -> z3.BoolRef:
+    """What the user did and saw, as KeyFlows records it, from touches and screens alone.
+
+    EKS-2-1, EKS-2-14, EKS-2-22, EKS-2-23
+    """
+    old, new = step.before.history, step.after.history
+    if step.actor == "insert":
+        none = [one == -1 for one in (new.touched, new.seen, new.confirmed)]
+        going_on = step.before.fplc.at(*OFFERING, *ECHOING)
+        return z3.And(*none, new.unseen == z3.Or(old.unseen, going_on))
+    if step.actor == "fplc":
+        still = step.after.fplc.at(*OFFERING, *ECHOING)
+        kept = [getattr(new, one) == getattr(old, one) for one in ("touched", "seen", "confirmed")]
+        return z3.And(*kept, new.unseen == z3.And(old.unseen, still))
+    if step.actor != "hmi":
+        return same(old, new)
+    scan = step.hmi
+    begins = z3.And(scan.before.at("Select"), scan.after.at("AwaitEcho"))
+    nothing = z3.And(new.touched == -1, *[z3.Not(scan.selects(mode)) for mode in views.LEVELS])
+    touched = z3.Or(scan.selects(new.touched), nothing)
+    shows = z3.And(scan.after.at("Confirm"), scan.after.shown == old.touched, old.touched != -1)
+    confirms = z3.And(scan.before.at("Confirm"), scan.after.at("AwaitSwitch"), scan.touches("confirm"))
+    return z3.And(
+        z3.If(begins, touched, new.touched == old.touched),
+        new.seen == z3.If(begins, -1, z3.If(shows, old.touched, old.seen)),
+        new.confirmed == z3.If(begins, -1, z3.If(confirms, old.seen, old.confirmed)),
+        new.unseen == old.unseen,
+    )
+
+
+def power_up() -> z3.BoolRef:
+    """All devices just switched on, nothing touched: `power_up` and `outputs` of the shipped code. A-19"""
+    history = [one == -1 for one in (NOW.history.touched, NOW.history.seen, NOW.history.confirmed)]
+    return z3.And(
+        same(NOW.fplc, views.first_view(FPLC)),
+        same(NOW.hmi, views.first_view(HMI)),
+        same(NOW.plc, views.first_view(PLC)),
+        same(NOW.eks, views.first_view(EKS)),
+        *history,
+        z3.Not(NOW.history.unseen),
+    )
+
+
+# ---------------------------------------------------------------- what is taken for granted
+
+
+@dataclass(frozen=True)
+class Assumption:
+    """A named formula about a step that no device guarantees; it stands in assumptions.toml or findings.toml."""
+
+    name: str
+    register: tuple[str, ...]
+    """Ids of assumptions, or of findings."""
+    of: Callable[[Step], z3.BoolRef | None]
+    """None where it says nothing about the step."""
+
+
+def _words_are_wired(step: Step) -> z3.BoolRef | None:
+    """A-21, A-25: each reader sees what the one writer of the word last wrote."""
+    now = step.before
+    if step.actor == "fplc":
+        return z3.And(step.fplc.MW03 == now.plc.MW03, step.fplc.MW07 == now.plc.MW07)
+    if step.actor == "plc":
+        seen = step.plc
+        from_fplc = z3.And(seen.MW01 == now.fplc.MW01, seen.MW05 == now.fplc.MW05)
+        return z3.And(from_fplc, seen.SelectMSO == now.hmi.SelectMSO, seen.SwitchMSO == now.hmi.SwitchMSO)
+    if step.actor == "hmi":
+        read = step.hmi
+        level = read.ReadAuthorization == now.plc.ReadAuthorization
+        return z3.And(level, read.CheckMSO == now.plc.CheckMSO)
+    return None
+
+
+def _display_is_wired(step: Step) -> z3.BoolRef | None:
+    """E-25: the mode to display is the one whose output is set; none set, none displayed."""
+    if step.actor != "hmi":
+        return None
+    active, modes = step.hmi.ActiveMSO, step.before.fplc.MSO
+    return z3.And(active >= -1, active <= 4, *[modes[mode] == (active == mode) for mode in views.LEVELS])
+
+
+def _outputs_are_wired(step: Step) -> z3.BoolRef | None:
+    """A-20: LA and the five outputs, none crossed, none broken."""
+    if step.actor != "fplc":
+        return None
+    seen, sent = step.fplc, step.before.eks
+    pairs = zip(seen.outputs, sent.outputs, strict=True)
+    return z3.And(seen.LA == sent.LA, *[one == other for one, other in pairs])
+
+
+def _words_arrive(step: Step) -> z3.BoolRef | None:
+    """A-06: when the dwell time is over, F-PLC's words stand on the bus and the panel has begun to react."""
+    if step.actor != "fplc":
+        return None
+    now = step.before
+    waits = z3.And(now.fplc.at("Start", "Settle", "AwaitZeros", "Error"), step.fplc.dwelt)
+    words = z3.And(now.plc.ReadAuthorization == now.fplc.MW01, now.plc.CheckMSO == now.fplc.MW05)
+    return z3.Implies(waits, z3.And(words, z3.Or(now.hmi.at("Inhibited"), now.fplc.MW01 != 0)))
+
+
+def _key_goes_in_without_la(step: Step) -> z3.BoolRef | None:
+    """A-07: the EKS has seen the reader empty before the next key goes in."""
+    return z3.Not(step.before.eks.LA) if step.actor == "insert" else None
+
+
+def _removal_is_noticed(step: Step) -> z3.BoolRef | None:
+    """A-07: LA does not come again before the F-PLC has seen it low."""
+    if step.actor != "eks":
+        return None
+    rises = z3.And(z3.Not(step.eks.before.LA), step.eks.after.LA)
+    return z3.Implies(rises, step.before.fplc.at(*UNKEYED))
+
+
+def _mode_is_held(step: Step) -> z3.BoolRef | None:
+    """E-24: with ON_ERROR = hold."""
+    return HOLDS if step.actor == "fplc" else None
+
+
+def _same_permissions(step: Step) -> z3.BoolRef | None:
+    """E-47, EKS-T2-2: no level permits a mode above it, and each its own."""
+    return permissions_fit(ROWS)
+
+
+ASSUMPTIONS: Final = (
+    Assumption("words are wired", ("A-21", "A-25"), _words_are_wired),
+    Assumption("the display is wired", ("A-17",), _display_is_wired),
+    Assumption("outputs are wired", ("A-20",), _outputs_are_wired),
+    Assumption("words arrive within the dwell time", ("A-06",), _words_arrive),
+    Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la),
+    Assumption("a removal is noticed before LA comes again", ("A-07",), _removal_is_noticed),
+    Assumption("the error mode holds the mode", ("E-24",), _mode_is_held),
+    Assumption("levels are ordered", ("A-03", "E-47"), _same_permissions),
+)
