@@ -8,7 +8,7 @@ there is a query that leaves it out and must then find a counterexample, so that
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,7 +17,6 @@ import z3
 from proofs.explorer.explore import disjunction
 from proofs.mode_selection.composition_guarantees import Guarantee
 from proofs.mode_selection.composition_system import (
-    NEXT,
     NOW,
     STEP,
     STEPS,
@@ -25,12 +24,10 @@ from proofs.mode_selection.composition_system import (
     Step,
     System,
     history_kept,
-    others_stay,
     power_up,
     states_are_states,
 )
 from proofs.theorem import Queries, Query, TheoremError, claim, control
-
 
 LOGIC: Final = "QF_BV"
 
@@ -74,7 +71,9 @@ class Argument:
         proved: Sequence[Proved],
     ) -> None:
         self.premises: dict[str, Premise] = {}
-        for one in (*guarantees, *assumptions, *proved):
+        self.formulas: dict[tuple[str, str, bool], z3.BoolRef] = {}
+        every: list[Premise] = [*guarantees, *assumptions, *proved]
+        for one in every:
             if one.name in self.premises:
                 raise TheoremError(f"two formulas are called {one.name!r}")
             self.premises[one.name] = one
@@ -91,7 +90,9 @@ class Argument:
                 if name not in self.premises:
                     raise TheoremError(f"{one.name!r} assumes {name!r}, which nothing discharges")
                 if name not in discharged:
-                    raise TheoremError(f"{one.name!r} assumes {name!r}, which is only proved later or from it")
+                    raise TheoremError(
+                        f"{one.name!r} assumes {name!r}, which is only proved later or from it"
+                    )
             discharged.add(one.name)
 
     def _assumed(self) -> set[str]:
@@ -111,58 +112,84 @@ class Argument:
     # ---- queries
 
     def queries(self, name: str) -> Queries:
-        """The claims that prove an invariant or a consequence, and the controls that leave one premise out."""
+        """The claims that prove an invariant or a consequence, and the controls that leave one premise out.
+
+        A step that touches nothing that an invariant speaks of needs no claim.
+        """
         one = self.premises[name]
-        if isinstance(one, Invariant):
-            given = {"power-up": power_up(), **self._at(one.assumes)}
-            yield from claim(f"{name}: at power-up", given, one.of(NOW), LOGIC)
-            for actor in STEPS:
-                yield from claim(f"{name}: {actor}", self._given(one, actor), one.of(NEXT), LOGIC)
-        elif isinstance(one, Consequence):
-            for actor in one.actors:
-                yield from claim(f"{name}: {actor}", self._given(one, actor), one.of(STEP[actor]), LOGIC)
-        else:
+        if isinstance(one, Guarantee | Assumption):
             raise TheoremError(f"{name!r} is not proved here")
+        if isinstance(one, Invariant):
+            given = {"power-up": power_up(), **self._at_power_up(one)}
+            yield from claim(f"{name}: at power-up", given, one.of(NOW), LOGIC)
+        for actor in self._actors(one):
+            yield from claim(f"{name}: {actor}", self._given(one, actor), self._then(one, actor), LOGIC)
         for left_out in one.assumes:
-            yield self.without(one, left_out)
+            yield self.without(name, left_out)
 
-    def without(self, one: Proved, left_out: str) -> Query:
+    def without(self, name: str, left_out: str) -> Query:
         """The query that must find a step against the formula when one of its premises is left out."""
+        one = self.premises[name]
+        if isinstance(one, Guarantee | Assumption):
+            raise TheoremError(f"{name!r} is not proved here")
         found: list[z3.BoolRef] = []
-        for actor in one.actors if isinstance(one, Consequence) else STEPS:
-            given = self._given(one, actor, left_out)
-            then = one.of(NEXT) if isinstance(one, Invariant) else one.of(STEP[actor])
-            found.append(z3.And(*given.values(), z3.Not(then)))
-        return control(f"{one.name}: without {left_out}", {"some step": disjunction(found)}, LOGIC)
+        for actor in self._actors(one):
+            given = self._given(one, actor)
+            fewer = self._given(one, actor, left_out)
+            if len(fewer) < len(given):
+                found.append(z3.And(*fewer.values(), z3.Not(self._then(one, actor))))
+        return control(f"{name}: without {left_out}", {"some step": disjunction(found)}, LOGIC)
 
-    def _given(self, one: Proved, actor: str, left_out: str = "") -> Mapping[str, z3.BoolRef]:
+    def _actors(self, one: Proved) -> tuple[str, ...]:
+        if isinstance(one, Consequence):
+            return one.actors
+        return tuple(
+            actor for actor in STEPS if not self._then(one, actor).eq(self._formula(one, actor, False))
+        )
+
+    def _then(self, one: Proved, actor: str) -> z3.BoolRef:
+        return self._formula(one, actor, True)
+
+    def _formula(self, one: Premise, actor: str, after: bool) -> z3.BoolRef:
+        """The formula of a premise about a step; of an invariant, before or after it."""
+        key = (one.name, actor, after)
+        if key not in self.formulas:
+            step = STEP[actor]
+            if isinstance(one, Invariant):
+                self.formulas[key] = one.of(step.after if after else step.before)
+            else:
+                self.formulas[key] = one.of(step.scan if isinstance(one, Guarantee) else step)
+        return self.formulas[key]
+
+    def _given(self, one: Proved, actor: str, left_out: str = "") -> dict[str, z3.BoolRef]:
         step = STEP[actor]
         given = {
-            "each device is in one of its states": z3.And(states_are_states(NOW), states_are_states(NEXT)),
-            "nobody else acts": others_stay(step),
+            "each device is in one of its states": z3.And(
+                states_are_states(step.before), states_are_states(step.after)
+            ),
             "what the user did and saw": history_kept(step),
         }
         if isinstance(one, Invariant):
-            given[f"{one.name}, before"] = one.of(NOW)
+            given[f"{one.name}, before"] = self._formula(one, actor, False)
         for name in one.assumes:
             if name != left_out:
-                given |= self._of(name, step)
+                given |= self._premise(self.premises[name], actor)
         return given
 
-    def _of(self, name: str, step: Step) -> dict[str, z3.BoolRef]:
-        one = self.premises[name]
+    def _premise(self, one: Premise, actor: str) -> dict[str, z3.BoolRef]:
+        """What a premise says of a step of the actor, by name; nothing where it is about others."""
         if isinstance(one, Invariant):
-            return {f"{name}, before": one.of(NOW), f"{name}, after": one.of(NEXT)}
-        if isinstance(one, Consequence):
-            return {name: one.of(step)} if step.actor in one.actors else {}
+            before, after = (self._formula(one, actor, when) for when in (False, True))
+            return {f"{one.name}, before": before} | (
+                {} if after.eq(before) else {f"{one.name}, after": after}
+            )
         if isinstance(one, Guarantee):
-            return {name: one.of(step.scan)} if one.device.name == step.actor else {}
-        formula = one.of(step)
-        return {} if formula is None else {name: formula}
+            return {one.name: self._formula(one, actor, True)} if one.device.name == actor else {}
+        if actor not in one.actors:
+            return {}
+        return {one.name: self._formula(one, actor, True)}
 
-    def _at(self, assumes: Iterable[str]) -> dict[str, z3.BoolRef]:
-        """The invariants among the names, at power-up."""
-        found = [self.premises[name] for name in assumes]
-        return {one.name: one.of(NOW) for one in found if isinstance(one, Invariant)}
-
-
+    def _at_power_up(self, one: Invariant) -> dict[str, z3.BoolRef]:
+        """The invariants that it assumes, at power-up."""
+        found = [self.premises[name] for name in one.assumes]
+        return {other.name: other.of(NOW) for other in found if isinstance(other, Invariant)}

@@ -64,7 +64,7 @@ def fplc_row(f: Fplc) -> z3.BoolRef:
     level = z3.If(f.at(*OFFERING, *ECHOING), code("RE", f.authority), code("RE", -1))
     shown = z3.If(f.at(*ECHOING), code("CH", f.selection), code("CH", -1))
     modes = [f.MSO[mode] == (f.mode == mode) for mode in LEVELS]
-    return z3.And(f.MW01 == level, f.MW05 == shown, *modes, f.ERROR == f.at("Error"))
+    return z3.And(level == f.MW01, shown == f.MW05, *modes, f.at("Error") == f.ERROR)
 
 
 def _writes_its_row(s: FplcScan) -> z3.BoolRef:
@@ -106,7 +106,7 @@ def _latched_from_mw03(s: FplcScan) -> z3.BoolRef:
     latched = z3.And(
         s.before.at("CheckSelection"),
         is_mode(s.after.selection),
-        s.MW03 == code("SE", s.after.selection),
+        code("SE", s.after.selection) == s.MW03,
         permits(s.rows, s.before.authority, s.after.selection),
     )
     return z3.Implies(s.after.at("EchoSelection"), latched)
@@ -117,7 +117,7 @@ def _echo_while_it_stands(s: FplcScan) -> z3.BoolRef:
     stands = z3.And(
         s.before.at("EchoSelection", *ECHOING),
         s.after.selection == s.before.selection,
-        s.MW03 == code("SE", s.before.selection),
+        code("SE", s.before.selection) == s.MW03,
     )
     return z3.Implies(s.after.at(*ECHOING), stands)
 
@@ -125,7 +125,7 @@ def _echo_while_it_stands(s: FplcScan) -> z3.BoolRef:
 def _switches_on_a_pair(s: FplcScan) -> z3.BoolRef:
     """EKS-2-28, EKS-2-29, EKS-SD-2, E-16, E-42"""
     mode = s.before.selection
-    pair = z3.And(s.MW03 == code("SE", mode), s.MW07 == code("SW", mode))
+    pair = z3.And(code("SE", mode) == s.MW03, code("SW", mode) == s.MW07)
     signalled = z3.And(s.LA, signals(s.outputs, s.before.accepted))
     steps = z3.And(s.before.at("Switch"), s.after.at("Settle"), s.after.mode == mode)
     return z3.Implies(s.switches, z3.And(steps, pair, signalled))
@@ -155,12 +155,12 @@ def _refuses_only_wrong_words(s: FplcScan) -> z3.BoolRef:
     """EKS-2-19, EKS-2-27, E-15, E-54, E-65: which words lead to Error while the accepted output stands"""
     early = z3.And(s.before.at("Authorize"), z3.Or(s.MW03 != 0, s.MW07 != 0))
     unasked = z3.And(s.before.at(*OFFERING), s.MW07 != 0)
-    within = [z3.And(s.MW03 == code("SE", one), permits(s.rows, s.before.authority, one)) for one in LEVELS]
+    within = [z3.And(code("SE", one) == s.MW03, permits(s.rows, s.before.authority, one)) for one in LEVELS]
     not_permitted = z3.And(s.before.at("CheckSelection"), s.MW03 != 0, z3.Not(z3.Or(*within)))
     unmatched = z3.And(
         s.before.at("CheckAcknowledgment", "Match", "Switch"),
         s.MW07 != 0,
-        s.MW07 != code("SW", s.before.selection),
+        code("SW", s.before.selection) != s.MW07,
     )
     stands = z3.And(s.LA, signals(s.outputs, s.before.accepted))
     keyed = s.before.at("Authorize", *OFFERING, *ECHOING, "Settle")
@@ -177,10 +177,7 @@ def hmi_row(h: Hmi, rows: tuple[tuple[z3.BoolRef, ...], ...]) -> z3.BoolRef:
         h.SelectMSO == z3.If(h.at(*PENDING), code("SE", h.selection), code("SE", -1)),
         h.SwitchMSO == z3.If(h.at("AwaitSwitch"), code("SW", h.selection), code("SW", -1)),
         h.shown == z3.If(h.at("Confirm"), h.selection, -1),
-        *[
-            h.enabled[mode] == z3.And(h.at("Select"), permits(rows, h.offered, mode))
-            for mode in LEVELS
-        ],
+        *[h.enabled[mode] == z3.And(h.at("Select"), permits(rows, h.offered, mode)) for mode in LEVELS],
     )
 
 
@@ -230,13 +227,9 @@ def _asks_by_the_echo(s: HmiScan) -> z3.BoolRef:
 
 def _acknowledges_by_a_touch(s: HmiScan) -> z3.BoolRef:
     """EKS-2-23, EKS-2-24, EKS-SD-5"""
-    same = z3.And(
-        s.after.selection == s.before.selection, s.CheckMSO == code("CH", s.before.selection)
-    )
+    same = z3.And(s.after.selection == s.before.selection, s.CheckMSO == code("CH", s.before.selection))
     begins = z3.And(s.before.at("Confirm"), s.touches("confirm"))
-    return z3.Implies(
-        s.after.at("AwaitSwitch"), z3.And(same, z3.Or(begins, s.before.at("AwaitSwitch")))
-    )
+    return z3.Implies(s.after.at("AwaitSwitch"), z3.And(same, z3.Or(begins, s.before.at("AwaitSwitch"))))
 
 
 def _gives_up_for_a_reason(s: HmiScan) -> z3.BoolRef:
@@ -281,7 +274,9 @@ def _copies_or_keeps(s: PlcScan) -> z3.BoolRef:
 
 def _signals_the_level_read(s: EksScan) -> z3.BoolRef:
     """EKS-2-7, EKS-2-10, EKS-KS-5, EKS-T2: with LA, one output alone is that of the level on the key"""
-    one = [z3.Implies(signals(s.after.outputs, level), s.after.level == code("RE", level)) for level in LEVELS]
+    one = [
+        z3.Implies(signals(s.after.outputs, level), s.after.level == code("RE", level)) for level in LEVELS
+    ]
     return z3.Implies(s.after.LA, z3.And(*one))
 
 

@@ -13,10 +13,21 @@ from typing import Any, Final
 
 import z3
 
+from proofs.explorer.device import Device
 from proofs.mode_selection import composition_views as views
 from proofs.mode_selection.composition_guarantees import ECHOING, OFFERING, UNKEYED
-from proofs.mode_selection.composition_views import Eks, EksScan, Fplc, FplcScan, Hmi, HmiScan, Mode
-from proofs.mode_selection.composition_views import Plc, PlcScan, permissions_fit
+from proofs.mode_selection.composition_views import (
+    Eks,
+    EksScan,
+    Fplc,
+    FplcScan,
+    Hmi,
+    HmiScan,
+    Mode,
+    Plc,
+    PlcScan,
+    permissions_fit,
+)
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
 
 STEPS: Final = ("insert", "eks", "fplc", "plc", "hmi")
@@ -66,10 +77,8 @@ class Step:
 
 
 def _system(when: str) -> System:
-    history = History(
-        *[views.small(f"user.{one}{when}") for one in ("touched", "seen", "confirmed")],
-        z3.Bool(f"user.unseen{when}"),
-    )
+    touched, seen, confirmed = (views.small(f"user.{one}{when}") for one in ("touched", "seen", "confirmed"))
+    history = History(touched, seen, confirmed, z3.Bool(f"user.unseen{when}"))
     return System(
         views.fplc_symbols(when),
         views.hmi_symbols(when),
@@ -86,44 +95,44 @@ HOLDS: Final = z3.Bool("fplc.holds_mode_on_error")
 """ON_ERROR is "hold" (E-24)."""
 
 
+def _after(actor: str) -> System:
+    """Who does not act keeps memory and words; the history changes with user, panel and F-PLC."""
+    parts = {one: getattr(NEXT if one == actor else NOW, one) for one in ("fplc", "hmi", "plc", "eks")}
+    changes = actor in ("insert", "fplc", "hmi")
+    return System(**parts, history=NEXT.history if changes else NOW.history)
+
+
 def _step(actor: str) -> Step:
-    return Step(
-        actor,
-        NOW,
-        NEXT,
-        FplcScan(
-            NOW.fplc,
-            NEXT.fplc,
-            z3.Bool("fplc reads LA"),
-            views.flags("fplc reads output"),
-            views.word("fplc reads MW03"),
-            views.word("fplc reads MW07"),
-            z3.Bool("fplc has dwelt"),
-            z3.Bool("fplc switches"),
-            HOLDS,
-            ROWS,
-        ),
-        HmiScan(
-            NOW.hmi,
-            NEXT.hmi,
-            views.word("hmi reads ReadAuthorization"),
-            views.word("hmi reads CheckMSO"),
-            views.small("hmi reads ActiveMSO"),
-            views.small("hmi touch"),
-            ROWS,
-        ),
-        PlcScan(
-            NOW.plc,
-            NEXT.plc,
-            *[views.word(f"plc reads {one}") for one in ("MW01", "MW05", "SelectMSO", "SwitchMSO")],
-        ),
-        EksScan(NOW.eks, NEXT.eks),
+    after = _after(actor)
+    fplc = FplcScan(
+        NOW.fplc,
+        after.fplc,
+        z3.Bool("fplc reads LA"),
+        views.flags("fplc reads output"),
+        views.word("fplc reads MW03"),
+        views.word("fplc reads MW07"),
+        z3.Bool("fplc has dwelt"),
+        z3.Bool("fplc switches"),
+        HOLDS,
+        ROWS,
     )
+    hmi = HmiScan(
+        NOW.hmi,
+        after.hmi,
+        views.word("hmi reads ReadAuthorization"),
+        views.word("hmi reads CheckMSO"),
+        views.small("hmi reads ActiveMSO"),
+        views.small("hmi touch"),
+        ROWS,
+    )
+    words = [views.word(f"plc reads {one}") for one in ("MW01", "MW05", "SelectMSO", "SwitchMSO")]
+    plc = PlcScan(NOW.plc, after.plc, *words)
+    return Step(actor, NOW, after, fplc, hmi, plc, EksScan(NOW.eks, after.eks))
 
 
 STEP: Final[Mapping[str, Step]] = {actor: _step(actor) for actor in STEPS}
 
-# ---------------------------------------------------------------- what a step leaves alone
+# ---------------------------------------------------------------- what a step leaves alone, and the user
 
 
 def same(one: Any, other: Any) -> z3.BoolRef:
@@ -136,15 +145,9 @@ def same(one: Any, other: Any) -> z3.BoolRef:
     return z3.And(*equal)
 
 
-def others_stay(step: Step) -> z3.BoolRef:
-    """The devices that do not act keep their memory and what they wrote."""
-    devices = [one for one in ("fplc", "hmi", "plc", "eks") if one != step.actor]
-    return z3.And(*[same(getattr(step.before, one), getattr(step.after, one)) for one in devices])
-
-
 def states_are_states(system: System) -> z3.BoolRef:
     """Each control state is one of its module's Step; that is how the records are made."""
-    counted = [(system.fplc, FPLC), (system.hmi, HMI), (system.eks, EKS)]
+    counted: list[tuple[Any, Device]] = [(system.fplc, FPLC), (system.hmi, HMI), (system.eks, EKS)]
     return z3.And(*[z3.And(one.state >= 0, one.state < len(by.module.Step)) for one, by in counted])
 
 
@@ -163,7 +166,7 @@ def history_kept(step: Step) -> z3.BoolRef:
         kept = [getattr(new, one) == getattr(old, one) for one in ("touched", "seen", "confirmed")]
         return z3.And(*kept, new.unseen == z3.And(old.unseen, still))
     if step.actor != "hmi":
-        return same(old, new)
+        return z3.BoolVal(True)
     scan = step.hmi
     begins = z3.And(scan.before.at("Select"), scan.after.at("AwaitEcho"))
     nothing = z3.And(new.touched == -1, *[z3.Not(scan.selects(mode)) for mode in views.LEVELS])
@@ -196,16 +199,17 @@ def power_up() -> z3.BoolRef:
 
 @dataclass(frozen=True)
 class Assumption:
-    """A named formula about a step that no device guarantees; it stands in assumptions.toml or findings.toml."""
+    """A named formula about a step that no device guarantees; assumptions.toml or findings.toml has it."""
 
     name: str
     register: tuple[str, ...]
     """Ids of assumptions, or of findings."""
-    of: Callable[[Step], z3.BoolRef | None]
-    """None where it says nothing about the step."""
+    of: Callable[[Step], z3.BoolRef]
+    actors: tuple[str, ...]
+    """Whose steps it is about."""
 
 
-def _words_are_wired(step: Step) -> z3.BoolRef | None:
+def _words_are_wired(step: Step) -> z3.BoolRef:
     """A-21, A-25: each reader sees what the one writer of the word last wrote."""
     now = step.before
     if step.actor == "fplc":
@@ -214,70 +218,60 @@ def _words_are_wired(step: Step) -> z3.BoolRef | None:
         seen = step.plc
         from_fplc = z3.And(seen.MW01 == now.fplc.MW01, seen.MW05 == now.fplc.MW05)
         return z3.And(from_fplc, seen.SelectMSO == now.hmi.SelectMSO, seen.SwitchMSO == now.hmi.SwitchMSO)
-    if step.actor == "hmi":
-        read = step.hmi
-        level = read.ReadAuthorization == now.plc.ReadAuthorization
-        return z3.And(level, read.CheckMSO == now.plc.CheckMSO)
-    return None
+    read = step.hmi
+    level = read.ReadAuthorization == now.plc.ReadAuthorization
+    return z3.And(level, read.CheckMSO == now.plc.CheckMSO)
 
 
-def _display_is_wired(step: Step) -> z3.BoolRef | None:
+def _display_is_wired(step: Step) -> z3.BoolRef:
     """E-25: the mode to display is the one whose output is set; none set, none displayed."""
-    if step.actor != "hmi":
-        return None
     active, modes = step.hmi.ActiveMSO, step.before.fplc.MSO
     return z3.And(active >= -1, active <= 4, *[modes[mode] == (active == mode) for mode in views.LEVELS])
 
 
-def _outputs_are_wired(step: Step) -> z3.BoolRef | None:
+def _outputs_are_wired(step: Step) -> z3.BoolRef:
     """A-20: LA and the five outputs, none crossed, none broken."""
-    if step.actor != "fplc":
-        return None
     seen, sent = step.fplc, step.before.eks
     pairs = zip(seen.outputs, sent.outputs, strict=True)
     return z3.And(seen.LA == sent.LA, *[one == other for one, other in pairs])
 
 
-def _words_arrive(step: Step) -> z3.BoolRef | None:
+def _words_arrive(step: Step) -> z3.BoolRef:
     """A-06: when the dwell time is over, F-PLC's words stand on the bus and the panel has begun to react."""
-    if step.actor != "fplc":
-        return None
     now = step.before
     waits = z3.And(now.fplc.at("Start", "Settle", "AwaitZeros", "Error"), step.fplc.dwelt)
     words = z3.And(now.plc.ReadAuthorization == now.fplc.MW01, now.plc.CheckMSO == now.fplc.MW05)
     return z3.Implies(waits, z3.And(words, z3.Or(now.hmi.at("Inhibited"), now.fplc.MW01 != 0)))
 
 
-def _key_goes_in_without_la(step: Step) -> z3.BoolRef | None:
+def _key_goes_in_without_la(step: Step) -> z3.BoolRef:
     """A-07: the EKS has seen the reader empty before the next key goes in."""
-    return z3.Not(step.before.eks.LA) if step.actor == "insert" else None
+    return z3.Not(step.before.eks.LA)
 
 
-def _removal_is_noticed(step: Step) -> z3.BoolRef | None:
+def _removal_is_noticed(step: Step) -> z3.BoolRef:
     """A-07: LA does not come again before the F-PLC has seen it low."""
-    if step.actor != "eks":
-        return None
     rises = z3.And(z3.Not(step.eks.before.LA), step.eks.after.LA)
     return z3.Implies(rises, step.before.fplc.at(*UNKEYED))
 
 
-def _mode_is_held(step: Step) -> z3.BoolRef | None:
+def _mode_is_held(step: Step) -> z3.BoolRef:
     """E-24: with ON_ERROR = hold."""
-    return HOLDS if step.actor == "fplc" else None
+    return HOLDS
 
 
-def _same_permissions(step: Step) -> z3.BoolRef | None:
+def _same_permissions(step: Step) -> z3.BoolRef:
     """E-47, EKS-T2-2: no level permits a mode above it, and each its own."""
     return permissions_fit(ROWS)
 
 
 ASSUMPTIONS: Final = (
-    Assumption("words are wired", ("A-21", "A-25"), _words_are_wired),
-    Assumption("the display is wired", ("A-17",), _display_is_wired),
-    Assumption("outputs are wired", ("A-20",), _outputs_are_wired),
-    Assumption("words arrive within the dwell time", ("A-06",), _words_arrive),
-    Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la),
-    Assumption("a removal is noticed before LA comes again", ("A-07",), _removal_is_noticed),
-    Assumption("the error mode holds the mode", ("E-24",), _mode_is_held),
-    Assumption("levels are ordered", ("A-03", "E-47"), _same_permissions),
+    Assumption("words are wired", ("A-21", "A-25"), _words_are_wired, ("fplc", "plc", "hmi")),
+    Assumption("the display is wired", ("A-17",), _display_is_wired, ("hmi",)),
+    Assumption("outputs are wired", ("A-20",), _outputs_are_wired, ("fplc",)),
+    Assumption("words arrive within the dwell time", ("A-06",), _words_arrive, ("fplc",)),
+    Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la, ("insert",)),
+    Assumption("a removal is noticed before LA comes again", ("A-07",), _removal_is_noticed, ("eks",)),
+    Assumption("the error mode holds the mode", ("E-24",), _mode_is_held, ("fplc",)),
+    Assumption("levels are ordered", ("A-03", "E-47"), _same_permissions, STEPS),
 )

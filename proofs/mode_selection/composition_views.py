@@ -236,18 +236,30 @@ def small(name: str) -> z3.BitVecRef:
 
 def fplc_symbols(when: str) -> Fplc:
     """An F-PLC of free symbols; `when` is the end of their names."""
-    numbers = [small(f"fplc.{one}{when}") for one in ("state", "accepted", "authority", "selection", "mode")]
-    words = [word(f"fplc.{one}{when}") for one in ("MW01", "MW05")]
-    return Fplc(*numbers, *words, flags(f"fplc.MSO{when}"), z3.Bool(f"fplc.ERROR{when}"))
+    return Fplc(
+        state=small(f"fplc.state{when}"),
+        accepted=small(f"fplc.accepted{when}"),
+        authority=small(f"fplc.authority{when}"),
+        selection=small(f"fplc.selection{when}"),
+        mode=small(f"fplc.mode{when}"),
+        MW01=word(f"fplc.MW01{when}"),
+        MW05=word(f"fplc.MW05{when}"),
+        MSO=flags(f"fplc.MSO{when}"),
+        ERROR=z3.Bool(f"fplc.ERROR{when}"),
+    )
 
 
 def hmi_symbols(when: str) -> Hmi:
     """A panel of free symbols."""
     return Hmi(
-        *[small(f"hmi.{one}{when}") for one in ("state", "offered", "selection")],
-        *[word(f"hmi.{one}{when}") for one in ("SelectMSO", "SwitchMSO")],
-        flags(f"hmi.enabled{when}"),
-        *[small(f"hmi.{one}{when}") for one in ("shown", "active")],
+        state=small(f"hmi.state{when}"),
+        offered=small(f"hmi.offered{when}"),
+        selection=small(f"hmi.selection{when}"),
+        SelectMSO=word(f"hmi.SelectMSO{when}"),
+        SwitchMSO=word(f"hmi.SwitchMSO{when}"),
+        enabled=flags(f"hmi.enabled{when}"),
+        shown=small(f"hmi.shown{when}"),
+        active=small(f"hmi.active{when}"),
     )
 
 
@@ -287,12 +299,18 @@ def _rows(params: Any) -> tuple[Flags, ...]:
 
 
 def _fplc(state: Any, out: Any) -> Fplc:
-    memory = [_term(getattr(state, one)) for one in ("state", "accepted", "authority", "selection", "mode")]
-    if out is None:
-        free = fplc_symbols(" before")
-        return Fplc(*memory, free.MW01, free.MW05, free.MSO, free.ERROR)
-    modes = tuple(_term(getattr(out, f"MSO_{mode}")) for mode in LEVELS)
-    return Fplc(*memory, _word(out.MW01), _word(out.MW05), modes, _term(out.ERROR))
+    free = fplc_symbols(" before")
+    return Fplc(
+        state=_term(state.state),
+        accepted=_term(state.accepted),
+        authority=_term(state.authority),
+        selection=_term(state.selection),
+        mode=_term(state.mode),
+        MW01=_word(out.MW01) if out else free.MW01,
+        MW05=_word(out.MW05) if out else free.MW05,
+        MSO=tuple(_term(getattr(out, f"MSO_{mode}")) for mode in LEVELS) if out else free.MSO,
+        ERROR=_term(out.ERROR) if out else free.ERROR,
+    )
 
 
 def _fplc_scan(scan: Scan, result: Any) -> FplcScan:
@@ -315,13 +333,16 @@ def _fplc_scan(scan: Scan, result: Any) -> FplcScan:
 
 
 def _hmi(state: Any, out: Any) -> Hmi:
-    memory = [_term(getattr(state, one)) for one in ("state", "offered", "selection")]
-    if out is None:
-        free = hmi_symbols(" before")
-        return Hmi(*memory, free.SelectMSO, free.SwitchMSO, free.enabled, free.shown, free.active)
-    enabled = tuple(_term(one) for one in out.enabled)
+    free = hmi_symbols(" before")
     return Hmi(
-        *memory, _word(out.SelectMSO), _word(out.SwitchMSO), enabled, _term(out.shown), _term(out.active)
+        state=_term(state.state),
+        offered=_term(state.offered),
+        selection=_term(state.selection),
+        SelectMSO=_word(out.SelectMSO) if out else free.SelectMSO,
+        SwitchMSO=_word(out.SwitchMSO) if out else free.SwitchMSO,
+        enabled=tuple(_term(one) for one in out.enabled) if out else free.enabled,
+        shown=_term(out.shown) if out else free.shown,
+        active=_term(out.active) if out else free.active,
     )
 
 
