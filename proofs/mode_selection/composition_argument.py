@@ -72,15 +72,18 @@ class Argument:
     ) -> None:
         self.premises: dict[str, Premise] = {}
         self.formulas: dict[tuple[str, str, bool], z3.BoolRef] = {}
-        every: list[Premise] = [*guarantees, *assumptions, *proved]
+        every: list[Premise] = list(guarantees)
+        every += assumptions
+        every += proved
         for one in every:
             if one.name in self.premises:
                 raise TheoremError(f"two formulas are called {one.name!r}")
             self.premises[one.name] = one
         self.proved = tuple(proved)
         self.order = tuple(one.name for one in proved)
-        self._check_order({one.name for one in (*guarantees, *assumptions)})
-        unused = [one.name for one in (*guarantees, *assumptions) if one.name not in self._assumed()]
+        given = [one.name for one in every if not isinstance(one, Invariant | Consequence)]
+        self._check_order(set(given))
+        unused = [name for name in given if name not in self._assumed()]
         if unused:
             raise TheoremError(f"no proof uses {', '.join(map(repr, unused))}")
 

@@ -129,7 +129,7 @@ def echo_is_the_touch(s: System) -> z3.BoolRef:
 
 
 def asked_before_confirmed(s: System) -> z3.BoolRef:
-    """EKS-2-22, EKS-2-23: while the panel waits for the confirmation, nothing of this selection is confirmed"""
+    """EKS-2-22, EKS-2-23: while the panel asks, nothing of this selection is confirmed"""
     user = s.history
     return z3.And(
         z3.Implies(s.hmi.at("AwaitEcho", "Confirm"), user.confirmed == -1),

@@ -14,7 +14,6 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.device import LOGIC, Device
-from proofs.explorer.explore import conjunction
 from proofs.mode_selection.composition_views import (
     LEVELS,
     EksScan,
@@ -24,14 +23,14 @@ from proofs.mode_selection.composition_views import (
     HmiScan,
     PlcScan,
     code,
+    ends_of,
     is_mode,
     none_of,
     permits,
-    scans_of,
     signals,
 )
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
-from proofs.theorem import Queries, TheoremError, claim, theorem
+from proofs.theorem import Queries, claim, theorem
 
 QUIET: Final = ("Idle", "PulseOnes", "PulseZeros", "OneOutput", "Authorize")
 """No level is published: a key is awaited, or is being read."""
@@ -202,7 +201,7 @@ def _closes_for_a_reason(s: HmiScan) -> z3.BoolRef:
 
 
 def _selects_by_a_touch(s: HmiScan) -> z3.BoolRef:
-    """EKS-2-14, EKS-2-15, E-20: a selection begins by the touch of an offered mode; until the echo it waits"""
+    """EKS-2-14, EKS-2-15, E-20: begun by the touch of an offered mode; until the echo it waits"""
     mode = s.after.selection
     touched = z3.And(
         s.before.at("Select"),
@@ -327,28 +326,14 @@ GUARANTEES: Final = (
 def _keeps_its_guarantees(device: Device) -> Queries:
     """For each control state and guarantee: no path of the shipped `step` breaks it.
 
-    Where a formula is true as soon as the end of a path is put in, it is not asked again for that end; of a
-    device with no other formula all are asked.
+    What is true as soon as the ends of the paths are put in is not asked, unless nothing else is to be asked.
     """
-    claims = list(_claims(device, simple=False))
-    yield from claims or _claims(device, simple=True)
-
-
-def _claims(device: Device, simple: bool) -> Queries:
-    for scan, ends in scans_of(device):
-        for path in scan.paths:
-            if path.raised is not None:
-                raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
-        for one in guarantees_of(device):
-            formulas = [(condition, one.of(view)) for condition, view in ends]
-            asked = [
-                z3.Implies(condition, formula)
-                for condition, formula in formulas
-                if simple or not z3.is_true(z3.simplify(formula))
-            ]
-            if asked:
-                given = {"all in their ranges": scan.premise}
-                yield from claim(f"{scan.control.value}: {one.name}", given, conjunction(asked), LOGIC)
+    pairs = [(ends, one) for ends in ends_of(device) for one in guarantees_of(device)]
+    asked = [(ends, one, ends.always(one.of)) for ends, one in pairs]
+    asked = [(ends, one, then) for ends, one, then in asked if not z3.is_true(then)]
+    for ends, one, then in asked or [(ends, one, ends.always(one.of, whole=True)) for ends, one in pairs]:
+        given = {"all in their ranges": ends.scan.premise}
+        yield from claim(f"{ends.scan.control.value}: {one.name}", given, then, LOGIC)
 
 
 def guarantees_of(device: Device) -> tuple[Guarantee, ...]:

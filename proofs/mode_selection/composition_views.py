@@ -8,7 +8,7 @@ not needed here); modes and levels are -1 to 4.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from types import ModuleType
@@ -17,11 +17,12 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.device import Device, Scan, scans
+from proofs.explorer.ends import TRUE, Tree, always, ends, tree
 from proofs.explorer.explore import disjunction
-from proofs.explorer.records import terms
 from proofs.explorer.values import Proxy
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
 from proofs.mode_selection.ranges import codes
+from proofs.theorem import TheoremError
 from proofs.words import BITS, constant
 from refimpl.mode_selection import eks, fplc, hmi
 from refimpl.mode_selection.code_tables import NONE, ZERO
@@ -385,22 +386,39 @@ def _eks_scan(scan: Scan, result: Any) -> EksScan:
 _VIEW: Final = {"fplc": _fplc_scan, "hmi": _hmi_scan, "plc": _plc_scan, "eks": _eks_scan}
 
 
-def scans_of(device: Device) -> Iterator[tuple[Scan, list[tuple[z3.BoolRef, Any]]]]:
-    """For each control state: the scan, and each different end with the condition that leads to it."""
+@dataclass(frozen=True)
+class Ends:
+    """A scan from one control state: the tree of its paths, and what each end of it looks like."""
+
+    scan: Scan
+    root: Tree
+    views: dict[int, Any]
+
+    def always(self, formula: Callable[[Any], z3.BoolRef], whole: bool = False) -> z3.BoolRef:
+        """To whichever end the scan comes, the formula is true of it.
+
+        Left out, unless the whole is asked for, are ends of which it is true as soon as they are put in.
+        """
+        found = {number: formula(view) for number, view in self.views.items()}
+        if not whole:
+            found = {number: one if _is_open(one) else TRUE for number, one in found.items()}
+        return always(self.root, lambda end: found[id(end)])
+
+
+def _is_open(formula: z3.BoolRef) -> bool:
+    return not z3.is_true(z3.simplify(formula))
+
+
+def ends_of(device: Device) -> tuple[Ends, ...]:
+    """All scans of a device, by control state. Raises TheoremError where a path raises."""
+    made = []
     for scan in scans(device):
-        ends: dict[object, tuple[list[z3.BoolRef], Any]] = {}
         for path in scan.paths:
-            leaves = tuple(_identity(leaf) for _, leaf in terms(path.result))
-            ends.setdefault(leaves, ([], path.result))[0].append(path.condition)
-        view = _VIEW[device.name]
-        yield (
-            scan,
-            [(disjunction(conditions), view(scan, result)) for conditions, result in ends.values()],
-        )
-
-
-def _identity(leaf: object) -> object:
-    return ("term", leaf.get_id()) if isinstance(leaf, z3.ExprRef) else repr(leaf)
+            if path.raised is not None:
+                raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
+        root, view = tree(scan.paths), _VIEW[device.name]
+        made.append(Ends(scan, root, {id(end): view(scan, end.result) for end in ends(root)}))
+    return tuple(made)
 
 
 def first_view(device: Device) -> Any:
