@@ -19,7 +19,8 @@ from proofs.theorem import Queries, Query, theorem
 
 # ---------------------------------------------------------------- the argument
 
-ROWS_HOLD: Final = "the words are the rows of the states"
+FPLC_ROW: Final = "the words of the F-PLC are the row of its state"
+HMI_ROW: Final = "words and screen of the panel are the row of its state"
 LEVEL: Final = "the level is that of the accepted output"
 FORGOTTEN: Final = "nothing is kept without a key"
 OFFERED: Final = "a pending selection was offered"
@@ -62,11 +63,14 @@ ARGUMENT: Final = Argument(
     GUARANTEES,
     ASSUMPTIONS,
     (
-        Invariant(ROWS_HOLD, formulas.rows, (F_ROW, H_ROW), "at_most_one_mode_output_is_set_at_any_moment"),
+        Invariant(
+            FPLC_ROW, formulas.fplc_writes_its_row, (F_ROW,), "at_most_one_mode_output_is_set_at_any_moment"
+        ),
+        Invariant(HMI_ROW, formulas.hmi_writes_its_row, (H_ROW,), "the_panel_sends_only_what_it_offered"),
         Invariant(
             "one mode output",
             formulas.one_mode_output,
-            (ROWS_HOLD,),
+            (FPLC_ROW,),
             "at_most_one_mode_output_is_set_at_any_moment",
         ),
         Invariant(
@@ -90,13 +94,13 @@ ARGUMENT: Final = Argument(
         Invariant(
             "words zero without key",
             formulas.words_zero_without_key,
-            (ROWS_HOLD, LEVEL),
+            (FPLC_ROW, LEVEL),
             "the_fplc_keeps_the_level_of_one_key_and_echoes_only_what_it_permits",
         ),
         Invariant(
             "the echo is the selection",
             formulas.echo_is_the_selection,
-            (ROWS_HOLD, LEVEL),
+            (FPLC_ROW, LEVEL),
             "the_fplc_keeps_the_level_of_one_key_and_echoes_only_what_it_permits",
         ),
         Invariant(
@@ -114,7 +118,7 @@ ARGUMENT: Final = Argument(
         Invariant(
             "inhibited sends zeros",
             formulas.inhibited_sends_zeros,
-            (ROWS_HOLD,),
+            (HMI_ROW,),
             "the_panel_sends_only_what_it_offered",
         ),
         Invariant(
@@ -132,26 +136,27 @@ ARGUMENT: Final = Argument(
         Invariant(
             ZEROS,
             formulas.idle_means_zeros,
-            (ROWS_HOLD, F_ZEROS, H_OPEN, COPIES, WIRED, ARRIVE),
+            (FPLC_ROW, HMI_ROW, F_ZEROS, H_OPEN, COPIES, WIRED, ARRIVE),
             "every_insertion_begins_with_zeros_in_all_devices",
         ),
         Invariant(
             SCREEN,
             formulas.screen_has_the_level,
-            (ROWS_HOLD, ZEROS, F_OFFER, F_LATCH, F_ECHO, F_ONE, H_OPEN, COPIES, WIRED, ARRIVE),
+            (FPLC_ROW, ZEROS, F_OFFER, F_LATCH, F_ECHO, F_ONE, H_OPEN, COPIES, WIRED, ARRIVE),
             "all_words_on_the_way_belong_to_one_selection",
         ),
         Invariant(
             ECHO,
             formulas.echo_on_the_bus,
-            (ROWS_HOLD, ZEROS, F_OFFER, F_LATCH, F_ECHO, COPIES, WIRED, ARRIVE),
+            (FPLC_ROW, ZEROS, F_OFFER, F_LATCH, F_ECHO, COPIES, WIRED, ARRIVE),
             "all_words_on_the_way_belong_to_one_selection",
         ),
         Invariant(
             WORDS,
             formulas.words_of_one_selection,
             (
-                ROWS_HOLD,
+                FPLC_ROW,
+                HMI_ROW,
                 LEVEL,
                 ZEROS,
                 SCREEN,
@@ -187,7 +192,19 @@ ARGUMENT: Final = Argument(
         Invariant(
             HISTORY,
             formulas.touched_seen_confirmed,
-            (ROWS_HOLD, LEVEL, WORDS, ZEROS, F_OFFER, F_LATCH, F_ECHO, H_SELECT, H_ACKNOWLEDGE, ARRIVE),
+            (
+                FPLC_ROW,
+                HMI_ROW,
+                LEVEL,
+                WORDS,
+                ZEROS,
+                F_OFFER,
+                F_LATCH,
+                F_ECHO,
+                H_SELECT,
+                H_ACKNOWLEDGE,
+                ARRIVE,
+            ),
             "the_mode_that_becomes_active_was_touched_seen_and_confirmed",
         ),
         Consequence(
@@ -207,7 +224,7 @@ ARGUMENT: Final = Argument(
         Invariant(
             "the echo is the touch",
             formulas.echo_is_the_touch,
-            (ROWS_HOLD, UNSEEN, HISTORY),
+            (FPLC_ROW, UNSEEN, HISTORY),
             "the_echo_is_of_this_users_touch",
         ),
         Consequence(
@@ -267,7 +284,7 @@ ARGUMENT: Final = Argument(
         Invariant(
             DISPLAYED,
             formulas.displays_or_switched,
-            (ROWS_HOLD, LEVEL, MODE, WORDS, F_SWITCH, F_MODE, HELD, H_ROW, WIRED, DISPLAY_WIRED),
+            (FPLC_ROW, LEVEL, MODE, WORDS, F_SWITCH, F_MODE, HELD, H_ROW, WIRED, DISPLAY_WIRED),
             "the_panel_displays_the_active_mode_while_a_key_is_awaited",
         ),
         Invariant(
@@ -292,7 +309,7 @@ ARGUMENT: Final = Argument(
         Invariant(
             "no offer beyond the level",
             formulas.no_offer_beyond_the_level,
-            (ROWS_HOLD, FORGOTTEN, SCREEN),
+            (HMI_ROW, FORGOTTEN, SCREEN),
             "the_panel_offers_nothing_beyond_the_level_in_force",
         ),
         Consequence(

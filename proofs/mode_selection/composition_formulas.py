@@ -27,8 +27,14 @@ HOLDING: Final = (*OFFERING, *ECHOING, "Settle")
 # ---------------------------------------------------------------- of one moment
 
 
-def rows(s: System) -> z3.BoolRef:
-    return z3.And(fplc_row(s.fplc), hmi_row(s.hmi, ROWS))
+def fplc_writes_its_row(s: System) -> z3.BoolRef:
+    """EKS-2-12, EKS-2-20, EKS-8-6"""
+    return fplc_row(s.fplc)
+
+
+def hmi_writes_its_row(s: System) -> z3.BoolRef:
+    """EKS-2-14, EKS-2-15, EKS-2-22, EKS-2-24, EKS-8-9"""
+    return hmi_row(s.hmi, ROWS)
 
 
 def one_mode_output(s: System) -> z3.BoolRef:

@@ -266,8 +266,8 @@ def _same_permissions(step: Step) -> z3.BoolRef:
 
 
 ASSUMPTIONS: Final = (
-    Assumption("words are wired", ("A-21", "A-25"), _words_are_wired, ("fplc", "plc", "hmi")),
-    Assumption("the display is wired", ("A-17",), _display_is_wired, ("hmi",)),
+    Assumption("words are wired", ("A-01", "A-21", "A-25"), _words_are_wired, ("fplc", "plc", "hmi")),
+    Assumption("the display is wired", ("E-25",), _display_is_wired, ("hmi",)),
     Assumption("outputs are wired", ("A-20",), _outputs_are_wired, ("fplc",)),
     Assumption("words arrive within the dwell time", ("A-06",), _words_arrive, ("fplc",)),
     Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la, ("insert",)),

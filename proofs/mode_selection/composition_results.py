@@ -1,0 +1,197 @@
+"""Each property of the whole system with TLC's verdict and ours, side by side; none is left out.
+
+TLC's rows are read from runs.toml: every run of the whole system that must hold, with our reading of the
+note, and every run that breaks an assumption. Which environments a proof covers is computed from what it
+rests on: where it assumes nothing of words, it holds with any words (`corrupting`); where nothing of the EKS
+and its wires, with any LA and outputs (`faulty_eks`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+from modeproof.registers import Document, Run, load_document
+from proofs.mode_selection import composition_system as system
+from proofs.mode_selection.composition import (
+    ARGUMENT,
+    INTENT,
+    ONLY_BY_SWITCHING,
+    OUTPUTS_WIRED,
+    WIRED,
+    WITHIN_KEY,
+    ZEROS,
+)
+from proofs.mode_selection.composition_argument import Argument
+from proofs.mode_selection.composition_guarantees import Guarantee
+from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC, ROOT
+from proofs.theorem import TheoremError
+
+FORMULA: Final[Mapping[str, str]] = {
+    "AtMostOneModeOutput": "one mode output",
+    "OneOutputOutsideThePulse": "one output outside the pulse",
+    "NoOutputWithoutLA": "no output without LA",
+    "EchoIsTheSelection": "the echo is the selection",
+    "WordsZeroWithoutKey": "words zero without key",
+    "SelectionWithinAuthority": "selection within authority",
+    "SelectionWithinOffer": "selection within offer",
+    "InhibitedSendsZeros": "inhibited sends zeros",
+    "EchoIsTheTouch": "the echo is the touch",
+    "IdleMeansZeros": ZEROS,
+    "DisplayIsTheMode": "the panel displays the mode",
+    "SwitchNeedsMatchingPair": "the pair",
+    "AuthorizationRespected": WITHIN_KEY,
+    "NeverBeyondTheKey": WITHIN_KEY,
+    "NoChangeWithoutLA": "with LA",
+    "NoChangeBesideSwitchover": ONLY_BY_SWITCHING,
+    "UserIntent": INTENT,
+    "NothingButTheTouch": "nothing but the touch",
+    "NoWordIsRefused": "no word is refused",
+    "NoOfferBeyondTheLevel": "no offer beyond the level",
+    "RefinesModeSelection": "the contract",
+}
+"""Each property of properties.toml that is proved here, with the formula that says it."""
+
+FORMULA_IN: Final[Mapping[tuple[str, str], str]] = {
+    ("SwitchNeedsMatchingPair", "corrupting"): "the pair read",
+}
+"""Where words may be wrong, the pair is the one that the F-PLC reads."""
+
+MUST_HOLD: Final[Mapping[str, str]] = {"MC": "HOLDS", "LIVE": "HOLDS"}
+"""Kinds of runs that must hold, with TLC's verdict on them."""
+SOUND: Final[Mapping[str, tuple[str, ...]]] = {
+    FPLC.name: ("A-18",),
+    HMI.name: ("A-13", "A-23"),
+    PLC.name: ("A-12",),
+    EKS.name: (),
+}
+"""What it means of a device, in assumptions.toml, that it is refimpl's."""
+POWER_UP: Final = "A-19"
+"""Every step is a scan or the user's: no device starts again by itself."""
+LIVENESS: Final = "something must happen: that needs fairness and a measure that shrinks; TLC alone"
+BELOW_DISTANCE: Final = (
+    "with any words it is false; TLC tries one word that turns into no code, which a proof has yet to follow"
+)
+NOT_PROVED: Final[Mapping[str, str]] = {
+    "LAOnlyForAcceptedKeys": "of the EKS alone and of its memory, not of the devices together",
+    "GoalReached": LIVENESS,
+    "RemovalLeadsToIdle": LIVENESS,
+    "NoErrorWithoutFault": "it needs all devices to keep their deadlines (A-08, A-09), and time has no"
+    " durations here; proved of it is that no word is refused",
+}
+NOT_PROVED_IN: Final[Mapping[tuple[str, str], str]] = {
+    (
+        "NeverBeyondTheKey",
+        "faulty_eks",
+    ): "it rests on the test pulse and on A-31 (slow users)",
+    ("UserIntent", "corrupting"): BELOW_DISTANCE,
+    ("NothingButTheTouch", "corrupting"): BELOW_DISTANCE,
+    ("UserIntent", "faulty_eks"): "proved for any LA and outputs that show a change of key to the F-PLC;"
+    " that one broken wire leaves it that is not proved",
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One property in one environment.
+
+    theorem: what proves it, or "". reason: why nothing does. rests_on: assumptions of the register.
+    """
+
+    id: str
+    environment: str
+    runs: tuple[str, ...]
+    tlc: str
+    theorem: str
+    rests_on: tuple[str, ...]
+    reason: str
+
+
+def rows(document: Document | None = None, argument: Argument = ARGUMENT) -> tuple[Row, ...]:
+    """A row for each property and environment that a run of the whole system judges, in the register's order.
+
+    Raises TheoremError for a property that has neither a formula nor a reason.
+    """
+    known = document or load_document(ROOT, "mode_selection")
+    ids = [one.id for one in known.properties]
+    judged: dict[tuple[str, str], list[Run]] = {}
+    for run in known.runs:
+        if run.module.startswith("KeyFlows") and run.kind in MUST_HOLD and _our_reading(run):
+            for name in run.properties:
+                if name in ids:
+                    judged.setdefault((name, run.environment), []).append(run)
+    order = sorted(judged, key=lambda key: (ids.index(key[0]), key[1]))
+    return tuple(_row(name, environment, judged[name, environment], argument) for name, environment in order)
+
+
+def _our_reading(run: Run) -> bool:
+    """No reading of the note is restored in the run."""
+    text = (ROOT / "spec" / "mode_selection" / run.cfg).read_text(encoding="utf-8")
+    return "LITERAL = {}" in text
+
+
+def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Row:
+    tlc = MUST_HOLD[runs[0].kind]
+    names = tuple(one.id for one in runs)
+    reason = NOT_PROVED.get(name, "") or NOT_PROVED_IN.get((name, environment), "")
+    formula = FORMULA_IN.get((name, environment), FORMULA.get(name, ""))
+    if not reason and not formula:
+        raise TheoremError(f"{name}: neither a formula proves it nor a reason says why none does")
+    if reason:
+        return Row(name, environment, names, tlc, "", (), reason)
+    if environment not in environments(formula, argument):
+        raise TheoremError(f"{name}: {formula!r} rests on what environment {environment} does not keep")
+    theorem = next(one.theorem for one in argument.proved if one.name == formula)
+    return Row(name, environment, names, tlc, theorem, register_of(formula, argument), "")
+
+
+def environments(formula: str, argument: Argument = ARGUMENT) -> frozenset[str]:
+    """The environments in which a proved formula holds, by what it rests on."""
+    rests_on = argument.rests_on(formula)
+    devices = {one.device.name for one in map(argument.premises.get, rests_on) if isinstance(one, Guarantee)}
+    found = {"honest"}
+    if WIRED not in rests_on:
+        found.add("corrupting")
+    if OUTPUTS_WIRED not in rests_on and EKS.name not in devices:
+        found.add("faulty_eks")
+    return frozenset(found)
+
+
+def register_of(formula: str, argument: Argument = ARGUMENT) -> tuple[str, ...]:
+    """The assumptions and findings of the registers that a proved formula rests on."""
+    found: set[str] = set()
+    for name in (formula, *argument.rests_on(formula)):
+        one = argument.premises[name]
+        if isinstance(one, system.Assumption):
+            found.update(one.register)
+        elif isinstance(one, Guarantee):
+            found.update((*SOUND[one.device.name], POWER_UP))
+    return tuple(sorted(found))
+
+
+def broken(document: Document | None = None) -> tuple[tuple[str, str, str], ...]:
+    """What TLC finds when an assumption breaks: assumption, run, property, of the properties proved here."""
+    known = document or load_document(ROOT, "mode_selection")
+    runs = {one.id: one for one in known.runs}
+    return tuple(
+        (one.id, name, runs[name].property)
+        for one in known.assumptions
+        for name in one.breaks
+        if runs[name].module.startswith("KeyFlows") and runs[name].property in FORMULA
+    )
+
+
+def table(verdict_of: Callable[[str], str]) -> str:
+    """The table in Markdown; `verdict_of` gives the verdict on a theorem by its name."""
+    lines = [
+        "| property | environment | TLC | by theorem | theorem, or why there is none | rests on |",
+        "|---|---|---|---|---|---|",
+    ]
+    for one in rows():
+        ours = verdict_of(one.theorem) if one.theorem else "not proved"
+        why = f"`{one.theorem}`" if one.theorem else one.reason
+        lines.append(
+            f"| {one.id} | {one.environment} | {one.tlc} | {ours} | {why} | {', '.join(one.rests_on)} |"
+        )
+    return "\n".join(lines) + "\n"
