@@ -421,11 +421,16 @@ def ends_of(device: Device) -> tuple[Ends, ...]:
     return tuple(made)
 
 
+def view_of(device: Device, state: Any, outputs: Any) -> Any:
+    """The record of a device with this memory and these outputs, from the shipped code."""
+    if device is PLC:
+        return _plc(outputs)
+    build = {FPLC.name: _fplc, HMI.name: _hmi, EKS.name: _eks}
+    return build[device.name](state, outputs)
+
+
 def first_view(device: Device) -> Any:
     """The device as it is after power-up, from the shipped `power_up` and `outputs`. A-19"""
     params = device.module.Params(lambda data: 0) if device is EKS else device.module.Params()
     state = device.module.power_up(params)
-    build = {FPLC.name: _fplc, HMI.name: _hmi, EKS.name: _eks}
-    if device is PLC:
-        return _plc(state)
-    return build[device.name](state, device.module.outputs(state))
+    return view_of(device, state, device.module.outputs(state))
