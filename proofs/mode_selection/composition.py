@@ -336,7 +336,11 @@ def proved_by(name: str) -> tuple[Proved, ...]:
     return tuple(one for one in ARGUMENT.proved if one.theorem == name)
 
 
-@theorem(clauses=["EKS-KS-5", "EKS-SD-6", "EKS-FD-1"], findings=[])
+@theorem(
+    clauses=["EKS-KS-5", "EKS-SD-6", "EKS-FD-1"],
+    findings=[],
+    properties=["AtMostOneModeOutput"],
+)
 def at_most_one_mode_output_is_set_at_any_moment() -> Queries:
     """At every moment, whatever the devices do and in any order: at most one mode output is set, and what
     each device last wrote is the row of its state.
@@ -347,6 +351,7 @@ def at_most_one_mode_output_is_set_at_any_moment() -> Queries:
 @theorem(
     clauses=["EKS-2-11", "EKS-2-12", "EKS-2-18", "EKS-2-20", "EKS-6-12", "EKS-8-6"],
     findings=["E-12", "E-17", "E-18", "E-27"],
+    properties=["SelectionWithinAuthority", "WordsZeroWithoutKey", "EchoIsTheSelection"],
 )
 def the_fplc_keeps_the_level_of_one_key_and_echoes_only_what_it_permits() -> Queries:
     """At every moment, whatever words, outputs and times the F-PLC sees: its level is that of the accepted
@@ -356,7 +361,11 @@ def the_fplc_keeps_the_level_of_one_key_and_echoes_only_what_it_permits() -> Que
     yield from _proofs_of("the_fplc_keeps_the_level_of_one_key_and_echoes_only_what_it_permits")
 
 
-@theorem(clauses=["EKS-2-14", "EKS-8-8", "EKS-8-9", "EKS-SD-4"], findings=[])
+@theorem(
+    clauses=["EKS-2-14", "EKS-8-8", "EKS-8-9", "EKS-SD-4"],
+    findings=[],
+    properties=["SelectionWithinOffer", "InhibitedSendsZeros"],
+)
 def the_panel_sends_only_what_it_offered() -> Queries:
     """At every moment, whatever stands on the bus and is touched: the panel's selection is one that the
     level it was opened with permits, and while it is inhibited it sends zeros.
@@ -364,7 +373,11 @@ def the_panel_sends_only_what_it_offered() -> Queries:
     yield from _proofs_of("the_panel_sends_only_what_it_offered")
 
 
-@theorem(clauses=["EKS-KS-5", "EKS-2-7", "EKS-2-10", "EKS-8-5", "EKS-SD-2"], findings=["E-02"])
+@theorem(
+    clauses=["EKS-KS-5", "EKS-2-7", "EKS-2-10", "EKS-8-5", "EKS-SD-2"],
+    findings=["E-02"],
+    properties=["OneOutputOutsideThePulse", "NoOutputWithoutLA"],
+)
 def the_eks_signals_one_level_and_only_with_la() -> Queries:
     """At every moment, whatever is put into the reader: the EKS sets several outputs in its test pulse
     only, none without LA but for the one scan before they are cleared, and one output alone, with LA, is
@@ -373,7 +386,11 @@ def the_eks_signals_one_level_and_only_with_la() -> Queries:
     yield from _proofs_of("the_eks_signals_one_level_and_only_with_la")
 
 
-@theorem(clauses=["EKS-8-6", "EKS-8-12", "EKS-8-18", "EKS-SD-9"], findings=["E-17", "E-27", "E-52"])
+@theorem(
+    clauses=["EKS-8-6", "EKS-8-12", "EKS-8-18", "EKS-SD-9"],
+    findings=["E-17", "E-27", "E-52"],
+    properties=["IdleMeansZeros"],
+)
 def every_insertion_begins_with_zeros_in_all_devices() -> Queries:
     """Until a key is accepted, every word in every device is zero and the panel is inhibited, whatever the
     EKS signals.
@@ -404,7 +421,9 @@ def no_key_is_changed_behind_the_back_of_the_fplc() -> Queries:
 
 
 @theorem(
-    clauses=["EKS-2-14", "EKS-2-22", "EKS-2-23", "EKS-SD-5", "EKS-BD-3"], findings=["E-15", "E-17", "E-52"]
+    clauses=["EKS-2-14", "EKS-2-22", "EKS-2-23", "EKS-SD-5", "EKS-BD-3"],
+    findings=["E-15", "E-17", "E-52"],
+    properties=["UserIntent", "NothingButTheTouch"],
 )
 def the_mode_that_becomes_active_was_touched_seen_and_confirmed() -> Queries:
     """With an honest panel, the mode that becomes active is the one that the user touched, saw and
@@ -417,13 +436,21 @@ def the_mode_that_becomes_active_was_touched_seen_and_confirmed() -> Queries:
     yield from _proofs_of("the_mode_that_becomes_active_was_touched_seen_and_confirmed")
 
 
-@theorem(clauses=["EKS-2-20", "EKS-2-22"], findings=[])
+@theorem(
+    clauses=["EKS-2-20", "EKS-2-22"],
+    findings=[],
+    properties=["EchoIsTheTouch"],
+)
 def the_echo_is_of_this_users_touch() -> Queries:
     """While LA is on, what MW05 echoes is what this user touched since this key went in."""
     yield from _proofs_of("the_echo_is_of_this_users_touch")
 
 
-@theorem(clauses=["EKS-2-28", "EKS-2-29"], findings=["E-01", "E-16"])
+@theorem(
+    clauses=["EKS-2-28", "EKS-2-29"],
+    findings=["E-01", "E-16"],
+    properties=["SwitchNeedsMatchingPair"],
+)
 def a_mode_is_switched_only_on_its_pair_of_words() -> Queries:
     """A mode is switched only in a scan in which MW03 and MW07 carry the words of that mode: those that the
     F-PLC reads, whoever wrote them, and with a sound PLC those that it wrote.
@@ -431,7 +458,11 @@ def a_mode_is_switched_only_on_its_pair_of_words() -> Queries:
     yield from _proofs_of("a_mode_is_switched_only_on_its_pair_of_words")
 
 
-@theorem(clauses=["EKS-2-18", "EKS-T2-2", "EKS-FD-3"], findings=["E-12", "E-18", "E-47"])
+@theorem(
+    clauses=["EKS-2-18", "EKS-T2-2", "EKS-FD-3"],
+    findings=["E-12", "E-18", "E-47"],
+    properties=["AuthorizationRespected", "NeverBeyondTheKey"],
+)
 def a_mode_is_switched_only_within_the_level_of_the_key() -> Queries:
     """The mode that is switched never exceeds the level that is signalled in that scan, which is the level
     on the key that the EKS has read, whatever stands in MW03 and MW07.
@@ -439,7 +470,11 @@ def a_mode_is_switched_only_within_the_level_of_the_key() -> Queries:
     yield from _proofs_of("a_mode_is_switched_only_within_the_level_of_the_key")
 
 
-@theorem(clauses=["EKS-SD-2", "EKS-8-8", "EKS-SD-7"], findings=["E-24", "E-42"])
+@theorem(
+    clauses=["EKS-SD-2", "EKS-8-8", "EKS-SD-7"],
+    findings=["E-24", "E-42"],
+    properties=["NoChangeWithoutLA", "NoChangeBesideSwitchover"],
+)
 def the_mode_changes_only_by_a_switchover_with_la() -> Queries:
     """No mode is switched in a scan in which LA is off, and nothing but a switchover changes the mode (with
     ON_ERROR = hold), whatever words and outputs the F-PLC sees.
@@ -447,7 +482,11 @@ def the_mode_changes_only_by_a_switchover_with_la() -> Queries:
     yield from _proofs_of("the_mode_changes_only_by_a_switchover_with_la")
 
 
-@theorem(clauses=["EKS-8-8", "EKS-8-16", "EKS-SD-7"], findings=["E-25"])
+@theorem(
+    clauses=["EKS-8-8", "EKS-8-16", "EKS-SD-7"],
+    findings=["E-25"],
+    properties=["DisplayIsTheMode"],
+)
 def the_panel_displays_the_active_mode_while_a_key_is_awaited() -> Queries:
     """While the machine waits for a key, the mode that the panel displays as active is the active mode
     (with ON_ERROR = hold).
@@ -455,7 +494,11 @@ def the_panel_displays_the_active_mode_while_a_key_is_awaited() -> Queries:
     yield from _proofs_of("the_panel_displays_the_active_mode_while_a_key_is_awaited")
 
 
-@theorem(clauses=["EKS-FD-1", "EKS-FD-2", "EKS-BD-5", "EKS-SD-20"], findings=[])
+@theorem(
+    clauses=["EKS-FD-1", "EKS-FD-2", "EKS-BD-5", "EKS-SD-20"],
+    findings=[],
+    properties=["RefinesModeSelection"],
+)
 def the_devices_together_do_only_what_the_contract_allows() -> Queries:
     """Each step of any device is a step of the contract ModeSelection, or changes nothing there (with
     ON_ERROR = hold).
@@ -465,13 +508,21 @@ def the_devices_together_do_only_what_the_contract_allows() -> Queries:
     yield from _proofs_of("the_devices_together_do_only_what_the_contract_allows")
 
 
-@theorem(clauses=["EKS-2-14", "EKS-SD-4"], findings=["E-51"])
+@theorem(
+    clauses=["EKS-2-14", "EKS-SD-4"],
+    findings=["E-51"],
+    properties=["NoOfferBeyondTheLevel"],
+)
 def the_panel_offers_nothing_beyond_the_level_in_force() -> Queries:
     """While a level is in force the panel offers no mode that this level does not permit."""
     yield from _proofs_of("the_panel_offers_nothing_beyond_the_level_in_force")
 
 
-@theorem(clauses=["EKS-2-19", "EKS-2-27"], findings=["E-18"])
+@theorem(
+    clauses=["EKS-2-19", "EKS-2-27"],
+    findings=["E-18"],
+    properties=["NoWordIsRefused"],
+)
 def no_word_of_an_honest_panel_is_refused() -> Queries:
     """While LA and the accepted output stand, the F-PLC refuses no word: an honest panel sends none that it
     would have to refuse.

@@ -127,6 +127,9 @@ class Argument:
             yield from claim(f"{name}: at power-up", given, one.of(NOW), LOGIC)
         for actor in self._actors(one):
             yield from claim(f"{name}: {actor}", self._given(one, actor), self._then(one, actor), LOGIC)
+        if isinstance(one, Consequence) and "fplc" in one.actors:
+            switches = {**self._given(one, "fplc"), "a mode is switched": STEP["fplc"].fplc.switches}
+            yield control(f"{name}: a mode can be switched at all", switches, LOGIC)
         for left_out in one.assumes:
             yield self.without(name, left_out)
 

@@ -411,14 +411,16 @@ def _is_open(formula: z3.BoolRef) -> bool:
 
 def ends_of(device: Device) -> tuple[Ends, ...]:
     """All scans of a device, by control state. Raises TheoremError where a path raises."""
-    made = []
-    for scan in scans(device):
-        for path in scan.paths:
-            if path.raised is not None:
-                raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
-        root, view = tree(scan.paths), _VIEW[device.name]
-        made.append(Ends(scan, root, {id(end): view(scan, end.result) for end in ends(root)}))
-    return tuple(made)
+    return tuple(ends_in(device, scan) for scan in scans(device))
+
+
+def ends_in(device: Device, scan: Scan) -> Ends:
+    """The scan from one control state. Raises TheoremError where a path raises."""
+    for path in scan.paths:
+        if path.raised is not None:
+            raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
+    root, view = tree(scan.paths), _VIEW[device.name]
+    return Ends(scan, root, {id(end): view(scan, end.result) for end in ends(root)})
 
 
 def view_of(device: Device, state: Any, outputs: Any) -> Any:

@@ -1,6 +1,6 @@
 """The shipped devices in any order of scans, on a machine that keeps A-06 and A-07, for tests.
 
-The wires are those of refimpl's key_flows. The history of the user is kept as KeyFlows records it. Each moment
+The wires are those of refimpl's key_flows. The history of the user is as in KeyFlows. Each moment
 can be turned into the records of the composition argument, so that its formulas are judged on real states.
 """
 
@@ -143,7 +143,7 @@ def as_system(moment: Moment) -> system.System:
         views.view_of(PLC, flow.plc_state, flow.plc_out),
         views.view_of(EKS, flow.eks_state, flow.eks_out),
         system.History(
-            *[z3.BitVecVal(one, 8) for one in (moment.touched, moment.seen, moment.confirmed)],
+            *[z3.IntVal(one) for one in (moment.touched, moment.seen, moment.confirmed)],
             z3.BoolVal(moment.unseen),
         ),
     )
