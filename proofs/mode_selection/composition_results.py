@@ -60,6 +60,10 @@ FORMULA_IN: Final[Mapping[tuple[str, str], str]] = {
 
 MUST_HOLD: Final[Mapping[str, str]] = {"MC": "HOLDS", "LIVE": "HOLDS"}
 """Kinds of runs that must hold, with TLC's verdict on them."""
+OF_A_DEVICE: Final[Mapping[str, str]] = {
+    "LAOnlyForAcceptedKeys": "the_eks_sets_la_only_for_an_accepted_key",
+}
+"""Properties of one device's memory, with the theorem on that device alone."""
 SOUND: Final[Mapping[str, tuple[str, ...]]] = {
     FPLC.name: ("A-18",),
     HMI.name: ("A-13", "A-23"),
@@ -74,7 +78,6 @@ BELOW_DISTANCE: Final = (
     "with any words it is false; TLC tries one word that turns into no code, which a proof has yet to follow"
 )
 NOT_PROVED: Final[Mapping[str, str]] = {
-    "LAOnlyForAcceptedKeys": "of the EKS alone and of its memory, not of the devices together",
     "GoalReached": LIVENESS,
     "RemovalLeadsToIdle": LIVENESS,
     "NoErrorWithoutFault": "it needs all devices to keep their deadlines (A-08, A-09), and time has no"
@@ -134,6 +137,8 @@ def _our_reading(run: Run) -> bool:
 def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Row:
     tlc = MUST_HOLD[runs[0].kind]
     names = tuple(one.id for one in runs)
+    if name in OF_A_DEVICE:
+        return Row(name, environment, names, tlc, OF_A_DEVICE[name], (POWER_UP,), "")
     reason = NOT_PROVED.get(name, "") or NOT_PROVED_IN.get((name, environment), "")
     formula = FORMULA_IN.get((name, environment), FORMULA.get(name, ""))
     if not reason and not formula:
