@@ -366,6 +366,7 @@ def _repin(place: Path, done: list[Any], given: str | None) -> int:
 def _prove(args: argparse.Namespace) -> int:
     from modeproof.lock import only_one
     from modeproof.progress import Progress
+    from modeproof.report.proofs import never_needed
     from modeproof.summary import counted, status_of
 
     place = root()
@@ -382,14 +383,26 @@ def _prove(args: argparse.Namespace) -> int:
         for name in names:
             records += prove_document(place, name, progress, tuple(args.theorems), args.limit)
     status = max(status_of(record) for record in records)
-    for record in records:
-        for name in record["result"]["unused"]:
-            print(f"no proof needs it: {record['id']}: {name}")
+    for name in never_needed(records) if not args.theorems else ():
+        print(f"no proof needs the premise: {name}")
+    print(_work_line(records))
     print(counted("proofs", records, "PROVED by Z3, re-checked by cvc5"))
     if not args.theorems and args.document is None and status == 0:
         status = _compare_proofs_page(place)
     _write_json(args, status, proofs=records)
     return status
+
+
+def _work_line(records: Sequence[dict[str, Any]]) -> str:
+    """What the processor did, so that the figure is the same on a busy machine; two theorems run at once."""
+    parts = [query["work"] for record in records for query in record["result"]["queries"]]
+    z3, cvc5, cores = (sum(float(part[n]) for part in parts) for n in range(3))
+    whole = sum(float(record["result"]["work"]) for record in records)
+    rest = whole - z3 - cvc5 - cores
+    return (
+        f"{'processor':<12} z3 {z3:.1f} s, cvc5 {cvc5:.1f} s, cores {cores:.1f} s, "
+        f"exploring, building and writing {rest:.1f} s"
+    )
 
 
 def _has_proofs(place: Path, document: str) -> bool:
@@ -495,7 +508,9 @@ def prove_theorem(
             "clauses": list(result.clauses),
             "findings": list(result.findings),
             "properties": list(one.properties),
+            "premises": list(result.premises),
             "unused": list(result.unused),
+            "work": round(result.work, 3),
             "queries": [
                 {
                     "name": query.name,
@@ -506,6 +521,7 @@ def prove_theorem(
                     "seconds": round(query.seconds, 3),
                     "detail": query.detail,
                     "core": None if query.core is None else list(query.core),
+                    "work": [round(part, 3) for part in query.work],
                     "smt2": query.smt2.relative_to(place).as_posix(),
                 }
                 for query in result.queries

@@ -38,6 +38,8 @@ class QueryResult:
     """Of a query not as expected: the example found, or why there is no answer."""
     core: tuple[str, ...] | None = None
     """Of an `unsat` query: the formulas that contradict one another, none too many; None when not known."""
+    work: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """Seconds of the processor for z3, for cvc5 and for the core."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +55,12 @@ class TheoremResult:
     reason: str
     queries: tuple[QueryResult, ...]
     seconds: float
+    premises: tuple[str, ...] = ()
+    """Names of all premises of its claims."""
     unused: tuple[str, ...] = ()
-    """Premises that no proof of the theorem needs."""
+    """Those that no proof of the theorem needs."""
+    work: float = 0.0
+    """Seconds of the processor for all of it: exploring, building, writing, both solvers, cores."""
 
 
 def prove(
@@ -94,7 +100,7 @@ def prove_all(
 def _prove_one(
     item: Theorem, folder: Path, limit_ms: int, z3_solver: Solver, cvc5_solver: Solver
 ) -> TheoremResult:
-    started = time.monotonic()
+    started, begun = time.monotonic(), time.process_time()
     queries: list[QueryResult] = []
     built: tuple[Query, ...] = ()
     try:
@@ -120,7 +126,9 @@ def _prove_one(
         reason,
         tuple(queries),
         seconds,
+        premises_of(built),
         unused_premises(built, queries) if verdict == "PROVED" else (),
+        time.process_time() - begun,
     )
 
 
@@ -130,8 +138,14 @@ def _ask(
     started = time.monotonic()
     text = to_smtlib(item, query)
     _write(file, text)
-    first, second = z3_solver(query, text, limit_ms), cvc5_solver(query, text, limit_ms)
+    moments = [time.process_time()]
+    first = z3_solver(query, text, limit_ms)
+    moments.append(time.process_time())
+    second = cvc5_solver(query, text, limit_ms)
+    moments.append(time.process_time())
     as_expected = first.answer == second.answer == query.expected
+    core = core_of(query) if as_expected and query.expected == "unsat" else None
+    moments.append(time.process_time())
     return QueryResult(
         query.name,
         query.expected,
@@ -141,19 +155,24 @@ def _ask(
         file,
         query.twin_of,
         "" if as_expected else _detail(first, second),
-        core_of(query) if as_expected and query.expected == "unsat" else None,
+        core,
+        (moments[1] - moments[0], moments[2] - moments[1], moments[3] - moments[2]),
     )
 
 
-def unused_premises(built: Iterable[Query], results: Iterable[QueryResult]) -> tuple[str, ...]:
+def premises_of(built: Iterable[Query]) -> tuple[str, ...]:
+    """Names of all premises of a theorem's claims."""
+    names = [name for query in built if query.expected == "unsat" for name in query.formulas]
+    return tuple(name for name in dict.fromkeys(names) if name != COUNTEREXAMPLE)
+
+
+def unused_premises(built: tuple[Query, ...], results: Iterable[QueryResult]) -> tuple[str, ...]:
     """Names of premises that are in no core of a theorem's claims; none as long as a core is not known."""
-    premises: dict[str, None] = {}
     used: set[str] = set()
     for query, result in zip(built, results, strict=True):
         if query.expected == "unsat":
-            premises |= dict.fromkeys(query.formulas)
             used |= set(query.formulas if result.core is None else result.core)
-    return tuple(name for name in premises if name not in used and name != COUNTEREXAMPLE)
+    return tuple(name for name in premises_of(built) if name not in used)
 
 
 def judge(queries: list[QueryResult]) -> tuple[Verdict, str]:

@@ -69,7 +69,7 @@ def _section(document: Document, records: Mapping[str, Record]) -> Iterator[str]
     yield "| all theorems | seconds |"
     yield "|---|---|"
     yield f"| {len(own)} | {total:,.1f} |"
-    yield from _premises(document, own)
+    yield from _premises(own)
     yield from _coverage(records["coverage"])
 
 
@@ -80,10 +80,22 @@ def _counts(queries: Sequence[Mapping[str, Any]]) -> str:
     return f"{claims:,} claims, {twins:,} twins, {examples:,} examples"
 
 
-def _premises(document: Document, records: Sequence[Record]) -> Iterator[str]:
-    """Premises that no proof needs."""
+def never_needed(records: Sequence[Record]) -> list[str]:
+    """Premises, by name, that some theorem has and no proof of any theorem needs."""
+    names = dict.fromkeys(name for record in records for name in record["result"]["unused"])
+    needed = {
+        name
+        for record in records
+        for name in record["result"]["premises"]
+        if name not in record["result"]["unused"]
+    }
+    return [name for name in names if name not in needed]
+
+
+def _premises(records: Sequence[Record]) -> Iterator[str]:
+    """Premises that no proof needs: of any theorem, and theorem by theorem."""
     yield ""
-    yield "### Premises that no proof of their theorem needs"
+    yield "### Premises that no proof needs"
     yield ""
     claims = [
         query for record in records for query in record["result"]["queries"] if query["expected"] == "unsat"
@@ -91,14 +103,19 @@ def _premises(document: Document, records: Sequence[Record]) -> Iterator[str]:
     known = sum(1 for query in claims if query["core"] is not None)
     yield (
         f"By a set of formulas of which none can be left out, known for {known:,} of {len(claims):,} claims. "
-        "Where none is known (products of reals) all premises count as needed. "
-        "The theorem holds without those listed."
+        "Where none is known (products of reals) all premises count as needed."
     )
     yield ""
-    rows = [(record["id"], name) for record in records for name in record["result"]["unused"]]
-    yield from (f"- `{theorem}`: {name}" for theorem, name in rows)
-    if not rows:
-        yield "None."
+    yield f"In no theorem at all: {'; '.join(never_needed(records)) or 'none'}."
+    yield ""
+    yield "Beyond these, a theorem holds without:"
+    yield ""
+    everywhere = set(never_needed(records))
+    rows = [
+        (record["id"], [name for name in record["result"]["unused"] if name not in everywhere])
+        for record in records
+    ]
+    yield from (f"- `{theorem}`: {'; '.join(names)}" for theorem, names in rows if names)
 
 
 def _coverage(record: Record) -> Iterator[str]:

@@ -39,7 +39,8 @@ def _evidence(document: Document, seconds: float = 1.5) -> dict[str, dict[str, A
                 "clauses": list(one.clauses),
                 "findings": list(one.findings),
                 "properties": list(one.properties),
-                "unused": ["a premise too many"] if number == 0 else [],
+                "premises": ["a premise", "another"],
+                "unused": ["a premise", "another"] if number == 0 else ["another"],
                 "queries": QUERIES,
             },
         }
@@ -65,7 +66,8 @@ def test_every_theorem_is_on_the_page_once_with_clauses_questions_and_versions(d
         assert row.endswith("| 1 claims, 1 twins, 1 examples | 1.5 |")
     assert "z3 4.99 and cvc5 1.99" in page
     assert f"{len(theorems)} theorems, {3 * len(theorems):,} questions" in page
-    assert page.count("a premise too many") == len(theorems_by_file(document))
+    assert "In no theorem at all: another." in page
+    assert page.count("`: a premise\n") == len(theorems_by_file(document))
     assert "| `plc` | 4 | 4,541 | 16 of 17 | 7 of 8 | 3 of 4 |" in page
     assert "- a refusal\n  - `plc` line step: raise" in page
 
