@@ -42,7 +42,7 @@ def main(argv: list[str] | None = None) -> int:
         _complain(error.message)
     except KeyboardInterrupt:
         _stop_tools()
-        _complain("interrupted; nothing was judged")
+        _complain("interrupted: no verdict; what was finished before is kept")
     except BrokenPipeError:
         # Whoever read our output has gone; Python would complain once more while flushing at exit.
         with contextlib.suppress(OSError):

@@ -47,11 +47,17 @@ def check_schema(register: str, source: str, data: Mapping[str, Any]) -> None:
         raise Unjudged(f"{source}: {_place(data, list(first.absolute_path))}{_explain(first)}{more}")
 
 
+MANY = 40
+"""More names than these are not listed in one line, if one of them is close."""
+
+
 def suggestion(name: str, allowed: Iterable[str]) -> str:
     """The words `did you mean ..; allowed: ..` for a name that is not allowed."""
     names = list(allowed)
     close = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     mean = f"did you mean {close[0]!r}? " if close else ""
+    if mean and len(names) > MANY:
+        return f"{mean}{len(names):,} names are allowed"
     return f"{mean}allowed: {', '.join(names) if names else 'nothing'}"
 
 

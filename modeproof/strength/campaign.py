@@ -23,6 +23,8 @@ from modeproof.strength.results import Results, digest, without_comments
 from modeproof.strength.trial import cfg_of
 from modeproof.tlc.children import stop_all
 
+GRAPHS = "all graphs"
+"""Stands for the tiers that compare graphs."""
 WORDS = ("KILLED", "EQUIVALENT", "SURVIVED", "INVALID", "UNMEASURED")
 
 
@@ -71,19 +73,26 @@ def stated(strength: Strength) -> frozenset[str]:
 
 
 def stamps_of(bench: Bench, module: str) -> dict[str, str]:
-    """For each tier of this module, by its id, a hash of all that the tiers up to it rest on."""
+    """For each tier of this module, by its id, a hash of all that the tiers up to it rest on; also GRAPHS."""
     stamps: dict[str, str] = {}
-    before = digest([bench.tools.jar_sha256, module])
+    before = graphs = digest([bench.tools.jar_sha256, module])
     for tier in bench.strength.tiers_of(module):
         told = {key: value for key, value in asdict(tier).items() if key != "run"}
         texts = (without_comments(text) for _, text in sorted(bench.texts(tier).items()))
-        before = digest([before, json.dumps(told, sort_keys=True), cfg_of(bench.folder, tier), *texts])
-        stamps[tier.id] = before
-    return stamps
+        parts = [json.dumps(told, sort_keys=True), cfg_of(bench.folder, tier), *texts]
+        if tier.asks == "graph":
+            graphs = digest([graphs, *parts])
+        stamps[tier.id] = before = digest([before, *parts])
+    return {GRAPHS: graphs, **stamps}
 
 
 def rests_on(tiers: Sequence[Tier], record: Mapping[str, Any]) -> str:
-    """The last tier that a judgement rests on: what a killed mutant never meets decides nothing about it."""
+    """What a judgement rests on: GRAPHS for equal graphs, else the tiers up to the one with this id.
+
+    What a killed mutant never meets decides nothing about it.
+    """
+    if record["verdict"] == "EQUIVALENT":
+        return GRAPHS
     asked = {answer["tier"] for answer in record["answers"]}
     if not asked or record["complete"] or record["verdict"] not in {"KILLED", "INVALID"}:
         return tiers[-1].id
@@ -111,9 +120,10 @@ class Known:
         module = str(record["module"])
         tiers = self.bench.strength.tiers_of(module)
         stamps = self._stamps[module]
-        if any(one["tier"] not in stamps for one in record["answers"]):
+        rests = rests_on(tiers, record)
+        if rests != GRAPHS and any(one["tier"] not in stamps for one in record["answers"]):
             return ""
-        return stamps[rests_on(tiers, record)]
+        return stamps[rests]
 
     def find(self, mutant: Mutant, complete: bool = False) -> dict[str, Any] | None:
         """The judgement that holds; one of fewer tiers does not do when `complete` is asked for."""

@@ -74,6 +74,7 @@ class Bench:
     _trees: dict[str, ParseTree] = field(default_factory=dict)
     _trials: dict[str, Trial] = field(default_factory=dict)
     _graphs: dict[str, frozenset[int]] = field(default_factory=dict)
+    _passed: set[str] = field(default_factory=set)
     _guard: threading.RLock = field(default_factory=threading.RLock)
 
     @property
@@ -124,6 +125,7 @@ class Bench:
                 if not lines:
                     raise Unjudged(f"tier {tier.id}: the original printed no graph")
                 self._graphs[tier.id] = frozenset(lines)
+            self._passed.add(tier.id)
             return answer
 
     def ask(self, tier: Tier, mutant: Mutant) -> Answer:
@@ -131,10 +133,11 @@ class Bench:
         if tier.asks != "graph":
             names = _Names()
             outcome = self._run(tier, mutant, names)
-            return _answer(tier, outcome, self.trial(tier).asked, names.found, "", CLEAN)
-        with self._guard:
-            if tier.id not in self._graphs:
-                self.control(tier)
+            answer = _answer(tier, outcome, self.trial(tier).asked, names.found, "", CLEAN)
+            if answer.result != CLEAN:
+                self._original_passes(tier)
+            return answer
+        self._original_passes(tier)
         compare = _Compare(self._graphs[tier.id])
         outcome = self._run(tier, mutant, compare)
         if outcome.stopped:
@@ -144,6 +147,12 @@ class Bench:
                 tier, outcome, (), (), f"{compare.missing} lines of the original's graph are missing", DIFFERS
             )
         return _answer(tier, outcome, (), (), "", EQUAL)
+
+    def _original_passes(self, tier: Tier) -> None:
+        """What a tier says against a mutant counts only when it says nothing against the original."""
+        with self._guard:
+            if tier.id not in self._passed:
+                self.control(tier)
 
     def _run(self, tier: Tier, mutant: Mutant | None, watch: Callable[[bytes], bool]) -> Outcome:
         trial = self.trial(tier)

@@ -2,7 +2,7 @@
 
 Most runs are small and spend most of their time on Java's start. `make venv` lets Java write what it loaded
 in one run (JEP 514) beside the packages; without the file, or with another Java or jar, TLC runs as before.
-Java itself refuses a cache that does not fit its version or the jar's size and date.
+Java refuses a cache that does not fit its version, or the size and date of the jar, or its own checksum.
 """
 
 from __future__ import annotations
@@ -34,7 +34,9 @@ _CFG = "SPECIFICATION Spec\nINVARIANT Small\nPROPERTIES Grows Ends\n"
 def start_up_options(tools: Toolchain, cache: Path = CACHE) -> list[str]:
     """The options with which `tools` uses the cache; none when there is none for it."""
     own = tools.pinned and tools.java.is_relative_to(sys.prefix) and cache.is_file()
-    return [f"-XX:AOTCache={cache}", "-Xlog:aot=off", "-Xlog:cds=off"] if own else []
+    return (
+        [f"-XX:AOTCache={cache}", "-XX:+VerifySharedSpaces", "-Xlog:aot=off", "-Xlog:cds=off"] if own else []
+    )
 
 
 def write_cache(tools: Toolchain, cache: Path = CACHE) -> None:

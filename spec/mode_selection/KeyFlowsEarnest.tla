@@ -16,16 +16,13 @@ WantMore ==
     /\ goal # None
     /\ goal' \in {m \in MSO : m > goal /\ \E l \in LEVELS : Permitted(l, m)}
     /\ UNCHANGED vars \/ RemoveKey
-    /\ UNCHANGED faults
 
-EarnestInit == Init /\ goal \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)} /\ faults = 0
+EarnestInit == Init /\ goal \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)}
 EarnestNext == WantMore \/ ((EarnestUser \/ EarnestPanel \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same)
 EarnestSpec ==
     /\ EarnestInit /\ [][EarnestNext]_<<liveVars, step, took>> /\ FairPlc
     /\ WF_liveVars(EarnestUser /\ Same) /\ WF_liveVars(EarnestPanel /\ Same)
     /\ WF_liveVars(PromptFplc /\ Same) /\ WF_liveVars(PromptEks /\ Same)
-
-EarnestView == <<View, goal>>
 
 \* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of a fault, and of nothing that an honest machine and a patient user do
 NoErrorWithoutFault == ~ERROR

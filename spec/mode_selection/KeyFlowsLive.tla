@@ -1,32 +1,28 @@
 ---------------------------- MODULE KeyFlowsLive ----------------------------
 (***************************************************************************)
 (* What must happen in the end.  Fairness: every device keeps scanning.    *)
-(* Three questions, each a specification of its own:                       *)
+(* Two questions, each a specification of its own:                         *)
 (*  GoalSpec     from any state that the honest devices can reach, a user  *)
 (*               who from now on has a goal, on a machine that from now on *)
 (*               keeps its deadlines, gets the mode.                       *)
 (*  RemovalSpec  a key that stays out leads back to Idle, whatever the     *)
 (*               user did and whatever deadline passed before.             *)
-(*  FaultSpec    the same after words that were corrupted on the way.      *)
-(* Leaves out: how long it takes; no bound on any response is shown.      *)
+(* Leaves out: faults (KeyFlowsRecovery); how long it takes.               *)
 (***************************************************************************)
 EXTENDS KeyFlows
 
-CONSTANT FAULTS     \* how many words may be corrupted (FaultSpec)
+VARIABLE
+    goal            \* the mode that the user wants, or None while the user does anything
 
-VARIABLES
-    goal,           \* the mode that the user wants, or None while the user does anything
-    faults          \* words corrupted so far
+liveVars == <<View, goal>>
 
-liveVars == <<View, goal, faults>>
-
-LiveInit == Init /\ goal = None /\ faults = 0
+LiveInit == Init /\ goal = None
 
 ----------------------------------------------------------------------------
 (* A user with a goal.                                                     *)
 
 \* From some moment on the user wants one mode and has a key that permits it
-TakeGoal == goal = None /\ goal' \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)} /\ UNCHANGED <<vars, faults>>
+TakeGoal == goal = None /\ goal' \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)} /\ UNCHANGED vars
 
 KeyFits == reader \in LEVELS /\ Permitted(reader, goal)
 \* EKS-2-1, EKS-8-1, E-23: takes out a key that does not fit, and any key when the error lamp is on or the machine does not answer it
@@ -63,24 +59,13 @@ PromptFplc ==
 PromptEks == EksRuns /\ (eksState' # eksState => PulseSeen)
 
 ----------------------------------------------------------------------------
-\* A word that is no code, and one that is a code in each range: as MW03 a selection beyond the key, as MW07 an acknowledgment
-FaultWords == {OtherWord, SW[1]}
-\* MW03 or MW07 becomes one of the two words
-Corrupt ==
-    /\ faults < FAULTS /\ faults' = faults + 1
-    /\ \/ \E w \in FaultWords \ {MW03} : MW03' = w /\ UNCHANGED MW07
-       \/ \E w \in FaultWords \ {MW07} : MW07' = w /\ UNCHANGED MW03
-    /\ UNCHANGED <<reader, eks, fplc, hmi, history, turn, ReadAuthorization, CheckMSO, goal>>
-    /\ Took(0) /\ Did("Corrupt")
-
-Same == UNCHANGED <<goal, faults>>
+Same == UNCHANGED goal
 GoalNext ==
     \/ TakeGoal
     \/ goal = None /\ Next /\ Same
     \/ goal # None /\ (EarnestUser \/ EarnestPanel \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same
-FaultNext == (Next /\ Same) \/ Corrupt
-\* For a reader of a trace: any step of the three questions
-AnyNext == GoalNext \/ FaultNext
+\* For a reader of a trace: any step of the two questions
+AnyNext == GoalNext \/ (Next /\ Same)
 
 \* Each of the four copies is made again and again
 Copied(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history>> /\ Same
@@ -99,7 +84,6 @@ GoalReached == (goal # None) ~> (mode = {goal})
 FairDevices ==
     FairPlc /\ WF_liveVars(EksRuns /\ Same) /\ WF_liveVars(FplcRuns /\ Same) /\ WF_liveVars(PanelRuns /\ Same)
 RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step, took>> /\ FairDevices
-FaultSpec == LiveInit /\ [][FaultNext]_<<liveVars, step, took>> /\ FairDevices
 
 \* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle stays
 RemovalLeadsToIdle == <>[](reader = None) => <>[](fplcState = "Idle")

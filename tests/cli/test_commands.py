@@ -116,7 +116,7 @@ def test_ctrl_c_ends_tlc_too_and_is_one_line(toy: Path) -> None:
     running.terminate()
     _, err = running.communicate(timeout=30)
     assert running.returncode == 2
-    assert err == "modeproof: interrupted; nothing was judged\n"
+    assert err == "modeproof: interrupted: no verdict; what was finished before is kept\n"
     for _ in range(100):
         alive = subprocess.run(["ps", "-wweo", "args"], capture_output=True, text=True, check=True).stdout
         if str(toy) not in alive:

@@ -11,7 +11,7 @@ import pytest
 import modeproof.strength.campaign as campaign
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.strength.campaign import Judged, Known, inputs_of, judge_all, rests_on
+from modeproof.strength.campaign import GRAPHS, Judged, Known, inputs_of, judge_all, rests_on
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Answer, Bench, Verdict
 from modeproof.strength.mutant import Mutant
@@ -120,7 +120,8 @@ def test_a_killed_mutant_need_not_be_judged_again_when_a_later_tier_changes(tmp_
     killed = {"module": "Lamp", "verdict": "KILLED", "complete": False, "answers": [{"tier": first.id}]}
     last_always = [tier.id for tier in tiers if tier.when == "always"][-1]
     assert rests_on(tiers, killed) == last_always
-    for other in ({"verdict": "SURVIVED"}, {"verdict": "EQUIVALENT"}, {"complete": True}):
+    assert rests_on(tiers, killed | {"verdict": "EQUIVALENT"}) == GRAPHS
+    for other in ({"verdict": "SURVIVED"}, {"complete": True}):
         assert rests_on(tiers, killed | other) == tiers[-1].id
     before = Known(bench, read_results(tmp_path / "none"))
     changed = replace(

@@ -21,11 +21,10 @@ TEXT_ORDER = Base(
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
-ANSWERS = Base(
-    "MC_Fplc_answers",
-    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcSmall",
-)
+ANSWERS = Base("MC_Fplc_answers")
+ORDER = Base("MC_Fplc_order")
+HMI_PROMPT = Base("MC_Hmi_prompt")
+EKS_PROMPT = Base("MC_Eks6_prompt")
 FPLC_SMOKE = Base(
     "MC_Fplc_smoke",
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
@@ -45,6 +44,10 @@ GOAL = Base("LIVE_KeyFlows_goal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVE
 REMOVAL = Base(
     "LIVE_KeyFlows_removal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
 )
+RECOVERY = Base("LIVE_KeyFlows_recovery")
+AFTER_FAULT = Base("LIVE_KeyFlows_after_fault")
+CORRUPTING = Base("MC_KeyFlows_corrupting", (("LEVELS = {0, 1, 2}", "LEVELS = {0}"),))
+FAULTY_EKS = Base("MC_KeyFlows_faulty_eks", (("LEVELS = {1}", "LEVELS = {0}"),))
 
 
 @dataclass(frozen=True)
@@ -823,6 +826,309 @@ FAULTS = (
             "Eks.tla",
             "-> {KeyLevel(key)}",
             "-> {KeyLevel(key) + 1}",
+        ),
+    ),
+    # ------------------------------------------------------------------ detections that faults need
+    Falls(
+        "NeverBeyondTheKey",
+        CORRUPTING,
+        Fault(
+            "any code is accepted as a selection, whatever the level",
+            "Fplc.tla",
+            "ELSE Permitted(LevelUsed(i), ModeOf(SE, i.MW03))",
+            "ELSE ModeOf(SE, i.MW03) # None",
+        ),
+    ),
+    Falls(
+        "SwitchNeedsMatchingPair",
+        CORRUPTING,
+        Fault(
+            "any code is accepted as an acknowledgment",
+            "Fplc.tla",
+            "\\/ i.MW07 = SW[fplcSelection] /\\ ~(PrintedRow5 /\\ fplcSelection = 2)",
+            "\\/ ModeOf(SW, i.MW07) # None",
+        ),
+    ),
+    Falls(
+        "SwitchNeedsMatchingPair",
+        CORRUPTING,
+        Fault(
+            "the selection need not stand until the switchover",
+            "Fplc.tla",
+            "\\/ i.MW03 = SE[fplcSelection]",
+            "\\/ TRUE",
+        ),
+    ),
+    Falls(
+        "NeverBeyondTheKey",
+        FAULTY_EKS,
+        Fault(
+            "the accepted output need not stay",
+            "Fplc.tla",
+            "ELSE i.vec # {accepted}",
+            "ELSE FALSE",
+        ),
+    ),
+    Falls(
+        "NeverBeyondTheKey",
+        FAULTY_EKS,
+        Fault(
+            "LA need not stay",
+            "Fplc.tla",
+            "(~i.LA \\/ NoneInPulse(i)) /\\ fplcState \\notin OwnRules",
+            "NoneInPulse(i) /\\ fplcState \\notin OwnRules",
+        ),
+    ),
+    # ------------------------------------------------------------------ promptness, causes, memory
+    Falls(
+        "NoNeedlessWait",
+        ANSWERS,
+        Fault(
+            "an output that is there may be waited for",
+            "Fplc.tla",
+            'fplcState = "OneOutput" /\\ i.vec = {} /\\ Stay',
+            'fplcState = "OneOutput" /\\ Stay',
+        ),
+    ),
+    Falls(
+        "ErrorNeedsCause",
+        ANSWERS,
+        Fault(
+            "a key that went leaves an error when the deadline passed too",
+            "Fplc.tla",
+            "~IsMany(i) /\\ ~IsGone(i) /\\ IsExpired(i)",
+            "~IsMany(i) /\\ IsExpired(i)",
+        ),
+    ),
+    Falls(
+        "RemovalNeedsCause",
+        ANSWERS,
+        Fault(
+            "a key that is not yet there begins a removal",
+            "Fplc.tla",
+            'OwnRules == {"Start", "Idle", "Error"}',
+            'OwnRules == {"Start", "Error"}',
+        ),
+    ),
+    Falls(
+        "InsertionNeedsKey",
+        ANSWERS,
+        Fault(
+            "power-up leads into the test pulse",
+            "Fplc.tla",
+            'ReadyAtStart(i) /\\ Proceed("Idle")',
+            'ReadyAtStart(i) /\\ Proceed("PulseOnes")',
+        ),
+    ),
+    Falls(
+        "NothingIsKept",
+        ANSWERS,
+        Fault(
+            "the error mode keeps the level",
+            "Fplc.tla",
+            "DropKey == accepted' = None /\\ authority' = None",
+            "DropKey == accepted' = None /\\ authority' = authority",
+        ),
+    ),
+    Falls(
+        "NothingIsKept",
+        ANSWERS,
+        Fault(
+            "the dwell time of power-up is over at power-up",
+            "Fplc.tla",
+            "mode = {} /\\ fplcElapsed = 0",
+            "mode = {} /\\ fplcElapsed = 1",
+        ),
+    ),
+    Falls(
+        "RecoversFully",
+        RECOVERY,
+        Fault(
+            "the reader latches its fault where its test pulse should begin",
+            "Eks.tla",
+            'At("StartTest", i) /\\ GoTo("TestOnes")',
+            'At("StartTest", i) /\\ GoTo("Fault")',
+        ),
+    ),
+    Falls(
+        "GoalReachedAfterFault",
+        AFTER_FAULT,
+        Fault(
+            "the reader latches its fault where its test pulse should begin",
+            "Eks.tla",
+            'At("StartTest", i) /\\ GoTo("TestOnes")',
+            'At("StartTest", i) /\\ GoTo("Fault")',
+        ),
+    ),
+    # ------------------------------------------------------------------ order of steps, answers
+    Falls(
+        "StepsInOrder",
+        ORDER,
+        Fault(
+            "the echo is on the wire before the selection was checked a second time",
+            "Fplc.tla",
+            '    /\\ GoTo("EchoSelection")\n    /\\ KeepKey /\\ UNCHANGED mode\n',
+            '    /\\ GoTo("AwaitAcknowledgment")\n    /\\ KeepKey /\\ UNCHANGED mode\n',
+        ),
+    ),
+    Falls(
+        "TimeGoesOn",
+        ORDER,
+        Fault(
+            "the dwell time of the error mode is not counted",
+            "Fplc.tla",
+            "DropKey /\\ fplcElapsed' = Min(Now(i), T_DWELL)",
+            "DropKey /\\ UNCHANGED fplcElapsed",
+        ),
+    ),
+    Falls(
+        "AcknowledgmentNeedsEcho",
+        ORDER,
+        Fault(
+            "an early acknowledgment is overlooked while the selection is seen",
+            "Fplc.tla",
+            'fplcState = "AwaitSelection" /\\ Silent(i) /\\ i.MW03 # 0',
+            'fplcState = "AwaitSelection" /\\ i.MW03 # 0',
+        ),
+    ),
+    Falls(
+        "ChangedSelectionIsWithdrawn",
+        ORDER,
+        Fault(
+            "a changed selection beside an acknowledgment is an error",
+            "Fplc.tla",
+            'fplcState = "EchoSelection" /\\ Stands(i)\n',
+            'fplcState = "EchoSelection"\n',
+        ),
+    ),
+    Falls(
+        "AcknowledgmentIsJudged",
+        ORDER,
+        Fault(
+            "an acknowledgment that is no code passes step 27",
+            "Fplc.tla",
+            "    /\\ ModeOf(SW, i.MW07) # None /\\ (ReadOnce => Matches(i))\n",
+            "    /\\ (ReadOnce => Matches(i))\n",
+        ),
+    ),
+    Falls(
+        "ScreenIsTrue",
+        HMI_PROMPT,
+        Fault(
+            "the screen waits while it asks",
+            "Hmi.tla",
+            'hmiState = "Confirm" -> "confirm"',
+            'hmiState = "AwaitSwitch" -> "confirm"',
+        ),
+    ),
+    Falls(
+        "FieldSelectsItsMode",
+        HMI_PROMPT,
+        Fault(
+            "two fields have one name",
+            "Hmi.tla",
+            'm = 1 -> "select:1"',
+            'm = 1 -> "select:2"',
+        ),
+    ),
+    Falls(
+        "ClosesAtOnce",
+        HMI_PROMPT,
+        Fault(
+            "a selection is given up before the screen closes",
+            "Hmi.tla",
+            'At("AwaitEcho", i) /\\ i.CM # 0 /\\ ~Echoed(i) /\\ ~ShowsOther(i)',
+            'hmiState = "AwaitEcho" /\\ i.CM # 0 /\\ ~Echoed(i) /\\ ~ShowsOther(i)',
+        ),
+    ),
+    Falls(
+        "ClosesOverAnEcho",
+        HMI_PROMPT,
+        Fault(
+            "a field can be touched over an echo",
+            "Hmi.tla",
+            '/\\ At("Select", i) /\\ i.CM = 0\n',
+            '/\\ At("Select", i)\n',
+        ),
+    ),
+    Falls(
+        "EndsWithTheEcho",
+        HMI_PROMPT,
+        Fault(
+            "an echo that is gone counts as another echo",
+            "Hmi.tla",
+            'At("AwaitSwitch", i) /\\ i.CM # 0 /\\ ~Echoed(i)',
+            'At("AwaitSwitch", i) /\\ ~Echoed(i)',
+        ),
+    ),
+    Falls(
+        "PanelAnswersAtOnce",
+        HMI_PROMPT,
+        Fault(
+            "an echo may be waited for that is there",
+            "Hmi.tla",
+            'At("AwaitEcho", i) /\\ i.CM = 0 /\\ Stay',
+            'At("AwaitEcho", i) /\\ Stay',
+        ),
+    ),
+    Falls(
+        "ReaderStepsInOrder",
+        EKS_PROMPT,
+        Fault(
+            "the checksum is calculated before the key is read",
+            "Eks.tla",
+            "eksState' = \"Read\" /\\ key' = i.key",
+            "eksState' = \"CheckChecksum\" /\\ key' = i.key",
+        ),
+    ),
+    Falls(
+        "LABeforeOutputs",
+        EKS_PROMPT,
+        Fault(
+            "LA comes with the pulse",
+            "Eks.tla",
+            'ELSE {"StartTest", "TestOnes"',
+            'ELSE {"TestOnes"',
+        ),
+    ),
+    Falls(
+        "RightKeysPass",
+        EKS_PROMPT,
+        Fault(
+            "a right checksum may be refused",
+            "Eks.tla",
+            "KEY[key].KEYCRC # CHECKSUM[key] /\\ GoTo",
+            "GoTo",
+        ),
+    ),
+    Falls(
+        "FaultNeedsCause",
+        EKS_PROMPT,
+        Fault(
+            "registers that are zero may be latched as a fault",
+            "Eks.tla",
+            'eksState = "CheckRegisters" /\\ ~i.registers_zero\n',
+            'eksState = "CheckRegisters"\n',
+        ),
+    ),
+    Falls(
+        "KeyIsForgotten",
+        EKS_PROMPT,
+        Fault(
+            "the reader keeps the key after the outputs are cleared",
+            "Eks.tla",
+            '/\\ key\' = None\n    /\\ Did("ResetOutputs")',
+            '/\\ UNCHANGED key\n    /\\ Did("ResetOutputs")',
+        ),
+    ),
+    Falls(
+        "ReaderAnswersAtOnce",
+        EKS_PROMPT,
+        Fault(
+            "a key in the reader may be overlooked",
+            "Eks.tla",
+            'eksState = "Empty" /\\ i.key = None /\\ Stay',
+            'eksState = "Empty" /\\ Stay',
         ),
     ),
 )
