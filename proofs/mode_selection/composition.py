@@ -30,6 +30,11 @@ ECHO: Final = "CheckMSO is zero or the echo"
 WORDS: Final = "the words are those of one selection"
 UNSEEN: Final = "a key that was not seen has no LA"
 SEEN: Final = "a change of key is seen"
+OFF: Final = "the state of the EKS says what is off"
+LOW: Final = "what was low is off"
+UNSEEN_OFF: Final = "a key that was not seen finds all off"
+SEEN_ANYWAY: Final = "a change of key is seen, with one broken wire"
+INTENT_ANYWAY: Final = "the mode is what was touched, seen and confirmed, with one broken wire"
 HISTORY: Final = "what is echoed was touched, seen, confirmed"
 SIGNALLED: Final = "the one output is that of the key"
 ASKED: Final = "nothing is confirmed while it is asked"
@@ -50,6 +55,10 @@ H_OPEN, H_CLOSE = "the panel is open at one level", "the panel closes for a reas
 H_OFFER, H_SELECT = "the panel offers without an echo", "the panel selects by a touch"
 H_ASK, H_ACKNOWLEDGE = "the panel asks by the echo", "the panel acknowledges by a touch"
 H_GIVE_UP, H_FORGET = "the panel gives up for a reason", "the panel forgets when it is over"
+GOES_ON: Final = "the F-PLC goes on while signalled"
+BROKEN: Final = "one wire is broken"
+CLEARED: Final = "a key goes in when all is cleared"
+SCANNED_LOW: Final = "the F-PLC scanned while LA was low"
 COPIES: Final = "the PLC copies or keeps"
 WIRED, OUTPUTS_WIRED, DISPLAY_WIRED = "words are wired", "outputs are wired", "the display is wired"
 ARRIVE, HELD, ORDERED = (
@@ -213,6 +222,38 @@ ARGUMENT: Final = Argument(
             ("fplc",),
             (LEVEL, WORDS, HISTORY, SEEN, F_SWITCH, WIRED),
             "the_mode_that_becomes_active_was_touched_seen_and_confirmed",
+        ),
+        Invariant(
+            OFF,
+            formulas.off_means_off,
+            ("the EKS is off by its state",),
+            "one_broken_wire_of_the_reader_leaves_the_users_intent",
+        ),
+        Invariant(
+            LOW,
+            formulas.low_means_off,
+            (OFF, LEVEL, GOES_ON, BROKEN, "the EKS is off by its state"),
+            "one_broken_wire_of_the_reader_leaves_the_users_intent",
+        ),
+        Invariant(
+            UNSEEN_OFF,
+            formulas.unseen_key_finds_all_off,
+            (OFF, LOW, CLEARED, SCANNED_LOW, "the EKS is off by its state"),
+            "one_broken_wire_of_the_reader_leaves_the_users_intent",
+        ),
+        Consequence(
+            SEEN_ANYWAY,
+            formulas.change_of_key_is_seen,
+            ("fplc",),
+            (UNSEEN_OFF, LEVEL, BROKEN),
+            "one_broken_wire_of_the_reader_leaves_the_users_intent",
+        ),
+        Consequence(
+            INTENT_ANYWAY,
+            formulas.user_intent,
+            ("fplc",),
+            (LEVEL, WORDS, HISTORY, SEEN_ANYWAY, F_SWITCH, WIRED),
+            "one_broken_wire_of_the_reader_leaves_the_users_intent",
         ),
         Consequence(
             "nothing but the touch",
@@ -434,6 +475,22 @@ def the_mode_that_becomes_active_was_touched_seen_and_confirmed() -> Queries:
     needed.
     """
     yield from _proofs_of("the_mode_that_becomes_active_was_touched_seen_and_confirmed")
+
+
+@theorem(
+    clauses=["EKS-2-14", "EKS-2-22", "EKS-2-23", "EKS-SD-5", "EKS-KS-6"],
+    findings=["E-09", "E-49"],
+    properties=["UserIntent"],
+)
+def one_broken_wire_of_the_reader_leaves_the_users_intent() -> Queries:
+    """With an honest panel and one broken wire at a time between reader and F-PLC, or without the test pulse,
+    the mode that becomes active still is the one that the user touched, saw and confirmed since this key went
+    in.
+
+    Broken is LA or one output, stuck at 0 or 1, or wired to another one beside its own; not crossed (A-20).
+    It may begin, end, and be another one in the next scan.
+    """
+    yield from _proofs_of("one_broken_wire_of_the_reader_leaves_the_users_intent")
 
 
 @theorem(

@@ -6,12 +6,11 @@ true is in `composition`.
 
 from __future__ import annotations
 
-from typing import Final
-
 import z3
 
 from proofs.mode_selection.composition_guarantees import (
     ECHOING,
+    HOLDING,
     OFFERING,
     PENDING,
     QUIET,
@@ -21,8 +20,6 @@ from proofs.mode_selection.composition_guarantees import (
 )
 from proofs.mode_selection.composition_system import ROWS, Step, System
 from proofs.mode_selection.composition_views import LEVELS, code, is_mode, none_of, permits, signals
-
-HOLDING: Final = (*OFFERING, *ECHOING, "Settle")
 
 # ---------------------------------------------------------------- of one moment
 
@@ -114,6 +111,26 @@ def words_of_one_selection(s: System) -> z3.BoolRef:
 def unseen_key_has_no_la(s: System) -> z3.BoolRef:
     """EKS-8-2, EKS-3-1-FPLC"""
     return z3.Implies(s.history.unseen, z3.And(z3.Not(s.eks.LA), s.fplc.at(*OFFERING, *ECHOING)))
+
+
+def off_means_off(s: System) -> z3.BoolRef:
+    """EKS-2-5, EKS-8-5: LA is on in four states; without it an output is on only to be cleared"""
+    on = s.eks.at("StartTest", "TestOnes", "TestZeros", "Signal")
+    off = z3.Or(on, s.eks.at("ClearOutputs"), none_of(s.eks.outputs))
+    return z3.And(on == s.eks.LA, off)
+
+
+def low_means_off(s: System) -> z3.BoolRef:
+    """EKS-8-2, EKS-8-5: the F-PLC has scanned while all was off, and holds no selection since"""
+    off = z3.And(z3.Not(s.eks.LA), none_of(s.eks.outputs))
+    return z3.Implies(s.history.low, z3.And(off, z3.Not(s.fplc.at(*OFFERING, *ECHOING))))
+
+
+def unseen_key_finds_all_off(s: System) -> z3.BoolRef:
+    """EKS-8-2, EKS-8-5, EKS-3-1-FPLC"""
+    off = z3.And(z3.Not(s.eks.LA), none_of(s.eks.outputs))
+    selecting = z3.And(s.fplc.at(*OFFERING, *ECHOING), z3.Not(s.history.low))
+    return z3.Implies(s.history.unseen, z3.And(off, selecting))
 
 
 def touched_seen_confirmed(s: System) -> z3.BoolRef:

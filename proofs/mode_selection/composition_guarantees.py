@@ -38,6 +38,8 @@ OFFERING: Final = ("AwaitSelection", "CheckSelection", "EchoSelection")
 """A level is published, and no echo."""
 ECHOING: Final = ("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch")
 """A level and an echo are published."""
+HOLDING: Final = (*OFFERING, *ECHOING, "Settle")
+"""A level is in force."""
 UNKEYED: Final = ("Start", "Idle", "Clear", "AwaitZeros", "Error")
 """The F-PLC has noticed that no key is in, or takes none."""
 PENDING: Final = ("AwaitEcho", "Confirm", "AwaitSwitch")
@@ -93,11 +95,10 @@ def _accepts_one_output(s: FplcScan) -> z3.BoolRef:
 
 def _one_authority(s: FplcScan) -> z3.BoolRef:
     """EKS-2-12, E-18: published from the accepted output, then kept to the end of the insertion"""
-    holding = (*OFFERING, *ECHOING, "Settle")
     published = z3.And(s.before.at("Authorize"), s.after.authority == s.before.accepted)
-    kept = z3.And(s.before.at(*holding), s.after.authority == s.before.authority)
+    kept = z3.And(s.before.at(*HOLDING), s.after.authority == s.before.authority)
     same_output = s.after.accepted == s.before.accepted
-    return z3.Implies(s.after.at(*holding), z3.And(z3.Or(published, kept), same_output))
+    return z3.Implies(s.after.at(*HOLDING), z3.And(z3.Or(published, kept), same_output))
 
 
 def _latched_from_mw03(s: FplcScan) -> z3.BoolRef:
@@ -119,6 +120,12 @@ def _echo_while_it_stands(s: FplcScan) -> z3.BoolRef:
         code("SE", s.before.selection) == s.MW03,
     )
     return z3.Implies(s.after.at(*ECHOING), stands)
+
+
+def _goes_on_while_signalled(s: FplcScan) -> z3.BoolRef:
+    """EKS-3-1-FPLC, EKS-3-4-FPLC, E-28, E-41"""
+    stands = z3.And(s.LA, signals(s.outputs, s.before.accepted))
+    return z3.Implies(s.after.at(*OFFERING, *ECHOING), z3.And(stands, s.before.at("Authorize", *HOLDING)))
 
 
 def _switches_on_a_pair(s: FplcScan) -> z3.BoolRef:
@@ -162,7 +169,7 @@ def _refuses_only_wrong_words(s: FplcScan) -> z3.BoolRef:
         code("SW", s.before.selection) != s.MW07,
     )
     stands = z3.And(s.LA, signals(s.outputs, s.before.accepted))
-    keyed = s.before.at("Authorize", *OFFERING, *ECHOING, "Settle")
+    keyed = s.before.at("Authorize", *HOLDING)
     refused = z3.And(keyed, stands, s.after.at("Error"))
     return z3.Implies(refused, z3.Or(early, unasked, not_permitted, unmatched))
 
@@ -290,6 +297,14 @@ def _no_output_without_la(s: EksScan) -> z3.BoolRef:
     return z3.Or(s.after.LA, s.after.at("ClearOutputs"), none_of(s.after.outputs))
 
 
+def _off_by_state(s: EksScan) -> z3.BoolRef:
+    """EKS-2-5, EKS-8-2, EKS-8-5"""
+    by_state = s.after.at("StartTest", "TestOnes", "TestZeros", "Signal") == s.after.LA
+    outputs = z3.Or(s.after.at("TestOnes", "Signal", "ClearOutputs"), none_of(s.after.outputs))
+    clears = z3.Implies(s.after.at("ClearOutputs"), s.before.at("Signal"))
+    return z3.And(by_state, outputs, clears)
+
+
 FPLC_THEOREM: Final = "every_scan_of_the_fplc_keeps_its_guarantees"
 HMI_THEOREM: Final = "every_scan_of_the_panel_keeps_its_guarantees"
 PLC_THEOREM: Final = "every_scan_of_the_plc_keeps_its_guarantees"
@@ -303,6 +318,7 @@ GUARANTEES: Final = (
     Guarantee("the F-PLC keeps one authority", FPLC, _one_authority, FPLC_THEOREM),
     Guarantee("the F-PLC latches MW03", FPLC, _latched_from_mw03, FPLC_THEOREM),
     Guarantee("the F-PLC echoes while MW03 stands", FPLC, _echo_while_it_stands, FPLC_THEOREM),
+    Guarantee("the F-PLC goes on while signalled", FPLC, _goes_on_while_signalled, FPLC_THEOREM),
     Guarantee("the F-PLC switches on a pair", FPLC, _switches_on_a_pair, FPLC_THEOREM),
     Guarantee("the F-PLC keeps the mode", FPLC, _mode_stays, FPLC_THEOREM),
     Guarantee("the F-PLC forgets without a key", FPLC, _forgets_without_a_key, FPLC_THEOREM),
@@ -320,6 +336,7 @@ GUARANTEES: Final = (
     Guarantee("the EKS signals the level read", EKS, _signals_the_level_read, EKS_THEOREM),
     Guarantee("the EKS sets several outputs in its pulse", EKS, _several_outputs_in_the_pulse, EKS_THEOREM),
     Guarantee("the EKS sets no output without LA", EKS, _no_output_without_la, EKS_THEOREM),
+    Guarantee("the EKS is off by its state", EKS, _off_by_state, EKS_THEOREM),
 )
 
 
@@ -381,6 +398,7 @@ def every_scan_of_the_plc_keeps_its_guarantees() -> Queries:
 def every_scan_of_the_eks_keeps_its_guarantees() -> Queries:
     """After any scan of the EKS, whatever its memory and its reader hold: if LA is on and one output alone is
     set, it is the output of the level on the key that was read; several outputs are set in the test pulse
-    only; and without LA none is, but for the one scan before the outputs are cleared.
+    only; without LA none is, but for the one scan before the outputs are cleared; and its state says whether
+    LA and outputs are on.
     """
     yield from _keeps_its_guarantees(EKS)

@@ -2,8 +2,8 @@
 
 TLC's rows are read from runs.toml: every run of the whole system that must hold, with our reading of the
 note, and every run that breaks an assumption. Which environments a proof covers is computed from what it
-rests on: where it assumes nothing of words, it holds with any words (`corrupting`); where nothing of the EKS
-and its wires, with any LA and outputs (`faulty_eks`).
+rests on: where it assumes nothing of words, it holds with any words (`corrupting`); where nothing of the
+wires from the EKS but that one is broken, with faults there (`faulty_eks`).
 """
 
 from __future__ import annotations
@@ -16,7 +16,10 @@ from modeproof.registers import Document, Run, load_document
 from proofs.mode_selection import composition_system as system
 from proofs.mode_selection.composition import (
     ARGUMENT,
+    GOES_IN,
     INTENT,
+    INTENT_ANYWAY,
+    NOTICED,
     ONLY_BY_SWITCHING,
     OUTPUTS_WIRED,
     WIRED,
@@ -55,8 +58,9 @@ FORMULA: Final[Mapping[str, str]] = {
 
 FORMULA_IN: Final[Mapping[tuple[str, str], str]] = {
     ("SwitchNeedsMatchingPair", "corrupting"): "the pair read",
+    ("UserIntent", "faulty_eks"): INTENT_ANYWAY,
 }
-"""Where words may be wrong, the pair is the one that the F-PLC reads."""
+"""Where words may be wrong, the pair is the one that the F-PLC reads; for broken wires A-07 is another."""
 
 MUST_HOLD: Final[Mapping[str, str]] = {"MC": "HOLDS", "LIVE": "HOLDS"}
 """Kinds of runs that must hold, with TLC's verdict on them."""
@@ -90,8 +94,6 @@ NOT_PROVED_IN: Final[Mapping[tuple[str, str], str]] = {
     ): "it rests on the test pulse and on A-31 (slow users)",
     ("UserIntent", "corrupting"): BELOW_DISTANCE,
     ("NothingButTheTouch", "corrupting"): BELOW_DISTANCE,
-    ("UserIntent", "faulty_eks"): "proved for any LA and outputs that show a change of key to the F-PLC;"
-    " that one broken wire leaves it that is not proved",
 }
 
 
@@ -154,11 +156,10 @@ def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Ro
 def environments(formula: str, argument: Argument = ARGUMENT) -> frozenset[str]:
     """The environments in which a proved formula holds, by what it rests on."""
     rests_on = argument.rests_on(formula)
-    devices = {one.device.name for one in map(argument.premises.get, rests_on) if isinstance(one, Guarantee)}
     found = {"honest"}
     if WIRED not in rests_on:
         found.add("corrupting")
-    if OUTPUTS_WIRED not in rests_on and EKS.name not in devices:
+    if not {OUTPUTS_WIRED, GOES_IN, NOTICED} & set(rests_on):
         found.add("faulty_eks")
     return frozenset(found)
 

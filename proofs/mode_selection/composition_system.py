@@ -38,13 +38,15 @@ STEPS: Final = ("insert", "eks", "fplc", "plc", "hmi")
 class History:
     """What the user did and saw since the key went in, each -1 for nothing; only user and panel set it.
 
-    unseen: a key was put in while a selection of the key before was going on, which goes on still.
+    unseen: a key was put in while a selection of the key before was going on, which goes on still. low: the
+    F-PLC has scanned while neither LA nor an output of the EKS was on, and LA has not come since.
     """
 
     touched: Mode
     seen: Mode
     confirmed: Mode
     unseen: z3.BoolRef
+    low: z3.BoolRef
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,8 @@ class Step:
 
 def _system(when: str) -> System:
     touched, seen, confirmed = (views.small(f"user.{one}{when}") for one in ("touched", "seen", "confirmed"))
-    history = History(touched, seen, confirmed, z3.Bool(f"user.unseen{when}"))
+    unseen, low = z3.Bool(f"user.unseen{when}"), z3.Bool(f"fplc.low{when}")
+    history = History(touched, seen, confirmed, unseen, low)
     return System(
         views.fplc_symbols(when),
         views.hmi_symbols(when),
@@ -98,8 +101,7 @@ HOLDS: Final = z3.Bool("fplc.holds_mode_on_error")
 def _after(actor: str) -> System:
     """Who does not act keeps memory and words; the history changes with user, panel and F-PLC."""
     parts = {one: getattr(NEXT if one == actor else NOW, one) for one in ("fplc", "hmi", "plc", "eks")}
-    changes = actor in ("insert", "fplc", "hmi")
-    return System(**parts, history=NEXT.history if changes else NOW.history)
+    return System(**parts, history=NOW.history if actor == "plc" else NEXT.history)
 
 
 def _step(actor: str) -> Step:
@@ -156,17 +158,21 @@ def history_kept(step: Step) -> z3.BoolRef:
 
     EKS-2-1, EKS-2-14, EKS-2-22, EKS-2-23
     """
-    old, new = step.before.history, step.after.history
+    old, new, now = step.before.history, step.after.history, step.before
+    kept = z3.And(*[getattr(new, one) == getattr(old, one) for one in ("touched", "seen", "confirmed")])
+    if step.actor == "plc":
+        return z3.BoolVal(True)
     if step.actor == "insert":
         none = [one == -1 for one in (new.touched, new.seen, new.confirmed)]
-        going_on = step.before.fplc.at(*OFFERING, *ECHOING)
-        return z3.And(*none, new.unseen == z3.Or(old.unseen, going_on))
+        going_on = now.fplc.at(*OFFERING, *ECHOING)
+        return z3.And(*none, new.unseen == z3.Or(old.unseen, going_on), new.low == old.low)
+    if step.actor == "eks":
+        rises = z3.And(z3.Not(step.eks.before.LA), step.eks.after.LA)
+        return z3.And(kept, new.unseen == old.unseen, new.low == z3.And(old.low, z3.Not(rises)))
     if step.actor == "fplc":
         still = step.after.fplc.at(*OFFERING, *ECHOING)
-        kept = [getattr(new, one) == getattr(old, one) for one in ("touched", "seen", "confirmed")]
-        return z3.And(*kept, new.unseen == z3.And(old.unseen, still))
-    if step.actor != "hmi":
-        return z3.BoolVal(True)
+        low = z3.And(z3.Not(now.eks.LA), views.none_of(now.eks.outputs))
+        return z3.And(kept, new.unseen == z3.And(old.unseen, still), new.low == low)
     scan = step.hmi
     begins = z3.And(scan.before.at("Select"), scan.after.at("AwaitEcho"))
     nothing = z3.And(new.touched == -1, *[z3.Not(scan.selects(mode)) for mode in views.LEVELS])
@@ -178,6 +184,7 @@ def history_kept(step: Step) -> z3.BoolRef:
         new.seen == z3.If(begins, -1, z3.If(shows, old.touched, old.seen)),
         new.confirmed == z3.If(begins, -1, z3.If(confirms, old.seen, old.confirmed)),
         new.unseen == old.unseen,
+        new.low == old.low,
     )
 
 
@@ -191,6 +198,7 @@ def power_up() -> z3.BoolRef:
         same(NOW.eks, views.first_view(EKS)),
         *history,
         z3.Not(NOW.history.unseen),
+        z3.Not(NOW.history.low),
     )
 
 
@@ -255,6 +263,29 @@ def _removal_is_noticed(step: Step) -> z3.BoolRef:
     return z3.Implies(rises, step.before.fplc.at(*UNKEYED))
 
 
+def _one_wire_is_broken(step: Step) -> z3.BoolRef:
+    """EKS-KS-6, EKS-SD-10: of LA, the outputs and their wires at most one is wrong in a scan, another one
+    maybe in the next; or the pulse is missing. None are crossed (A-20).
+    """
+    seen, sent = step.fplc, step.before.eks
+    equal = [one == other for one, other in zip(seen.outputs, sent.outputs, strict=True)]
+    but_one = [z3.And(*equal[:left_out], *equal[left_out + 1 :]) for left_out in views.LEVELS]
+    no_pulse = z3.And(sent.at("TestOnes"), views.none_of(seen.outputs))
+    return z3.Or(z3.And(*equal), z3.And(seen.LA == sent.LA, z3.Or(*but_one, no_pulse)))
+
+
+def _key_goes_in_when_cleared(step: Step) -> z3.BoolRef:
+    """A-07: the EKS has seen the reader empty, and cleared its outputs, before the next key goes in."""
+    return z3.And(z3.Not(step.before.eks.LA), views.none_of(step.before.eks.outputs))
+
+
+def _removal_is_noticed_or_low(step: Step) -> z3.BoolRef:
+    """A-07 where LA is not seen to be low: the F-PLC has scanned while LA and the outputs were off."""
+    rises = z3.And(z3.Not(step.eks.before.LA), step.eks.after.LA)
+    noticed = z3.Or(step.before.fplc.at(*UNKEYED), step.before.history.low)
+    return z3.Implies(rises, noticed)
+
+
 def _mode_is_held(step: Step) -> z3.BoolRef:
     """E-24: with ON_ERROR = hold."""
     return HOLDS
@@ -272,6 +303,9 @@ ASSUMPTIONS: Final = (
     Assumption("words arrive within the dwell time", ("A-06",), _words_arrive, ("fplc",)),
     Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la, ("insert",)),
     Assumption("a removal is noticed before LA comes again", ("A-07",), _removal_is_noticed, ("eks",)),
+    Assumption("one wire is broken", ("A-20",), _one_wire_is_broken, ("fplc",)),
+    Assumption("a key goes in when all is cleared", ("A-07",), _key_goes_in_when_cleared, ("insert",)),
+    Assumption("the F-PLC scanned while LA was low", ("A-07",), _removal_is_noticed_or_low, ("eks",)),
     Assumption("the error mode holds the mode", ("E-24",), _mode_is_held, ("fplc",)),
     Assumption("levels are ordered", ("A-03", "E-47"), _same_permissions, STEPS),
 )

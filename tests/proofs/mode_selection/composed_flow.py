@@ -7,7 +7,10 @@ can be turned into the records of the composition argument, so that its formulas
 from __future__ import annotations
 
 import random
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Final
 
 import z3
 
@@ -19,6 +22,9 @@ from refimpl.mode_selection import eks, fplc, hmi, key_flows
 from refimpl.mode_selection.code_tables import NONE, RE
 
 CHECKSUM = 1
+WHOLE: Final[Mapping[str, bool]] = MappingProxyType({})
+"""No wire is broken."""
+OFF = eks.Outputs(False, False, False, False, False, False)
 DWELLING = ("Start", "Settle", "AwaitZeros", "Error")
 ACTORS = ("eks", "fplc", "plc", "hmi", "insert", "remove", "touch")
 
@@ -37,6 +43,7 @@ class Moment:
     seen: int = NONE
     confirmed: int = NONE
     unseen: bool = False
+    low: bool = False
     switched: bool = False
 
 
@@ -56,7 +63,7 @@ def in_selection(moment: Moment) -> bool:
 def insert(moment: Moment, level: int) -> Moment:
     """A key goes in; what was touched before counts no more."""
     flow = key_flows.insert_key(moment.flow, key(level))
-    return Moment(flow, unseen=moment.unseen or in_selection(moment))
+    return Moment(flow, unseen=moment.unseen or in_selection(moment), low=moment.low)
 
 
 def remove(moment: Moment) -> Moment:
@@ -69,9 +76,13 @@ def touch(moment: Moment, field: str) -> Moment:
     return replace(moment, flow=key_flows.touch(moment.flow, field), switched=False)
 
 
-def scan(moment: Moment, device: str, dt_ms: int = 0) -> Moment:
-    """One scan of a device, and what the user sees of it."""
+def scan(moment: Moment, device: str, dt_ms: int = 0, wires: Mapping[str, bool] = WHOLE) -> Moment:
+    """One scan of a device, and what the user sees of it. wires: what the F-PLC sees on broken ones."""
     before, after = moment.flow, key_flows.scan(moment.flow, device, dt_ms)
+    if wires:
+        read = replace(key_flows.fplc_inputs(before, dt_ms), **wires)  # type: ignore[arg-type]
+        state, out = fplc.step(before.fplc_state, read)
+        after = replace(before, fplc_state=state, fplc_out=out)
     made = replace(moment, flow=after, switched=False)
     if device == "fplc":
         here = before.fplc_state
@@ -80,7 +91,10 @@ def scan(moment: Moment, device: str, dt_ms: int = 0) -> Moment:
             and after.fplc_state.state == fplc.Step.SETTLE
             and fplc.matches(before.plc_out.MW03, before.plc_out.MW07)
         )
-        return replace(made, switched=switched, unseen=moment.unseen and in_selection(made))
+        unseen = moment.unseen and in_selection(made)
+        return replace(made, switched=switched, unseen=unseen, low=before.eks_out == OFF)
+    if device == "eks":
+        return replace(made, low=moment.low and not after.eks_out.LA)
     if device != "hmi":
         return made
     old, new = before.hmi_state.state, after.hmi_state.state
@@ -104,10 +118,10 @@ def allowed(moment: Moment, actor: str, dt_ms: int) -> bool:
     """A-06 and A-07 let this step happen now."""
     flow = moment.flow
     if actor == "insert":
-        return flow.key is None and not flow.eks_out.LA
+        return flow.key is None and flow.eks_out == OFF
     if actor == "eks":
         rises = key_flows.scan_eks(flow, dt_ms).eks_out.LA and not flow.eks_out.LA
-        return not rises or flow.fplc_state.state.value in UNKEYED
+        return not rises or flow.fplc_state.state.value in UNKEYED or moment.low
     if actor == "fplc" and flow.fplc_state.state.value in DWELLING:
         dwelt = flow.fplc_state.elapsed_ms + dt_ms >= flow.fplc_state.params.T_DWELL_ms
         return not dwelt or arrived(moment)
@@ -145,6 +159,7 @@ def as_system(moment: Moment) -> system.System:
         system.History(
             *[z3.IntVal(one) for one in (moment.touched, moment.seen, moment.confirmed)],
             z3.BoolVal(moment.unseen),
+            z3.BoolVal(moment.low),
         ),
     )
 

@@ -18,7 +18,7 @@ from modeproof.registers import load_document
 from proofs.explorer.device import Device, explored_from
 from proofs.explorer.records import filled, unvalidated
 from proofs.mode_selection import composition, composition_guarantees, composition_results
-from proofs.mode_selection.composition import ARGUMENT, INTENT, ZEROS
+from proofs.mode_selection.composition import ARGUMENT, BROKEN, INTENT, INTENT_ANYWAY, ZEROS
 from proofs.mode_selection.composition_argument import Argument, Invariant
 from proofs.mode_selection.composition_guarantees import GUARANTEES
 from proofs.mode_selection.composition_system import ASSUMPTIONS, Assumption, Step, System
@@ -28,6 +28,7 @@ from proofs.solvers import ask_z3
 from proofs.theorem import Query, Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import eks, fplc, hmi, key_flows, plc
 from tests.proofs.mode_selection.composed_flow import (
+    OFF,
     Moment,
     as_system,
     beginning,
@@ -153,8 +154,8 @@ def test_what_a_formula_rests_on_is_followed_to_the_end() -> None:
 
 
 def _walks() -> Iterator[tuple[int, Moment]]:
-    """Random flows from power-up: each moment, with the number of its flow."""
-    for seed in range(6):
+    """Random flows from power-up, some with a switchover: each moment, with the number of its flow."""
+    for seed in (0, 5, 17, 19, 20, 47):
         rng = random.Random(seed)
         moment = beginning()
         for _ in range(1500):
@@ -284,6 +285,77 @@ def test_without_a_removal_that_is_noticed_the_key_of_one_user_switches_for_anot
     moment = scan(moment, "fplc")
     assert moment.switched
     assert (moment.touched, moment.seen, moment.confirmed) == (-1, -1, -1)
+
+
+# ---------------------------------------------------------------- a wire is broken: on real devices
+
+
+def _broken_wire(moment: Moment, rng: random.Random) -> dict[str, bool]:
+    """What the F-PLC sees of one broken wire, or of a test pulse that is missing."""
+    if moment.flow.eks_state.state == eks.Step.TEST_ONES and rng.random() < 0.5:
+        return dict.fromkeys(("A", "B", "C", "D", "STR"), False)
+    return {rng.choice(("LA", "A", "B", "C", "D", "STR")): rng.random() < 0.5}
+
+
+def _walks_with_broken_wires() -> Iterator[Moment]:
+    """Random flows in which each scan of the F-PLC may find another wire broken."""
+    for seed in (9, 12, 13, 21):
+        rng = random.Random(seed)
+        moment = beginning()
+        for _ in range(1500):
+            actor, dt_ms, after = random_step(moment, rng)
+            if actor == "fplc" and rng.random() < 0.05:
+                after = scan(moment, "fplc", dt_ms, _broken_wire(moment, rng))
+            moment = after
+            yield moment
+
+
+def test_what_the_intent_rests_on_holds_in_real_flows_with_one_broken_wire() -> None:
+    names = ARGUMENT.rests_on(INTENT_ANYWAY)
+    invariants = [one for one in ARGUMENT.proved if isinstance(one, Invariant) and one.name in names]
+    seen: dict[tuple[object, ...], Moment] = {}
+    switched = 0
+    for moment in _walks_with_broken_wires():
+        seen[(*_looks_like(moment), moment.low, moment.unseen)] = moment
+        switched += moment.switched
+        if moment.switched:
+            mode = moment.flow.fplc_state.mode
+            assert moment.touched == moment.seen == moment.confirmed == mode
+    assert switched >= 2
+    assert fplc.Step.ERROR in {moment.flow.fplc_state.state for moment in seen.values()}
+    for moment in seen.values():
+        system = as_system(moment)
+        for one in invariants:
+            assert is_true(one.of(system)), (one.name, moment)
+
+
+def _swapped_behind_broken_wires(**wires: bool) -> Moment:
+    """A key is exchanged for another one while the F-PLC is about to switch, and scans beside these wires."""
+    moment = _scans(remove(_switching(beginning())), "eks*4")
+    assert moment.flow.eks_out == OFF
+    for _ in range(2):
+        moment = scan(moment, "fplc", 0, wires)
+    moment = _scans(insert(moment, 1), "eks*8")
+    return scan(moment, "fplc", 0, wires)
+
+
+@pytest.mark.parametrize("wires", [{}, {"LA": True}, {"B": True}, {"LA": False}, {"B": False}, {"A": True}])
+def test_one_broken_wire_switches_nothing_for_another_user(wires: dict[str, bool]) -> None:
+    moment = _swapped_behind_broken_wires(**wires)
+    assert moment.flow.fplc_state.mode == -1
+    assert not moment.switched
+
+
+def test_two_broken_wires_switch_the_mode_of_one_user_for_another() -> None:
+    """The assumption that one wire is broken is dropped: LA and the output of the level stay on."""
+    moment = _scans(remove(_switching(beginning())), "eks*4")
+    moment = _scans(insert(moment, 1), "eks*2")
+    assert moment.unseen
+    moment = scan(moment, "fplc", 0, {"LA": True, "B": True})
+    assert moment.switched
+    assert (moment.touched, moment.seen, moment.confirmed) == (-1, -1, -1)
+    seen_anyway = composition.SEEN_ANYWAY
+    assert ask_z3(ARGUMENT.without(seen_anyway, BROKEN), "", 20_000).answer == "sat"
 
 
 # ---------------------------------------------------------------- a fault is planted in a device
@@ -450,7 +522,6 @@ def test_what_is_not_proved_is_said_and_is_no_more_than_this() -> None:
         ("RemovalLeadsToIdle", "corrupting"),
         ("RemovalLeadsToIdle", "honest"),
         ("UserIntent", "corrupting"),
-        ("UserIntent", "faulty_eks"),
     }
 
 
@@ -470,6 +541,7 @@ def test_a_proof_covers_the_environments_of_which_it_assumes_nothing() -> None:
     assert environments(ZEROS) == {"honest", "faulty_eks"}
     assert environments("the mode is permitted by the key") == {"honest", "corrupting"}
     assert environments(INTENT) == {"honest"}
+    assert environments(INTENT_ANYWAY) == {"honest", "faulty_eks"}
 
 
 def test_a_property_without_formula_and_reason_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
