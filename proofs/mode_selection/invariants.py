@@ -25,7 +25,7 @@ import z3
 from proofs.explorer.device import Device
 from proofs.explorer.ends import TRUE
 from proofs.mode_selection.devices import KEY_ID_MAX
-from proofs.mode_selection.observer import SEEN, Seen
+from proofs.mode_selection.observer import INSERTION, REMOVAL, SEEN, Seen
 from proofs.mode_selection.ranges import codes
 from proofs.mode_selection.scanned import NONE, control, is_mode, memory, parameters, permits
 from proofs.words import one_of
@@ -36,6 +36,8 @@ TRANSACTION: Final = frozenset(
 AUTHORIZED: Final = TRANSACTION | {"AwaitSelection", "CheckSelection"}
 HOLDING: Final = AUTHORIZED | {"Authorize", "Settle"}
 """The states in which one output is accepted."""
+CLOCKED: Final = INSERTION | REMOVAL | {"Start", "Settle", "Error"}
+"""The states in which time is counted."""
 ON_ERROR_NONE: Final = 1
 """The value "none" of ON_ERROR in terms: its place in interface.toml."""
 
@@ -124,6 +126,10 @@ def _timer_is_the_time_waited(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     return seen.waited == s.elapsed_ms if c in timed else TRUE
 
 
+def _no_time_where_none_runs(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return TRUE if c in CLOCKED else s.elapsed_ms == 0
+
+
 FPLC_INVARIANT: Final = (
     Conjunct(
         "ValuesInRange", "Levels and modes are 0 to 4 or none, times are not negative.", _values_in_range
@@ -176,6 +182,9 @@ FPLC_INVARIANT: Final = (
         "In the insertion and in the removal the timer is the time since it began.",
         _timer_is_the_time_waited,
     ),
+    Conjunct(
+        "NoTimeWhereNoneRuns", "In a state that counts no time the timer is zero.", _no_time_where_none_runs
+    ),
 )
 
 
@@ -193,6 +202,10 @@ def _selection_is_offered(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
     return permits(p, s.offered, s.selection) if c in PENDING else s.selection == NONE
 
 
+def _open_at_a_level(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return s.offered == NONE if c == "Inhibited" else is_mode(s.offered)
+
+
 HMI_INVARIANT: Final = (
     Conjunct(
         "ValuesInRange", "The level offered and the selection are 0 to 4 or none.", _panel_values_in_range
@@ -203,12 +216,25 @@ HMI_INVARIANT: Final = (
         "which the screen was opened.",
         _selection_is_offered,
     ),
+    Conjunct(
+        "OpenAtALevel", "A level is offered exactly while the screen is not inhibited.", _open_at_a_level
+    ),
 )
 
 # ---------------------------------------------------------------- EKS
 
 SIGNALLING: Final = frozenset({"StartTest", "TestOnes", "TestZeros", "Signal"})
 """The states of the EKS in which LA is on."""
+WORKING: Final = SIGNALLING | {"Read", "CheckChecksum", "CheckLevel", "SetLA", "Rejected"}
+"""The states of the EKS in which a key is in the reader."""
+REMEMBERING: Final = WORKING | {"ClearOutputs"}
+"""The states of the EKS in which a key is in memory."""
+
+
+def no_key(key: Any) -> z3.BoolRef:
+    """The memory (in terms) is that of no key: zeros everywhere."""
+    words = (key.operating_state, key.authorization_level, key.access_code, key.KEYCRC, key.KeyID)
+    return z3.And(*[one == 0 for one in words])
 
 
 def key_accepted(p: Any, key: Any) -> z3.BoolRef:
@@ -238,6 +264,14 @@ def _key_in_range(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
     return z3.And(s.elapsed_ms >= 0, z3.ULE(s.key.operating_state, 0xFF), number)
 
 
+def _key_is_forgotten(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return TRUE if c in REMEMBERING else no_key(s.key)
+
+
+def _pulse_alone_takes_time(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
+    return TRUE if c in ("TestOnes", "TestZeros") else s.elapsed_ms == 0
+
+
 EKS_INVARIANT: Final = (
     Conjunct("ValuesInRange", "The key in memory is one that fits into 15 bytes.", _key_in_range),
     Conjunct(
@@ -253,4 +287,6 @@ EKS_INVARIANT: Final = (
         "In the test pulse the timer is the time for which the outputs have stood.",
         _timer_is_the_time_of_this_half,
     ),
+    Conjunct("KeyIsForgotten", "In Empty, CheckRegisters and Fault no key is in memory.", _key_is_forgotten),
+    Conjunct("PulseAloneTakesTime", "Outside the test pulse the timer is zero.", _pulse_alone_takes_time),
 )

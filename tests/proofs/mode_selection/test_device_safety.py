@@ -12,7 +12,14 @@ import z3
 
 from modeproof.registers import load_document
 from proofs.explorer.errors import ConcretizationError
-from proofs.mode_selection import eks_safety, fplc_response, panel_safety, plc_safety
+from proofs.mode_selection import (
+    eks_prompt,
+    eks_safety,
+    fplc_response,
+    panel_prompt,
+    panel_safety,
+    plc_safety,
+)
 from proofs.mode_selection.devices import ROOT
 from proofs.mode_selection.scanned import Scanned, Scans
 from proofs.mode_selection.sentences import Judge, Said, Sentence
@@ -22,14 +29,14 @@ from proofs.theorem import Query, Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
 from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
 
-MODULES: list[Any] = [panel_safety, plc_safety, eks_safety, fplc_response]
+MODULES: list[Any] = [panel_safety, panel_prompt, plc_safety, eks_safety, eks_prompt, fplc_response]
 
 
 def _theorems(module: ModuleType) -> list[Theorem]:
     return [one for one in vars(module).values() if isinstance(one, Theorem)]
 
 
-SMALL = [item for module in MODULES[:3] for item in _theorems(module)]
+SMALL = [item for module in MODULES[:-1] for item in _theorems(module)]
 
 
 @pytest.mark.parametrize("item", SMALL, ids=lambda item: item.name)
@@ -157,6 +164,55 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, s.offered, 0)")],
     ),
     (
+        "OpenAtALevel",
+        PANEL,
+        "Confirm",
+        _kept(PANEL),
+        [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, NONE, NONE)")],
+    ),
+    (
+        "ScreenIsTrue",
+        PANEL,
+        "AwaitEcho",
+        _state(PANEL, panel_prompt.screen_is_true),
+        [('"confirm", NO_MODES, s.selection, active', '"confirm", NO_MODES, NONE, active')],
+    ),
+    (
+        "FieldSelectsItsMode",
+        PANEL,
+        "Select",
+        panel_prompt.field_selects_its_mode,
+        [('if touch == "select:2":\n        return 2', 'if touch == "select:2":\n        return 1')],
+    ),
+    (
+        "ClosesAtOnce",
+        PANEL,
+        "Confirm",
+        panel_prompt.closes_at_once,
+        [("if level == NONE or level != s.offered:", "if level == NONE:")],
+    ),
+    (
+        "ClosesOverAnEcho",
+        PANEL,
+        "Select",
+        panel_prompt.closes_over_an_echo,
+        [("return _inhibit(s)  # InhibitScreen\n    touched", "return s\n    touched")],
+    ),
+    (
+        "EndsWithTheEcho",
+        PANEL,
+        "Withdrawn",
+        panel_prompt.ends_with_the_echo,
+        [("Step.SELECT, s.offered, NONE)  # FinishSelection", "Step.INHIBITED, NONE, NONE)")],
+    ),
+    (
+        "PanelAnswersAtOnce",
+        PANEL,
+        "Confirm",
+        panel_prompt.panel_answers_at_once,
+        [("if i.touch == CONFIRM:", "if i.touch == CONFIRM and i.ActiveMSO == NONE:")],
+    ),
+    (
         "CopiesUnchanged",
         PLC,
         "CopyMW03",
@@ -247,6 +303,67 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "TestOnes",
         _kept(EKS),
         [("State(s.params, Step.TEST_ONES, s.key, elapsed)", "State(s.params, Step.TEST_ONES, s.key, 0)")],
+    ),
+    (
+        "KeyIsForgotten",
+        EKS,
+        "ClearOutputs",
+        _kept(EKS),
+        [("Step.CHECK_REGISTERS, NO_KEY, 0)  # ResetOutputs", "Step.CHECK_REGISTERS, s.key, 0)")],
+    ),
+    (
+        "PulseAloneTakesTime",
+        EKS,
+        "TestZeros",
+        _kept(EKS),
+        [("return _enter(s, Step.SIGNAL)", "return State(s.params, Step.SIGNAL, s.key, elapsed)")],
+    ),
+    (
+        "ReaderStepsInOrder",
+        EKS,
+        "CheckChecksum",
+        eks_prompt.reader_steps_in_order,
+        [("_enter(s, Step.CHECK_LEVEL)  # AcceptChecksum", "_enter(s, Step.SET_LA)")],
+    ),
+    (
+        "LABeforeOutputs",
+        EKS,
+        "SetLA",
+        eks_prompt.la_before_outputs,
+        [("_enter(s, Step.START_TEST)  # RaiseLA", "_enter(s, Step.TEST_ONES)  # RaiseLA")],
+    ),
+    (
+        "RightKeysPass",
+        EKS,
+        "CheckLevel",
+        eks_prompt.right_keys_pass,
+        [("return access_code & dip_switches != 0", "return access_code == dip_switches")],
+    ),
+    (
+        "FaultNeedsCause",
+        EKS,
+        "CheckRegisters",
+        eks_prompt.fault_needs_cause,
+        [("if i.registers_zero:", "if i.registers_zero and not i.inserted:")],
+    ),
+    (
+        "KeyIsForgotten",
+        EKS,
+        "ClearOutputs",
+        _state(EKS, eks_prompt.key_is_forgotten),
+        [("Step.CHECK_REGISTERS, NO_KEY, 0)  # ResetOutputs", "Step.CHECK_REGISTERS, s.key, 0)")],
+    ),
+    (
+        "ReaderAnswersAtOnce",
+        EKS,
+        "Empty",
+        eks_prompt.reader_answers_at_once,
+        [
+            (
+                "if not i.inserted:\n        return s",
+                "if not i.inserted or not i.registers_zero:\n        return s",
+            )
+        ],
     ),
     (
         "comes closer",

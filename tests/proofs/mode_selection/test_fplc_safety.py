@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import z3
 
-from proofs.mode_selection import every_device, fplc_invariant, fplc_safety
+from proofs.mode_selection import every_device, fplc_invariant, fplc_order, fplc_prompt, fplc_safety
 from proofs.mode_selection.devices import DEVICES, FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.invariants import FPLC_INVARIANT
@@ -18,7 +18,12 @@ from proofs.solvers import ask_z3
 from proofs.theorem import Query, Theorem
 from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
 
-SAFETY = [one for one in vars(fplc_safety).values() if isinstance(one, Theorem)]
+SAFETY = [
+    one
+    for module in (fplc_safety, fplc_prompt, fplc_order)
+    for one in vars(module).values()
+    if isinstance(one, Theorem)
+]
 QUICK = [
     fplc_invariant.the_invariant_of_the_fplc_is_true_at_power_up,
     every_device.every_device_is_safe_from_the_first_moment,
@@ -190,7 +195,94 @@ FAULTS = [
         fplc_safety.removal_timer_goes_on,
         [("AWAIT_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_ZEROS, NONE, NONE, NONE, s.mode, 0")],
     ),
+    (
+        "NoNeedlessWait",
+        "PulseZeros",
+        fplc_prompt.no_needless_wait,
+        [
+            (
+                "if output == NO_OUTPUT:\n        return State(s.params, ONE",
+                "if output == NO_OUTPUT and elapsed > 0:\n        return State(s.params, ONE",
+            )
+        ],
+    ),
+    (
+        "ErrorNeedsCause",
+        "AwaitSelection",
+        fplc_prompt.error_needs_cause,
+        [
+            (
+                "if i.MW07 != ZERO:\n        return _enter_error(s)  # UnexpectedAcknowledgment\n",
+                "if i.MW07 != ZERO or s.mode == NONE:\n        return _enter_error(s)\n",
+            )
+        ],
+    ),
+    (
+        "RemovalNeedsCause",
+        "AwaitSelection",
+        fplc_prompt.removal_needs_cause,
+        [("if output != s.accepted:", "if output != s.accepted or i.MW03 == ZERO:")],
+    ),
+    (
+        "InsertionNeedsKey",
+        "Idle",
+        fplc_prompt.insertion_needs_key,
+        [
+            (
+                "if i.LA:\n        return _enter(s, PULSE",
+                "if i.LA or output == 0:\n        return _enter(s, PULSE",
+            )
+        ],
+    ),
+    (
+        "NothingIsKept",
+        "AwaitSelection",
+        _state(fplc_prompt.nothing_is_kept),
+        [("State(s.params, CLEAR, NONE, NONE,", "State(s.params, CLEAR, s.accepted, NONE,")],
+    ),
+    (
+        "StepsInOrder",
+        "EchoSelection",
+        fplc_order.steps_in_order,
+        [("_enter(s, AWAIT_ACKNOWLEDGMENT)", "_enter(s, MATCH)")],
+    ),
+    (
+        "TimeGoesOn",
+        "AwaitZeros",
+        fplc_order.time_goes_on,
+        [("_wait(s, elapsed)  # AwaitReturnedZeros", "_wait(s, s.elapsed_ms)")],
+    ),
+    (
+        "AcknowledgmentNeedsEcho",
+        "EchoSelection",
+        fplc_order.acknowledgment_needs_echo,
+        [
+            (
+                "    if i.MW07 != ZERO:\n        return _enter_error(s)  # UnexpectedAcknowledgment: E-15\n"
+                "    return _enter(s, AWAIT",
+                "    return _enter(s, AWAIT",
+            )
+        ],
+    ),
+    (
+        "ChangedSelectionIsWithdrawn",
+        "Match",
+        fplc_order.changed_selection_is_withdrawn,
+        [("return _enter_settle(s)  # WithdrawSelection: taken", "return _enter_error(s)  # taken")],
+    ),
+    (
+        "AcknowledgmentIsJudged",
+        "CheckAcknowledgment",
+        fplc_order.acknowledgment_is_judged,
+        [("return _enter_error(s)  # RefuseAcknowledgment", "return _enter_settle(s)")],
+    ),
     # what breaks no property in the scan itself breaks the invariant
+    (
+        "NoTimeWhereNoneRuns",
+        "OneOutput",
+        _kept,
+        [("AUTHORIZE, output, NONE, NONE, s.mode, 0)", "AUTHORIZE, output, NONE, NONE, s.mode, elapsed)")],
+    ),
     (
         "TimerIsTheTimeWaited",
         "PulseZeros",
