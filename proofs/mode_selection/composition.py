@@ -487,8 +487,8 @@ def one_broken_wire_of_the_reader_leaves_the_users_intent() -> Queries:
     the mode that becomes active still is the one that the user touched, saw and confirmed since this key went
     in.
 
-    Broken is LA or one output, stuck at 0 or 1, or wired to another one beside its own; not crossed (A-20).
-    It may begin, end, and be another one in the next scan.
+    Broken is LA or one output, stuck at 0 or 1, or wired to another one beside its own; not crossed (A-20),
+    and not two of them together (A-32). It may begin, end, and be another one in the next scan.
     """
     yield from _proofs_of("one_broken_wire_of_the_reader_leaves_the_users_intent")
 

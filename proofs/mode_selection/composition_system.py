@@ -303,7 +303,7 @@ ASSUMPTIONS: Final = (
     Assumption("words arrive within the dwell time", ("A-06",), _words_arrive, ("fplc",)),
     Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la, ("insert",)),
     Assumption("a removal is noticed before LA comes again", ("A-07",), _removal_is_noticed, ("eks",)),
-    Assumption("one wire is broken", ("A-20",), _one_wire_is_broken, ("fplc",)),
+    Assumption("one wire is broken", ("A-20", "A-32"), _one_wire_is_broken, ("fplc",)),
     Assumption("a key goes in when all is cleared", ("A-07",), _key_goes_in_when_cleared, ("insert",)),
     Assumption("the F-PLC scanned while LA was low", ("A-07",), _removal_is_noticed_or_low, ("eks",)),
     Assumption("the error mode holds the mode", ("E-24",), _mode_is_held, ("fplc",)),
