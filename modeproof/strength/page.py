@@ -105,11 +105,12 @@ def page(bench: Bench, judged: Sequence[Judged]) -> str:
     """The text of the page, without its stamp."""
     document = load_document(bench.place, bench.strength.document)
     stated = [one.tla for one in document.properties]
+    negatives = Counter(run.property for run in document.runs if run.kind == "NEG")
     parts = [
         _head(bench, judged),
         _by_module(bench, judged),
         _by_operator(judged),
-        _by_property(judged, stated),
+        _by_property(judged, stated, negatives),
         _matrix(judged),
         _survivors(bench, judged),
         _others(judged),
@@ -165,7 +166,7 @@ def _by_operator(judged: Sequence[Judged]) -> str:
     return "## By operator\n\n" + _markdown(["operator", "mutants", *WORDS, "score"], rows)
 
 
-def _by_property(judged: Sequence[Judged], stated: Sequence[str]) -> str:
+def _by_property(judged: Sequence[Judged], stated: Sequence[str], negatives: Mapping[str, int]) -> str:
     killed = Counter(name for one in judged for name in one.killers)
     first = Counter(one.killers[0] for one in judged if one.killers)
     alone = Counter(one.killers[0] for one in judged if len(one.killers) == 1)
@@ -180,19 +181,23 @@ def _by_property(judged: Sequence[Judged], stated: Sequence[str]) -> str:
             killed[name],
             first[name],
             alone[name],
+            negatives.get(name, 0),
         ]
         for name in names
     ]
     nothing = [name for name in stated if not killed[name] and asked[name]]
     never = [name for name in stated if not asked[name]]
+    neither = [name for name in stated if not killed[name] and not negatives.get(name)]
     not_alone = [name for name in stated if killed[name] and not alone[name]]
     notes = [
-        "Asked: mutants to which the property was put; alone: no other property that was asked fell.",
+        "Asked: mutants to which the property was put; alone: no other property that was asked fell; negatives: declared runs in which "
+        "a literal reading or a fault breaks it.",
         f"Kill nothing: {_names(nothing)}.",
         f"Kill nothing alone, but with others: {_names(not_alone)}.",
         f"Not asked here (the runs that check them are not among the tiers): {_names(never)}.",
+        f"Broken by no mutant and no negative: {_names(neither)}. These fall to faults planted in the tests, as every property does.",
     ]
-    head = ["property", "asked", "killed", "first", "alone"]
+    head = ["property", "asked", "killed", "first", "alone", "negatives"]
     return (
         "## By property\n\n" + _markdown(head, rows) + "\n" + "\n".join(f"- {note}" for note in notes) + "\n"
     )

@@ -91,6 +91,7 @@ def test_a_page_says_what_was_not_asked(
 
     class Document:
         properties = ()
+        runs = ()
 
     monkeypatch.setattr(module, "load_document", lambda *_: Document())
     text = page(bench, judged_as(every, WORDS))
