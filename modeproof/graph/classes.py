@@ -18,6 +18,16 @@ spec/<document>/classes.toml says which letters are representatives:
     at_most = 3
 
 In an alphabet without the representative of a `count`, the first other member in it stands for the class.
+A third rule is no class: the device passes the fields on and decides nothing by them, so that two words of
+the alphabet stand for any two words other than zero, in inputs and outputs alike; `codes` are those in use.
+
+    [[class]]
+    device = "relay"
+    rule = "copied"
+    fields = ["W1", "W2"]
+    words = ["0FF0", "0001"]
+    codes = ["0FF0", "33CC"]
+
 Members of `words`: all one-bit neighbours of the words that the alphabet names for the field, and 64 random
 words (seeded, so always the same). A document without the file has no classes.
 """
@@ -38,6 +48,7 @@ RANDOM_WORDS = 64
 _FIELDS = {
     "words": {"device", "rule", "field", "representative"},
     "count": {"device", "rule", "fields", "representative", "at_least", "at_most"},
+    "copied": {"device", "rule", "fields", "words", "codes"},
 }
 
 
@@ -50,6 +61,15 @@ class InputClass:
     members: tuple[Mapping[str, Any], ...]
 
 
+@dataclass(frozen=True)
+class Copied:
+    """The two `words` of the alphabet stand in the `fields` for any two words other than zero."""
+
+    fields: tuple[str, ...]
+    words: tuple[int, int]
+    codes: tuple[int, ...]
+
+
 def load_classes(
     place: Path, document: str, device: str, alphabet: Sequence[Mapping[str, Any]]
 ) -> tuple[InputClass, ...]:
@@ -58,26 +78,65 @@ def load_classes(
     Raises Unjudged with file and row for a row that is not of one of the forms above, that names an input
     which does not exist, or whose representative does not occur in the alphabet.
     """
+    return tuple(
+        _class(where, row, alphabet)
+        for where, row in _rows(place, document, device, alphabet)
+        if row["rule"] != "copied"
+    )
+
+
+def load_copied(
+    place: Path, document: str, device: str, alphabet: Sequence[Mapping[str, Any]]
+) -> Copied | None:
+    """What a device passes on unread; None when classes.toml has no row of the rule `copied` for it.
+
+    Raises Unjudged as `load_classes`, and where the alphabet lacks one of the words in one of the fields.
+    """
+    found = [one for one in _rows(place, document, device, alphabet) if one[1]["rule"] == "copied"]
+    if not found:
+        return None
+    if len(found) > 1:
+        raise Unjudged(f"{found[1][0]}: a second row of the rule copied for {device}")
+    where, row = found[0]
+    try:
+        words, codes = (tuple(int(word, 16) for word in row[name]) for name in ("words", "codes"))
+    except (ValueError, TypeError):
+        raise Unjudged(f"{where}: words and codes must list words of four hex digits") from None
+    if len(set(words)) != 2 or 0 in words:
+        raise Unjudged(f"{where}: words must be two words other than 0000")
+    for field in row["fields"]:
+        if not {0, *words} <= {letter[field] for letter in alphabet}:
+            raise Unjudged(f"{where}: the alphabet lacks 0000 or one of the words in {field}")
+    return Copied(tuple(row["fields"]), (words[0], words[1]), codes)
+
+
+def _rows(
+    place: Path, document: str, device: str, alphabet: Sequence[Mapping[str, Any]]
+) -> list[tuple[str, Mapping[str, Any]]]:
+    """The rows of a device with their places, checked for what all rules have in common."""
     path = place / "spec" / document / "classes.toml"
     if not path.is_file():
-        return ()
+        return []
     try:
         rows = tomllib.loads(path.read_text(encoding="utf-8")).get("class", [])
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path.name} of {document}: {error}") from None
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise Unjudged(f"{path.name} of {document}: [[class]] tables were expected")
-    return tuple(
-        _class(f"spec/{document}/classes.toml: class {n + 1}", row, alphabet)
+    found = [
+        (f"spec/{document}/classes.toml: class {n + 1}", row)
         for n, row in enumerate(rows)
         if row.get("device") == device
-    )
+    ]
+    for where, row in found:
+        _check(where, row, alphabet)
+    return found
 
 
-def _class(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, Any]]) -> InputClass:
+def _check(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, Any]]) -> None:
     rule = row.get("rule")
     if rule not in _FIELDS:
-        raise Unjudged(f"{place}: rule must be words or count, not {rule!r}")
+        raise Unjudged(f"{place}: rule must be words, count or copied, not {rule!r}")
     if set(row) != _FIELDS[rule]:
         odd = sorted(set(row) ^ _FIELDS[rule])[0]
         raise Unjudged(f"{place}: field {odd!r} is missing or unknown for the rule {rule}")
@@ -85,6 +144,10 @@ def _class(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, A
     for field in fields:
         if not isinstance(field, str) or field not in alphabet[0]:
             raise Unjudged(f"{place}: {field!r} is no input")
+
+
+def _class(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, Any]]) -> InputClass:
+    rule = row["rule"]
     made = _words(place, row, alphabet) if rule == "words" else _count(place, row, alphabet)
     if not any(made.representative.items() <= letter.items() for letter in alphabet):
         raise Unjudged(f"{place}: the representative {row['representative']!r} is not in the alphabet")

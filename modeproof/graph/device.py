@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.errors import Unjudged
-from modeproof.graph.classes import InputClass, load_classes
+from modeproof.graph.classes import Copied, InputClass, load_classes, load_copied
 from modeproof.graph.graph import Graph
 from modeproof.graph.read import read_graph
 from modeproof.graph.values import ValueForms
@@ -40,6 +40,7 @@ class DeviceGraph:
     passed: Mapping[str, str]
     params: Mapping[str, Any]
     classes: tuple[InputClass, ...]
+    copied: Copied | None = None
 
     @property
     def name(self) -> str:
@@ -163,6 +164,7 @@ def join(
         passed=dict(passed),
         params=dict(params),
         classes=() if place is None else load_classes(place, document, device.id, alphabet),
+        copied=None if place is None else load_copied(place, document, device.id, alphabet),
     )
 
 

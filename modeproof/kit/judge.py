@@ -1,4 +1,8 @@
-"""Runs a suite against an adapter and judges the answers, relation `exact`: every output of every scan."""
+"""Runs a suite against an adapter and judges the answers, relation `exact`: every output of every scan.
+
+Where a case holds requests that protocol 1 forbids, the adapter must refuse them; one that does not is told
+apart from a program that differs.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +16,13 @@ from typing import Any
 
 from modeproof.kit.adapter import Adapter, parse_answer
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.signals import shown
+from modeproof.kit.signals import loads, shown
 from modeproof.kit.vectors import Case, Scan, Suite
 
 CONFORMS, DIFFERS, UNJUDGED = "CONFORMS", "DIFFERS", "UNJUDGED"
 EXIT = {CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
+PROTOCOL = "protocol"
+"""Stands for the step where an adapter answered what it must refuse."""
 BATCH = 64
 """Scans in one `scans` request."""
 _REMEMBERED = 20_000
@@ -137,6 +143,11 @@ class _Run:
                 adapter.quiet()
                 verdict.difference = self._explain(adapter, hello, case, at, got)
                 verdict.word = DIFFERS
+                if case.scans[at].request is not None:
+                    verdict.reason = (
+                        "the adapter answers a request that protocol 1 tells it to refuse; "
+                        "this says nothing about the program behind it"
+                    )
                 break
             verdict.cases += 1
         else:
@@ -153,19 +164,24 @@ class _Run:
         self, adapter: Adapter, hello: Hello, case: Case, counted: bool
     ) -> tuple[int, Mapping[str, Any]] | None:
         """Run one case; the first wrong scan (from 0) and the outputs it gave, or None."""
-        self.place = f"{case.id}, reset"
-        answer = parse_answer(adapter.ask({"op": "reset", "params": case.params}))
-        if answer != {"ok": True}:
-            raise Unjudged(f"reset was answered with {shown(answer)}")
+        if case.reset:
+            self.place = f"{case.id}, reset"
+            answer = parse_answer(adapter.ask({"op": "reset", "params": case.params}))
+            if answer != {"ok": True}:
+                raise Unjudged(f"reset was answered with {shown(answer)}")
         compared = self.compared
         by_column = self.suite.header.get("counted_by") == "column"
         before = case.initial
         for n, got in enumerate(self._answers(adapter, hello, case)):
             scan = case.scans[n]
             wanted = scan.outputs
+            if scan.request is not None:
+                if got:
+                    return n, got
+                continue
             if counted:
                 self.verdict.scans += 1
-            if got != wanted and any(got[name] != wanted[name] for name in compared):
+            if got != wanted and scan.compared and any(got[name] != wanted[name] for name in compared):
                 return n, got
             if counted:
                 self.seen[scan.step].add((case.graph, before, scan.column if by_column else scan.to))
@@ -175,7 +191,7 @@ class _Run:
         return None
 
     def _answers(self, adapter: Adapter, hello: Hello, case: Case) -> Iterator[Mapping[str, Any]]:
-        if hello.lists:
+        if hello.lists and not case.requests:
             for first in range(0, len(case.scans), BATCH):
                 part = case.scans[first : first + BATCH]
                 self.place = f"{case.id}, scans {first + 1} to {first + len(part)}"
@@ -186,6 +202,9 @@ class _Run:
         known = self.known
         for n, scan in enumerate(case.scans):
             self.place = f"{case.id}, scan {n + 1}"
+            if scan.request is not None:
+                yield _refusal(adapter.ask_line(_request_line(scan.request)))
+                continue
             line = adapter.ask_line(_scan_line(scan))
             out = known.get(line)
             if out is None:
@@ -236,6 +255,10 @@ class _Run:
         self, adapter: Adapter, hello: Hello, case: Case, at: int, got: Mapping[str, Any]
     ) -> Difference:
         scan, suite = case.scans[at], self.suite
+        if scan.request is not None:
+            refused = {"error": "what is wrong, in one line"}
+            shortest = suite.shortest(case, at)
+            return Difference(case, at + 1, PROTOCOL, (), (), {"answer": refused}, got, shortest, True)
         step = suite.steps[scan.step]
         wrong = [name for name in self.compared if got[name] != scan.outputs[name]]
         shortest = suite.shortest(case, at)
@@ -275,6 +298,25 @@ def _hello(target: str) -> dict[str, Any]:
 def _scan_line(scan: Scan) -> bytes:
     request = {"op": "scan", "dt_ms": scan.dt_ms, "in": scan.inputs}
     return _ENCODE(request).encode() + b"\n"
+
+
+def _request_line(request: Mapping[str, Any] | str) -> bytes:
+    text = request if isinstance(request, str) else _ENCODE(request)
+    return text.encode() + b"\n"
+
+
+def _refusal(line: bytes) -> Mapping[str, Any]:
+    """Nothing for `{"error":"one line"}`, else what was answered. Raises Unjudged for what is no object."""
+    try:
+        answer = loads(line.decode("utf-8"))
+    except (ValueError, RecursionError):
+        answer = None
+    if not isinstance(answer, dict):
+        raise Unjudged(f"a refusal or an answer was expected, got {shown(line.decode('utf-8', 'replace'))}")
+    error = answer.get("error")
+    if set(answer) == {"error"} and isinstance(error, str) and error and "\n" not in error:
+        return {}
+    return {"answer": answer}
 
 
 def read_hello(answer: Mapping[str, Any], suite: Suite) -> Hello:

@@ -49,6 +49,7 @@ def _difference(found: Difference) -> list[str]:
     findings = f"; our decisions: {', '.join(found.findings)}" if found.findings else ""
     lines = [
         f"case {found.case.id}, scan {found.scan} of {len(found.case.scans)}",
+        f"why:     {found.case.why}",
         f"step:    {found.step} (clauses: {clauses}{findings})",
         "",
         f"{'output':<20} {'expected':<20} got",
@@ -74,11 +75,15 @@ def _way(found: Difference) -> list[str]:
         lines.append(f"  ... {first} scans")
         before = case.scans[first - 1].inputs
     for n, scan in enumerate(case.scans[first:], first + 1):
+        if scan.request is not None:
+            text = scan.request if isinstance(scan.request, str) else json.dumps(scan.request)
+            lines.append(f"  request {n}, to be refused: {text}")
+            continue
         changed = {name: value for name, value in scan.inputs.items() if before.get(name, _NEW) != value}
         inputs = (
             ", ".join(f"{name}={json.dumps(value)}" for name, value in changed.items()) or "inputs as before"
         )
-        lines.append(f"  scan {n}: +{scan.dt_ms} ms, {inputs}")
+        lines.append(f"  scan {n}: +{scan.dt_ms} ms, {inputs}{'' if scan.compared else ' (settling)'}")
         before = scan.inputs
     return lines
 
@@ -107,6 +112,7 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         if found is None
         else {
             "case": found.case.id,
+            "why": found.case.why,
             "scan": found.scan,
             "step": found.step,
             "clauses": list(found.clauses),
@@ -121,7 +127,12 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
 
 
 def _scans(case: Case) -> dict[str, Any]:
-    scans = [{"dt_ms": scan.dt_ms, "in": scan.inputs, "out": scan.outputs} for scan in case.scans]
+    scans = [
+        {"dt_ms": scan.dt_ms, "in": scan.inputs, "out": scan.outputs}
+        if scan.request is None
+        else {"refuse": scan.request}
+        for scan in case.scans
+    ]
     return {"id": case.id, "params": dict(case.params), "scans": scans}
 
 

@@ -4,6 +4,12 @@ The header names target, suite, relation, inputs, outputs and steps, and holds f
 outputs and a shortest way to each state. In a case `in` and `out` of a scan hold what differs from the scan
 before; in the first scan they are whole. `to` is the state after the scan, `step` the number of its step,
 `column` the number of the merged input column.
+
+A row `{"refuse": REQUEST}` is no scan of the program: the adapter must refuse the request (an object, or a
+text that is sent as it is), and the next scan must come out as if it had never been sent. A scan with
+`"settling": true` is not compared. A case with `"reset": false` begins before any reset. Where the header
+has `"shrink": "prefix"`, the shortest case that shows a difference is the beginning of the case itself;
+without it, the graph's shortest way to the state is tried.
 """
 
 from __future__ import annotations
@@ -12,7 +18,7 @@ import gzip
 import hashlib
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +41,11 @@ class Step:
 
 @dataclass(frozen=True)
 class Scan:
-    """One scan: whole inputs, whole expected outputs, and where the specification is after it."""
+    """One scan: whole inputs, whole expected outputs, and where the specification is after it.
+
+    With a `request` it is no scan: the adapter must refuse the request. `compared` is false while the
+    outputs settle.
+    """
 
     dt_ms: int
     inputs: Mapping[str, Any]
@@ -43,11 +53,16 @@ class Scan:
     step: int
     to: int
     column: int
+    compared: bool = True
+    request: Mapping[str, Any] | str | None = None
 
 
 @dataclass(frozen=True)
 class Case:
-    """One test case: reset with `params`, then the scans. `graph` is the number of the graph it walks in."""
+    """One test case: reset with `params`, then the scans. `graph` is the number of the graph it walks in.
+
+    Without `reset` it begins before any reset.
+    """
 
     id: str
     why: str
@@ -57,6 +72,12 @@ class Case:
     graph: int
     initial: int
     scans: tuple[Scan, ...]
+    reset: bool = True
+
+    @property
+    def requests(self) -> bool:
+        """Whether the adapter must refuse something."""
+        return any(scan.request is not None for scan in self.scans)
 
 
 @dataclass(frozen=True)
@@ -93,14 +114,26 @@ class Suite:
     def _case(self, row: Mapping[str, Any]) -> Case:
         inputs: dict[str, Any] = {}
         outputs: dict[str, Any] = {}
-        scans = []
+        scans: list[Scan] = []
+        initial = self.header["graphs"][row["graph"]]["initial"]
         for scan in row["scans"]:
+            if "refuse" in scan:
+                to = scans[-1].to if scans else initial
+                scans.append(Scan(0, inputs, outputs, 0, to, 0, request=scan["refuse"]))
+                continue
             inputs = {**inputs, **scan["in"]}
             outputs = {**outputs, **scan["out"]}
-            scans.append(Scan(scan["dt_ms"], inputs, outputs, scan["step"], scan["to"], scan["column"]))
-        if not scans or set(inputs) != set(self.inputs) or set(outputs) != set(self.outputs):
+            compared = not scan.get("settling", False)
+            scans.append(
+                Scan(scan["dt_ms"], inputs, outputs, scan["step"], scan["to"], scan["column"], compared)
+            )
+        whole = set(inputs) == set(self.inputs) and set(outputs) == set(self.outputs)
+        if not scans or not (whole or all(scan.request is not None for scan in scans)):
             raise ValueError("inputs or outputs are not those of the header, or there is no scan")
-        going_in = [(scan["dt_ms"], scan["in"]) for scan in row["scans"]]
+        going_in = [
+            ("refuse", scan["refuse"]) if "refuse" in scan else (scan["dt_ms"], scan["in"])
+            for scan in row["scans"]
+        ]
         if row["id"] != case_id(self.target, row["params"], going_in):
             raise ValueError(f"id {row['id']} does not belong to these inputs (was the file edited?)")
         return Case(
@@ -110,12 +143,18 @@ class Suite:
             clauses=tuple(row["clauses"]),
             params=row["params"],
             graph=row["graph"],
-            initial=self.header["graphs"][row["graph"]]["initial"],
+            initial=initial,
             scans=tuple(scans),
+            reset=row.get("reset", True),
         )
 
     def shortest(self, case: Case, scan: int) -> Case:
-        """A shortest case that ends with the inputs and in the state of scan number `scan` of `case`."""
+        """A shortest case that ends with the inputs and in the state of scan number `scan` of `case`.
+
+        It is the beginning of `case` where the header says so: what shows the difference lies on the way.
+        """
+        if self.header.get("shrink") == "prefix":
+            return replace(case, scans=case.scans[: scan + 1])
         graph = self.header["graphs"][case.graph]
         state = case.scans[scan - 1].to if scan else case.initial
         way: list[Scan] = []
@@ -172,11 +211,14 @@ def open_suite(path: Path) -> Suite:
     return suite
 
 
-def changes(scans: Sequence[Scan]) -> list[tuple[int, dict[str, Any]]]:
+def changes(scans: Sequence[Scan]) -> list[tuple[int | str, Any]]:
     """For each scan the time and the inputs that differ from the scan before; all of them in the first."""
     before: Mapping[str, Any] = {}
-    found = []
+    found: list[tuple[int | str, Any]] = []
     for scan in scans:
+        if scan.request is not None:
+            found.append(("refuse", scan.request))
+            continue
         found.append(
             (scan.dt_ms, {k: v for k, v in scan.inputs.items() if k not in before or before[k] != v})
         )
@@ -184,10 +226,10 @@ def changes(scans: Sequence[Scan]) -> list[tuple[int, dict[str, Any]]]:
     return found
 
 
-def case_id(target: str, params: Mapping[str, Any], going_in: Sequence[tuple[int, Mapping[str, Any]]]) -> str:
+def case_id(target: str, params: Mapping[str, Any], going_in: Sequence[tuple[int | str, Any]]) -> str:
     """The id of a case: a hash of what goes in, so that it survives when expectations or order change.
 
-    `going_in` holds for each scan the time and the inputs that change.
+    `going_in` holds for each scan the time and the inputs that change, or "refuse" and the request.
     """
     return id_of_text(target, params, _ENCODE(going_in)[1:-1])
 

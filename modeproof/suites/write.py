@@ -7,7 +7,7 @@ import json
 import os
 import tempfile
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,25 +18,61 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import KIND, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
+from modeproof.suites import words
+from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
 
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
+_SORTED = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A suite: walks that take what `wanted` names, or the cases of a `plan`.
+
+    `counted_by` is what makes a transition besides state and step: the column or the next state.
+    """
+
+    guarantees: str
+    hypothesis: str
+    does_not_show: str
+    counted_by: str
+    wanted: Callable[[Columns], list[list[int]]] | None = None
+    plan: Plan | None = None
+
 
 SUITES = {
-    "tour": (
-        every_transition,
-        "column",
-        "every transition of the specification's graph with merged input columns is taken",
-        "the program treats all inputs of a column alike; members take turns, not all are tried",
+    "tour": Kind(
+        guarantees="every transition of the specification's graph with merged input columns is taken",
+        hypothesis="the program treats all inputs of a column alike; members take turns, not all are tried",
+        does_not_show="a memory of the program beyond the states of the graph; inputs that were not used",
+        counted_by="column",
+        wanted=every_transition,
     ),
-    "brief": (
-        every_step,
-        "next state",
-        "from every state of the specification every step to every next state is taken",
-        "the program treats all inputs alike that lead from one state by one step to one state",
+    "brief": Kind(
+        guarantees="from every state of the specification every step to every next state is taken",
+        hypothesis="the program treats all inputs alike that lead from one state by one step to one state",
+        does_not_show="what `tour` shows besides: every column in every state",
+        counted_by="next state",
+        wanted=every_step,
+    ),
+    "words": Kind(
+        guarantees=(
+            "in every control state where a word decides, the one-bit neighbours of every code that decides "
+            "there, its swapped bytes, complement and shifts, and the boundaries are tried; in one of these "
+            "control states each word that agrees with the code in one byte only; after each, inputs follow "
+            "by which outputs tell the right state from the one that the code leads to"
+        ),
+        hypothesis=(
+            "the program compares a word in one way in all states of a control state, and a word that agrees "
+            "with a code in one byte in one way in all control states"
+        ),
+        does_not_show="each of the 65,536 words in each state; two wrong words at once",
+        counted_by="next state",
+        plan=words.plan,
     ),
 }
-"""For each suite: what it takes, what besides state and step makes a transition, guarantee, hypothesis."""
+"""All suites by name."""
 
 Pieces = tuple[str, ...]
 """Signals as they are written, `"name":value` each, in the order of the names."""
@@ -109,11 +145,20 @@ class _Writer:
         self.cases: list[str] = []
         self.graphs: list[dict[str, Any]] = []
         self.states = self.columns = self.scans = self.longest = self.inputs = self.used = 0
+        self.ids: set[str] = set()
 
     def add(self, number: int, device: DeviceGraph) -> None:
         """Walk through one graph."""
         columns = merge_columns(device)
-        wanted = SUITES[self.suite][0](columns)
+        kind = SUITES[self.suite]
+        self.states += len(columns.next_of)
+        self.columns += len(columns.members)
+        self.inputs += len(device.alphabet)
+        if kind.plan is not None:
+            self._scripted(number, device, columns, kind.plan)
+            return
+        assert kind.wanted is not None
+        wanted = kind.wanted(columns)
         cases = walks(columns, device.graph.initial, wanted)
         if not covers(columns, device.graph.initial, wanted, cases):
             raise Unjudged(f"{device.name}: the suite {self.suite} does not cover what it must")
@@ -124,10 +169,97 @@ class _Writer:
         rows: dict[tuple[Any, ...], Pieces] = {}
         for case in cases:
             self._case(number, device, columns, letters, case, rows)
-        self.states += len(columns.next_of)
-        self.columns += len(columns.members)
-        self.inputs += len(device.alphabet)
         self.used += len(letters.used)
+
+    def _scripted(self, number: int, device: DeviceGraph, columns: Columns, plan: Plan) -> None:
+        column_of = {letter: c for c, members in enumerate(columns.members) for letter in members}
+        graph = device.graph
+        seen: set[tuple[int, int, int]] = set()
+        used: set[int] = set()
+        scripts = plan(device, columns)
+        rows = _Rows(device)
+        for script in scripts.cases:
+            self._script(number, rows, script, column_of, seen, used)
+        self.transitions.update(graph.steps[step] for _, step, _ in seen)
+        self.used += len(used)
+        self.graphs.append({**self._about(device), **scripts.notes})
+
+    def _script(
+        self,
+        number: int,
+        known: _Rows,
+        script: Script,
+        column_of: Mapping[int, int],
+        seen: set[tuple[int, int, int]],
+        used: set[int],
+    ) -> None:
+        device, graph = known.device, known.device.graph
+        rows: list[str] = []
+        going_in: list[str] = []
+        cited: set[str] = set()
+        inputs: Pieces = ()
+        outputs: Pieces = ()
+        state = graph.initial
+        for n, shot in enumerate(script.shots):
+            if shot.refuse is not None:
+                request = _SORTED(shot.refuse)
+                rows.append(f'{{"refuse":{request}}}')
+                going_in.append(f'["refuse",{request}]')
+                continue
+            before, state = state, graph.next_of[state][shot.letter]
+            step = graph.step_of[before][shot.letter]
+            seen.add((before, step, state))
+            used.add(shot.letter)
+            if not script.about or n in script.about:
+                cited.add(graph.steps[step])
+            now_in, now_out = known.pieces(shot, state, script.renamed)
+            dt_ms, change = device.alphabet[shot.letter]["dt_ms"], _changed(inputs, now_in)
+            going_in.append(f"[{dt_ms},{{{change}}}]")
+            settling = ',"settling":true' if shot.settling else ""
+            rows.append(
+                f'{{"dt_ms":{dt_ms},"in":{{{change}}},"out":{{{_changed(outputs, now_out)}}},'
+                f'"step":{self.steps[graph.steps[step]]},"to":{state},"column":{column_of[shot.letter]}'
+                f"{settling}}}"
+            )
+            inputs, outputs = now_in, now_out
+        clauses, findings = self._cited(cited)
+        id = id_of_text(device.device.id, device.params, ",".join(going_in))
+        if id in self.ids:
+            return
+        self.ids.add(id)
+        case = {
+            "id": id,
+            "clauses": clauses,
+            "basis": f"finding:{','.join(findings)}" if findings else "document",
+            "why": script.why,
+            "timing": "exact",
+            "params": dict(device.params),
+            "graph": number,
+        }
+        if not script.reset:
+            case["reset"] = False
+        self.cases.append(f'{_ENCODE(case)[:-1]},"scans":[{",".join(rows)}]}}\n')
+        self.scans += len(rows)
+        self.longest = max(self.longest, len(rows))
+
+    def _cited(self, steps: Iterable[str]) -> tuple[list[str], list[str]]:
+        """The clauses and the findings of these steps."""
+        clauses: set[str] = set()
+        findings: set[str] = set()
+        for step in steps:
+            of_step = self.citations(step)
+            clauses.update(of_step[0])
+            findings.update(of_step[1])
+        return sorted(clauses), sorted(findings)
+
+    def _about(self, device: DeviceGraph) -> dict[str, Any]:
+        graph = device.graph
+        return {
+            "run": device.run,
+            "params": dict(device.params),
+            "initial": graph.initial,
+            "views": list(graph.views),
+        }
 
     def _graph(self, device: DeviceGraph, columns: Columns) -> dict[str, Any]:
         graph = device.graph
@@ -149,13 +281,7 @@ class _Writer:
                     column_of[letter],
                 ]
             )
-        return {
-            "run": device.run,
-            "params": dict(device.params),
-            "initial": graph.initial,
-            "views": list(graph.views),
-            "ways": ways,
-        }
+        return {**self._about(device), "ways": ways}
 
     def _case(
         self,
@@ -190,17 +316,12 @@ class _Writer:
                 f'"step":{step},"to":{to},"column":{column}}}'
             )
             inputs, outputs = now_in, now_out
-        clauses: set[str] = set()
-        findings: set[str] = set()
         names = self.device.device.steps
-        for step in cited:
-            of_step = self.citations(names[step])
-            clauses.update(of_step[0])
-            findings.update(of_step[1])
+        clauses, findings = self._cited(names[step] for step in cited)
         case = {
             "id": id_of_text(device.device.id, device.params, ",".join(going_in)),
-            "clauses": sorted(clauses),
-            "basis": f"finding:{','.join(sorted(findings))}" if findings else "document",
+            "clauses": clauses,
+            "basis": f"finding:{','.join(findings)}" if findings else "document",
             "why": f"a walk through {device.run} that takes transitions no earlier case has taken",
             "timing": "exact",
             "params": dict(device.params),
@@ -213,6 +334,7 @@ class _Writer:
     def header(self, sources: Mapping[str, str], generator: str) -> dict[str, Any]:
         device = self.device.device
         modes = list(self.device.forms.modes)
+        kind = SUITES[self.suite]
         return {
             "kind": KIND,
             "version": VERSION,
@@ -221,9 +343,11 @@ class _Writer:
             "protocol": 1,
             "suite": self.suite,
             "relation": "exact",
-            "counted_by": SUITES[self.suite][1],
-            "guarantees": SUITES[self.suite][2],
-            "hypothesis": SUITES[self.suite][3],
+            "counted_by": kind.counted_by,
+            "shrink": "graph" if kind.plan is None else "prefix",
+            "guarantees": kind.guarantees,
+            "hypothesis": kind.hypothesis,
+            "does_not_show": kind.does_not_show,
             "generator": generator,
             "sources": dict(sorted(sources.items())),
             "cases": len(self.cases),
@@ -264,6 +388,34 @@ class _Writer:
         )
 
 
+class _Rows:
+    """Inputs and outputs of scripted scans as they are written; what repeats is written once."""
+
+    def __init__(self, device: DeviceGraph) -> None:
+        self.device = device
+        self._in: dict[int, Pieces] = {}
+        self._out: dict[tuple[Any, ...], Pieces] = {}
+
+    def pieces(self, shot: Shot, state: int, renamed: Mapping[int, int]) -> tuple[Pieces, Pieces]:
+        """The inputs of a shot, and the outputs after it in `state`."""
+        device = self.device
+        values = {**device.alphabet[shot.letter], **shot.values}
+        if renamed:
+            expected = _renamed(device.device.outputs, device.expected(state, values), renamed)
+            values = _renamed(device.device.inputs, values, renamed)
+            return _pieces(device.wire_inputs(values)), _pieces(device.wire_outputs(expected))
+        if shot.values:
+            now_in = _pieces(device.wire_inputs(values))
+        else:
+            if shot.letter not in self._in:
+                self._in[shot.letter] = _pieces(device.wire_inputs(values))
+            now_in = self._in[shot.letter]
+        key = (state, *[values[one] for one in device.passed.values()])
+        if key not in self._out:
+            self._out[key] = _pieces(device.wire_outputs(device.expected(state, values)))
+        return now_in, self._out[key]
+
+
 class _Letters:
     """Gives the inputs of a column in turn, and for an input that stands for a class its members in turn."""
 
@@ -292,6 +444,16 @@ class _Letters:
 
 def _pieces(values: Mapping[str, Any]) -> Pieces:
     return tuple(f"{_ENCODE(name)}:{_ENCODE(values[name])}" for name in sorted(values))
+
+
+def _renamed(
+    signals: Mapping[str, Signal], values: Mapping[str, Any], names: Mapping[int, int]
+) -> dict[str, Any]:
+    """The values with other words for the words in `names`, in signals of type word only."""
+    return {
+        name: names.get(value, value) if name in signals and signals[name].type == "word" else value
+        for name, value in values.items()
+    }
 
 
 def _changed(before: Pieces, now: Pieces) -> str:

@@ -18,10 +18,11 @@ def scan(m):
     global on, elapsed
     i = m["in"]
     elapsed += m["dt_ms"]
-    if not on and i["press"] and i["word"] == "0FF0": on, elapsed = True, 0
+    if not on and i["press"] and same(i["word"]): on, elapsed = True, 0
     elif not on or elapsed >= LIMIT: on, elapsed = False, 0
     return {"LAMP": on, "MW": "0FF0" if on else "0000"}
 LIMIT = 500
+same = lambda word: word == "0FF0"
 def answer(m, out): say({"out": out})
 def greet(): say(HELLO)
 #FAULT
