@@ -30,6 +30,8 @@ PASSED: Final = z3.Int("passed")
 BETWEEN: Final = z3.Int("between")
 RANK: Final = {"Idle": 0, "Start": 1, "Error": 1, "AwaitZeros": 2, "Clear": 3}
 """How many states of the way to Idle lie ahead; 4 from everywhere else."""
+DWELLING: Final = ("Start", "Error", "AwaitZeros")
+"""The states of that way in which a quiet scan may wait."""
 
 OnTheWay = Callable[[str, Any, Any, z3.ArithRef], z3.BoolRef]
 """What is known of a state after quiet scans: control state, memory, parameters, time since the first."""
@@ -51,7 +53,7 @@ def comes_closer(one: Scanned) -> Said:
     before, after = control(FPLC, one.before), control(FPLC, one.after)
     if rank(after) < rank(before) or (before, after) == ("Idle", "Idle"):
         return quiet(one), TRUE
-    if before == after and before in ("Start", "Error", "AwaitZeros"):
+    if before == after and before in DWELLING:
         grows = one.after.elapsed_ms == now(one)
         return quiet(one), z3.And(grows, one.after.elapsed_ms < one.params.T_DWELL_ms)
     return quiet(one), FALSE
@@ -64,9 +66,7 @@ def quiet_scans_lead_the_fplc_to_idle() -> Queries:
     """From any memory, every quiet scan brings the F-PLC one state closer to Idle, or, in Start, AwaitZeros
     and Error, adds the time that passed to a dwell time that is not yet over; in Idle it stays.
 
-    There are at most four states on the way (Clear, AwaitZeros, Error, Idle). So the F-PLC is in Idle after
-    four quiet scans if each comes at least T_DWELL after the one before, and otherwise after at most four
-    more than twice the number of scans that fit into T_DWELL.
+    There are at most four states on the way: Clear, AwaitZeros, Error, Idle.
     """
     yield from JUDGE.in_every_scan(comes_closer)
 
@@ -82,10 +82,59 @@ def quiet_scans_lead_the_fplc_to_idle() -> Queries:
     yield JUDGE.too_strong("whatever stands in the words", not_quiet, "Error")
 
 
+# ---------------------------------------------------------------- within a number of scans
+
+
+def way_left(c: str, s: Any, p: Any) -> z3.ArithRef:
+    """A time that shrinks by BETWEEN in every quiet scan that comes at least BETWEEN after the one before.
+
+    One BETWEEN for each state ahead, and, for each of the two in which a dwell time has to pass, the rest of
+    it.
+    """
+    dwells = {"AwaitZeros": 1}.get(c, 0 if c in ("Idle", *DWELLING) else 2)
+    ahead = rank(c) * BETWEEN + dwells * p.T_DWELL_ms
+    if c not in DWELLING:
+        return ahead
+    return ahead + z3.If(s.elapsed_ms < p.T_DWELL_ms, p.T_DWELL_ms - s.elapsed_ms, 0)
+
+
+def shrinks(one: Scanned) -> Said:
+    """The time left shrinks by BETWEEN, or the F-PLC is in Idle."""
+    given = z3.And(quiet(one), BETWEEN >= 1, one.inputs.dt_ms >= BETWEEN)
+    if one.was("Idle"):
+        return given, TRUE if one.becomes("Idle") else FALSE
+    left = [way_left(control(FPLC, state), state, one.params) for state in (one.before, one.after)]
+    return given, left[1] + BETWEEN <= left[0]
+
+
+@theorem(clauses=["EKS-8-6", "EKS-8-11", "EKS-8-18", "EKS-9-0"], findings=["E-23", "E-52"], slow=True)
+def the_fplc_is_idle_again_within_a_stated_number_of_scans() -> Queries:
+    """From any memory the F-PLC is in Idle after at most 4 + 2 T_DWELL / d quiet scans, and stays there, if
+    each comes at least d after the one before: a number that is 4 d + 2 T_DWELL at most, and 0 in Idle alone,
+    shrinks by d in each of them.
+
+    So after four scans if the dwell time is 0.
+    """
+    yield from JUDGE.in_every_scan(shrinks)
+    for scans in JUDGE.scans():
+        params = parameters(FPLC, scans.scan.state)
+        left = way_left(scans.control, memory(FPLC, scans.scan.state), params)
+        given = {**JUDGE.premises(scans), "time passes between two scans": BETWEEN >= 1}
+        idle = left == 0 if scans.control == "Idle" else left >= BETWEEN
+        most = z3.And(idle, left <= 4 * BETWEEN + 2 * params.T_DWELL_ms)
+        yield from claim(f"the number in {scans.control}", given, most, LOGIC)
+
+    def faster(one: Scanned) -> Said:
+        said = shrinks(one)
+        return None if said is None else (said[0], TRUE if one.becomes("Idle") else FALSE)
+
+    yield JUDGE.too_strong("one scan is enough", faster, "AwaitZeros")
+
+
 # ---------------------------------------------------------------- within a time
 
 
-def _on_the_way(c: str, s: Any, p: Any, passed: z3.ArithRef) -> z3.BoolRef:
+def on_the_way(c: str, s: Any, p: Any, passed: z3.ArithRef) -> z3.BoolRef:
     dwelling = s.elapsed_ms < p.T_DWELL_ms
     if c == "Idle":
         return TRUE
@@ -101,7 +150,7 @@ def _on_the_way(c: str, s: Any, p: Any, passed: z3.ArithRef) -> z3.BoolRef:
     return FALSE
 
 
-def _without_error(c: str, s: Any, p: Any, passed: z3.ArithRef) -> z3.BoolRef:
+def without_error(c: str, s: Any, p: Any, passed: z3.ArithRef) -> z3.BoolRef:
     if c == "Idle":
         return TRUE
     if c == "Clear":
@@ -112,10 +161,12 @@ def _without_error(c: str, s: Any, p: Any, passed: z3.ArithRef) -> z3.BoolRef:
     return FALSE
 
 
-def _stays_on_the_way(way: OnTheWay, starts: frozenset[str], also: Callable[[Any], z3.BoolRef]) -> Queries:
+def stays_on_the_way(
+    way: OnTheWay, starts: frozenset[str], also: Callable[[Any], z3.BoolRef], judge: Judge = JUDGE
+) -> Queries:
     """The first quiet scan from these control states leads to the way, and no later one leads off it."""
-    for scans in JUDGE.scans():
-        given = {**JUDGE.premises(scans), "what the times fulfil": also(parameters(FPLC, scans.scan.state))}
+    for scans in judge.scans():
+        given = {**judge.premises(scans), "what the times fulfil": also(parameters(FPLC, scans.scan.state))}
         if scans.control in starts:
             yield from _leads(f"first, from {scans.control}", scans, given, way, z3.IntVal(0), BETWEEN >= 0)
         known = _known(scans, way)
@@ -164,7 +215,7 @@ def _bound(way: OnTheWay, bound: Callable[[Any], z3.BoolRef], also: Callable[[An
 ANYWHERE: Final = frozenset(FPLC.register.states)
 
 
-def _any_times(p: Any) -> z3.BoolRef:
+def any_times(p: Any) -> z3.BoolRef:
     return BETWEEN >= 0
 
 
@@ -175,9 +226,9 @@ def the_fplc_is_idle_again_within_a_stated_time() -> Queries:
     """From any memory, the F-PLC is in Idle no later than in the first quiet scan that comes more than twice
     T_DWELL and twice the longest time between two scans after the first quiet one.
     """
-    yield from _stays_on_the_way(_on_the_way, ANYWHERE, _any_times)
-    yield from _bound(_on_the_way, lambda p: 2 * p.T_DWELL_ms + 2 * BETWEEN >= PASSED, _any_times)
-    yield _reaches("control: half of that is not enough", _on_the_way, "Error", _any_times)
+    yield from stays_on_the_way(on_the_way, ANYWHERE, any_times)
+    yield from _bound(on_the_way, lambda p: 2 * p.T_DWELL_ms + 2 * BETWEEN >= PASSED, any_times)
+    yield _reaches("control: half of that is not enough", on_the_way, "Error", any_times)
 
 
 def _reaches(name: str, way: OnTheWay, start: str, also: Callable[[Any], z3.BoolRef]) -> Any:
@@ -193,7 +244,7 @@ def _reaches(name: str, way: OnTheWay, start: str, also: Callable[[Any], z3.Bool
     return control_query(name, formulas, LOGIC)
 
 
-def _times_of_a_good_removal(p: Any) -> z3.BoolRef:
+def times_of_a_good_removal(p: Any) -> z3.BoolRef:
     return z3.And(BETWEEN >= 0, p.T_REM_ms > 2 * BETWEEN, p.T_REM_ms >= p.T_DWELL_ms + BETWEEN)
 
 
@@ -207,12 +258,12 @@ def a_removal_over_zeros_ends_without_the_error_mode() -> Queries:
     zero in time make an error.
     """
     starts = frozenset(INSERTION | HOLDING)
-    yield from _stays_on_the_way(_without_error, starts, _times_of_a_good_removal)
+    yield from stays_on_the_way(without_error, starts, times_of_a_good_removal)
 
     def bound(p: Any) -> z3.BoolRef:
         return z3.Or(p.T_DWELL_ms > PASSED, PASSED <= BETWEEN)
 
-    yield from _bound(_without_error, bound, _times_of_a_good_removal)
+    yield from _bound(without_error, bound, times_of_a_good_removal)
 
     def no_error(one: Scanned) -> Said:
         zero_waited = z3.And(quiet(one), one.before.elapsed_ms < one.params.T_DWELL_ms)

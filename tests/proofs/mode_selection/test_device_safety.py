@@ -88,6 +88,10 @@ def _kept(judge: Judge) -> Sentence:
 
 PANEL, PLC, EKS = panel_safety.JUDGE, plc_safety.JUDGE, eks_safety.JUDGE
 RESPONSE = fplc_response.JUDGE
+DWELL_RESTARTS = ("    return _wait(s, elapsed)\n\n\n# ---", "    return _wait(s, 0)\n\n\n# ---")
+REMOVAL_RESTARTS = ("_wait(s, elapsed)  # AwaitReturnedZeros", "_wait(s, 0)  # AwaitReturnedZeros")
+NEVER_IDLE = ("return _enter_idle(s)  # LeaveAwaitZeros", "return _wait(s, elapsed)")
+TIMER_ANEW = ("AWAIT_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_ZEROS, NONE, NONE, NONE, s.mode, 0")
 FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
     (
         "SelectionWithinOffer",
@@ -378,6 +382,9 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
             ("and elapsed >= s.params.T_DWELL_ms", "and elapsed > s.params.T_DWELL_ms"),
         ],
     ),
+    ("a dwell time that restarts", RESPONSE, "Error", fplc_response.shrinks, [DWELL_RESTARTS]),
+    ("a removal that restarts", RESPONSE, "AwaitZeros", fplc_response.shrinks, [REMOVAL_RESTARTS]),
+    ("a removal that never ends", RESPONSE, "AwaitZeros", fplc_response.shrinks, [NEVER_IDLE]),
 ]
 
 
@@ -393,6 +400,36 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(
         scan = begun_in(device, control)
         assert refuted(replace(judge, device=device, explored=(scan,)), sentence, control)
     assert not refuted(judge, sentence, control)
+
+
+def _off_the_way(judge: Judge, way: fplc_response.OnTheWay, times: Callable[[Any], z3.BoolRef]) -> list[str]:
+    """The claims of the response within a time that are false of these scans."""
+    asked = fplc_response.stays_on_the_way(way, fplc_response.ANYWHERE, times, judge)
+    return [one.name for one in asked if one.expected == "unsat" and ask_z3(one, "", 20_000).answer == "sat"]
+
+
+@pytest.mark.parametrize(
+    ("control", "edit"),
+    [("Error", DWELL_RESTARTS), ("AwaitZeros", REMOVAL_RESTARTS), ("AwaitZeros", NEVER_IDLE)],
+)
+def test_a_dwell_time_that_restarts_breaks_the_response_within_a_time(
+    control: str, edit: tuple[str, str]
+) -> None:
+    with planted(RESPONSE.device, edit) as device:
+        judge = replace(RESPONSE, device=device, explored=(begun_in(device, control),))
+        assert _off_the_way(judge, fplc_response.on_the_way, fplc_response.any_times)
+
+
+@pytest.mark.parametrize(
+    ("control", "edit"), [("Clear", TIMER_ANEW), ("AwaitZeros", REMOVAL_RESTARTS), ("AwaitZeros", NEVER_IDLE)]
+)
+def test_a_removal_whose_timer_restarts_breaks_its_end_without_an_error(
+    control: str, edit: tuple[str, str]
+) -> None:
+    way, times = fplc_response.without_error, fplc_response.times_of_a_good_removal
+    with planted(RESPONSE.device, edit) as device:
+        judge = replace(RESPONSE, device=device, explored=(begun_in(device, control),))
+        assert f"later, from {control}" in _off_the_way(judge, way, times)
 
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
@@ -430,6 +467,25 @@ QUIET: dict[str, Any] = {
     "MW03": 0,
     "MW07": 0,
 }
+
+
+def test_real_runs_need_no_more_scans_than_proved() -> None:
+    random_ = random.Random(5)
+    longest = 0.0
+    for _ in range(2_000):
+        dwell, between = random_.choice((0, 5, 40)), random_.choice((1, 2, 10, 60))
+        params = fplc.Params(T_REM_ms=dwell + random_.choice((1, between)), T_DWELL_ms=dwell)
+        state = fplc.State(
+            params, random_.choice([*fplc.Step]), -1, -1, -1, -1, random_.choice((0, 1, dwell))
+        )
+        scans = 0
+        while state.state != fplc.IDLE:
+            dt_ms = between + random_.choice((0, 0, 0, 1))
+            state, _ = fplc.step(state, fplc.Inputs(dt_ms, **QUIET))
+            scans += 1
+        assert scans * between <= 4 * between + 2 * dwell
+        longest = max(longest, scans * between / (4 * between + 2 * dwell))
+    assert longest > 0.9
 
 
 def _ms_until_idle(state: fplc.State, between: int, random_: random.Random) -> int:

@@ -188,6 +188,16 @@ FAULTS = [
         fplc_safety.expiry_ends_the_wait,
         [(EXPIRY_FIRST, SUCCESS_FIRST)],
     ),
+    *(
+        ("NoWaitBeyondDeadline", control, fplc_safety.expiry_ends_the_wait, [(deadline, "    if False:\n")])
+        for control, deadline in (
+            ("PulseOnes", "    if elapsed >= s.params.T_ON_ms:\n"),
+            ("PulseZeros", "    if elapsed >= s.params.T_SEQ_ms:\n"),
+            ("OneOutput", "    if elapsed >= s.params.T_SEQ_ms:\n"),
+            ("Clear", "    if elapsed >= s.params.T_REM_ms:\n"),
+            ("AwaitZeros", "    if elapsed >= s.params.T_REM_ms:\n"),
+        )
+    ),
     ("SharedDeadlineHolds", "OneOutput", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
     (
         "RemovalTimerGoesOn",
