@@ -364,6 +364,7 @@ def _repin(place: Path, done: list[Any], given: str | None) -> int:
 
 
 def _prove(args: argparse.Namespace) -> int:
+    from modeproof.agreement import line as agreement_line
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.report.proofs import never_needed
@@ -383,10 +384,13 @@ def _prove(args: argparse.Namespace) -> int:
         for name in names:
             records += prove_document(place, name, progress, tuple(args.theorems), args.limit)
     status = max(status_of(record) for record in records)
-    for name in never_needed(records) if not args.theorems else ():
+    proofs = [record for record in records if record["kind"] == "proof"]
+    for name in never_needed(proofs) if not args.theorems else ():
         print(f"no proof needs the premise: {name}")
-    print(_work_line(records))
-    print(counted("proofs", records, "PROVED by Z3, re-checked by cvc5"))
+    print(_work_line(proofs))
+    print(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
+    if compared := [record for record in records if record["kind"] == "agreement"]:
+        print("\n".join([agreement_line(compared), *compared[0]["result"]["problems"]]))
     if not args.theorems and args.document is None and status == 0:
         status = _compare_proofs_page(place)
     _write_json(args, status, proofs=records)
@@ -417,14 +421,15 @@ def prove_document(
     limit_ms: int = 20_000,
     lane: str = "full",
 ) -> list[dict[str, Any]]:
-    """Prove the theorems of a document and write one piece of evidence for each.
+    """Prove the theorems of a document and write one piece of evidence for each, and for all together one on
+    their agreement with the model checker.
 
-    The lane smoke leaves out the slow ones. Raises Unjudged when there is none, or when the proofs cannot be
-    imported.
+    The lane smoke leaves out the slow ones, and so does not compare. Raises Unjudged when there is none, or
+    when the proofs cannot be imported.
     """
     import fnmatch
 
-    from modeproof import evidence
+    from modeproof import agreement, evidence
     from modeproof.processes import Task, in_processes
 
     theorems = [
@@ -451,7 +456,23 @@ def prove_document(
             f"{record['seconds']:.1f} s" + (f"; {record['reason']}" if record["reason"] else "")
         )
 
-    return in_processes("proofs", tasks, progress, done)
+    records = in_processes("proofs", tasks, progress, done)
+    if not patterns and lane != "smoke" and _has_agreement(place, document):
+        module = importlib.import_module(f"proofs.{document}.agreement")
+        verdicts = {str(record["id"]): str(record["verdict"]) for record in records}
+        records.append(agreement.compare(place, document, module, verdicts, inputs, _solvers()))
+    return records
+
+
+def _has_agreement(place: Path, document: str) -> bool:
+    return (place / "proofs" / document / "agreement.py").is_file()
+
+
+def _solvers() -> dict[str, dict[str, str | None]]:
+    from modeproof import evidence
+
+    packages = {"z3": "z3-solver", "cvc5": "cvc5"}
+    return {tool: evidence.tool(_version(package)) for tool, package in packages.items()}
 
 
 def _theorems_of(document: str) -> list[Any]:
@@ -498,10 +519,7 @@ def prove_theorem(
         started=started,
         seconds=result.seconds,
         inputs=inputs,
-        tools={
-            tool: evidence.tool(_version(package))
-            for tool, package in (("z3", "z3-solver"), ("cvc5", "cvc5"))
-        },
+        tools=_solvers(),
         result={
             "sentence": result.sentence,
             "remark": result.remark,
@@ -539,6 +557,7 @@ def _proofs_page(place: Path) -> str:
     Raises Unjudged with what to run when evidence is missing, not as expected, or of other files.
     """
     from modeproof import evidence
+    from modeproof.agreement import ID
     from modeproof.registers.load import load_document
     from modeproof.registers.proofs_page import theorems_by_file
     from modeproof.report.proofs import render_proofs
@@ -547,9 +566,12 @@ def _proofs_page(place: Path) -> str:
     found: dict[str, dict[str, Any]] = {}
     for document in chosen:
         names = [one.name for rows in theorems_by_file(document).values() for one in rows]
-        for name in [*names, "coverage"]:
+        again_by = {"coverage": "modeproof prove --coverage"}
+        if _has_agreement(place, document.name):
+            again_by[ID] = "modeproof prove"
+        for name in [*names, *again_by]:
             record = evidence.read(evidence.evidence_path(place, document.name, name))
-            again = "modeproof prove --coverage" if name == "coverage" else f"modeproof prove {name}"
+            again = again_by.get(name, f"modeproof prove {name}")
             if not record["as_expected"]:
                 raise Unjudged(f"{name}: its evidence is not as expected; run {again}")
             paths = [place / path for path in record["inputs"]]

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from modeproof.agreement import line as agreement_line
+
 Record = Mapping[str, Any]
 
 ASIDE = "not in this lane"
@@ -151,6 +153,9 @@ def render(document: str, lines: Sequence[Line], records: Sequence[Record], widt
     proofs = [r for r in records if r["kind"] == "proof"]
     if proofs:
         out.append(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
+    agreement = [r for r in records if r["kind"] == "agreement"]
+    if agreement:
+        out.append(agreement_line(agreement))
     registers = [r for r in records if r["kind"] == "registers"]
     if registers:
         out.append(counted("registers", registers, "consistent"))

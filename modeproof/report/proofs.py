@@ -24,7 +24,7 @@ an *example* must be found, mostly one that shows that a planted fault or the pr
 ```
 
 Every question is a file, `build/proofs/<document>/<theorem>/*.smt2`, with theorem, clauses and expected
-answer at its top. What is not proved is in [limits](limits.md).
+answer at its top. What the proofs do not show is in [limits](limits.md).
 """
 
 
@@ -69,6 +69,8 @@ def _section(document: Document, records: Mapping[str, Record]) -> Iterator[str]
     yield "| all theorems | seconds |"
     yield "|---|---|"
     yield f"| {len(own)} | {total:,.1f} |"
+    if "agreement" in records:
+        yield from _agreement(records["agreement"])
     yield from _premises(own)
     yield from _coverage(records["coverage"])
 
@@ -90,6 +92,31 @@ def never_needed(records: Sequence[Record]) -> list[str]:
         if name not in record["result"]["unused"]
     }
     return [name for name in names if name not in needed]
+
+
+def _agreement(record: Record) -> Iterator[str]:
+    """Model checker and theorems, property by property of the whole system."""
+    rows = record["result"]["rows"]
+    yield ""
+    yield "### The whole system: model checker and theorems"
+    yield ""
+    yield (
+        "Each property of all devices together that TLC's runs find to hold within their bounds, by "
+        "environment, and the theorem that proves it of the shipped devices without bounds. A theorem rests "
+        "on the assumptions named, and on no fewer than those without which TLC finds a counterexample."
+    )
+    yield ""
+    yield f"{record['verdict']}: {sum(1 for row in rows if row['theorem'])} of {len(rows)} by both."
+    yield ""
+    yield "| property | environment | TLC | theorems | which, or why none | rests on |"
+    yield "|---|---|---|---|---|---|"
+    for row in rows:
+        which = f"`{row['theorem']}`" if row["theorem"] else row["reason"]
+        note = f": {row['note']}" if row["note"] else ""
+        yield (
+            f"| {row['id']} | {row['environment']} | {row['tlc']} | {row['proved'] or 'not proved'} | "
+            f"{which}{note} | {', '.join(row['rests_on'])} |"
+        )
 
 
 def _premises(records: Sequence[Record]) -> Iterator[str]:

@@ -14,6 +14,7 @@ import builtins
 import dataclasses
 import hashlib
 import inspect
+import sys
 import textwrap
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -141,6 +142,7 @@ class _Reading:
         self.constants: dict[str, str] = {}
         self.package = ""
         self.rebound: dict[str, frozenset[str]] = {}
+        self.known_methods: dict[str, list[FunctionType]] = {}
 
     def read(self, function: Callable[..., Any]) -> Reach:
         if not isinstance(function, FunctionType):
@@ -165,28 +167,40 @@ class _Reading:
         """Follow what building a record runs; the empty text, or why it cannot be followed."""
         if issubclass(record, Enum):
             return "it looks the member up; write one comparison for each member"
-        parameters = getattr(record, "__dataclass_params__", None)
-        if parameters is None or not parameters.frozen:
-            return "it is no frozen dataclass, so it can change; freeze it"
-        for name, value in vars(record).items():
-            own = isinstance(value, FunctionType) and value.__module__ == record.__module__
-            if own and name.startswith("__") and value.__code__.co_filename != "<string>":
-                if name == "__post_init__":
-                    self.follow(value)
+        if type(record) is not type:
+            return "its metaclass cannot be followed; use a plain dataclass"
+        for base in record.__mro__[:-1]:
+            parameters = vars(base).get("__dataclass_params__")
+            if parameters is None or not parameters.frozen:
+                return f"{base.__name__} is no frozen dataclass, so it can change; freeze it"
+            for name, value in vars(base).items():
+                function = value.__func__ if isinstance(value, (staticmethod, classmethod)) else value
+                if not (name.startswith("__") and callable(function)) or _made_by_dataclass(function):
+                    continue
+                if name == "__post_init__" and isinstance(function, FunctionType):
+                    self.follow(function)
                 elif name not in ("__repr__", "__str__"):
                     return f"it defines {name}, which cannot be followed; use a plain dataclass"
+        for one in dataclasses.fields(record):  # type: ignore[arg-type]
+            if one.default_factory is not dataclasses.MISSING:
+                return f"the default of {one.name} is made anew by a call; write a constant"
+            if one.default is not dataclasses.MISSING and _changeable(one.default):
+                return f"the default of {one.name} can change; write a constant"
         return ""
 
-    def methods(self, module: ModuleType, name: str) -> list[FunctionType]:
-        """Every method and property of that name in the classes that the module sees."""
-        found = []
-        for value in vars(module).values():
-            if isinstance(value, type) and value.__module__.split(".")[0] == self.package:
-                member = vars(value).get(name)
-                member = member.fget if isinstance(member, property) else member
-                if isinstance(member, FunctionType):
-                    found.append(member)
-        return found
+    def methods(self, name: str) -> list[FunctionType]:
+        """Every method and property of that name in all classes of the package that are loaded."""
+        if name not in self.known_methods:
+            spaces = [vars(one) for key, one in sys.modules.items() if key.split(".")[0] == self.package]
+            found: dict[FunctionType, None] = {}
+            for value in [value for space in spaces for value in space.values()]:
+                if isinstance(value, type) and value.__module__.split(".")[0] == self.package:
+                    member = vars(value).get(name)
+                    member = member.fget if isinstance(member, property) else member
+                    if isinstance(member, FunctionType):
+                        found[member] = None
+            self.known_methods[name] = list(found)
+        return self.known_methods[name]
 
     def rebound_names(self, module: ModuleType) -> frozenset[str]:
         """Names of the module that are assigned more than once, or by `global` in a function."""
@@ -325,6 +339,14 @@ class _Function:
         known = self.resolve(what) if what is not None else None
         if not (isinstance(known, type) and issubclass(known, Exception)):
             self.fault(node.lineno, "raise", "name the exception's class there, so that it can be followed")
+        if isinstance(node.exc, ast.Call):
+            self.spoken([*node.exc.args, *[one.value for one in node.exc.keywords]])
+
+    def spoken(self, message: Iterable[ast.expr]) -> None:
+        """A message may show any value; what it calls or assigns would happen unseen."""
+        for one in [inner for part in message for inner in ast.walk(part)]:
+            if isinstance(one, (ast.Call, ast.NamedExpr, ast.Await, ast.Yield, ast.YieldFrom)):
+                self.fault(one.lineno, "a call in a message", "it cannot be followed; show the value itself")
 
     def name(self, node: ast.Name) -> None:
         if node.id not in self.locals:
@@ -342,6 +364,8 @@ class _Function:
             self.fault(line, what, advice)
         elif _changeable(value):
             self.fault(line, what, f"a {type(value).__name__} can change; write a tuple of constants")
+        elif isinstance(value, Enum) and (name := _own_comparison(type(value))):
+            self.fault(line, what, f"its class defines {name}, which cannot be followed; use a plain Enum")
         else:
             self.reading.constants[f"{self.function.__module__} {what}"] = repr(value)
 
@@ -358,11 +382,11 @@ class _Function:
             elif _changeable(known):
                 self.fault(node.lineno, f"the attribute {node.attr}", "it can change; write a constant")
             else:
-                self.reading.constants[f"{self.function.__module__} {ast.unparse(node)}"] = repr(known)
+                self.constant(node.lineno, ast.unparse(node), known)
             return
         if node.attr.startswith("__"):
             self.fault(node.lineno, node.attr, "what it gives cannot be followed; use the fields alone")
-        for method in self.reading.methods(self.module, node.attr) if self.module else []:
+        for method in self.reading.methods(node.attr):
             self.reading.follow(method)
         self.visit(node.value)
 
@@ -400,12 +424,12 @@ class _Function:
 
     def replaced(self, node: ast.Call) -> None:
         """dataclasses.replace builds a record of a class that is not named: follow the checks of all."""
-        for method in self.reading.methods(self.module, "__post_init__") if self.module else []:
+        for method in self.reading.methods("__post_init__"):
             self.reading.follow(method)
 
     def method(self, node: ast.Attribute) -> None:
         """A method of a record: all methods of that name are followed."""
-        methods = self.reading.methods(self.module, node.attr) if self.module else []
+        methods = self.reading.methods(node.attr)
         if not methods:
             advice = "it cannot be followed; call a function of the module, or a method of its records"
             self.fault(node.lineno, f"the call of .{node.attr}", advice)
@@ -428,6 +452,22 @@ class _Function:
 
 
 _UNKNOWN: Final = object()
+
+
+def _made_by_dataclass(function: object) -> bool:
+    """The decorator wrote it, or it is one of its own."""
+    if not isinstance(function, FunctionType):
+        return False
+    return function.__code__.co_filename == "<string>" or function.__module__ == "dataclasses"
+
+
+def _own_comparison(kind: type) -> str:
+    """What an Enum defines of that which comparing its members runs; the empty text for a plain one."""
+    for base in kind.__mro__[: kind.__mro__.index(Enum)]:
+        for name in ("__eq__", "__ne__", "__lt__", "__le__", "__gt__", "__ge__", "__bool__"):
+            if name in vars(base):
+                return name
+    return ""
 
 
 def _changeable(value: object) -> bool:

@@ -52,6 +52,18 @@ def _evidence(document: Document, seconds: float = 1.5) -> dict[str, dict[str, A
         "unreachable": [{"what": "line step: raise", "why": "a refusal"}],
     }
     records["coverage"] = {"result": {"devices": {"plc": device}}}
+    row = {"id": "One", "environment": "honest", "tlc": "HOLDS", "theorem": "a_theorem", "proved": "PROVED"}
+    row |= {"rests_on": ["A-01", "A-02"], "reason": "", "note": "in part"}
+    other = {
+        **row,
+        "id": "Two",
+        "theorem": "",
+        "proved": "",
+        "rests_on": [],
+        "reason": "it moves",
+        "note": "",
+    }
+    records["agreement"] = {"verdict": "EQUAL", "result": {"rows": [row, other], "problems": []}}
     return {document.name: records}
 
 
@@ -69,6 +81,9 @@ def test_every_theorem_is_on_the_page_once_with_clauses_questions_and_versions(d
     assert "In no theorem at all: another." in page
     assert page.count("`: a premise\n") == len(theorems_by_file(document))
     assert "| `plc` | 4 | 4,541 | 16 of 17 | 7 of 8 | 3 of 4 |" in page
+    assert "EQUAL: 1 of 2 by both." in page
+    assert "| One | honest | HOLDS | PROVED | `a_theorem`: in part | A-01, A-02 |" in page
+    assert "| Two | honest | HOLDS | not proved | it moves |  |" in page
     assert "- a refusal\n  - `plc` line step: raise" in page
 
 

@@ -16,7 +16,7 @@ from refimpl.mode_selection import eks, fplc, hmi, plc
 HEAD = """
 from __future__ import annotations
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cache
 
@@ -41,6 +41,37 @@ class Checked:
     def __post_init__(self):
         if type(self.n) is not int:
             raise ValueError("n")
+
+@dataclass(frozen=True)
+class Counted:
+    n: int
+    def __new__(cls, n):
+        LIST.append(n)
+        return super().__new__(cls)
+
+@dataclass(frozen=True)
+class Inherits(Counted):
+    m: int
+
+@dataclass(frozen=True)
+class Made:
+    n: int
+    seen: tuple = field(default_factory=lambda: (len(LIST),))
+
+@dataclass(frozen=True)
+class Odd:
+    n: int
+    def __eq__(self, other):
+        return len(LIST) == 1
+
+class Strange(Enum):
+    ONE = 1
+    def __eq__(self, other):
+        return len(LIST) == 1
+
+def noted(n):
+    LIST.append(n)
+    return n
 
 TABLE = {1: 2}
 CODES = (1, 2, 3)
@@ -183,6 +214,36 @@ BAD = {
         "the call of type",
         "Inputs is built",
     ),
+    "a record that is made by a function of its own": (
+        "def step(w):\n    return Counted(w)",
+        "the call of Counted",
+        "it defines __new__",
+    ),
+    "a record that inherits one": (
+        "def step(w):\n    return Inherits(w, w)",
+        "the call of Inherits",
+        "it defines __new__",
+    ),
+    "a record with a default that is made anew": (
+        "def step(w):\n    return Made(w)",
+        "the call of Made",
+        "the default of seen",
+    ),
+    "a record that compares by itself": (
+        "def step(w):\n    return Odd(w) == Odd(w)",
+        "the call of Odd",
+        "it defines __eq__",
+    ),
+    "an enum that compares by itself": (
+        "def step(w):\n    return 1 if w == Strange.ONE else 2",
+        "Strange.ONE",
+        "its class defines __eq__",
+    ),
+    "a message that does something": (
+        "def step(w):\n    if w == 1:\n        raise ValueError(noted(w))\n    return w",
+        "a call in a message",
+        "show the value itself",
+    ),
     "a default that can change": ("def step(w, seen=[]):\n    return w", "a default value", "tuple"),
     "an import": ("def step(w):\n    import os\n    return w", "import", "top of the module"),
     "a named exception elsewhere": ("def step(w):\n    e = w\n    raise e", "raise", "class"),
@@ -209,7 +270,23 @@ def test_it_is_refused_with_the_line_and_the_advice(planted: Planted, name: str)
     assert lines, str(caught.value)
     assert all(line.startswith(f"{module.__file__}:") for line in lines)
     first = HEAD.count("\n") + 1
-    assert all(int(line.removeprefix(f"{module.__file__}:").split(":")[0]) > first - 30 for line in lines)
+    assert all(int(line.removeprefix(f"{module.__file__}:").split(":")[0]) > first - 60 for line in lines)
+
+
+def test_a_property_of_a_class_in_another_module_is_followed(
+    planted: Planted, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The record comes in as an argument; the module of step does not know its class."""
+    other = planted(
+        "@dataclass(frozen=True)\nclass Key:\n    n: int\n    @property\n"
+        "    def level(self):\n        return self.n is None"
+    )
+    module = planted("def step(key):\n    return key.level")
+    package = module.__name__
+    monkeypatch.setitem(sys.modules, f"{package}.other", other)
+    monkeypatch.setattr(other.Key, "__module__", f"{package}.other")
+    with pytest.raises(LintError, match=r"is in Key\.level"):
+        reach_of(module.step).refuse_faults()
 
 
 def test_the_line_is_the_one_in_the_file(planted: Planted) -> None:

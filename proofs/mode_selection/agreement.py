@@ -8,7 +8,7 @@ wires from the EKS but that one is broken, with faults there (`faulty_eks`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -56,11 +56,15 @@ FORMULA: Final[Mapping[str, str]] = {
 }
 """Each property of properties.toml that is proved here, with the formula that says it."""
 
-FORMULA_IN: Final[Mapping[tuple[str, str], str]] = {
-    ("SwitchNeedsMatchingPair", "corrupting"): "the pair read",
-    ("UserIntent", "faulty_eks"): INTENT_ANYWAY,
+FORMULA_IN: Final[Mapping[tuple[str, str], tuple[str, str]]] = {
+    ("SwitchNeedsMatchingPair", "corrupting"): (
+        "the pair read",
+        "of the words that the F-PLC reads, whoever wrote them, with any number of faults; TLC speaks of the"
+        " words that stand, with one fault (A-32)",
+    ),
+    ("UserIntent", "faulty_eks"): (INTENT_ANYWAY, ""),
 }
-"""Where words may be wrong, the pair is the one that the F-PLC reads; for broken wires A-07 is another."""
+"""Where another formula says it in an environment, and what is then said otherwise than TLC says it."""
 
 MUST_HOLD: Final[Mapping[str, str]] = {"MC": "HOLDS", "LIVE": "HOLDS"}
 """Kinds of runs that must hold, with TLC's verdict on them."""
@@ -103,7 +107,8 @@ NOT_PROVED_IN: Final[Mapping[tuple[str, str], str]] = {
 class Row:
     """One property in one environment.
 
-    theorem: what proves it, or "". reason: why nothing does. rests_on: assumptions of the register.
+    theorem: what proves it, or "". reason: why nothing does. note: what the theorem says otherwise than TLC.
+    rests_on: assumptions of the register.
     """
 
     id: str
@@ -113,6 +118,7 @@ class Row:
     theorem: str
     rests_on: tuple[str, ...]
     reason: str
+    note: str = ""
 
 
 def rows(document: Document | None = None, argument: Argument = ARGUMENT) -> tuple[Row, ...]:
@@ -144,7 +150,7 @@ def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Ro
     if name in OF_A_DEVICE:
         return Row(name, environment, names, tlc, OF_A_DEVICE[name], (POWER_UP,), "")
     reason = NOT_PROVED.get(name, "") or NOT_PROVED_IN.get((name, environment), "")
-    formula = FORMULA_IN.get((name, environment), FORMULA.get(name, ""))
+    formula, note = FORMULA_IN.get((name, environment), (FORMULA.get(name, ""), ""))
     if not reason and not formula:
         raise TheoremError(f"{name}: neither a formula proves it nor a reason says why none does")
     if reason:
@@ -152,7 +158,7 @@ def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Ro
     if environment not in environments(formula, argument):
         raise TheoremError(f"{name}: {formula!r} rests on what environment {environment} does not keep")
     theorem = next(one.theorem for one in argument.proved if one.name == formula)
-    return Row(name, environment, names, tlc, theorem, register_of(formula, argument), "")
+    return Row(name, environment, names, tlc, theorem, register_of(formula, argument), "", note)
 
 
 def environments(formula: str, argument: Argument = ARGUMENT) -> frozenset[str]:
@@ -178,28 +184,30 @@ def register_of(formula: str, argument: Argument = ARGUMENT) -> tuple[str, ...]:
     return tuple(sorted(found))
 
 
-def broken(document: Document | None = None) -> tuple[tuple[str, str, str], ...]:
-    """What TLC finds when an assumption breaks: assumption, run, property, of the properties proved here."""
+def broken(document: Document | None = None) -> tuple[tuple[str, Run], ...]:
+    """Where TLC finds that a property falls when an assumption breaks: the assumption, and the run."""
     known = document or load_document(ROOT, "mode_selection")
     runs = {one.id: one for one in known.runs}
     return tuple(
-        (one.id, name, runs[name].property)
+        (one.id, runs[name])
         for one in known.assumptions
         for name in one.breaks
         if runs[name].module.startswith("KeyFlows") and runs[name].property in FORMULA
     )
 
 
-def table(verdict_of: Callable[[str], str]) -> str:
-    """The table in Markdown; `verdict_of` gives the verdict on a theorem by its name."""
-    lines = [
-        "| property | environment | TLC | by theorem | theorem, or why there is none | rests on |",
-        "|---|---|---|---|---|---|",
-    ]
-    for one in rows():
-        ours = verdict_of(one.theorem) if one.theorem else "not proved"
-        why = f"`{one.theorem}`" if one.theorem else one.reason
-        lines.append(
-            f"| {one.id} | {one.environment} | {one.tlc} | {ours} | {why} | {', '.join(one.rests_on)} |"
-        )
-    return "\n".join(lines) + "\n"
+def disagreements(document: Document | None = None, argument: Argument = ARGUMENT) -> tuple[str, ...]:
+    """One line for each theorem that does not rest on an assumption without which TLC finds that it is false.
+
+    A theorem that says something else than TLC in this environment is left out: its note says what.
+    """
+    proved = {(one.id, one.environment): one for one in rows(document, argument) if one.theorem}
+    found = []
+    for assumption, run in broken(document):
+        row = proved.get((run.property, run.environment))
+        if row is not None and not row.note and assumption not in row.rests_on:
+            found.append(
+                f"{row.id} ({row.environment}): {row.theorem} does not rest on {assumption}, and without that"
+                f" TLC finds a counterexample ({run.id})"
+            )
+    return tuple(found)

@@ -1,0 +1,80 @@
+"""Model checker and theorems, property by property of the whole system: do they say the same?
+
+The rows come from the room of the proofs of a document (module `agreement`, where there is one): each
+property and environment that a run of the whole system judges, with the theorem that proves it or the reason
+why none does. The model checker's column is what its runs must give; they are judged by themselves.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from modeproof import evidence
+
+ID = "agreement"
+
+
+def compare(
+    place: Path,
+    document: str,
+    module: ModuleType,
+    verdicts: Mapping[str, str],
+    inputs: Mapping[str, str],
+    tools: Mapping[str, Mapping[str, str | None]],
+) -> dict[str, Any]:
+    """Compare the rows with the verdicts on the theorems, by name, and write one piece of evidence.
+
+    EQUAL: where the runs hold the theorem is proved, or a reason stands beside it, and no theorem does
+    without an assumption that the model checker needs. Else DIFFERS.
+    """
+    evidence.discard(place, document, ID)
+    started = time.time()
+    rows: list[dict[str, Any]] = []
+    problems: list[str] = []
+    try:
+        for one in module.rows():
+            proved = verdicts.get(one.theorem, "UNJUDGED") if one.theorem else ""
+            rows.append({**asdict(one), "proved": proved})
+            if one.theorem and (one.tlc, proved) != ("HOLDS", "PROVED"):
+                problems.append(f"{one.id} ({one.environment}): {one.tlc}, and {one.theorem}: {proved}")
+        problems += module.disagreements()
+    except ValueError as error:  # a property with neither theorem nor reason
+        problems.append(" ".join(str(error).split()))
+    if not rows and not problems:
+        problems.append("no property of the whole system was compared")
+    record = evidence.make(
+        kind="agreement",
+        id=ID,
+        document=document,
+        verdict="DIFFERS" if problems else "EQUAL",
+        expected="EQUAL",
+        as_expected=not problems,
+        strength="each property of the whole system in each environment",
+        command=f"modeproof prove --document {document}",
+        started=started,
+        seconds=time.time() - started,
+        inputs=inputs,
+        tools=tools,
+        result={"rows": rows, "problems": problems},
+        reason=problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
+        if problems
+        else "",
+    )
+    evidence.write(place, record)
+    return record
+
+
+def line(records: Sequence[Mapping[str, Any]]) -> str:
+    """One line for the summary."""
+    rows = [row for record in records for row in record["result"]["rows"]]
+    both = sum(1 for row in rows if row["theorem"])
+    verdict = "EQUAL" if all(record["as_expected"] for record in records) else "DIFFERS"
+    return (
+        f"{'agreement':<12} {verdict}; {both} of {len(rows)} properties of the whole system, by environment, "
+        f"by the model checker and by theorem, {len(rows) - both} by the model checker alone"
+    )
