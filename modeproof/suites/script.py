@@ -32,7 +32,8 @@ class Script:
     """One case: why it is there, its shots, and the numbers of those whose steps it is about.
 
     Without `about` it is about all its steps. `renamed` gives other words for words of the graph, in inputs
-    and outputs alike. Without `reset` the case begins before any reset.
+    and outputs alike. Without `reset` the case begins before any reset. `judges` says, where refusals are the
+    matter, who is judged: the adapter, or the program behind one that must not refuse.
     """
 
     why: str
@@ -40,6 +41,7 @@ class Script:
     about: Sequence[int] = ()
     renamed: Mapping[int, int] = field(default_factory=dict)
     reset: bool = True
+    judges: str = ""
 
 
 @dataclass(frozen=True)

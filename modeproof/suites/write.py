@@ -18,10 +18,11 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import KIND, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites import words
+from modeproof.suites import refusals, words
 from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
 
+ADAPTER = "adapter"
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 _SORTED = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 
@@ -70,6 +71,17 @@ SUITES = {
         does_not_show="each of the 65,536 words in each state; two wrong words at once",
         counted_by="next state",
         plan=words.plan,
+    ),
+    "refusals": Kind(
+        guarantees=(
+            "each form of request that protocol 1 forbids is sent once, in a control state where it would "
+            "change the state without its fault; and in every control state well-formed inputs that no "
+            "adapter may refuse are answered by the program as specified"
+        ),
+        hypothesis="the adapter checks a request in one way, whatever the program behind it is doing",
+        does_not_show="every combination of faults in one request; what the program does besides",
+        counted_by="next state",
+        plan=refusals.plan,
     ),
 }
 """All suites by name."""
@@ -223,7 +235,8 @@ class _Writer:
             )
             inputs, outputs = now_in, now_out
         clauses, findings = self._cited(cited)
-        id = id_of_text(device.device.id, device.params, ",".join(going_in))
+        params = dict(device.params) if script.reset else {}
+        id = id_of_text(device.device.id, params, ",".join(going_in))
         if id in self.ids:
             return
         self.ids.add(id)
@@ -233,13 +246,17 @@ class _Writer:
             "basis": f"finding:{','.join(findings)}" if findings else "document",
             "why": script.why,
             "timing": "exact",
-            "params": dict(device.params),
+            "params": params,
             "graph": number,
         }
+        if script.judges:
+            case["judges"] = script.judges
+        if script.judges == ADAPTER:
+            case.update(clauses=[], basis="protocol")
         if not script.reset:
             case["reset"] = False
         self.cases.append(f'{_ENCODE(case)[:-1]},"scans":[{",".join(rows)}]}}\n')
-        self.scans += len(rows)
+        self.scans += sum(shot.refuse is None for shot in script.shots)
         self.longest = max(self.longest, len(rows))
 
     def _cited(self, steps: Iterable[str]) -> tuple[list[str], list[str]]:

@@ -135,7 +135,10 @@ def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[s
         (["lmap", "--builtin", "toyimpl"], "no target 'lmap'; there are: lamp"),
         (["lamp", "--builtin", "noimpl"], "noimpl.toy.lamp cannot be imported"),
         (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
-        (["lamp", "--adapter", "x", "--suite", "toru"], "no suite 'toru'; there are: tour, brief, words"),
+        (
+            ["lamp", "--adapter", "x", "--suite", "toru"],
+            "no suite 'toru'; there are: tour, brief, words, refusals",
+        ),
         (["lamp", "--adapter", "x", "--vectors", "none.jsonl"], "No such file"),
     ],
 )
