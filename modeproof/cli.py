@@ -612,6 +612,17 @@ def _compare_proofs_page(place: Path) -> int:
     return EXIT_NOT_AS_EXPECTED
 
 
+def code_under_proof() -> Any:
+    """What says of a document's code which of it is to be changed, and judges changed copies of it.
+
+    Raises Unjudged when the proofs cannot be imported.
+    """
+    try:
+        return importlib.import_module("proofs.mutants.bench")
+    except ImportError as error:
+        raise Unjudged(f"proofs cannot be run: {error}") from None
+
+
 def _coverage(args: argparse.Namespace, place: Path, names: Sequence[str], progress: Any) -> int:
     from modeproof.lock import only_one
     from modeproof.summary import status_of

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import contextlib
+import signal
+import time
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import active_children, get_context
-from typing import Any, TypeVar
+from dataclasses import dataclass
+from multiprocessing import active_children, connection, get_context
+from typing import Any, Generic, TypeVar
 
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
@@ -58,3 +62,65 @@ def in_processes(
         executor.shutdown(wait=False, cancel_futures=True)
         for child in active_children():
             child.terminate()
+
+
+@dataclass(frozen=True)
+class Outcome(Generic[T]):
+    """What one item came to: a result, or why there is none."""
+
+    number: int
+    result: T | None
+    why: str = ""
+
+
+def in_forks(
+    work: Callable[[Any], T], items: Sequence[Any], jobs: int, limit_s: float
+) -> Iterator[Outcome[T] | None]:
+    """The outcome of each item as it comes, each worked on in a copy of this process that ends with it.
+
+    So nothing that one item leaves behind meets the next one, and what this process knows already need not be
+    made again. None now and then while nothing has come. limit_s: wall-clock time for one item; one that
+    takes longer is ended. However this ends, no process is left behind.
+    """
+    context = get_context("fork")
+    waiting = list(enumerate(items))[::-1]
+    running: dict[Any, tuple[Any, int, float]] = {}
+
+    def child(number: int, item: Any, out: Any) -> None:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        try:
+            outcome = Outcome(number, work(item))
+        except Exception as error:  # reported, and the others go on
+            outcome = Outcome(number, None, f"{type(error).__name__}: {' '.join(str(error).split())}"[:300])
+        out.send(outcome)
+        out.close()
+
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                number, item = waiting.pop()
+                read, write = context.Pipe(duplex=False)
+                process = context.Process(target=child, args=(number, item, write), daemon=True)
+                process.start()
+                write.close()
+                running[read] = process, number, time.monotonic()
+            ready = connection.wait(list(running), timeout=1.0)
+            late = [one for one, (_, _, began) in running.items() if time.monotonic() - began > limit_s]
+            for one in [*ready, *(one for one in late if one not in ready)]:
+                process, number, _ = running.pop(one)
+                outcome = Outcome[T](number, None, f"the limit of {limit_s:.0f} s came first")
+                if one in ready:
+                    outcome = Outcome(number, None, "its process died")
+                    with contextlib.suppress(EOFError, OSError):
+                        outcome = one.recv()  # type: ignore[attr-defined]
+                else:
+                    process.kill()
+                process.join()
+                yield outcome
+            if not ready and not late:
+                yield None
+    finally:
+        for process, _, _ in running.values():
+            process.kill()
+            process.join()

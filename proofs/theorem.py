@@ -25,6 +25,10 @@ class TheoremError(ValueError):
     """
 
 
+class NotJudged(TheoremError):
+    """What is asked for is not among the scans that are judged (see `proofs.explorer.device.judging`)."""
+
+
 @dataclass(frozen=True)
 class Query:
     """One question to a solver: can all the formulas be true at once?"""

@@ -189,7 +189,7 @@ def judge_all(
                 if record is not None:
                     known[record["mutant"]] = record
                     done += 1
-            progress.update("mutants", _state(len(waiting), done, time.monotonic() - began, known))
+            progress.update("mutants", so_far(len(waiting), done, time.monotonic() - began, known))
     finally:
         stop.set()
         for one in running:
@@ -213,7 +213,8 @@ def _controls(bench: Bench, waiting: Sequence[Mutant], pool: ThreadPoolExecutor)
         )
 
 
-def _state(total: int, done: int, seconds: float, known: Mapping[str, Mapping[str, Any]]) -> str:
+def so_far(total: int, done: int, seconds: float, known: Mapping[str, Mapping[str, Any]]) -> str:
+    """How far a campaign has come, its rate, and the counts of verdicts, in one line."""
     counts = Counter(one["verdict"] for one in known.values())
     rate = done / seconds if seconds > 0 else 0.0
     left = f"{(total - done) / rate / 60:.0f} min remaining" if rate > 0 else "no rate yet"

@@ -17,15 +17,17 @@ from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.page import render
-from modeproof.strength.register import load_strength, path_of
+from modeproof.strength.register import Explained, load_strength, path_of
 from modeproof.strength.results import Results, read_results, results_path
 
 
 def add_parser(commands: Any) -> None:
     """Add `mutate` to the commands of modeproof."""
-    text = "one-edit mutants of the specification, and which property each of them breaks"
+    text = "one-edit mutants of the specification or of the code, and what each of them breaks"
     parser = commands.add_parser("mutate", help=text, description=text[0].upper() + text[1:] + ".")
-    parser.add_argument("what", choices=("spec",), help="what is mutated")
+    parser.add_argument(
+        "what", choices=("spec", "impl"), help="the specification, judged by TLC; the code, by theorems"
+    )
     parser.add_argument("modules", nargs="*", metavar="DEVICE", help="only these modules (default: all)")
     parser.add_argument("--document", metavar="NAME", help="only this document")
     parser.add_argument("--list", action="store_true", help="list the mutants, judge none")
@@ -35,8 +37,9 @@ def add_parser(commands: Any) -> None:
         "--complete", action="store_true", help="ask the costly tiers about killed mutants too"
     )
     parser.add_argument(
-        "--render", action="store_true", help="write docs/strength.md from the results there are"
+        "--render", action="store_true", help="write the page in docs/ from the results there are"
     )
+    parser.add_argument("--judge", choices=("theorems",), help="what judges mutants of the code")
     parser.add_argument("--jobs", type=int, metavar="N", help="TLC runs at once (default: one a core)")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
@@ -49,6 +52,12 @@ def _mutate(args: argparse.Namespace) -> int:
     from modeproof.tlc.toolchain import find_toolchain
 
     place = root()
+    if args.what == "impl":
+        from modeproof.strength.implementation_command import mutate_implementation
+
+        return mutate_implementation(place, args)
+    if args.judge is not None:
+        raise Unjudged("--judge speaks of the code; mutants of the specification are judged by its properties")
     document = _document(place, args.document)
     bench = Bench(place, load_strength(place, document), find_toolchain())
     strange = sorted(set(args.modules) - set(bench.strength.rules))
@@ -57,7 +66,7 @@ def _mutate(args: argparse.Namespace) -> int:
             f"{strange[0]} is none of the modules of strength.toml: {', '.join(bench.strength.rules)}"
         )
     every = all_mutants(bench)
-    chosen = _chosen(every, args)
+    chosen = chosen_of(every, args)
     results = read_results(results_path(place, document, args.what))
     if args.list:
         print("\n".join(str(one) for one in chosen))
@@ -93,13 +102,14 @@ def _document(place: Path, named: str | None) -> str:
     return known[0]
 
 
-def _chosen(every: Sequence[Mutant], args: argparse.Namespace) -> list[Mutant]:
+def chosen_of(every: Sequence[Mutant], args: argparse.Namespace) -> list[Mutant]:
+    """The mutants that the arguments name. Raises Unjudged when one of them names none."""
     patterns = [args.show] if args.show is not None else args.only
     chosen = [one for one in every if not args.modules or one.module in args.modules]
     if patterns:
         for pattern in patterns:
             if not fnmatch.filter([one.id for one in chosen], pattern):
-                raise Unjudged(f"no mutant has the id {pattern}; `modeproof mutate spec --list` lists them")
+                raise Unjudged(f"no mutant has the id {pattern}; `modeproof mutate {args.what} --list` lists them")
         chosen = [one for one in chosen if any(fnmatch.fnmatchcase(one.id, p) for p in patterns)]
     return chosen
 
@@ -124,8 +134,21 @@ def _show(bench: Bench, mutant: Mutant, results: Results) -> int:
 
 
 def _report(bench: Bench, judged: Sequence[Judged], every: Sequence[Mutant], args: argparse.Namespace) -> int:
-    explained = bench.strength.explained
-    problems = explanation_problems(explained, judged, complete=bool(every))
+    return report(bench.strength.explained, "strength.toml", judged, bool(every), args)
+
+
+def report(
+    explained: Sequence[Explained],
+    register: str,
+    judged: Sequence[Judged],
+    complete: bool,
+    args: argparse.Namespace,
+) -> int:
+    """Print what is to be looked at and the counts, write the JSON, and give the exit status.
+
+    complete: these are all mutants, so that an explanation of none of them is a problem of the register.
+    """
+    problems = explanation_problems(explained, judged, complete=complete)
     open_ones = unexplained(explained, judged)
     for one in judged:
         if one.word == "UNMEASURED" or one in open_ones or len(judged) <= 10:
@@ -133,7 +156,7 @@ def _report(bench: Bench, judged: Sequence[Judged], every: Sequence[Mutant], arg
             why = one.record["reason"]
             print(f"{one.word}  {one.mutant}{f'; {killers}' if killers else ''}{f'; {why}' if why else ''}")
     for problem in problems:
-        print(f"strength.toml: {problem}")
+        print(f"{register}: {problem}")
     print(summary(judged, len(open_ones)))
     unmeasured = [one for one in judged if one.word == "UNMEASURED"]
     status = EXIT_NOT_AS_EXPECTED if open_ones or problems else EXIT_UNJUDGED if unmeasured else 0

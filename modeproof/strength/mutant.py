@@ -80,8 +80,8 @@ def moved(text: str, columns: int) -> str:
     return "\n".join([head, *(line[min(-columns, len(line) - len(line.lstrip())) :] for line in rest)])
 
 
-def diff(lines: Sequence[str], mutant: Mutant) -> str:
+def diff(lines: Sequence[str], mutant: Mutant, ending: str = "tla") -> str:
     """The edit as a unified diff."""
     new = applied(lines, mutant.edit).splitlines()
-    name = f"{mutant.module}.tla"
+    name = f"{mutant.module}.{ending}"
     return "\n".join(difflib.unified_diff(list(lines), new, name, f"{name} ({mutant.id})", lineterm=""))

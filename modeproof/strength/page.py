@@ -24,6 +24,7 @@ from modeproof.strength.campaign import WORDS, Judged, Known, inputs_now
 from modeproof.strength.explain import explanation_of, explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
+from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
 from modeproof.tlc.schedule import cores
 
@@ -43,7 +44,7 @@ def render(bench: Bench, every: Sequence[Mutant], results: Results) -> int:
         )
     text = page(bench, judged)
     inputs = ", ".join(f"{module} {value}" for module, value in sorted(inputs_now(bench).items()))
-    stamp = f"<!-- rendered by modeproof mutate: {inputs}, text {_digest(text)} -->\n"
+    stamp = f"<!-- rendered by modeproof mutate: {inputs}, text {text_digest(text)} -->\n"
     write_whole(bench.place / PAGE, (text + "\n" + stamp).encode("utf-8"))
     write_whole(bench.place / TABLE, table(judged).encode("utf-8"))
     explained = bench.strength.explained
@@ -71,7 +72,7 @@ def stamp_of(place: Path) -> tuple[dict[str, str], bool]:
     if found is None:
         raise Unjudged(f"{PAGE}: the page has no stamp; run modeproof mutate spec --render")
     inputs = dict(one.split(" ") for one in found[1].split(", "))
-    return inputs, _digest(text[: found.start() - 1]) == found[2]
+    return inputs, text_digest(text[: found.start() - 1]) == found[2]
 
 
 def table(judged: Sequence[Judged]) -> str:
@@ -109,11 +110,11 @@ def page(bench: Bench, judged: Sequence[Judged]) -> str:
     parts = [
         _head(bench, judged),
         _by_module(bench, judged),
-        _by_operator(judged),
+        by_operator(judged),
         _by_property(judged, stated, negatives),
         _matrix(judged),
-        _survivors(bench, judged),
-        _others(judged),
+        survivors(bench.strength.explained, judged),
+        others(judged),
     ]
     return "\n".join(parts)
 
@@ -128,7 +129,7 @@ def _head(bench: Bench, judged: Sequence[Judged]) -> str:
 
 One edit at a time was made in the device modules ({modules}) of `spec/{bench.strength.document}`, and the declared properties
 were asked about each result. **{counts["KILLED"]} of {real} mutants that behave differently are killed by a named property
-({_percent(counts["KILLED"], real)}); {counts["SURVIVED"]} survive, {open_ones} of them unexplained; {counts["UNMEASURED"]} could not be measured.**
+({percent(counts["KILLED"], real)}); {counts["SURVIVED"]} survive, {open_ones} of them unexplained; {counts["UNMEASURED"]} could not be measured.**
 
 ```
 .venv/bin/modeproof mutate spec            # judges what is not judged yet; can be stopped and taken up again
@@ -155,15 +156,16 @@ def _by_module(bench: Bench, judged: Sequence[Judged]) -> str:
     rows = []
     for module in bench.strength.rules:
         of_module = [one for one in judged if one.mutant.module == module]
-        rows.append([f"`{module}`", *_counted(of_module)])
-    rows.append(["**all**", *_counted(judged)])
-    return "## By module\n\n" + _markdown(["module", "mutants", *WORDS, "score"], rows)
+        rows.append([f"`{module}`", *counted(of_module)])
+    rows.append(["**all**", *counted(judged)])
+    return "## By module\n\n" + markdown(["module", "mutants", *WORDS, "score"], rows)
 
 
-def _by_operator(judged: Sequence[Judged]) -> str:
+def by_operator(judged: Sequence[Judged]) -> str:
+    """Counts by operator."""
     operators = sorted({one.mutant.operator for one in judged})
-    rows = [[name, *_counted([one for one in judged if one.mutant.operator == name])] for name in operators]
-    return "## By operator\n\n" + _markdown(["operator", "mutants", *WORDS, "score"], rows)
+    rows = [[name, *counted([one for one in judged if one.mutant.operator == name])] for name in operators]
+    return "## By operator\n\n" + markdown(["operator", "mutants", *WORDS, "score"], rows)
 
 
 def _by_property(judged: Sequence[Judged], stated: Sequence[str], negatives: Mapping[str, int]) -> str:
@@ -192,14 +194,14 @@ def _by_property(judged: Sequence[Judged], stated: Sequence[str], negatives: Map
     notes = [
         "Asked: mutants to which the property was put; alone: no other property that was asked fell; negatives: declared runs in which "
         "a literal reading or a fault breaks it.",
-        f"Kill nothing: {_names(nothing)}.",
-        f"Kill nothing alone, but with others: {_names(not_alone)}.",
-        f"Not asked here (the runs that check them are not among the tiers): {_names(never)}.",
-        f"Broken by no mutant and no negative: {_names(neither)}. These fall to faults planted in the tests, as every property does.",
+        f"Kill nothing: {names_of(nothing)}.",
+        f"Kill nothing alone, but with others: {names_of(not_alone)}.",
+        f"Not asked here (the runs that check them are not among the tiers): {names_of(never)}.",
+        f"Broken by no mutant and no negative: {names_of(neither)}. These fall to faults planted in the tests, as every property does.",
     ]
     head = ["property", "asked", "killed", "first", "alone", "negatives"]
     return (
-        "## By property\n\n" + _markdown(head, rows) + "\n" + "\n".join(f"- {note}" for note in notes) + "\n"
+        "## By property\n\n" + markdown(head, rows) + "\n" + "\n".join(f"- {note}" for note in notes) + "\n"
     )
 
 
@@ -217,28 +219,30 @@ def _matrix(judged: Sequence[Judged]) -> str:
                 cells[name][one.mutant.operator] += 1
         operators = sorted({one.mutant.operator for one in of_module})
         rows = [[f"`{name}`", *(cells[name][op] or "" for op in operators)] for name in sorted(cells)]
-        parts.append(f"### {module}\n\n" + _markdown(["property", *operators], rows))
+        parts.append(f"### {module}\n\n" + markdown(["property", *operators], rows))
     return "\n".join(parts)
 
 
-def _survivors(bench: Bench, judged: Sequence[Judged]) -> str:
+def survivors(explained: Sequence[Explained], judged: Sequence[Judged]) -> str:
+    """The survivors, by explanation."""
     groups: dict[str, list[Judged]] = defaultdict(list)
-    kinds: Mapping[str, str] = {one.why: one.kind for one in bench.strength.explained}
+    kinds: Mapping[str, str] = {one.why: one.kind for one in explained}
     for one in judged:
         if one.word == "SURVIVED":
-            found = explanation_of(bench.strength.explained, one.mutant.id)
+            found = explanation_of(explained, one.mutant.id)
             groups["" if found is None else found.why].append(one)
     parts = ["## Survivors\n"]
     for why, ones in sorted(groups.items()):
         parts.append(f"**{kinds[why]}.** {why}\n" if why else "**Not explained.**\n")
-        parts += [f"- `{one.mutant.id}` {_edit(one.mutant)}" for one in ones]
+        parts += [f"- `{one.mutant.id}` {edit_of(one.mutant)}" for one in ones]
         parts.append("")
     if not groups:
         parts.append("None.\n")
     return "\n".join(parts)
 
 
-def _others(judged: Sequence[Judged]) -> str:
+def others(judged: Sequence[Judged]) -> str:
+    """What was neither killed nor survived, folded away."""
     parts = ["## Equivalent, invalid, unmeasured\n"]
     for word in ("EQUIVALENT", "INVALID", "UNMEASURED"):
         ones = [one for one in judged if one.word == word]
@@ -247,20 +251,22 @@ def _others(judged: Sequence[Judged]) -> str:
         parts.append(f"<details><summary>{len(ones)} {word}</summary>\n")
         for one in ones:
             why = str(one.record["reason"])[:160].replace("`", "'")
-            parts.append(f"- `{one.mutant.id}` {_edit(one.mutant)}" + (f": {why}" if why else ""))
+            parts.append(f"- `{one.mutant.id}` {edit_of(one.mutant)}" + (f": {why}" if why else ""))
         parts.append("\n</details>\n")
     return "\n".join(parts)
 
 
-def _edit(mutant: Mutant) -> str:
+def edit_of(mutant: Mutant) -> str:
+    """An edit in one line."""
     old, new = (text if len(text) < 70 else text[:67] + "..." for text in (mutant.old, mutant.new))
     return f"{mutant.operator} in {mutant.definition}: `{old}` → `{new}`"
 
 
-def _counted(judged: Sequence[Judged]) -> list[object]:
+def counted(judged: Sequence[Judged]) -> list[object]:
+    """A row of counts: all, by verdict, and the score."""
     counts = Counter(one.word for one in judged)
     real = counts["KILLED"] + counts["SURVIVED"] + counts["UNMEASURED"]
-    return [len(judged), *(counts[word] for word in WORDS), _percent(counts["KILLED"], real)]
+    return [len(judged), *(counts[word] for word in WORDS), percent(counts["KILLED"], real)]
 
 
 def _columns(judged: Iterable[Judged]) -> list[str]:
@@ -268,19 +274,23 @@ def _columns(judged: Iterable[Judged]) -> list[str]:
     return sorted(set(names))
 
 
-def _percent(part: int, whole: int) -> str:
+def percent(part: int, whole: int) -> str:
+    """A share with one digit; `-` of nothing."""
     return f"{100 * part / whole:.1f} %" if whole else "-"
 
 
-def _names(names: Sequence[str]) -> str:
+def names_of(names: Sequence[str]) -> str:
+    """Names in one line."""
     return ", ".join(f"`{name}`" for name in names) or "none"
 
 
-def _markdown(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+def markdown(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A table."""
     lines = [f"| {' | '.join(head)} |", "|" + "---|" * len(head)]
     lines += [f"| {' | '.join(str(cell) for cell in row)} |" for row in rows]
     return "\n".join(lines) + "\n"
 
 
-def _digest(text: str) -> str:
+def text_digest(text: str) -> str:
+    """The hash of a page's own text."""
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:12]

@@ -97,7 +97,7 @@ def load_strength(place: Path, document: str) -> Strength:
     for values in _tables(source, data, "module"):
         name = _text(source, values, "name")
         at = f"{source}: module {name}"
-        _known(at, values, {"name", "behaviour", "groups", "device"})
+        refuse_unknown(at, values, {"name", "behaviour", "groups", "device"})
         rules[name] = Rule(
             behaviour=_names(at, values, "behaviour", required=True),
             off=frozenset(_names(source, shared, "off")),
@@ -107,9 +107,9 @@ def load_strength(place: Path, document: str) -> Strength:
             groups=frozenset(_names(at, values, "groups")),
         )
     tiers = tuple(_tier(source, values, runs, rules) for values in _tables(source, data, "tier"))
-    explained = tuple(_explained(source, values) for values in _tables(source, data, "survivor"))
+    explained = tuple(read_explained(source, values) for values in _tables(source, data, "survivor"))
     rejudged = tuple(_rejudged(source, values) for values in _tables(source, data, "rejudged"))
-    _known(source, data, set())
+    refuse_unknown(source, data, set())
     if not rules or not tiers:
         raise Unjudged(f"{source}: no module or no tier is declared")
     seen: set[str] = set()
@@ -127,7 +127,7 @@ def _tier(source: str, values: dict[str, Any], runs: Mapping[str, Run], rules: M
     name = _text(source, values, "id")
     at = f"{source}: tier {name}"
     known = {"id", "modules", "run", "asks", "when", "constants", "definitions", "types", "decides"}
-    _known(at, values, known | {"timeout_s", "heap_mb"})
+    refuse_unknown(at, values, known | {"timeout_s", "heap_mb"})
     run = _text(at, values, "run")
     if run not in runs:
         raise Unjudged(f"{at}: run {run} is not in runs.toml")
@@ -157,10 +157,11 @@ def _tier(source: str, values: dict[str, Any], runs: Mapping[str, Run], rules: M
     )
 
 
-def _explained(source: str, values: dict[str, Any]) -> Explained:
+def read_explained(source: str, values: dict[str, Any]) -> Explained:
+    """One explanation of survivors. Raises Unjudged when a field is missing, unknown, or of another kind."""
     ids = _names(f"{source}: survivor", values, "ids", required=True)
     at = f"{source}: survivor {ids[0]}"
-    _known(at, values, {"ids", "kind", "why"})
+    refuse_unknown(at, values, {"ids", "kind", "why"})
     kind = _text(at, values, "kind")
     if kind not in KINDS:
         raise Unjudged(f"{at}: kind must be one of {', '.join(KINDS)}")
@@ -170,7 +171,7 @@ def _explained(source: str, values: dict[str, Any]) -> Explained:
 def _rejudged(source: str, values: dict[str, Any]) -> Rejudged:
     id = _text(f"{source}: rejudged", values, "id")
     at = f"{source}: rejudged {id}"
-    _known(at, values, {"id", "verdict", "killer"})
+    refuse_unknown(at, values, {"id", "verdict", "killer"})
     return Rejudged(id, _text(at, values, "verdict"), str(values.get("killer", "")))
 
 
@@ -202,11 +203,12 @@ def _table(source: str, data: dict[str, Any], key: str, known: set[str]) -> dict
     table = data.pop(key, {})
     if not isinstance(table, dict):
         raise Unjudged(f"{source}: `{key}` must be a table ([{key}])")
-    _known(f"{source}: {key}", table, known)
+    refuse_unknown(f"{source}: {key}", table, known)
     return table
 
 
-def _known(at: str, values: Mapping[str, Any], known: set[str]) -> None:
+def refuse_unknown(at: str, values: Mapping[str, Any], known: set[str]) -> None:
+    """Raise Unjudged for a field that is none of these."""
     strange = sorted(set(values) - known)
     if strange:
         raise Unjudged(f"{at}: unknown field {strange[0]!r}")

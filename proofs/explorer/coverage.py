@@ -133,7 +133,7 @@ def coverage_of(device: Device) -> Coverage:
     reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
     reach.refuse_faults()
     explored = scans(device)
-    watch = _Watch({function.__code__ for function in reach.functions})
+    watch = Watch({function.__code__ for function in reach.functions})
     asked: dict[tuple[str, Place], set[bool]] = defaultdict(set)
     for scan in explored:
         for path in scan.paths:
@@ -161,10 +161,10 @@ def coverage_of(device: Device) -> Coverage:
     )
 
 
-def _run_member(device: Device, scan: Scan, path: Path, watch: _Watch) -> None:
+def _run_member(device: Device, scan: Scan, path: Path, watch: Watch) -> None:
     """Run the example of a path in the plain interpreter, watched. Raises ExplorationError if it raises."""
     state, inputs = plain(scan.state, path.example), plain(scan.inputs, path.example)
-    with _answering(device, path.example):
+    with answering(device, path.example):
         try:
             with watch:
                 device.module.step(state, inputs)
@@ -176,7 +176,7 @@ def _run_member(device: Device, scan: Scan, path: Path, watch: _Watch) -> None:
 
 
 @contextmanager
-def _answering(device: Device, model: z3.ModelRef) -> Iterator[None]:
+def answering(device: Device, model: z3.ModelRef) -> Iterator[None]:
     """In place of what the device takes from outside, the answers of the example."""
     before = [(one.module, one.name, getattr(one.module, one.name)) for one in device.stand_ins]
     try:
@@ -189,7 +189,7 @@ def _answering(device: Device, model: z3.ModelRef) -> Iterator[None]:
             setattr(module, name, function)
 
 
-class _Watch:
+class Watch:
     """Notes the lines of some functions as they run, and which line followed which."""
 
     def __init__(self, codes: set[CodeType]) -> None:

@@ -7,7 +7,8 @@ limit. Free symbols are called `before.x` (memory), `in.x` (inputs), `set.x` (pa
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
 from enum import Enum
 from types import MappingProxyType, ModuleType
@@ -138,8 +139,11 @@ def scans(device: Device) -> tuple[Scan, ...]:
     """Explore `step` from every control state, in the order of the module's Step.
 
     The code is linted first. The result is kept as long as the code that `step` reaches stays the same.
-    Raises ExplorationError: LintError for what no symbolic value can notice, or a path that returns no pair.
+    Within `judging` they are the scans given there. Raises ExplorationError: LintError for what no symbolic
+    value can notice, or a path that returns no pair.
     """
+    if device.name in _JUDGED:
+        return _JUDGED[device.name][1]
     reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
     reach.refuse_faults()
     key = (device.name, device.module.__name__, reach.fingerprint)
@@ -149,6 +153,30 @@ def scans(device: Device) -> tuple[Scan, ...]:
 
 
 _EXPLORED: dict[object, tuple[Scan, ...]] = {}
+_JUDGED: dict[str, tuple[Device, tuple[Scan, ...]]] = {}
+
+
+@contextmanager
+def judging(device: Device, found: Sequence[Scan]) -> Iterator[None]:
+    """Inside, what theorems say of the device of this name is said of this one, and of these scans alone.
+
+    For a device that is not the shipped one: a theorem is then a question about it. What the theorem says of
+    other control states is not asked.
+    """
+    before = _JUDGED.get(device.name)
+    _JUDGED[device.name] = device, tuple(found)
+    try:
+        yield
+    finally:
+        if before is None:
+            del _JUDGED[device.name]
+        else:
+            _JUDGED[device.name] = before
+
+
+def judged(device: Device) -> Device:
+    """The device that theorems about `device` speak of: itself, but within `judging`."""
+    return _JUDGED[device.name][0] if device.name in _JUDGED else device
 
 
 def explored_from(device: Device, control: Enum) -> Scan:

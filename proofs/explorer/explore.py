@@ -136,15 +136,17 @@ def explore(
     premise: z3.BoolRef | None = None,
     stand_ins: Sequence[StandIn] = (),
     max_paths: int = MAX_PATHS,
+    twice: bool = True,
 ) -> Exploration:
     """Every feasible path of `function`, called with records, tuples, symbols and plain values.
 
     premise: what is known besides the ranges of the symbols. An exception that the function raises itself
-    ends a path (`raised`). Raises ExplorationError when the function cannot be followed.
+    ends a path (`raised`). twice: run each path again, so that a function that keeps state is found out.
+    Raises ExplorationError when the function cannot be followed.
     """
     ranges = [one.premise for one in (*_distinct(arguments), *(stand_in.answer for stand_in in stand_ins))]
     known = [term for term in (*ranges, premise) if term is not None and not z3.is_true(term)]
-    return _Explorer(function, arguments, conjunction(known), stand_ins, max_paths).explore()
+    return _Explorer(function, arguments, conjunction(known), stand_ins, max_paths).explore(twice)
 
 
 def _distinct(arguments: Sequence[Any]) -> Iterator[Symbol]:
@@ -190,7 +192,7 @@ class _Explorer:
         self.pruned = 0
         self.atoms: dict[int, _Atom] = {}
 
-    def explore(self) -> Exploration:
+    def explore(self, twice: bool = True) -> Exploration:
         if self.check(None) is None:
             raise ExplorationError("the premise cannot be met, so that there is no path to explore")
         waiting: list[tuple[tuple[Decision, ...], z3.ModelRef]] = [((), self.solver.model())]
@@ -204,7 +206,8 @@ class _Explorer:
             waiting += run.branches
             if len(paths) > self.max_paths:
                 raise TooManyPathsError(f"more than {self.max_paths} paths; split the function or its inputs")
-        self._run_again(paths)
+        if twice:
+            self._run_again(paths)
         return Exploration(self.premise, tuple(paths), self.questions, self.pruned)
 
     def _run_again(self, paths: list[Path]) -> None:

@@ -7,7 +7,7 @@ with them, so that every example that the solver gives is one that the shipped c
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any, TypeVar
@@ -100,15 +100,26 @@ def plain(value: Any, model: z3.ModelRef) -> Any:
 
 def evaluated(value: Any, model: z3.ModelRef) -> Any:
     """A result of a run with the model's values in place of symbolic ones."""
+    return _evaluated(value, model, lambda record, values: record(**values))
+
+
+def evaluated_plain(value: Any, model: z3.ModelRef) -> Any:
+    """As `evaluated`, without the checks of constructors (see `plain`)."""
+    return _evaluated(value, model, unvalidated)
+
+
+def _evaluated(value: Any, model: z3.ModelRef, make: Callable[[Any, dict[str, Any]], Any]) -> Any:
     if isinstance(value, Proxy):
         found = model.eval(value.term, model_completion=True)
         if isinstance(value, TextProxy):
             return value._values[found.as_long()]
         return z3.is_true(found) if z3.is_bool(found) else _integer(value, found)
     if isinstance(value, tuple):
-        return tuple(evaluated(part, model) for part in value)
+        return tuple(_evaluated(part, model, make) for part in value)
     if _is_record(value):
-        return type(value)(**{name: evaluated(part, model) for name, part in _parts(value).items()})
+        return make(
+            type(value), {name: _evaluated(part, model, make) for name, part in _parts(value).items()}
+        )
     return value
 
 

@@ -230,7 +230,7 @@ def the_fplc_switches_by_the_text_alone_where_it_is_so_set() -> Queries:
     """Where each level permits its own mode and level 3 modes 1 and 2 besides, no other mode is switched
     under it.
     """
-    params = JUDGE.scans()[0].scan.state.params
+    params = JUDGE.device.params()
     beyond = [
         z3.Not(getattr(params, f"PERMITS_{level}")[number].term)
         for level in LEVELS

@@ -13,7 +13,7 @@ from typing import Any, Final
 
 import z3
 
-from proofs.explorer.device import Device, Scan, scans
+from proofs.explorer.device import Device, Scan, judged, scans
 from proofs.explorer.ends import FALSE, Tree, always, ends, in_terms, some, tree, value
 from proofs.explorer.errors import ConcretizationError
 from proofs.explorer.explore import Exploration, explore
@@ -153,7 +153,8 @@ def outputs_of(device: Device, state: Any) -> Any:
 
     Raises ConcretizationError when a text depends on more than the control state.
     """
-    found = explore(device.module.outputs, (state,), device.parameters_fit(state.params), device.stand_ins)
+    code = judged(device)
+    found = explore(code.module.outputs, (state,), code.parameters_fit(state.params), code.stand_ins)
     rows = {id(path.result): in_terms(path.result, device.register.outputs) for path in found.paths}
     first = rows[id(found.paths[0].result)]
     values = {name: _joined(found, rows, name) for name in first.__dataclass_fields__}

@@ -15,13 +15,13 @@ from typing import Any
 
 import z3
 
-from proofs.explorer.device import LOGIC, Device, Scan
+from proofs.explorer.device import LOGIC, Device, Scan, judged
 from proofs.explorer.ends import FALSE, TRUE, in_terms
 from proofs.explorer.explore import conjunction, explore
 from proofs.mode_selection.invariants import Conjunct, conjuncts
 from proofs.mode_selection.scanned import Property, Scanned, Scans, scanned, scans_of
 from proofs.mode_selection.scanned import control as control_of
-from proofs.theorem import Queries, Query, claim, control
+from proofs.theorem import NotJudged, Queries, Query, claim, control
 
 Said = tuple[z3.BoolRef, z3.BoolRef] | None
 """What is supposed of a scan, and what is then demanded; None where a path is not spoken of."""
@@ -71,8 +71,11 @@ class Judge:
         return scans_of(self.device, self.explored)
 
     def begin(self, name: str) -> Scans:
-        """The scans from this control state."""
-        return next(scans for scans in self.scans() if scans.control == name)
+        """The scans from this control state. Raises NotJudged when only others are judged."""
+        for scans in self.scans():
+            if scans.control == name:
+                return scans
+        raise NotJudged(f"no scan from {name} is judged")
 
     def premises(self, scans: Scans, without: tuple[str, ...] = ()) -> dict[str, z3.BoolRef]:
         """All values in their ranges, and the invariant of the state before the scan."""
@@ -135,7 +138,7 @@ class Judge:
 
     def _power_up(self) -> tuple[Scanned, z3.BoolRef]:
         """Power-up in the form of a scan: before it is the same as after it; and the premise."""
-        module, params = self.device.module, self.device.params()
+        module, params = judged(self.device).module, self.device.params()
         found = explore(
             lambda given: (module.power_up(given), module.outputs(module.power_up(given))),
             (params,),

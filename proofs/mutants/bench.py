@@ -1,0 +1,83 @@
+"""The bench on which changed copies of a document's code are judged, and what of the code is to be changed.
+
+The room of a document says in `subjects.py` which devices are judged (`SUBJECTS`) and in `judges.py` which
+theorems judge them (`JUDGES`, by device).
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from proofs.mutants.copies import Change
+from proofs.mutants.judge import Bench
+from proofs.mutants.shipped import Subject, functions_of, shipped
+from proofs.theorem import Theorem
+
+
+def bench_of(document: str) -> Bench:
+    """The bench of a document, with every device of it: what one module does may matter to another device.
+
+    Raises ExplorationError when the shipped code cannot be explored.
+    """
+    return Bench(
+        f"refimpl.{document}",
+        {one.device.name: shipped(one) for one in _subjects(document)},
+        _judges(document),
+    )
+
+
+def _subjects(document: str) -> Sequence[Subject]:
+    found: Sequence[Subject] = importlib.import_module(f"proofs.{document}.subjects").SUBJECTS
+    return found
+
+
+def _judges(document: str) -> Mapping[str, Sequence[Theorem]]:
+    found: Mapping[str, Sequence[Theorem]] = importlib.import_module(f"proofs.{document}.judges").JUDGES
+    return found
+
+
+def judged(bench: Bench, change: Mapping[str, Any], complete: bool) -> dict[str, Any]:
+    """What becomes of a change: module, definition, text, lines and file. As JSON, for the results."""
+    told = Change(change["module"], change["definition"], change["text"], change["lines"])
+    found = bench.judge(told, change["file"], complete)
+    return {
+        "verdict": found.verdict,
+        "killers": list(found.killers),
+        "reason": found.reason,
+        "witness": found.witness,
+        "answers": [asdict(one) for one in found.asked],
+    }
+
+
+def theorems(document: str) -> dict[str, str]:
+    """Every theorem that judges, in order, and the module in which it is written."""
+    asked = {one.name: one.build.__module__ for found in _judges(document).values() for one in found}
+    answered = {one.answered: "proofs.mutants.judge" for one in _subjects(document)}
+    return {**asked, **answered}
+
+
+def texts(document: str) -> list[tuple[str, ...]]:
+    """The lists of texts that the interface of the devices declares."""
+    found: dict[tuple[str, ...], Any] = {}
+    for one in _subjects(document):
+        register = one.device.register
+        for group in (register.inputs, register.outputs, register.parameters):
+            found.update({tuple(signal.values): None for signal in group.values() if signal.type == "text"})
+    return list(found)
+
+
+def reached(document: str) -> dict[str, tuple[Path, frozenset[str]]]:
+    """The modules that some step or power-up of the document reaches: their files, and the functions reached."""
+    found: dict[str, set[str]] = {}
+    for one in _subjects(document):
+        for module, function in functions_of(one.device):
+            found.setdefault(module, set()).add(function)
+    return {
+        name: (Path(inspect.getfile(importlib.import_module(name))), frozenset(functions))
+        for name, functions in found.items()
+    }
