@@ -129,7 +129,7 @@ class _Trial:
         raises.
         """
         asked: list[Asked] = []
-        results = [(way, run(self.device, way, way.path.example)) for way in self.ways]
+        results = [(way, run(self.device, way)) for way in self.ways]
         results = [(way, result) for way, result in results if result != way.result]
         results.sort(key=lambda one: not isinstance(one[1], Exception))
         for way, result in results:

@@ -95,9 +95,16 @@ def entry(device: Device, control: str) -> Any:
     return starts(device) if control == POWER_UP else device.module.step
 
 
-def run(device: Device, way: Way, model: z3.ModelRef) -> Any:
-    """The member that the model gives, in the plain interpreter; an exception of the code is the result."""
-    arguments = tuple(plain(one, model) for one in way.arguments)
+def run(device: Device, way: Way, model: z3.ModelRef | None = None) -> Any:
+    """The member that the model gives, or the one that is kept, in the plain interpreter.
+
+    An exception of the code is the result.
+    """
+    model, arguments = (
+        (way.path.example, way.member)
+        if model is None
+        else (model, tuple(plain(one, model) for one in way.arguments))
+    )
     with answering(device, model):
         try:
             return entry(device, way.control)(*arguments)
