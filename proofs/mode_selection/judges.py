@@ -12,11 +12,16 @@ from typing import Final
 
 from proofs.explorer.device import Device
 from proofs.mode_selection import (
+    eks_prompt,
     eks_safety,
     every_device,
+    fplc_answers,
     fplc_invariant,
+    fplc_order,
+    fplc_prompt,
     fplc_response,
     fplc_safety,
+    panel_prompt,
     panel_safety,
     plc_safety,
 )
@@ -41,9 +46,13 @@ def _theorems(device: Device, *modules: ModuleType) -> tuple[Theorem, ...]:
 
 JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
     {
-        FPLC.name: _theorems(FPLC, every_device, fplc_safety, fplc_response, guarantees, fplc_invariant),
-        HMI.name: _theorems(HMI, every_device, panel_safety, guarantees),
+        FPLC.name: _theorems(
+            FPLC,
+            *(every_device, fplc_safety, fplc_order, fplc_prompt, fplc_answers),
+            *(guarantees, fplc_response, fplc_invariant),
+        ),
+        HMI.name: _theorems(HMI, every_device, panel_safety, panel_prompt, guarantees),
         PLC.name: _theorems(PLC, every_device, plc_safety, guarantees),
-        EKS.name: _theorems(EKS, every_device, eks_safety, guarantees),
+        EKS.name: _theorems(EKS, every_device, eks_safety, eks_prompt, guarantees),
     }
 )
