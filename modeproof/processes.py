@@ -113,7 +113,7 @@ def in_forks(
                 if one in ready:
                     outcome = Outcome(number, None, "its process died")
                     with contextlib.suppress(EOFError, OSError):
-                        outcome = one.recv()  # type: ignore[attr-defined]
+                        outcome = one.recv()
                 else:
                     process.kill()
                 process.join()

@@ -57,7 +57,9 @@ def _mutate(args: argparse.Namespace) -> int:
 
         return mutate_implementation(place, args)
     if args.judge is not None:
-        raise Unjudged("--judge speaks of the code; mutants of the specification are judged by its properties")
+        raise Unjudged(
+            "--judge speaks of the code; mutants of the specification are judged by its properties"
+        )
     document = _document(place, args.document)
     bench = Bench(place, load_strength(place, document), find_toolchain())
     strange = sorted(set(args.modules) - set(bench.strength.rules))
@@ -109,7 +111,9 @@ def chosen_of(every: Sequence[Mutant], args: argparse.Namespace) -> list[Mutant]
     if patterns:
         for pattern in patterns:
             if not fnmatch.filter([one.id for one in chosen], pattern):
-                raise Unjudged(f"no mutant has the id {pattern}; `modeproof mutate {args.what} --list` lists them")
+                raise Unjudged(
+                    f"no mutant has the id {pattern}; `modeproof mutate {args.what} --list` lists them"
+                )
         chosen = [one for one in chosen if any(fnmatch.fnmatchcase(one.id, p) for p in patterns)]
     return chosen
 

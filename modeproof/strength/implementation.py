@@ -113,7 +113,7 @@ class Implementation:
 
     @cached_property
     def mutants(self) -> dict[str, tuple[str, PythonMutant]]:
-        """Every mutant by its id, with the whole name of its module. Raises Unjudged when a module has none."""
+        """Every mutant by its id, with the name of its module. Raises Unjudged when a module has none."""
         read = frozenset(
             node.id
             for name, module in self.modules.items()
@@ -286,5 +286,3 @@ def _record(
         "complete": complete,
         **(unmeasured if found is None else found),
     }
-
-

@@ -12,7 +12,16 @@ from modeproof.evidence.files import write_whole
 from modeproof.strength.campaign import WORDS, Judged
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.implementation import Implementation
-from modeproof.strength.page import by_operator, counted, markdown, names_of, others, percent, survivors, text_digest
+from modeproof.strength.page import (
+    by_operator,
+    counted,
+    markdown,
+    names_of,
+    others,
+    percent,
+    survivors,
+    text_digest,
+)
 from modeproof.strength.results import Results
 
 PAGE = "docs/strength-impl.md"
@@ -25,7 +34,9 @@ def render(code: Implementation, results: Results) -> int:
     judged = code.known(results)
     missing = len(code.every) - len(judged)
     if missing:
-        raise Unjudged(f"{missing} of {len(code.every)} mutants are not judged for this code; run without --render")
+        raise Unjudged(
+            f"{missing} of {len(code.every)} mutants are not judged for this code; run without --render"
+        )
     text = page(code, judged)
     stamp = f"<!-- rendered by modeproof mutate: base {code.base}, text {text_digest(text)} -->\n"
     write_whole(code.place / PAGE, (text + "\n" + stamp).encode("utf-8"))
@@ -94,7 +105,9 @@ def _by_module(judged: Sequence[Judged]) -> str:
 def _by_theorem(code: Implementation, judged: Sequence[Judged]) -> str:
     names = list(code.code.theorems(code.document))
     first = Counter(one.killers[0] for one in judged if one.killers)
-    asked = Counter(name for one in judged for name in {answer["theorem"] for answer in one.record["answers"]})
+    asked = Counter(
+        name for one in judged for name in {answer["theorem"] for answer in one.record["answers"]}
+    )
     rows = [[f"`{name}`", asked[name], first[name]] for name in names]
     nothing = [name for name in names if not first[name]]
     notes = [

@@ -12,8 +12,8 @@ order exchanged        two `if` next to one another change places, conditions an
 field unchanged        a field of the state that is built keeps its value
 reset missing          the same, where the field gets its value of power-up
 wrong reset            a field that shall stay gets its value of power-up
-constant swapped       a control state, a text or a declared name becomes the next of its kind; n becomes n + 1, an
-                       index the next one that is used; True and False exchanged
+constant swapped       a control state, a text or a declared name becomes the next of its kind; n becomes n + 1,
+                       an index the next one that is used; True and False exchanged
 operator swapped       + and -, & and | exchanged
 term dropped           A + B becomes A
 entries exchanged      two entries of a table next to one another change places
@@ -223,7 +223,9 @@ def _pair(what: ast.AST | tuple[ast.AST, ast.AST]) -> tuple[ast.AST, ast.AST]:
 def _is_member(value: ast.expr, module: Module) -> bool:
     """Another name for a member of a class of the module."""
     return (
-        isinstance(value, ast.Attribute) and isinstance(value.value, ast.Name) and value.value.id in module.classes
+        isinstance(value, ast.Attribute)
+        and isinstance(value.value, ast.Name)
+        and value.value.id in module.classes
     )
 
 
@@ -466,7 +468,11 @@ class _Function:
         if start is None:
             return {}
         for node in ast.walk(start):
-            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == self.rule.record:
+            if (
+                isinstance(node, ast.Call)
+                and isinstance(node.func, ast.Name)
+                and node.func.id == self.rule.record
+            ):
                 fields = self.module.classes.get(self.rule.record, ())
                 return dict(zip(fields, map(self.module.source, node.args), strict=False))
         return {}
@@ -486,5 +492,3 @@ def _stored(node: ast.Name) -> bool:
 
 def _named(argument: ast.arg, name: str) -> bool:
     return isinstance(argument.annotation, ast.Name) and argument.annotation.id == name
-
-

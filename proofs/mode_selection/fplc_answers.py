@@ -1,7 +1,7 @@
-"""What else the F-PLC owes to each scan: an answer to each word, and times that begin and end where they must.
+"""What else the F-PLC owes to each scan: an answer to each word, times that begin and end where they must.
 
-No property of the specification says these of the F-PLC alone; without them an edit of the code would pass all
-theorems (docs/strength-impl.md).
+No property of the specification says these of the F-PLC alone; without them an edit of the code would pass
+all theorems (docs/strength-impl.md).
 """
 
 # ruff: noqa: SIM300 -- the names of words are upper case
@@ -39,9 +39,7 @@ def selection_is_answered(one: Scanned) -> Said:
     return z3.And(signalled(one), i.MW07 == 0), judged
 
 
-@theorem(
-    clauses=["EKS-2-18", "EKS-2-19", "EKS-T2-2"], findings=["E-14", "E-16", "E-21", "E-47"], slow=True
-)
+@theorem(clauses=["EKS-2-18", "EKS-2-19", "EKS-T2-2"], findings=["E-14", "E-16", "E-21", "E-47"], slow=True)
 def each_selection_has_one_answer() -> Queries:
     """In CheckSelection, while the key is signalled and MW07 is zero: a word in MW03 that means a mode which
     the machine permits to the level is latched, zero takes the selection back, and every other word leads to

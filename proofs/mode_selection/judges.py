@@ -11,6 +11,7 @@ from types import MappingProxyType, ModuleType
 from typing import Final
 
 from proofs.explorer.device import Device
+from proofs.mode_selection import composition_guarantees as guarantees
 from proofs.mode_selection import (
     eks_prompt,
     eks_safety,
@@ -25,7 +26,6 @@ from proofs.mode_selection import (
     panel_safety,
     plc_safety,
 )
-from proofs.mode_selection import composition_guarantees as guarantees
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
 from proofs.theorem import Theorem
 

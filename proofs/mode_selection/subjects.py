@@ -1,4 +1,4 @@
-"""The devices whose one-edit mutants are judged, and what is known of their states; judges.py says by what."""
+"""The devices whose mutants are judged, and what is known of their states; judges.py says by what."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ from proofs.mutants.shipped import Subject
 
 def _known(judge: Judge) -> Callable[[Any], z3.BoolRef]:
     def of(state: Any) -> z3.BoolRef:
-        return holds(judge.invariant, judge.device, state, judge.seen) if judge.invariant else z3.BoolVal(True)
+        return (
+            holds(judge.invariant, judge.device, state, judge.seen) if judge.invariant else z3.BoolVal(True)
+        )
 
     return of
 

@@ -72,7 +72,7 @@ def texts(document: str) -> list[tuple[str, ...]]:
 
 
 def reached(document: str) -> dict[str, tuple[Path, frozenset[str]]]:
-    """The modules that some step or power-up of the document reaches: their files, and the functions reached."""
+    """The modules that some step or power-up of the document reaches: files, and functions reached."""
     found: dict[str, set[str]] = {}
     for one in _subjects(document):
         for module, function in functions_of(one.device):

@@ -64,9 +64,7 @@ def copied(package: str, change: Change | None = None) -> Copy:
 
     def function(one: FunctionType) -> FunctionType:
         if id(one) not in functions:
-            own = (
-                change is not None and one.__module__ == change.module and one.__name__ == change.definition
-            )
+            own = change is not None and one.__module__ == change.module and one.__name__ == change.definition
             made = FunctionType(
                 code if own and code is not None else one.__code__,
                 vars(copies[one.__module__]),
@@ -105,9 +103,7 @@ def _code(change: Change) -> CodeType | None:
     return found[-1] if found else None
 
 
-def _rebind(
-    shipped: Mapping[str, ModuleType], copies: Mapping[str, ModuleType], change: Change
-) -> None:
+def _rebind(shipped: Mapping[str, ModuleType], copies: Mapping[str, ModuleType], change: Change) -> None:
     """A constant that differs, in its module and wherever it was imported from there."""
     names: dict[str, Any] = dict(vars(shipped[change.module]))
     try:

@@ -160,7 +160,10 @@ class _Trial:
         return self._kind(found.way.control, found.shipped, found.other)
 
     def _kind(self, control: str, *results: Any) -> tuple[str, ...]:
-        ends = ["" if isinstance(one, Exception) else getattr(one[0], self.device.control).value for one in results]
+        ends = [
+            "" if isinstance(one, Exception) else getattr(one[0], self.device.control).value
+            for one in results
+        ]
         return (control, *ends)
 
     def _difference(self, way: Way) -> Difference | None:
@@ -215,7 +218,9 @@ def claims(item: Theorem) -> Iterator[Query]:
         for query in item.build():
             if query.expected == "unsat":
                 yield query
-    except NotJudged:  # the first control that speaks of a control state that is not judged; all claims come first
+    except (
+        NotJudged
+    ):  # the first control that speaks of a control state that is not judged; all claims come first
         return
 
 
@@ -244,7 +249,7 @@ def _replay(device: Device, differences: list[Difference], model: z3.ModelRef) -
 
 
 def _true(model: z3.ModelRef, formula: z3.BoolRef) -> bool:
-    return z3.is_true(model.eval(formula, model_completion=True))
+    return bool(z3.is_true(model.eval(formula, model_completion=True)))
 
 
 def _raised(device: Device, theorem: str, found: Difference) -> Asked:
@@ -254,5 +259,3 @@ def _raised(device: Device, theorem: str, found: Difference) -> Asked:
     if type(got) is not type(path.raised):
         raise NoAnswer(f"the scan that raises, run in {found.way.control}, gives {got!r}")
     return Asked(theorem, "refuted", found.way.control, f"raises {path.raised!r}")
-
-

@@ -70,7 +70,7 @@ class Shipped:
 
 
 def functions_of(device: Device) -> frozenset[tuple[str, str]]:
-    """Module and name of every function that step or power-up reach; what something stands in for is left out."""
+    """Module and name of every function that step or power-up reach, but what something stands in for."""
     skipped = [one.name for one in device.stand_ins]
     reached = [
         one
@@ -151,6 +151,4 @@ def _way(
     member = tuple(plain(one, path.example) for one in arguments)
     with answering(device, path.example), watch:
         result = entry(device, control)(*member)
-    return Way(
-        control, scan, arguments, found.premise, path, member, result, frozenset(watch.lines)
-    )
+    return Way(control, scan, arguments, found.premise, path, member, result, frozenset(watch.lines))
