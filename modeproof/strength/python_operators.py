@@ -12,8 +12,8 @@ order exchanged        two `if` next to one another change places, conditions an
 field unchanged        a field of the state that is built keeps its value
 reset missing          the same, where the field gets its value of power-up
 wrong reset            a field that shall stay gets its value of power-up
-constant swapped       a control state, a text or a declared name becomes the next of its kind; n becomes n + 1,
-                       an index the next one that is used; True and False exchanged
+constant swapped       a control state, a text or a declared name becomes the next of its kind; a number
+                       becomes n + 1, an index the next one that is used; True and False exchanged
 operator swapped       + and -, & and | exchanged
 term dropped           A + B becomes A
 entries exchanged      two entries of a table next to one another change places

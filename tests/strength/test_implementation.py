@@ -1,0 +1,187 @@
+"""The campaign over shipped code, with a judge that reads the text alone: it goes on where it stopped."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof.errors import Unjudged
+from modeproof.progress import Progress
+from modeproof.strength.explain import explanation_problems, unexplained
+from modeproof.strength.implementation import Implementation, judge_implementation, read_register
+from modeproof.strength.implementation_page import page
+from modeproof.strength.results import Results, read_results
+
+GATE = """
+LIMIT = 2
+
+
+def step(count: int) -> int:
+    if count < LIMIT:
+        return count + 1
+    return 0
+"""
+REGISTER = """
+[rule]
+turns = [["LIMIT", "count"]]
+"""
+THEOREM = "from refimpl.toy import gate\n\nLIMIT = gate.LIMIT\n"
+
+
+@dataclass
+class Reader:
+    """Stands for the room of proofs: a word in the mutated text decides what becomes of it."""
+
+    place: Path
+    verdicts: Mapping[str, str] = field(default_factory=dict)
+    explored: int = 0
+
+    def reached(self, document: str) -> Mapping[str, tuple[Path, frozenset[str]]]:
+        return {"refimpl.toy.gate": (self.place / "refimpl/toy/gate.py", frozenset({"step"}))}
+
+    def texts(self, document: str) -> Sequence[tuple[str, ...]]:
+        return []
+
+    def theorems(self, document: str) -> Mapping[str, str]:
+        return {"counts": "proofs.toy.counts", "ends": "proofs.toy.ends"}
+
+    def bench_of(self, document: str) -> Any:
+        self.explored += 1
+        return "bench"
+
+    def judged(self, bench: Any, change: Mapping[str, Any], complete: bool) -> Mapping[str, Any]:
+        assert bench == "bench"
+        verdict = next((word for text, word in self.verdicts.items() if text in change["text"]), "KILLED")
+        if verdict == "SLEEPS":
+            time.sleep(60)
+        if verdict == "DIES":
+            os._exit(1)
+        if verdict == "RAISES":
+            raise ValueError("no idea")
+        killed = verdict == "KILLED"
+        answer = {"theorem": "counts", "result": "refuted", "where": "", "detail": "", "seconds": 0.0}
+        return {
+            "verdict": verdict,
+            "killers": ["counts"] if killed else [],
+            "reason": "",
+            "witness": "",
+            "answers": [answer] if killed else [],
+        }
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    for file, text in (
+        ("refimpl/toy/gate.py", GATE),
+        ("proofs/toy/strength.toml", REGISTER),
+        ("proofs/toy/counts.py", THEOREM),
+        ("proofs/toy/ends.py", ""),
+        ("proofs/toy/subjects.py", "from refimpl.toy import gate\n"),
+        ("proofs/mutants/bench.py", ""),
+    ):
+        path = tmp_path / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return tmp_path
+
+
+def campaign(place: Path, reader: Reader, limit_s: float = 30.0) -> tuple[Implementation, Results, list[Any]]:
+    code = Implementation(place, "toy", reader)
+    results = read_results(place / "impl.jsonl")
+    judged = judge_implementation(code, code.every, results, Progress(quiet=True), 2, limit_s=limit_s)
+    return code, results, judged
+
+
+def test_every_mutant_is_judged_and_kept(place: Path) -> None:
+    code, _, judged = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED", "False": "EQUIVALENT"}))
+    words = {one.mutant.new: one.word for one in judged}
+    assert words["count <= LIMIT"] == "SURVIVED"
+    assert words["False"] == "EQUIVALENT"
+    assert words["(count - 1)"] == "KILLED"
+    assert len(judged) == len(code.every) == len(read_results(place / "impl.jsonl").records)
+    assert [one.mutant.new for one in unexplained((), judged)] == ["count <= LIMIT"]
+    assert "**all** |" in page(code, judged)
+
+
+def test_what_is_known_is_not_judged_again_and_an_interrupted_campaign_goes_on(place: Path) -> None:
+    campaign(place, Reader(place))
+    file = place / "impl.jsonl"
+    lines = file.read_bytes().splitlines(keepends=True)
+    file.write_bytes(b"".join(lines[:-2]) + lines[-2][:20])
+    reader = Reader(place)
+    _, results, judged = campaign(place, reader)
+    assert reader.explored == 1
+    assert "cut off" in results.remark
+    assert len(judged) == len(lines)
+    again = Reader(place)
+    campaign(place, again)
+    assert again.explored == 0
+
+
+@pytest.mark.parametrize(
+    ("verdict", "why"),
+    [("RAISES", "ValueError: no idea"), ("DIES", "process died"), ("SLEEPS", "limit of 1 s")],
+)
+def test_what_cannot_be_judged_is_unmeasured_and_never_killed(place: Path, verdict: str, why: str) -> None:
+    _, _, judged = campaign(
+        place, Reader(place, {"False": verdict}), limit_s=1.0 if verdict == "SLEEPS" else 30.0
+    )
+    (one,) = [one for one in judged if one.mutant.new == "False"]
+    assert one.word == "UNMEASURED"
+    assert why in one.record["reason"]
+    assert not one.killers
+
+
+def stale(place: Path) -> set[str]:
+    code = Implementation(place, "toy", Reader(place))
+    results = read_results(place / "impl.jsonl")
+    return {one.new for one in code.every if code.find(results, one) is None}
+
+
+def test_a_changed_theorem_spoils_what_rests_on_it(place: Path) -> None:
+    campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED", "False": "EQUIVALENT"}))
+    assert not stale(place)
+    (place / "proofs/toy/ends.py").write_text("# a comment\n")
+    assert not stale(place)
+    (place / "proofs/toy/ends.py").write_text("X = 1\n")
+    assert stale(place) == {"count <= LIMIT"}
+    (place / "proofs/toy/counts.py").write_text(THEOREM + "Y = 1\n")
+    assert "(count - 1)" in stale(place)
+    assert "False" not in stale(place)
+
+
+def test_a_changed_step_spoils_everything(place: Path) -> None:
+    campaign(place, Reader(place))
+    (place / "refimpl/toy/gate.py").write_text(GATE.replace("return 0", "return -1"))
+    code = Implementation(place, "toy", Reader(place))
+    assert stale(place) == {one.new for one in code.every}
+
+
+def test_an_explanation_of_what_is_no_survivor_is_a_problem(place: Path) -> None:
+    code, _, judged = campaign(place, Reader(place))
+    row = f'[[survivor]]\nids = ["{judged[0].mutant.id}"]\nkind = "harmless"\nwhy = "It does nothing."\n'
+    (place / "proofs/toy/strength.toml").write_text(REGISTER + row)
+    (explained,) = read_register(place, "toy", []).explained
+    assert explanation_problems([explained], judged, complete=True)
+    assert not explanation_problems([], judged, complete=True)
+    assert code.mutants
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ("[rule]\nother = 1\n", "unknown field 'other'"),
+        ("x = 1\n", "unknown field 'x'"),
+        ("[", "strength.toml"),
+    ],
+)
+def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
+    (place / "proofs/toy/strength.toml").write_text(text)
+    with pytest.raises(Unjudged, match=complaint):
+        read_register(place, "toy", [])
