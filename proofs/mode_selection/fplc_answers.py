@@ -7,7 +7,7 @@ all theorems (docs/strength-impl.md).
 # ruff: noqa: SIM300 -- the names of words are upper case
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Final
 
 import z3
 
@@ -16,10 +16,10 @@ from proofs.mode_selection.devices import FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_prompt import no_word, signalled
 from proofs.mode_selection.fplc_safety import now
-from proofs.mode_selection.invariants import CLOCKED, FPLC_INVARIANT, Conjunct
-from proofs.mode_selection.observer import NOTHING, SEEN, Seen, sees
+from proofs.mode_selection.invariants import CLOCKED
+from proofs.mode_selection.observer import Seen
 from proofs.mode_selection.scanned import Scanned, code, control, mode, permits
-from proofs.mode_selection.sentences import Judge, Said
+from proofs.mode_selection.sentences import Said
 from proofs.theorem import Queries, theorem
 
 DWELLING: Final = ("Start", "Settle", "Error")
@@ -106,28 +106,8 @@ def every_time_of_the_fplc_begins_at_zero() -> Queries:
     yield JUDGE.too_strong("never goes on", always, "Clear")
 
 
-def _ends_at_the_dwell_time(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
-    return s.elapsed_ms <= p.T_DWELL_ms if c in DWELLING else TRUE
-
-
-DWELLS: Final = Judge(
-    FPLC,
-    (
-        *FPLC_INVARIANT,
-        Conjunct(
-            "TimerEndsAtTheDwellTime",
-            "In Start, Settle and Error the timer is at most T_DWELL.",
-            _ends_at_the_dwell_time,
-        ),
-    ),
-    SEEN,
-    sees,
-    NOTHING,
-)
-
-
 def dwell_in_range(one: Scanned, seen: Seen) -> z3.BoolRef:
-    return _ends_at_the_dwell_time(control(FPLC, one.after), one.after, one.params, seen)
+    return one.after.elapsed_ms <= one.params.T_DWELL_ms if one.becomes(*DWELLING) else TRUE
 
 
 @theorem(clauses=["EKS-GP-3", "EKS-8-18"], findings=["E-52"], slow=True)
@@ -135,5 +115,9 @@ def no_dwell_time_of_the_fplc_counts_beyond_its_end() -> Queries:
     """At power-up and after every scan the timer of Start, Settle and Error is at most T_DWELL, however long
     the F-PLC stays there, so that no timer of a machine overflows.
     """
-    yield from DWELLS.after_every_scan(dwell_in_range)
-    yield DWELLS.without(DWELLS.after_a_scan(dwell_in_range), "Error", "TimerEndsAtTheDwellTime")
+    yield from JUDGE.after_every_scan(dwell_in_range)
+
+    def less(one: Scanned) -> Said:
+        return TRUE, one.after.elapsed_ms < one.params.T_DWELL_ms
+
+    yield JUDGE.too_strong("and never reaches it", less, "Error")
