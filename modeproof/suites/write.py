@@ -19,6 +19,7 @@ from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import KIND, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
 from modeproof.suites import refusals, words
+from modeproof.suites.bound import lower_bound
 from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
 
@@ -157,6 +158,7 @@ class _Writer:
         self.cases: list[str] = []
         self.graphs: list[dict[str, Any]] = []
         self.states = self.columns = self.scans = self.longest = self.inputs = self.used = 0
+        self.bound = 0
         self.ids: set[str] = set()
 
     def add(self, number: int, device: DeviceGraph) -> None:
@@ -171,6 +173,8 @@ class _Writer:
             return
         assert kind.wanted is not None
         wanted = kind.wanted(columns)
+        if self.suite == "tour":
+            self.bound += lower_bound(columns, device.graph.initial)
         cases = walks(columns, device.graph.initial, wanted)
         if not covers(columns, device.graph.initial, wanted, cases):
             raise Unjudged(f"{device.name}: the suite {self.suite} does not cover what it must")
@@ -369,6 +373,7 @@ class _Writer:
             "sources": dict(sorted(sources.items())),
             "cases": len(self.cases),
             "scans": self.scans,
+            **({"lower_bound": self.bound} if self.bound else {}),
             "states": self.states,
             "columns": self.columns,
             "transitions": sum(self.transitions.values()),

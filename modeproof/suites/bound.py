@@ -1,0 +1,79 @@
+"""The least cost of taking every transition of a graph: a minimum-cost flow, and the proof that it is least.
+
+Cost counts one for each scan and one for each case, which begins with a reset. Cases that take every
+transition, each closed by a reset back to power-up, are a circulation that passes every transition at least
+once; so no suite costs less than the cheapest circulation. How it is found does not matter: `lower_bound`
+checks it by prices of the states (linear programming duality), and gives the cost that the prices prove.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import networkx
+
+from modeproof.errors import Unjudged
+from modeproof.graph.columns import Columns
+
+_RESET = -1
+Arcs = dict[tuple[int, int], int]
+
+
+def lower_bound(columns: Columns, initial: int) -> int:
+    """Scans and resets that every suite needs which takes each transition. Raises Unjudged when unproved."""
+    supply, arcs = problem(columns, initial)
+    network: networkx.DiGraph[int] = networkx.DiGraph()
+    for state, excess in supply.items():
+        network.add_node(state, demand=-excess)
+    for (one, other), cost in arcs.items():
+        network.add_edge(one, other, weight=cost)
+    extra, flow = networkx.network_simplex(network)
+    prices = _prices(arcs, flow)
+    proved = proved_by(prices, supply, arcs)
+    if proved != extra:
+        raise Unjudged(f"the lower bound is not proved: the flow costs {extra}, the prices prove {proved}")
+    return columns.transitions + proved
+
+
+def problem(columns: Columns, initial: int) -> tuple[Counter[int], Arcs]:
+    """For each state how often more it is entered than left when every transition is taken once; the arcs."""
+    supply: Counter[int] = Counter({_RESET: 0})
+    arcs: Arcs = {(_RESET, initial): 0}
+    for state, row in enumerate(columns.next_of):
+        supply[state] += 0
+        arcs[state, _RESET] = 1
+        for after in row:
+            supply[state] -= 1
+            supply[after] += 1
+            if after != state:
+                arcs[state, after] = 1
+    return supply, arcs
+
+
+def _prices(arcs: Arcs, flow: dict[int, dict[int, int]]) -> dict[int, int]:
+    """Distances in the residual network from a source that reaches all (Bellman and Ford)."""
+    costs = {(one, other): cost for (one, other), cost in arcs.items()}
+    for (one, other), cost in arcs.items():
+        if flow[one].get(other, 0) > 0:
+            costs[other, one] = min(-cost, costs.get((other, one), -cost))
+    prices = dict.fromkeys((state for arc in arcs for state in arc), 0)
+    for _ in prices:
+        changed = False
+        for (one, other), cost in costs.items():
+            if prices[one] + cost < prices[other]:
+                prices[other] = prices[one] + cost
+                changed = True
+        if not changed:
+            return prices
+    raise Unjudged("the lower bound is not proved: the flow is not the cheapest")
+
+
+def proved_by(prices: dict[int, int], supply: Counter[int], arcs: Arcs) -> int:
+    """What prices prove: where no arc gains more than it costs, every flow costs at least this.
+
+    Raises Unjudged when an arc gains more than it costs.
+    """
+    for (one, other), cost in arcs.items():
+        if prices[other] - prices[one] > cost:
+            raise Unjudged(f"the lower bound is not proved: the prices break the arc {one} to {other}")
+    return sum(-prices[state] * excess for state, excess in supply.items())

@@ -1,0 +1,192 @@
+"""The command `modeproof vectors`: build, lint, stats, show."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.kit.text import write_json
+from modeproof.kit.vectors import Case, Suite, open_suite
+from modeproof.lock import only_one
+from modeproof.places import build, documents, root
+from modeproof.registers.load import load_interface
+from modeproof.suites.build import find_target, ready_suite
+from modeproof.suites.export import as_csv, as_itf
+from modeproof.suites.lint import lint
+from modeproof.suites.write import SUITES
+
+WITHIN = 1.05
+"""How much a tour may cost, as a multiple of its lower bound."""
+
+
+def add_parser(commands: Any) -> argparse.ArgumentParser:
+    """Add `vectors`; its exit status is 0 as expected, 1 not as expected."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "vectors",
+        help="build, check and show the test suites",
+        description="Builds the test suites from the graphs, checks the files, and shows what is in them.",
+    )
+    actions = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
+    for name, text in (
+        ("build", "build what is missing or older than its sources"),
+        ("lint", "check files against the schema, and what they say of themselves"),
+        ("stats", "cases, scans and transitions of each file; of tours also the lower bound"),
+    ):
+        one = actions.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        one.add_argument("targets", nargs="*", metavar="TARGET", help="only these targets (default: all)")
+        one.add_argument(
+            "--suite", action="append", choices=list(SUITES), help="only this suite (may be repeated)"
+        )
+        if name == "build":
+            one.add_argument("--anew", action="store_true", help="also what is up to date")
+        if name == "stats":
+            one.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON as well")
+        one.set_defaults(run=run)
+    show = actions.add_parser("show", help="show one case", description="Show one case.")
+    show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
+    form = show.add_mutually_exclusive_group()
+    form.add_argument("--csv", action="store_true", help="as a table for a trace tool")
+    form.add_argument("--itf", action="store_true", help="as a trace in the Informal Trace Format, for TLA+")
+    show.set_defaults(run=run)
+    return parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    place = root()
+    action = {"build": _build, "lint": _lint, "stats": _stats, "show": _show}[args.action]
+    return action(place, args)
+
+
+def _build(place: Path, args: argparse.Namespace) -> int:
+    from modeproof.graph.device import open_runs
+    from modeproof.suites.command import make_graphs
+
+    targets = args.targets or [
+        name
+        for document in documents(place)
+        if (place / "spec" / document / "interface.toml").is_file()
+        for name, device in load_interface(place, document).devices.items()
+        if device.published and open_runs(place, document, name)
+    ]
+    with only_one(place):
+        for target in targets:
+            document, _ = find_target(place, target)
+            make_graphs(place, open_runs(place, document, target), quiet=True)
+            for suite in args.suite or SUITES:
+                path = build(place) / "vectors" / document / target / f"{suite}.jsonl"
+                if args.anew:
+                    path.unlink(missing_ok=True)
+                ready_suite(place, document, target, suite, lambda line: print(line, flush=True))
+                digest = hashlib.sha256(path.read_bytes()).hexdigest()
+                print(f"{target} {suite}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}", flush=True)
+    return EXIT_AS_EXPECTED
+
+
+def _files(place: Path, args: argparse.Namespace) -> list[Path]:
+    """The vector files of the targets and suites asked for. Raises Unjudged when there is none."""
+    found = []
+    for path in sorted((build(place) / "vectors").glob("*/*/*.jsonl")):
+        wanted = not args.targets or path.parent.name in args.targets
+        if wanted and (not args.suite or path.stem in args.suite):
+            found.append(path)
+    if not found:
+        raise Unjudged("no vector file of these targets and suites; `modeproof vectors build` makes them")
+    return found
+
+
+def _lint(place: Path, args: argparse.Namespace) -> int:
+    status = EXIT_AS_EXPECTED
+    for path in _files(place, args):
+        name = path.relative_to(build(place)).as_posix()
+        problems = lint(path)
+        print(f"{'NOT' if problems else 'ok '} {name}", flush=True)
+        for problem in problems[:20]:
+            print(f"    {problem}")
+        if problems:
+            status = EXIT_NOT_AS_EXPECTED
+    return status
+
+
+def _stats(place: Path, args: argparse.Namespace) -> int:
+    status = EXIT_AS_EXPECTED
+    rows = []
+    for path in _files(place, args):
+        suite = open_suite(path)
+        header = suite.header
+        row = {name: header[name] for name in ("target", "suite", "cases", "scans", "transitions")}
+        row["bytes"] = path.stat().st_size
+        line = (
+            f"{suite.target} {suite.name}: {suite.case_count:,} cases, {suite.scan_count:,} scans, "
+            f"{header['transitions']:,} transitions (by {header['counted_by']}), {row['bytes']:,} bytes"
+        )
+        bound = header.get("lower_bound")
+        if bound is not None:
+            cost = suite.scan_count + suite.case_count
+            row |= {"lower_bound": bound, "cost": cost}
+            line += f"; scans and resets {cost:,}, at least {bound:,}: {100 * (cost / bound - 1):.1f} % above"
+            if cost > WITHIN * bound:
+                status = EXIT_NOT_AS_EXPECTED
+                line += f", more than {100 * (WITHIN - 1):.0f} %"
+        print(line)
+        for graph in header["graphs"]:
+            notes = {key: value for key, value in graph.items() if key in ("not_so", "moves", "moves_not_so")}
+            for name, values in sorted(notes.get("not_so", {}).items()):
+                print(f"    {graph['run']}, not by single changes: {name}: {values}")
+        rows.append(row)
+    if args.json is not None:
+        write_json(args.json, {"command": "vectors stats", "status": status, "files": rows})
+    return status
+
+
+def _show(place: Path, args: argparse.Namespace) -> int:
+    suite, case = _find(place, args.id)
+    if args.csv:
+        sys.stdout.write(as_csv(suite, case))
+    elif args.itf:
+        sys.stdout.write(as_itf(suite, case))
+    else:
+        print("\n".join(_lines(suite, case)))
+    return EXIT_AS_EXPECTED
+
+
+def _find(place: Path, id: str) -> tuple[Suite, Case]:
+    for path in sorted((build(place) / "vectors").glob("*/*/*.jsonl")):
+        with path.open("rb") as stream:
+            if not any(line.startswith(f'{{"id":"{id}"'.encode()) for line in stream):
+                continue
+        suite = open_suite(path)
+        for case in suite.cases():
+            if case.id == id:
+                return suite, case
+    raise Unjudged(f"no case {id} in build/vectors; `modeproof vectors build` makes the files")
+
+
+def _lines(suite: Suite, case: Case) -> Iterator[str]:
+    yield f"{case.id}: {suite.target}, suite {suite.name}, {len(case.scans)} scans"
+    yield f"why:     {case.why}"
+    yield f"clauses: {', '.join(case.clauses) or 'none'}; basis: {case.basis}"
+    yield f"reset    {json.dumps(dict(case.params))}" if case.reset else "before any reset"
+    inputs: dict[str, Any] = {}
+    outputs: dict[str, Any] = {}
+    for number, scan in enumerate(case.scans, 1):
+        if scan.request is not None:
+            yield f"{number:>4}  to be refused: {scan.request}"
+            continue
+        ins = _changed(inputs, scan.inputs)
+        outs = _changed(outputs, scan.outputs)
+        settling = "" if scan.compared else " (settling)"
+        step = suite.steps[scan.step].name
+        yield f"{number:>4}  +{scan.dt_ms} ms  {ins or '-'}  ->  {outs or '-'}  [{step}]{settling}"
+        inputs, outputs = dict(scan.inputs), dict(scan.outputs)
+
+
+def _changed(before: dict[str, Any], now: Any) -> str:
+    new = object()
+    return ", ".join(f"{name}={json.dumps(now[name])}" for name in now if before.get(name, new) != now[name])
