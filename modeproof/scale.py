@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -36,6 +37,9 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     )
     parser.add_argument("series", nargs="*", metavar="SERIES", help="only these series")
     parser.add_argument("--document", metavar="NAME", help="which document of spec/, if several have series")
+    parser.add_argument(
+        "--point", type=int, action="append", metavar="X", help="only this point of each series"
+    )
     parser.add_argument("--render", action="store_true", help="measure nothing; write the page and the chart")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
@@ -60,7 +64,7 @@ def run(args: argparse.Namespace) -> int:
         for one in series:
             if args.series and one.id not in args.series:
                 continue
-            for point, record in measure(place, one, tools, progress):
+            for point, record in measure(place, _only(one, args.point), tools, progress):
                 result = record["result"]
                 figures = f"{result['distinct']:,} distinct, " if record["as_expected"] else ""
                 figures += f"{result['cpu_seconds']:.1f} s of CPU"
@@ -70,6 +74,15 @@ def run(args: argparse.Namespace) -> int:
                 if record["verdict"] not in ("HOLDS", "INCONCLUSIVE"):
                     status = EXIT_UNJUDGED
     return status
+
+
+def _only(series: Series, wanted: Sequence[int] | None) -> Series:
+    if not wanted:
+        return series
+    points = tuple(point for point in series.points if point.x in wanted)
+    if not points:
+        raise Unjudged(f"series {series.id} has no point {', '.join(map(str, wanted))}")
+    return replace(series, points=points)
 
 
 def render(place: Path, series: Sequence[Series]) -> None:

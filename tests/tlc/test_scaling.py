@@ -49,6 +49,14 @@ def test_a_series_is_measured_and_rendered(root: Path, capsys: pytest.CaptureFix
     assert (root / "docs/scaling.svg").read_text().count("<circle") == 4
 
 
+def test_one_point_alone_is_measured_again(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["scale", "--quiet", "floors", "--point", "3"]) == 0
+    said = capsys.readouterr().out
+    assert "floors 3: HOLDS; 12 distinct" in said and "floors 2" not in said
+    assert main(["scale", "--quiet", "--point", "9"]) == 2
+    assert "series floors has no point 9" in capsys.readouterr().err
+
+
 def test_after_a_point_beyond_its_limit_the_larger_ones_are_not_tried(
     root: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
