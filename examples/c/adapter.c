@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 static fplc_memory memory; /* <-- */
+static fplc_outputs out;   /* <-- as it stands on the terminals between two scans */
 static bool is_reset;
 
 static void time_ms(wire_line *line, const char *name, uint32_t *ms)
@@ -29,6 +30,7 @@ static void reset(wire_line *line)
     static const char *const permits[FPLC_MODES] = {
         "params.PERMITS_0", "params.PERMITS_1", "params.PERMITS_2", "params.PERMITS_3", "params.PERMITS_4"};
     fplc_parameters set = fplc_defaults(); /* <-- parameters that the line leaves out */
+    wire_object(line, "params");
     time_ms(line, "params.T_ON_ms", &set.T_ON_ms);
     time_ms(line, "params.T_SEQ_ms", &set.T_SEQ_ms);
     time_ms(line, "params.T_REM_ms", &set.T_REM_ms);
@@ -65,7 +67,7 @@ static void scan(wire_line *line)
         .C = wire_bool(line, "in.C"), .D = wire_bool(line, "in.D"), .STR = wire_bool(line, "in.STR"),
         .MW03 = wire_word(line, "in.MW03"), .MW07 = wire_word(line, "in.MW07"),
     };
-    fplc_outputs out;
+    wire_object(line, "in");
     if (!is_reset) {
         wire_refuse(line, "op", "scan before reset");
     }

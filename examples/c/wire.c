@@ -254,11 +254,19 @@ bool wire_all_taken(wire_line *line)
 {
     for (int i = 0; i < line->count; i++) {
         const wire_field *one = &line->field[i];
-        if (!one->taken && !(one->length == 1 && *one->value == '{')) {
+        if (!one->taken) {
             wire_refuse(line, one->name, "not expected here");
         }
     }
     return wire_good(line);
+}
+
+void wire_object(wire_line *line, const char *name)
+{
+    wire_field *one = find(line, name);
+    if (one != NULL && *one->value == '{') {
+        one->taken = true;
+    }
 }
 
 static bool equals(const wire_field *one, const char *text)

@@ -41,6 +41,9 @@ uint8_t wire_modes(wire_line *line, const char *name);   /* ascending list of 0.
 /* The field is there and has this text; then it is taken. Nothing is refused. */
 bool wire_is(wire_line *line, const char *name, const char *text);
 
+/* The field may be there as an object, which may be empty. */
+void wire_object(wire_line *line, const char *name);
+
 /* {"error":".."} for a line that was refused. */
 void wire_answer_error(const wire_line *line);
 
