@@ -18,7 +18,7 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import KIND, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites import refusals, words
+from modeproof.suites import refusals, sic, words
 from modeproof.suites.bound import lower_bound
 from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
@@ -83,6 +83,16 @@ SUITES = {
         does_not_show="every combination of faults in one request; what the program does besides",
         counted_by="next state",
         plan=refusals.plan,
+    ),
+    "sic": Kind(
+        guarantees=(
+            "inputs change one at a time and are held until all has settled; every step from every state to "
+            "every next state that such changes can take is taken; the header lists the others"
+        ),
+        hypothesis="the program settles in the scans given, and treats all inputs of a column alike",
+        does_not_show="what outputs are while they settle; the transitions that single changes do not reach",
+        counted_by="next state",
+        plan=sic.plan,
     ),
 }
 """All suites by name."""

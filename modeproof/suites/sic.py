@@ -1,0 +1,284 @@
+"""Suite `sic`: one input changes at a time, and outputs are compared after they have settled.
+
+Hardware that reads its inputs one by one sees two changes at once as two changes in some order. Here no two
+inputs ever change together: each event is one input that changes (one bit, or one word), or time that passes
+with all inputs held. Then the inputs are held, with as little time as the alphabet has, until the state stays
+as it is or goes round among states of the same outputs; then `HOLD` scans more, and only the last scan is
+compared.
+
+All states and held inputs that can be reached so are searched, breadth first; so the transitions that the
+header lists under `not_so` are those that no sequence of single changes within the alphabet takes. For each
+other transition (state, step and next state) there is a case that takes it, and for each settled state and
+step one for every state in which it can settle after it.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from modeproof.errors import Unjudged
+from modeproof.graph.columns import Columns
+from modeproof.graph.device import DeviceGraph
+from modeproof.suites.script import Alphabet, Script, Scripts, Shot, control_state
+
+HOLD = 2
+"""Scans for which settled inputs are held at least before outputs are compared."""
+
+Node = tuple[int, int]
+"""A settled state and the letter that is held."""
+Triple = tuple[int, int, int]
+"""A transition: state, step, next state; or -1 less the state in which it settles after that step."""
+Pattern = tuple[bool, ...]
+
+
+@dataclass(frozen=True)
+class _Event:
+    """From a node one letter is sent once, then `held` until all has settled in `to`."""
+
+    before: Node
+    letter: int
+    to: Node
+
+
+def plan(device: DeviceGraph, columns: Columns) -> Scripts:
+    """The cases for one graph; `notes` tell which transitions single changes do not reach."""
+    search = _Search(device)
+    search.run()
+    every = {
+        (state, step, after)
+        for state, (steps, nexts) in enumerate(zip(device.graph.step_of, device.graph.next_of, strict=True))
+        for step, after in set(zip(steps, nexts, strict=True))
+    }
+    missed = every - set(search.found)
+    names = device.graph.steps
+    all_of = Counter(names[step] for _, step, _ in every)
+    not_so = Counter(names[step] for _, step, _ in missed)
+    places = Counter(
+        (control_state(device, state), names[step], control_state(device, after))
+        for state, step, after in missed
+    )
+    notes = {
+        "nodes": len(search.parent),
+        "not_so": {name: f"{not_so[name]} of {all_of[name]}" for name in sorted(not_so)},
+        "not_so_places": [[*place, count] for place, count in sorted(places.items())],
+        "unsettled": search.unsettled,
+    }
+    return Scripts(search.cases(), notes)
+
+
+class _Search:
+    def __init__(self, device: DeviceGraph) -> None:
+        self.device, self.graph = device, device.graph
+        self.least = min(letter["dt_ms"] for letter in device.alphabet)
+        self.inputs = _Inputs(device)
+        held = [n for n, letter in enumerate(device.alphabet) if letter["dt_ms"] == self.least]
+        self.neighbours = {n: self.inputs.changes(n) for n in held}
+        self.later = {n: self.inputs.later(n, self.least) for n in held}
+        self.settled: dict[Node, tuple[int, ...] | None] = {}
+        self.parent: dict[Node, _Event] = {}
+        self.found: dict[Triple, _Event] = {}
+        self.depth: dict[Node, int] = {}
+        self.unsettled = 0
+
+    def run(self) -> None:
+        """Search all nodes; `found` holds for each transition the event that takes it first."""
+        first = next(n for n, one in enumerate(self.device.alphabet) if one["dt_ms"] == self.least)
+        start = (self.graph.initial, first)
+        queue = [] if self._go(start, first, first, None) is None else list(self.parent)
+        for node in queue:
+            state, held = node
+            for letter, then in self._events(held):
+                after = self._go(node, letter, then, state)
+                if after is not None:
+                    queue.append(after)
+
+    def _events(self, held: int) -> Iterator[tuple[int, int]]:
+        for letter in self.neighbours[held]:
+            yield letter, letter
+        for letter in self.later[held]:
+            yield letter, held
+
+    def _go(self, node: Node, letter: int, held: int, state: int | None) -> Node | None:
+        """Take an event; the node that it leads to, if it is a new one."""
+        origin = node[0] if state is None else state
+        after = self.graph.next_of[origin][letter]
+        path = self._settle(after, held)
+        if path is None:
+            self.unsettled += 1
+            return None
+        to = (path[-1], held)
+        event = _Event(node, letter, to)
+        before, step = origin, self.graph.step_of[origin][letter]
+        self.found.setdefault((before, step, -1 - path[-1]), event)
+        for n, reached in enumerate(path):
+            triple = (before, step, reached)
+            if triple not in self.found:
+                self.found[triple] = event
+            if n + 1 < len(path):
+                before, step = reached, self.graph.step_of[reached][held]
+        if to in self.parent:
+            return None
+        self.parent[to] = event
+        if state is None:
+            self.first = event
+        self.depth[to] = 0 if state is None else self.depth[node] + 1
+        return to
+
+    def _settle(self, state: int, held: int) -> tuple[int, ...] | None:
+        """The states from `state` on while the letter is held, to the last of the hold; None if never."""
+        key = (state, held)
+        if key not in self.settled:
+            path, at = [state], {state: 0}
+            while (after := self.graph.next_of[path[-1]][held]) not in at:
+                at[after] = len(path)
+                path.append(after)
+            cycle = path[at[after] :]
+            rows = self.device.rows
+            if any(rows[one] != rows[cycle[0]] for one in cycle):
+                self.settled[key] = None
+            else:
+                path = path[: at[after] + 1]
+                rounds = -(-HOLD // len(cycle))
+                self.settled[key] = (*path, *([*cycle[1:], cycle[0]] * rounds))
+        return self.settled[key]
+
+    # -------------------------------------------------------------------------------------------- cases
+
+    def cases(self) -> Iterator[Script]:
+        """Cases that take every transition found, those that need most events first."""
+        left = dict(self.found)
+        order = sorted(left, key=lambda triple: -self.depth.get(left[triple].before, -1))
+        for triple in order:
+            if triple in left:
+                script, taken = self._script(triple, left[triple])
+                for one in taken:
+                    left.pop(one, None)
+                yield script
+
+    def _script(self, triple: Triple, event: _Event) -> tuple[Script, set[Triple]]:
+        chain = [event]
+        while chain[-1] is not self.first:
+            chain.append(self.parent[chain[-1].before])
+        walk = _Walk(self.graph.initial)
+        for one in reversed(chain):
+            if one is not self.first:
+                target = one.letter if one.letter in self.neighbours[one.before[1]] else one.before[1]
+                *inner, last = self.inputs.way(walk.pattern, one.before[1], target)
+                for pattern in inner:
+                    self._take(walk, one.before[1], one.before[1], pattern)
+                walk.pattern = last
+            else:
+                walk.pattern = self.inputs.own(one.letter)
+            self._take(walk, one.letter, one.to[1], walk.pattern)
+        if triple not in walk.taken:
+            raise Unjudged(f"{self.device.name}: a case of the suite sic does not take what it must")
+        control = control_state(self.device, triple[0])
+        why = f"single changes of inputs lead to {self.graph.steps[triple[1]]} in {control}"
+        return Script(why, walk.shots, about=(walk.last,)), walk.taken
+
+    def _take(self, walk: _Walk, letter: int, held: int, pattern: Pattern) -> None:
+        values = dict(zip(self.inputs.fields, pattern, strict=True))
+        path = self._settle(self.graph.next_of[walk.state][letter], held)
+        assert path is not None, "the search has settled it"
+        walk.last = len(walk.shots)
+        step = self.graph.step_of[walk.state][letter]
+        walk.taken.add((walk.state, step, -1 - path[-1]))
+        for n, reached in enumerate(path):
+            used = held if n else letter
+            walk.taken.add((walk.state, self.graph.step_of[walk.state][used], reached))
+            walk.shots.append(Shot(used, values, settling=n + 1 < len(path)))
+            walk.state = reached
+
+
+@dataclass
+class _Walk:
+    """A case while it is made; `pattern` are the fields of classes as they stand, `last` the last event."""
+
+    state: int
+    pattern: Pattern = ()
+    shots: list[Shot] = field(default_factory=list)
+    taken: set[Triple] = field(default_factory=set)
+    last: int = 0
+
+
+class _Inputs:
+    """Single changes between letters, also where one stands for a class of patterns of several fields."""
+
+    def __init__(self, device: DeviceGraph) -> None:
+        self.device, self.alphabet = device, Alphabet(device)
+        classes = [one for one in device.classes if len(one.representative) > 1]
+        self.fields = tuple(sorted({name for one in classes for name in one.representative}))
+        letters = {self.own(n) for n in range(len(device.alphabet))}
+        self._of: dict[Pattern, Pattern] = {one: one for one in letters}
+        for one in classes:
+            if set(one.representative) == set(self.fields):
+                stands = self._pattern(one.representative)
+                for member in one.members:
+                    self._of.setdefault(self._pattern(member), stands)
+
+    def own(self, letter: int) -> Pattern:
+        """The fields of classes as the letter has them."""
+        return self._pattern(self.device.alphabet[letter])
+
+    def _pattern(self, values: Mapping[str, Any]) -> Pattern:
+        return tuple(values[name] for name in self.fields)
+
+    def _flips(self, pattern: Pattern) -> Iterator[Pattern]:
+        for n in range(len(pattern)):
+            flipped = (*pattern[:n], not pattern[n], *pattern[n + 1 :])
+            if flipped in self._of:
+                yield flipped
+
+    def changes(self, letter: int) -> tuple[int, ...]:
+        """The letters that one changed input leads to, in the order of inputs and values."""
+        have = self.device.alphabet[letter]
+        found: dict[int, None] = {}
+        for name in self.device.device.inputs:
+            if name in self.fields:
+                continue
+            for value in self._values(name):
+                other = self.alphabet.changed(letter, **{name: value})
+                if other is not None and value != have[name]:
+                    found[other] = None
+        mine = self.own(letter)
+        for pattern in [one for one, stands in self._of.items() if stands == mine]:
+            for flipped in self._flips(pattern):
+                fields = dict(zip(self.fields, self._of[flipped], strict=True))
+                other = self.alphabet.changed(letter, **fields)
+                if other is not None and other != letter:
+                    found[other] = None
+        return tuple(found)
+
+    @functools.cache  # noqa: B019 -- it lives as long as one search
+    def _values(self, name: str) -> tuple[Any, ...]:
+        return tuple(dict.fromkeys(letter[name] for letter in self.device.alphabet))
+
+    def later(self, letter: int, least: int) -> tuple[int, ...]:
+        """The letters of the same inputs with more time."""
+        times = [time for time in self._values("dt_ms") if time > least]
+        found = [self.alphabet.changed(letter, dt_ms=time) for time in sorted(times)]
+        return tuple(one for one in found if one is not None)
+
+    def way(self, pattern: Pattern, held: int, letter: int) -> list[Pattern]:
+        """Patterns one flip apart, within what `held` stands for, to one that `letter` stands for."""
+        mine, goal = self.own(held), self.own(letter)
+        if mine == goal:
+            return [pattern]
+        before: dict[Pattern, Pattern] = {pattern: pattern}
+        queue = [pattern]
+        for one in queue:
+            for flipped in self._flips(one):
+                if flipped in before or self._of[flipped] not in (mine, goal):
+                    continue
+                before[flipped] = one
+                if self._of[flipped] == goal:
+                    way = [flipped]
+                    while (back := before[way[-1]]) != pattern:
+                        way.append(back)
+                    return way[::-1]
+                queue.append(flipped)
+        raise Unjudged(f"{self.device.name}: no single changes lead from {pattern} to {goal}")
