@@ -3,7 +3,7 @@
     python examples/faulty/run.py                       all faults, each by its suite
     python examples/faulty/run.py no-settle LA-edge     these
     python examples/faulty/run.py --render              all, and README.md anew
-    python examples/faulty/run.py --renew FOLDER        all, with vectors anew from brief.jsonl and tour.jsonl
+    python examples/faulty/run.py --renew FOLDER        all, with vectors anew from the suites there
 
 Exit status: 0 all as expected, 1 not, 2 could not be judged.
 """
@@ -38,8 +38,10 @@ PACK, PAGE, VECTORS = HERE / "faults.toml", HERE / "README.md", HERE / "vectors"
 PROGRAM = "examples/c"
 SOURCES = ("fplc.c", "wire.c", "adapter.c")
 HEADERS = ("fplc.h", "wire.h")
-SUITES = {"brief": False, "tour": False, "words": True, "wp": True, "none": True}
-"""For each suite whether its faults need a reason: what lets them pass brief and tour."""
+SUITES = {"brief": False, "tour": False, "words": False, "wp": True, "none": True}
+"""For each suite whether its faults need a reason: why they pass brief, tour and words."""
+WHOLE, PARTS = "brief", ("tour", "words")
+"""The suite of which the pack holds all, and those of which it holds what catches a fault."""
 COMPILE = ("gcc", "-std=c99", "-O0", "-w")
 """Not optimized: most of the time goes into compiling. No warnings: mistakes are the point."""
 
@@ -49,7 +51,7 @@ class Fault:
     """One edit of one file: `old`, which stands there exactly once, becomes `new`.
 
     `breaks` names clauses and findings. `suite` is the fastest suite that catches it: brief, tour, words, wp,
-    or none. Neither brief nor tour catches one that has a `reason`.
+    or none. None of the first three catches one that has a `reason`.
     """
 
     id: str
@@ -126,8 +128,13 @@ def build_all(folder: Path, faults: Iterable[Fault]) -> dict[str, Path]:
 
 
 def vectors(suite: str) -> Path:
-    """The pack's own vectors of a suite; where no vector of a suite helps, `brief` shows that it does not."""
-    return VECTORS / f"{suite if suite == 'tour' else 'brief'}.jsonl.gz"
+    """The pack's own vectors of a suite."""
+    return VECTORS / f"{suite}.jsonl.gz"
+
+
+def open_all() -> dict[str, Suite]:
+    """The suites of the pack. Raises Unjudged for one that is missing or damaged."""
+    return {name: open_suite(vectors(name)) for name in (WHOLE, *PARTS)}
 
 
 def judge(program: Path, suite: Suite) -> Verdict:
@@ -143,7 +150,7 @@ def judge_all(
     Several at a time, for the kit waits a moment before it believes a difference.
     """
     with ThreadPoolExecutor(8) as pool:
-        chosen = [suites["tour" if fault.suite == "tour" else "brief"] for fault in faults]
+        chosen = [suites[WHOLE if fault.reason else fault.suite] for fault in faults]
         verdicts = pool.map(lambda fault, suite: judge(made[fault.id], suite), faults, chosen)
         return {fault.id: verdict for fault, verdict in zip(faults, verdicts, strict=True)}
 
@@ -156,8 +163,7 @@ def as_expected(fault: Fault, verdict: Verdict) -> bool:
 def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict], suites: Mapping[str, Suite]) -> str:
     """README.md: every fault with what caught it."""
     caught = [fault for fault in faults if not fault.reason]
-    by_suite = {name: sum(fault.suite == name for fault in caught) for name in ("brief", "tour")}
-    early = sum(verdicts[fault.id].scans <= 1000 for fault in caught)
+    by_suite = {name: sum(fault.suite == name for fault in caught) for name in (WHOLE, *PARTS)}
     lines = [
         "# Programs that are wrong in one place",
         "",
@@ -171,13 +177,13 @@ def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict], suites: Ma
         "```",
         "",
         f"{len(caught)} faults are rejected with relation `exact`: {by_suite['brief']} by suite `brief`",
-        f"({suites['brief'].scan_count:,} scans), {by_suite['tour']} more by suite `tour`; {early} of them",
-        f"within 1,000 scans. {len(faults) - len(caught)} others stand at the end, with the reason why both",
-        "suites let them pass. The program without a fault conforms.",
+        f"({suites['brief'].scan_count:,} scans), {by_suite['tour']} more by `tour`,",
+        f"{by_suite['words']} more by `words`. {len(faults) - len(caught)} others stand at the end, with the",
+        "reason why these suites let them pass. The program without a fault conforms.",
         "",
         "*Scans* counts up to the first wrong output. *At* is the step that the specification took there,",
-        "which may come later than the mistake. Of `tour` the pack holds the beginnings of the cases that",
-        "catch a fault, and counts in them.",
+        "which may come later than the mistake. Of `tour` and `words` the pack holds the beginnings of the",
+        "cases that catch a fault, and counts in them.",
         "",
         "| fault | the mistake | breaks | suite | scans | at |",
         "|---|---|---|---|---:|---|",
@@ -187,31 +193,45 @@ def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict], suites: Ma
         step = verdict.difference.step if verdict.difference else ""
         cells = [fault.id, fault.mistake, ", ".join(fault.breaks), fault.suite, f"{verdict.scans:,}", step]
         lines.append(f"| {' | '.join(cells)} |")
-    lines += ["", "Not shown by `brief` or `tour`:", "", "| fault | the mistake | why not |", "|---|---|---|"]
+    lines += [
+        "",
+        "Not shown by `brief`, `tour` or `words`:",
+        "",
+        "| fault | the mistake | why not |",
+        "|---|---|---|",
+    ]
     lines += [f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in faults if fault.reason]
     return "\n".join(lines) + "\n"
 
 
 def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path) -> None:
-    """Take the pack's vectors from the suites in `source`: `brief` as it is, of `tour` what catches a fault.
+    """Take the pack's vectors from the suites in `source`: `brief` as it is, of the others what catches a
+    fault.
 
     Raises Unjudged when a suite is not there.
     """
-    for name in ("brief", "tour"):
+    for name in (WHOLE, *PARTS):
         if not (source / f"{name}.jsonl").is_file():
             raise Unjudged(f"{source}: no {name}.jsonl; `modeproof conform fplc --suite {name} ..` makes it")
     VECTORS.mkdir(exist_ok=True)
-    _write(VECTORS / "brief.jsonl.gz", (source / "brief.jsonl").read_text(encoding="utf-8").splitlines())
-    tour = open_suite(source / "tour.jsonl")
+    whole = (source / f"{WHOLE}.jsonl").read_text(encoding="utf-8")
+    _write(vectors(WHOLE), whole.splitlines())
+    for name in PARTS:
+        chosen = [fault for fault in faults if fault.suite == name]
+        _write(vectors(name), _beginnings(source / f"{name}.jsonl", chosen, made))
+
+
+def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -> list[str]:
+    """The header, and of each case that catches a fault what comes up to the scan that does."""
+    suite = open_suite(path)
     ends: dict[str, int] = {}
     for fault in faults:
-        if fault.suite == "tour":
-            found = judge(made[fault.id], tour).difference
-            if found is None:
-                raise Unjudged(f"{fault.id}: the suite tour does not catch it")
-            ends[found.case.id] = max(ends.get(found.case.id, 0), found.scan)
+        found = judge(made[fault.id], suite).difference
+        if found is None:
+            raise Unjudged(f"{fault.id}: the suite {suite.name} does not catch it")
+        ends[found.case.id] = max(ends.get(found.case.id, 0), found.scan)
     rows = []
-    with (source / "tour.jsonl").open(encoding="utf-8") as stream:
+    with path.open(encoding="utf-8") as stream:
         header = json.loads(stream.readline())
         for line in stream:
             row = json.loads(line)
@@ -222,11 +242,11 @@ def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path) -> No
                 row["id"] = case_id(header["target"], row["params"], going_in)
                 rows.append(row)
     header |= {
-        "guarantees": "what of the suite tour catches a program of the faulty pack",
+        "guarantees": f"what of the suite {suite.name} catches a program of the faulty pack",
         "cases": len(rows),
         "scans": sum(len(row["scans"]) for row in rows),
     }
-    _write(VECTORS / "tour.jsonl.gz", [json.dumps(row, separators=(",", ":")) for row in (header, *rows)])
+    return [json.dumps(row, separators=(",", ":")) for row in (header, *rows)]
 
 
 def _write(path: Path, lines: Iterable[str]) -> None:
@@ -265,7 +285,7 @@ def _run(args: argparse.Namespace) -> int:
         made = build_all(Path(folder), chosen)
         if args.renew:
             renew(chosen, made, args.renew)
-        suites = {name: open_suite(vectors(name)) for name in ("brief", "tour")}
+        suites = open_all()
         if not args.ids:
             for name, suite in suites.items():
                 verdict = judge(made[""], suite)

@@ -218,7 +218,7 @@ def test_the_longest_time_does_not_overflow(watched: Path, tmp_path: Path) -> No
 
 
 def test_the_vectors_of_the_pack_are_what_the_reference_does() -> None:
-    for name in ("brief", "tour"):
+    for name in ("brief", "tour", "words"):
         scans = 0
         for case in open_suite(vectors(name)).cases():
             own = {key: value for key, value in case.params.items() if not key.startswith("PERMITS_")}
@@ -231,7 +231,7 @@ def test_the_vectors_of_the_pack_are_what_the_reference_does() -> None:
                 wire = {key: getattr(row, key) for key in row.__slots__}
                 assert wire | {key: f"{wire[key]:04X}" for key in ("MW01", "MW05")} == one.outputs, case.id
                 scans += 1
-        assert scans == open_suite(vectors(name)).scan_count > 1000
+        assert scans == open_suite(vectors(name)).scan_count > 20
 
 
 def conform(program: Path) -> subprocess.CompletedProcess[str]:

@@ -12,6 +12,7 @@ import pytest
 from examples.faulty.run import (
     HERE,
     PAGE,
+    PARTS,
     ROOT,
     Fault,
     build,
@@ -20,11 +21,11 @@ from examples.faulty.run import (
     judge_all,
     load_faults,
     main,
-    vectors,
+    open_all,
 )
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Verdict
-from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.vectors import Suite
 
 FAULTS = load_faults()
 SPEC = ROOT / "spec/mode_selection"
@@ -38,7 +39,7 @@ def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 @pytest.fixture(scope="module")
 def suites() -> dict[str, Suite]:
-    return {name: open_suite(vectors(name)) for name in ("brief", "tour")}
+    return open_all()
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +65,8 @@ def test_what_the_pack_says_no_vector_of_it_shows_is_not_shown_by_those_that_sho
     fault: Fault, programs: dict[str, Path], suites: dict[str, Suite]
 ) -> None:
     """By all of `brief` in run.py, which takes too long for each of them here."""
-    assert judge(programs[fault.id], suites["tour"]).word == "CONFORMS"
+    for name in PARTS:
+        assert judge(programs[fault.id], suites[name]).word == "CONFORMS"
     row = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
     assert row in PAGE.read_text(encoding="utf-8").splitlines(), "run examples/faulty/run.py --render"
 
@@ -113,7 +115,7 @@ def written(folder: Path, *changes: tuple[str, str]) -> Path:
         ('old = "0x3C3C, 0x0F0F}; /* MW03"', 'old = "0x3C3D"', "stands 0 times"),
         ('id = "letter-for-zero"', 'id = "word-mistyped"', "the same id"),
         ('suite = "brief"', 'suite = "breif"', "breif"),
-        ('suite = "words"\nreason', 'suite = "brief"\nreason', "reason"),
+        ('suite = "wp"\nreason', 'suite = "brief"\nreason', "reason"),
         ('mistake = "One', 'mistakes = "One', "mistake"),
         ('id = "word-mistyped"', "id = ", "faults.toml"),
     ],
