@@ -413,7 +413,8 @@ class _Function:
             own = frozenset(one.arg for one in self.function.args.args)
             stored = {one.id for one in ast.walk(self.function) if isinstance(one, ast.Name) and _stored(one)}
             for new in self.kinds.name(node.id, self.module.names | own | stored):
-                yield "constant swapped", node, new
+                if new != self.function.name:  # it would never end
+                    yield "constant swapped", node, new
         elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load):
             for new in self.kinds.attribute(node):
                 yield "constant swapped", node, new

@@ -17,6 +17,7 @@ from proofs.mode_selection import (
     eks_safety,
     every_device,
     fplc_answers,
+    fplc_causes,
     fplc_invariant,
     fplc_order,
     fplc_prompt,
@@ -49,7 +50,7 @@ JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
         FPLC.name: _theorems(
             FPLC,
             *(every_device, fplc_safety, fplc_order, fplc_prompt, fplc_answers),
-            *(guarantees, fplc_response, fplc_invariant),
+            *(guarantees, fplc_response, fplc_invariant, fplc_causes),
         ),
         HMI.name: _theorems(HMI, every_device, panel_safety, panel_prompt, guarantees),
         PLC.name: _theorems(PLC, every_device, plc_safety, guarantees),

@@ -149,3 +149,12 @@ def test_ids_stay_when_other_code_moves_or_is_added() -> None:
 def test_a_function_that_is_not_there_is_refused() -> None:
     with pytest.raises(Unjudged, match="no function gone in the module"):
         python_mutants(Module("door", DOOR), ["gone"], frozenset(), RULE)
+
+
+def test_no_function_is_made_to_call_itself() -> None:
+    text = "def stay(x: int) -> int:\n    return x\n\n\ndef hold(x: int) -> int:\n    return stay(x)\n"
+    module, rule = Module("door", text), PythonRule(cycles=(("stay", "hold"),))
+    assert [one.mutant.new for one in python_mutants(module, ["hold"], frozenset(), rule)] == []
+    more = text + "\n\ndef step(x: int) -> int:\n    return hold(x)\n"
+    (one,) = python_mutants(Module("door", more), ["step"], frozenset(), rule)
+    assert (one.mutant.old, one.mutant.new) == ("hold", "stay")
