@@ -59,18 +59,18 @@ def known(bench: Bench, every: Sequence[Mutant], results: Results) -> list[Judge
     return [Judged(one, record) for one, record in found if record is not None]
 
 
-def stamp_of(place: Path) -> tuple[dict[str, str], bool]:
-    """What the page says it rests on, by module, and whether its text is as it was rendered.
+def stamp_of(place: Path, page: str = PAGE) -> tuple[dict[str, str], bool]:
+    """What a page says it rests on, and whether its text is as it was rendered.
 
     Raises Unjudged when there is no page or no stamp.
     """
     try:
-        text = (place / PAGE).read_text(encoding="utf-8")
+        text = (place / page).read_text(encoding="utf-8")
     except OSError as error:
-        raise Unjudged(f"{PAGE}: {error.strerror or error}") from None
+        raise Unjudged(f"{page}: {error.strerror or error}") from None
     found = _STAMP.search(text)
     if found is None:
-        raise Unjudged(f"{PAGE}: the page has no stamp; run modeproof mutate spec --render")
+        raise Unjudged(f"{page}: the page has no stamp; render it anew")
     inputs = dict(one.split(" ") for one in found[1].split(", "))
     return inputs, text_digest(text[: found.start() - 1]) == found[2]
 
