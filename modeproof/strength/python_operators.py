@@ -284,7 +284,7 @@ class _Kinds:
         yield from (after for before, after in self.turns if before == name and after in there)
 
     def attribute(self, node: ast.Attribute) -> Iterator[str]:
-        """The next field, or member, of the same class."""
+        """The next field, or member, of the same class: of every class that has such a field."""
         classes = self.module.classes
         if isinstance(node.value, ast.Name) and node.value.id in classes:
             members = classes[node.value.id]
@@ -292,15 +292,11 @@ class _Kinds:
             if after:
                 yield f"{node.value.id}.{after}"
             return
-        found: dict[str, None] = {}
-        for declared in classes.values():
-            if node.attr in declared:
-                for cycle in self.cycles:
-                    after = _next(node.attr, cycle, frozenset(declared))
-                    if after:
-                        found[after] = None
-        for after in found:
-            yield f"{self.module.source(node.value)}.{after}"
+        declared = [frozenset(names) for names in classes.values() if node.attr in names]
+        for cycle in self.cycles if declared else ():
+            after = _next(node.attr, cycle, frozenset.intersection(*declared))
+            if after:
+                yield f"{self.module.source(node.value)}.{after}"
 
 
 def _next(name: str, cycle: Sequence[str], there: frozenset[str]) -> str:

@@ -13,6 +13,7 @@ from typing import Final
 from proofs.explorer.device import Device
 from proofs.mode_selection import composition_guarantees as guarantees
 from proofs.mode_selection import (
+    eks_first,
     eks_prompt,
     eks_safety,
     every_device,
@@ -54,6 +55,6 @@ JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
         ),
         HMI.name: _theorems(HMI, every_device, panel_safety, panel_prompt, guarantees),
         PLC.name: _theorems(PLC, every_device, plc_safety, guarantees),
-        EKS.name: _theorems(EKS, every_device, eks_safety, eks_prompt, guarantees),
+        EKS.name: _theorems(EKS, every_device, eks_first, eks_safety, eks_prompt, guarantees),
     }
 )
