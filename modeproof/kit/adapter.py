@@ -1,6 +1,6 @@
-"""Talks to one adapter process: a request, one answer, each within a time limit.
+"""What the judge talks to: a `Program`. `Adapter` is the one behind a process that speaks adapter protocol 1.
 
-A thread reads standard output and hands over whole lines, another drains standard error; so an adapter that
+A request, one answer, each within a time limit: a thread reads standard output and hands over whole lines, another drains standard error; so an adapter that
 hangs, floods or never ends a line cannot hold us up. The process is ended in every case, with what it started
 where the system allows it. No POSIX-only call is needed.
 """
@@ -19,7 +19,7 @@ import threading
 import time
 from collections.abc import Mapping, Sequence
 from types import TracebackType
-from typing import IO, Any
+from typing import IO, Any, Protocol
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import loads, shown
@@ -37,8 +37,39 @@ _END, _TOO_LONG = 1, 2
 _WINDOWS = sys.platform == "win32"
 
 
+class Program(Protocol):
+    """A program to be judged, whatever lies between it and us: a process, a PLC over S7, a module in Python.
+
+    Values are those of the wire (see `modeproof.kit`): words are four upper-case hex digits, booleans bool.
+    The judge calls `hello` once, then for each case `reset` and some `scan`, and in any case `close`. Every
+    method may raise `Unjudged` with one line that says what is wrong and what to do; nothing else. The judge
+    adds case and scan. What `scan` returns is checked by the judge: types, missing and extra outputs.
+    """
+
+    def hello(self, target: str) -> Mapping[str, Any]:
+        """What the program says of itself, as the answer to `hello` of protocol 1.
+
+        `time` is "virtual" (dt_ms is taken as given) or "real" (time passes by itself: relation exact is then
+        not possible); `max_latency_scans` the most scans after which an input that is held has had all its
+        effects.
+        """
+
+    def reset(self, params: Mapping[str, Any]) -> None:
+        """Put the program in its power-up state with these parameters; those left out take the defaults."""
+
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+        """One scan, `dt_ms` after the one before, with all `inputs`; all outputs after it.
+
+        With real time: wait until `dt_ms` have passed since the last call, write the inputs, let the program
+        run one cycle at least, and read the outputs.
+        """
+
+    def close(self) -> None:
+        """End it, and free what it holds; never raises, and may be called twice."""
+
+
 class Adapter:
-    """A running adapter; use it as a context manager. Every method may raise Unjudged."""
+    """A running adapter, a `Program`; use it as a context manager. Every method may raise Unjudged."""
 
     def __init__(self, command: str | Sequence[str], timeout_s: float = 10.0) -> None:
         self.command = split_command(command) if isinstance(command, str) else list(command)
@@ -104,6 +135,26 @@ class Adapter:
         with contextlib.suppress(OSError, ValueError):
             while chunk := os.read(stream.fileno(), 65536):
                 self._stderr = (self._stderr + chunk)[-_TAIL:]
+
+    # ------------------------------------------------------------------------------------------- program
+
+    def hello(self, target: str) -> Mapping[str, Any]:
+        """The answer to hello."""
+        return parse_answer(self.ask({"op": "hello", "protocol": 1, "target": target}))
+
+    def reset(self, params: Mapping[str, Any]) -> None:
+        """Reset; any answer but {"ok":true} is refused."""
+        answer = parse_answer(self.ask({"op": "reset", "params": params}))
+        if answer != {"ok": True}:
+            raise Unjudged(f"reset was answered with {shown(answer)}")
+
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+        """The outputs after one scan."""
+        answer = parse_answer(self.ask({"op": "scan", "dt_ms": dt_ms, "in": inputs}))
+        out = answer.get("out")
+        if set(answer) != {"out"} or not isinstance(out, dict):
+            raise Unjudged(f'{{"out":{{..}}}} expected, got {shown(answer)}')
+        return out
 
     # ------------------------------------------------------------------------------------------ requests
 
