@@ -31,7 +31,7 @@ from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
 from modeproof.kit.judge import Verdict, run_suite  # noqa: E402
 from modeproof.kit.text import as_text  # noqa: E402
-from modeproof.kit.vectors import Suite, case_id, open_suite  # noqa: E402
+from modeproof.kit.vectors import Suite, case_id, open_suite, read_lines  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 PACK, PAGE, VECTORS = HERE / "faults.toml", HERE / "README.md", HERE / "vectors"
@@ -211,14 +211,16 @@ def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path) -> No
     Raises Unjudged when a suite is not there.
     """
     for name in (WHOLE, *PARTS):
-        if not (source / f"{name}.jsonl").is_file():
-            raise Unjudged(f"{source}: no {name}.jsonl; `modeproof conform fplc --suite {name} ..` makes it")
+        if not (source / f"{name}.jsonl.gz").is_file():
+            raise Unjudged(
+                f"{source}: no {name}.jsonl.gz; `modeproof conform fplc --suite {name} ..` makes it"
+            )
     VECTORS.mkdir(exist_ok=True)
-    whole = (source / f"{WHOLE}.jsonl").read_text(encoding="utf-8")
+    whole = "".join(line.decode() for line in read_lines(source / f"{WHOLE}.jsonl.gz"))
     _write(vectors(WHOLE), whole.splitlines())
     for name in PARTS:
         chosen = [fault for fault in faults if fault.suite == name]
-        _write(vectors(name), _beginnings(source / f"{name}.jsonl", chosen, made))
+        _write(vectors(name), _beginnings(source / f"{name}.jsonl.gz", chosen, made))
 
 
 def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -> list[str]:
@@ -231,16 +233,16 @@ def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -
             raise Unjudged(f"{fault.id}: the suite {suite.name} does not catch it")
         ends[found.case.id] = max(ends.get(found.case.id, 0), found.scan)
     rows = []
-    with path.open(encoding="utf-8") as stream:
-        header = json.loads(stream.readline())
-        for line in stream:
-            row = json.loads(line)
-            if row["id"] in ends:
-                row["scans"] = row["scans"][: ends[row["id"]]]
-                row["why"] = f"beginning of {row['id']}: {row['why']}"
-                going_in = [(scan["dt_ms"], scan["in"]) for scan in row["scans"]]
-                row["id"] = case_id(header["target"], row["params"], going_in)
-                rows.append(row)
+    lines = read_lines(path)
+    header = json.loads(next(lines))
+    for line in lines:
+        row = json.loads(line)
+        if row["id"] in ends:
+            row["scans"] = row["scans"][: ends[row["id"]]]
+            row["why"] = f"beginning of {row['id']}: {row['why']}"
+            going_in = [(scan["dt_ms"], scan["in"]) for scan in row["scans"]]
+            row["id"] = case_id(header["target"], row["params"], going_in)
+            rows.append(row)
     header |= {
         "guarantees": f"what of the suite {suite.name} catches a program of the faulty pack",
         "cases": len(rows),

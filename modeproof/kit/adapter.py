@@ -1,8 +1,8 @@
 """What the judge talks to: a `Program`. `Adapter` is the one behind a process that speaks adapter protocol 1.
 
-A request, one answer, each within a time limit: a thread reads standard output and hands over whole lines, another drains standard error; so an adapter that
-hangs, floods or never ends a line cannot hold us up. The process is ended in every case, with what it started
-where the system allows it. No POSIX-only call is needed.
+A request, one answer, each within a time limit: a thread reads standard output and hands over whole lines,
+another drains standard error; so an adapter that hangs, floods or never ends a line cannot hold us up. The
+process is ended in every case, with what it started where the system allows it. No POSIX-only call is needed.
 """
 
 from __future__ import annotations

@@ -17,6 +17,7 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
+import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -27,6 +28,10 @@ from modeproof.kit.signals import Signal, loads, read_signals
 
 _ENCODE = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 KIND, VERSION = "modeproof-vectors", 1
+PACKED = ".gz"
+"""The suffix of a file that is packed with gzip."""
+FILE_NAME = "{suite}.jsonl.gz"
+"""How the file of a suite is called in the folder of its target."""
 
 
 @dataclass(frozen=True)
@@ -240,16 +245,21 @@ def id_of_text(target: str, params: Mapping[str, Any], going_in: str) -> str:
     return f"{target}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
 
 
-def _rows(path: Path) -> Iterator[tuple[int, Mapping[str, Any]]]:
+def read_lines(path: Path) -> Iterator[bytes]:
+    """The lines of a vector file, packed or not. Raises Unjudged where it cannot be read to its end."""
     try:
-        with gzip.open(path, "rb") if path.suffix == ".gz" else path.open("rb") as stream:
-            for number, line in enumerate(stream, 1):
-                try:
-                    row = loads(line) if number == 1 else json.loads(line)
-                except ValueError as error:
-                    raise Unjudged(f"{path.name}: line {number}: not JSON: {error}") from None
-                if not isinstance(row, dict):
-                    raise Unjudged(f"{path.name}: line {number}: an object was expected")
-                yield number, row
-    except (OSError, EOFError) as error:
+        with gzip.open(path, "rb") if path.suffix == PACKED else path.open("rb") as stream:
+            yield from stream
+    except (OSError, EOFError, zlib.error) as error:
         raise Unjudged(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+
+
+def _rows(path: Path) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    for number, line in enumerate(read_lines(path), 1):
+        try:
+            row = loads(line) if number == 1 else json.loads(line)
+        except (ValueError, RecursionError) as error:
+            raise Unjudged(f"{path.name}: line {number}: not JSON: {error}") from None
+        if not isinstance(row, dict):
+            raise Unjudged(f"{path.name}: line {number}: an object was expected")
+        yield number, row

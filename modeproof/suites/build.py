@@ -1,4 +1,4 @@
-"""Keeps vector files up to date: build/vectors/<document>/<target>/<suite>.jsonl."""
+"""Keeps vector files up to date: build/vectors/<document>/<target>/<suite>.jsonl.gz."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from modeproof import evidence, kit
 from modeproof.errors import Unjudged
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
 from modeproof.kit.errors import Unjudged as KitUnjudged
-from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
 from modeproof.places import build, documents
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
@@ -36,6 +36,11 @@ def find_target(place: Path, target: str, document: str | None = None) -> tuple[
     return found[0]
 
 
+def suite_file(place: Path, document: str, target: str, suite: str) -> Path:
+    """Where the file of a suite is."""
+    return build(place) / "vectors" / document / target / FILE_NAME.format(suite=suite)
+
+
 def ready_suite(
     place: Path, document: str, target: str, suite: str, on_built: Callable[[str], None] = lambda line: None
 ) -> Suite:
@@ -44,7 +49,7 @@ def ready_suite(
     `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when graphs are missing
     or not complete.
     """
-    path = build(place) / "vectors" / document / target / f"{suite}.jsonl"
+    path = suite_file(place, document, target, suite)
     runs = open_runs(place, document, target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")

@@ -12,8 +12,10 @@ from jsonschema import Draft202012Validator
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal
-from modeproof.kit.vectors import Case, Suite, open_suite
+from modeproof.kit.vectors import Case, Suite, open_suite, read_lines
 
+LARGEST = 20_000_000
+"""Bytes of a file, as it is stored."""
 EVERY = 50
 """The schema is applied to the first so many cases and then to each so many-th; the other checks to all."""
 
@@ -49,15 +51,16 @@ def _against(row: Mapping[str, Any], part: str, place: str) -> list[str]:
 def _shapes(path: Path, every: int) -> list[str]:
     checker = Draft202012Validator({"$ref": "#/$defs/case", "$defs": _schema()["$defs"]})
     problems = []
-    with path.open(encoding="utf-8") as stream:
-        for number, line in enumerate(stream, 1):
-            if number > 1 and (number <= every or number % every == 0):
-                try:
-                    row = json.loads(line)
-                except ValueError:
-                    break  # reading the cases says so
-                for error in checker.iter_errors(row):
-                    problems.append(_line(f"line {number}", error.json_path, error.message))
+    for number, line in enumerate(read_lines(path), 1):
+        if number > 1 and (number <= every or number % every == 0):
+            try:
+                row = json.loads(line)
+            except ValueError:
+                break  # reading the cases says so
+            for error in checker.iter_errors(row):
+                problems.append(_line(f"line {number}", error.json_path, error.message))
+    if path.stat().st_size > LARGEST:
+        problems.append(f"{path.stat().st_size:,} bytes, more than {LARGEST:,}")
     return problems
 
 

@@ -12,11 +12,11 @@ from typing import Any
 
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.kit.text import write_json
-from modeproof.kit.vectors import Case, Suite, open_suite
+from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
 from modeproof.lock import only_one
 from modeproof.places import build, documents, root
 from modeproof.registers.load import load_interface
-from modeproof.suites.build import find_target, ready_suite
+from modeproof.suites.build import find_target, ready_suite, suite_file
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
 from modeproof.suites.write import SUITES
@@ -80,21 +80,29 @@ def _build(place: Path, args: argparse.Namespace) -> int:
             document, _ = find_target(place, target)
             make_graphs(place, open_runs(place, document, target), quiet=True)
             for suite in args.suite or SUITES:
-                path = build(place) / "vectors" / document / target / f"{suite}.jsonl"
+                path = suite_file(place, document, target, suite)
                 if args.anew:
                     path.unlink(missing_ok=True)
                 ready_suite(place, document, target, suite, lambda line: print(line, flush=True))
-                digest = hashlib.sha256(path.read_bytes()).hexdigest()
+                digest = _digest(path)
                 print(f"{target} {suite}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}", flush=True)
     return EXIT_AS_EXPECTED
+
+
+def _digest(path: Path) -> str:
+    """The hash of what is in the file: what packs it may pack otherwise on another machine."""
+    content = hashlib.sha256()
+    for line in read_lines(path):
+        content.update(line)
+    return content.hexdigest()
 
 
 def _files(place: Path, args: argparse.Namespace) -> list[Path]:
     """The vector files of the targets and suites asked for. Raises Unjudged when there is none."""
     found = []
-    for path in sorted((build(place) / "vectors").glob("*/*/*.jsonl")):
+    for path in sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}")):
         wanted = not args.targets or path.parent.name in args.targets
-        if wanted and (not args.suite or path.stem in args.suite):
+        if wanted and (not args.suite or path.name.split(".")[0] in args.suite):
             found.append(path)
     if not found:
         raise Unjudged("no vector file of these targets and suites; `modeproof vectors build` makes them")
@@ -157,10 +165,9 @@ def _show(place: Path, args: argparse.Namespace) -> int:
 
 
 def _find(place: Path, id: str) -> tuple[Suite, Case]:
-    for path in sorted((build(place) / "vectors").glob("*/*/*.jsonl")):
-        with path.open("rb") as stream:
-            if not any(line.startswith(f'{{"id":"{id}"'.encode()) for line in stream):
-                continue
+    for path in sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}")):
+        if not any(line.startswith(f'{{"id":"{id}"'.encode()) for line in read_lines(path)):
+            continue
         suite = open_suite(path)
         for case in suite.cases():
             if case.id == id:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gzip
 import json
 import os
 import tempfile
@@ -16,7 +17,7 @@ from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
-from modeproof.kit.vectors import KIND, VERSION, id_of_text
+from modeproof.kit.vectors import KIND, PACKED, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
 from modeproof.suites import refusals, sic, words
 from modeproof.suites.bound import lower_bound
@@ -24,6 +25,8 @@ from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
 
 ADAPTER = "adapter"
+PACKING = 9
+"""How hard gzip tries."""
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 _SORTED = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 
@@ -519,8 +522,13 @@ def _write_lines(path: Path, lines: Sequence[str]) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.writelines(lines)
+        with os.fdopen(handle, "wb") as stream:
+            if path.suffix == PACKED:
+                # No name and no date: the same lines give the same bytes.
+                with gzip.GzipFile("", "wb", PACKING, stream, mtime=0) as packed:
+                    packed.writelines(line.encode() for line in lines)
+            else:
+                stream.writelines(line.encode() for line in lines)
             stream.flush()
             os.fsync(stream.fileno())
         os.chmod(part, 0o644)

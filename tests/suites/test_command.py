@@ -100,7 +100,7 @@ def test_an_adapter_is_judged_by_a_suite_that_is_built_once(
     assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
     first = capsys.readouterr()
     assert "CONFORMS(exact, tour)" in first.out and "cases," in first.err
-    vectors = toy / "build" / "vectors" / "toy" / "lamp" / "tour.jsonl"
+    vectors = toy / "build" / "vectors" / "toy" / "lamp" / "tour.jsonl.gz"
     stamp = vectors.stat().st_mtime_ns
     assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
     assert vectors.stat().st_mtime_ns == stamp

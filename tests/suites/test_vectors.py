@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import csv
+import gzip
 import io
 import itertools
 import json
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,7 +17,8 @@ from hypothesis import given
 from modeproof.cli import main
 from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
-from modeproof.kit.vectors import open_suite
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.kit.vectors import open_suite, read_lines
 from modeproof.suites.bound import lower_bound, proved_by
 from modeproof.suites.lint import lint
 from modeproof.suites.tour import every_transition, walks
@@ -119,19 +122,44 @@ def test_the_command_builds_counts_lints_and_shows(toy: Path, capsys: pytest.Cap
     rows = json.loads((toy / "s.json").read_text())["files"]
     assert {row["suite"] for row in rows} == set(SUITES) and any("lower_bound" in row for row in rows)
 
-    path = toy / "build" / "vectors" / "toy" / "lamp" / "words.jsonl"
+    path = toy / "build" / "vectors" / "toy" / "lamp" / "words.jsonl.gz"
     case = next(open_suite(path).cases())
     assert main(["vectors", "show", case.id]) == 0
     said = capsys.readouterr().out
     assert case.why in said and "StayOff" in said
-    path.write_text(path.read_text().replace('"timing":"exact"', '"timing":"?"', 1))
+    text = gzip.decompress(path.read_bytes()).decode()
+    path.write_bytes(gzip.compress(text.replace('"timing":"exact"', '"timing":"?"', 1).encode()))
     assert main(["vectors", "lint", "--suite", "words"]) == 1
+
+
+def test_packed_files_are_the_same_bytes_each_time_and_hold_the_same_lines(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("a.jsonl.gz", "b.jsonl.gz", "c.jsonl"):
+        write_suite(tmp_path / name, "tour", [lamp_graph(tmp_path)])
+    packed = (tmp_path / "a.jsonl.gz").read_bytes()
+    assert packed == (tmp_path / "b.jsonl.gz").read_bytes() and packed[4:8] == bytes(4), "no date in it"
+    assert b"".join(read_lines(tmp_path / "a.jsonl.gz")) == (tmp_path / "c.jsonl").read_bytes()
+    assert lint(tmp_path / "a.jsonl.gz") == []
+    monkeypatch.setattr("modeproof.suites.lint.LARGEST", 100)
+    assert "more than 100" in " ".join(lint(tmp_path / "a.jsonl.gz"))
+
+
+@pytest.mark.parametrize("harm", [lambda data: data[:-9], lambda data: data[:40] + b"x" + data[41:]])
+def test_a_packed_file_that_is_cut_or_damaged_is_unjudged(
+    tmp_path: Path, harm: Callable[[bytes], bytes]
+) -> None:
+    path = tmp_path / "a.jsonl.gz"
+    write_suite(path, "tour", [lamp_graph(tmp_path)])
+    path.write_bytes(harm(path.read_bytes()))
+    with pytest.raises(KitUnjudged):
+        list(open_suite(path).cases())
 
 
 def test_a_case_is_exported_as_a_table_and_as_a_trace(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["vectors", "build", "lamp", "--suite", "words", "--suite", "refusals"]) == 0
     folder = toy / "build" / "vectors" / "toy" / "lamp"
-    case = next(open_suite(folder / "words.jsonl").cases())
+    case = next(open_suite(folder / "words.jsonl.gz").cases())
     capsys.readouterr()
     assert main(["vectors", "show", case.id, "--csv"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
@@ -148,7 +176,7 @@ def test_a_case_is_exported_as_a_table_and_as_a_trace(toy: Path, capsys: pytest.
         assert int(state["in_word"]["#bigint"]) == int(scan.inputs["word"], 16)
         assert state["out_LAMP"] is scan.outputs["LAMP"]
 
-    refused = next(one for one in open_suite(folder / "refusals.jsonl").cases() if one.requests)
+    refused = next(one for one in open_suite(folder / "refusals.jsonl.gz").cases() if one.requests)
     assert main(["vectors", "show", refused.id]) == 0 and "to be refused" in capsys.readouterr().out
     assert main(["vectors", "show", refused.id, "--csv"]) == 2
     assert main(["vectors", "show", "lamp-000000000000"]) == 2
