@@ -14,7 +14,7 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 from typing import Any, NoReturn
@@ -404,9 +404,10 @@ def _work_line(records: Sequence[dict[str, Any]]) -> str:
     z3, cvc5, cores = (sum(float(part[n]) for part in parts) for n in range(3))
     whole = sum(float(record["result"]["work"]) for record in records)
     rest = whole - z3 - cvc5 - cores
+    shared = max(float(record["result"]["shared"]) for record in records)
     return (
-        f"{'processor':<12} z3 {z3:.1f} s, cvc5 {cvc5:.1f} s, cores {cores:.1f} s, "
-        f"exploring, building and writing {rest:.1f} s"
+        f"{'processor':<12} exploring, once for all, {shared:.1f} s; "
+        f"building and writing {rest:.1f} s, z3 {z3:.1f} s, cvc5 {cvc5:.1f} s, cores {cores:.1f} s"
     )
 
 
@@ -447,9 +448,6 @@ def prove_document(
     sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
     inputs = evidence.hashes(place, sources)
     theorems.sort(key=lambda one: not one.slow)
-    tasks: list[Task[dict[str, Any]]] = [
-        (prove_theorem, (place, document, one.name, inputs, limit_ms)) for one in theorems
-    ]
 
     def done(record: dict[str, Any]) -> None:
         progress.say(
@@ -457,12 +455,31 @@ def prove_document(
             f"{record['seconds']:.1f} s" + (f"; {record['reason']}" if record["reason"] else "")
         )
 
-    records = in_processes("proofs", tasks, progress, done)
-    if not patterns and lane != "smoke" and _has_agreement(place, document):
+    whole = not patterns and lane != "smoke"
+    with _prepared(document) if whole else contextlib.nullcontext(0.0) as shared_s:
+        tasks: list[Task[dict[str, Any]]] = [
+            (prove_theorem, (place, document, one.name, inputs, limit_ms, shared_s)) for one in theorems
+        ]
+        records = in_processes("proofs", tasks, progress, done, knowing=whole)
+    if whole and _has_agreement(place, document):
         module = importlib.import_module(f"proofs.{document}.agreement")
         verdicts = {str(record["id"]): str(record["verdict"]) for record in records}
         records.append(agreement.compare(place, document, module, verdicts, inputs, _solvers()))
     return records
+
+
+@contextlib.contextmanager
+def _prepared(document: str) -> Iterator[float]:
+    """What the theorems of a document share is made on entering, where its proofs say how; the seconds of the
+    processor for it.
+
+    Where that fails nothing is shared, and every theorem that needs it says why it cannot be judged.
+    """
+    begun = time.process_time()
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(Exception):
+            stack.enter_context(importlib.import_module(f"proofs.{document}.prepared").prepared())
+        yield time.process_time() - begun
 
 
 def _has_agreement(place: Path, document: str) -> bool:
@@ -488,9 +505,10 @@ def _theorems_of(document: str) -> list[Any]:
 
 
 def prove_theorem(
-    place: Path, document: str, name: str, inputs: dict[str, str], limit_ms: int
+    place: Path, document: str, name: str, inputs: dict[str, str], limit_ms: int, shared_s: float
 ) -> dict[str, Any]:
-    """Prove one theorem and write its evidence; `inputs` are the hashes of what it rests on.
+    """Prove one theorem and write its evidence; `inputs` are the hashes of what it rests on, shared_s the
+    seconds of the processor for what was made for all theorems together.
 
     Raises Unjudged when the proofs cannot be imported or a file cannot be written.
     """
@@ -530,6 +548,7 @@ def prove_theorem(
             "premises": list(result.premises),
             "unused": list(result.unused),
             "work": round(result.work, 3),
+            "shared": round(shared_s, 3),
             "queries": [
                 {
                     "name": query.name,

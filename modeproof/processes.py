@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
+import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
@@ -22,9 +24,12 @@ Task = tuple[Callable[..., T], tuple[Any, ...]]
 
 
 def in_processes(
-    name: str, tasks: Sequence[Task[T]], progress: Progress, done: Callable[[T], None]
+    name: str, tasks: Sequence[Task[T]], progress: Progress, done: Callable[[T], None], knowing: bool = False
 ) -> list[T]:
     """The results in the order of `tasks`, which are begun in that order; `done` gets each as it comes.
+
+    knowing: the processes are copies of this one, so that what it has made already need not be made again;
+    else they begin anew.
 
     With one core or one task all is done in this process. The first exception of a task is raised; Unjudged
     when a process dies. However this ends, no process is left behind.
@@ -45,7 +50,8 @@ def in_processes(
             return [results[number] for number in range(len(tasks))]
         finally:
             progress.end(name)
-    executor = ProcessPoolExecutor(min(cores(), len(tasks)), mp_context=get_context("spawn"))
+    context = get_context("fork" if knowing else "spawn")
+    executor = ProcessPoolExecutor(min(cores(), len(tasks)), context, _begin, (os.getpid(),))
     try:
         numbers = {executor.submit(work, *given): number for number, (work, given) in enumerate(tasks)}
         waiting = set(numbers)
@@ -62,6 +68,19 @@ def in_processes(
         executor.shutdown(wait=False, cancel_futures=True)
         for child in active_children():
             child.terminate()
+
+
+def _begin(parent: int) -> None:
+    """In a new process: the parent alone hears Ctrl-C, and none outlives it, even if it is killed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(2)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 @dataclass(frozen=True)

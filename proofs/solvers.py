@@ -34,7 +34,8 @@ def ask_z3(query: Query, text: str, limit_ms: int) -> Judgment:
     Where words and numbers stand in one query its plain core is taken: what the full solver would do before
     costs a hundred times what it saves.
     """
-    solver = _z3_for(query, limit_ms)
+    solver = _z3_for(query)
+    solver.set("timeout", limit_ms)
     solver.add(*query.formulas.values())
     answer = solver.check()
     if answer == z3.unsat:
@@ -44,35 +45,34 @@ def ask_z3(query: Query, text: str, limit_ms: int) -> Judgment:
     return Judgment("unknown", solver.reason_unknown())
 
 
-def _z3_for(query: Query, limit_ms: int) -> z3.Solver:
-    solver = z3.SimpleSolver() if query.logic == "ALL" else z3.SolverFor(query.logic)
-    solver.set("timeout", limit_ms)
-    return solver
+def _z3_for(query: Query) -> z3.Solver:
+    return z3.SimpleSolver() if query.logic == "ALL" else z3.SolverFor(query.logic)
 
 
-CORE_LIMIT_MS: Final = 5_000
+CORE_LIMIT: Final = 50_000_000
+"""Steps of z3 for one question about a core: z3's own count, the same on a busy machine."""
 
 
 def core_of(query: Query) -> tuple[str, ...] | None:
     """Names of the formulas of an `unsat` query that contradict one another, none of which can be left out.
 
-    None when z3 does not find out in time, and where it is not asked: in real arithmetic with products it
-    takes minutes. A formula outside the core was not needed for the proof.
+    Each formula in turn is left out if the rest still contradict one another, so that the result does not
+    depend on what z3 was asked before. None when z3 does not find out within its limit, and where it is not
+    asked: in real arithmetic with products it takes minutes. A formula outside the core was not needed for
+    the proof.
     """
     if query.logic == "QF_NRA":
         return None
-    solver = _z3_for(query, CORE_LIMIT_MS)
+    solver = _z3_for(query)
+    solver.set("rlimit", CORE_LIMIT)
     marks = {name: z3.Bool(f"asserted {number}") for number, name in enumerate(query.formulas)}
     for name, mark in marks.items():
         solver.add(z3.Implies(mark, query.formulas[name]))
     core = list(marks)
     if solver.check(*marks.values()) != z3.unsat:
         return None
-    found = {mark.decl().name() for mark in solver.unsat_core()}
-    core = [name for name in core if marks[name].decl().name() in found]
-    for name in list(core):
-        without = [marks[other] for other in core if other != name]
-        answer = solver.check(*without)
+    for name in marks:
+        answer = solver.check(*[marks[other] for other in core if other != name])
         if answer == z3.unknown:
             return None
         if answer == z3.unsat:

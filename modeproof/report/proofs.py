@@ -65,10 +65,12 @@ def _section(document: Document, records: Mapping[str, Record]) -> Iterator[str]
                 f"{_counts(record['result']['queries'])} | {record['seconds']:,.1f} |"
             )
     total = sum(float(record["seconds"]) for record in own)
+    shared = max(float(record["result"]["shared"]) for record in own)
     yield ""
     yield "| all theorems | seconds |"
     yield "|---|---|"
     yield f"| {len(own)} | {total:,.1f} |"
+    yield f"| exploring the devices, once for all of them | {shared:,.1f} |"
     if "agreement" in records:
         yield from _agreement(records["agreement"])
     yield from _premises(own)
