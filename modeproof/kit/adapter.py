@@ -1,8 +1,8 @@
 """What the judge talks to: a `Program`. `Adapter` is the one behind a process that speaks adapter protocol 1.
 
-A request, one answer, each within a time limit: a thread reads standard output and hands over whole lines,
-another drains standard error; so an adapter that hangs, floods or never ends a line cannot hold us up. The
-process is ended in every case, with what it started where the system allows it. No POSIX-only call is needed.
+A request, one answer, each within a time limit. An adapter that hangs, floods or never ends a line cannot
+hold us up, and a thread takes what it says on standard error. The process is ended in every case, with what
+it started where the system allows it. What a system lacks has another way here (see modeproof.kit.lines).
 """
 
 from __future__ import annotations
@@ -10,18 +10,18 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import queue
 import shlex
 import signal
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
 from typing import IO, Any, Protocol
 
 from modeproof.kit.errors import Unjudged
+from modeproof.kit.lines import END, TOO_LONG, Lines, lines_of
 from modeproof.kit.signals import loads, shown
 
 LONGEST_LINE = 1 << 20
@@ -32,8 +32,8 @@ GRACE_S = 0.2
 """How long an answer too many is waited for before a difference is believed."""
 ENDING_S = 1.0
 _TAIL = 2000
+_REMEMBERED = 20_000
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
-_END, _TOO_LONG = 1, 2
 _WINDOWS = sys.platform == "win32"
 
 
@@ -71,14 +71,20 @@ class Program(Protocol):
 class Adapter:
     """A running adapter, a `Program`; use it as a context manager. Every method may raise Unjudged."""
 
-    def __init__(self, command: str | Sequence[str], timeout_s: float = 10.0) -> None:
+    def __init__(
+        self,
+        command: str | Sequence[str],
+        timeout_s: float = 10.0,
+        lines: Callable[[IO[bytes], int], Lines] = lines_of,
+    ) -> None:
         self.command = split_command(command) if isinstance(command, str) else list(command)
         if not self.command:
             raise Unjudged("--adapter: the command is empty")
         self.timeout_s = timeout_s
-        self._lines: queue.SimpleQueue[bytes | int] = queue.SimpleQueue()
         self._stderr = b""
         self._hung = False
+        self._requests: dict[tuple[Any, ...], bytes] = {}
+        self._answers: dict[bytes, Mapping[str, Any]] = {}
         group: dict[str, Any] = {} if _WINDOWS else {"start_new_session": True}
         try:
             self.process = subprocess.Popen(
@@ -95,45 +101,14 @@ class Adapter:
         if self.process.stdin is None or self.process.stdout is None or self.process.stderr is None:
             raise Unjudged("the adapter has no pipes")
         self._stdin: IO[bytes] = self.process.stdin
-        self._readers = [
-            (
-                threading.Thread(target=self._read_answers, args=(self.process.stdout,), daemon=True),
-                self.process.stdout,
-            ),
-            (
-                threading.Thread(target=self._drain, args=(self.process.stderr,), daemon=True),
-                self.process.stderr,
-            ),
-        ]
-        for thread, _ in self._readers:
-            thread.start()
+        self._lines = lines(self.process.stdout, LONGEST_LINE)
+        self._words: IO[bytes] = self.process.stderr
+        self._listener = threading.Thread(target=self._drain, daemon=True)
+        self._listener.start()
 
-    # ------------------------------------------------------------------------------------------- threads
-
-    def _read_answers(self, stream: Any) -> None:
-        rest = b""
-        put = self._lines.put
+    def _drain(self) -> None:
         with contextlib.suppress(OSError, ValueError):
-            while chunk := os.read(stream.fileno(), 65536):
-                rest += chunk
-                if b"\n" in chunk:
-                    *lines, rest = rest.split(b"\n")
-                    for line in lines:
-                        put(line)
-                if len(rest) > LONGEST_LINE:
-                    put(_TOO_LONG)
-                    rest = b""
-                    break
-        if rest:
-            put(rest)
-        put(_END)
-        with contextlib.suppress(OSError, ValueError):  # keep the pipe empty until it is closed
-            while os.read(stream.fileno(), 65536):
-                pass
-
-    def _drain(self, stream: Any) -> None:
-        with contextlib.suppress(OSError, ValueError):
-            while chunk := os.read(stream.fileno(), 65536):
+            while chunk := os.read(self._words.fileno(), 65536):
                 self._stderr = (self._stderr + chunk)[-_TAIL:]
 
     # ------------------------------------------------------------------------------------------- program
@@ -150,11 +125,56 @@ class Adapter:
 
     def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
         """The outputs after one scan."""
-        answer = parse_answer(self.ask({"op": "scan", "dt_ms": dt_ms, "in": inputs}))
-        out = answer.get("out")
-        if set(answer) != {"out"} or not isinstance(out, dict):
-            raise Unjudged(f'{{"out":{{..}}}} expected, got {shown(answer)}')
+        # Requests and answers come again and again; what they mean is worked out once.
+        key = (dt_ms, *map(str, inputs.values()))
+        request = self._requests.get(key)
+        if request is None:
+            request = _ENCODE({"op": "scan", "dt_ms": dt_ms, "in": inputs}).encode() + b"\n"
+            if len(self._requests) < _REMEMBERED:
+                self._requests[key] = request
+        line = self.ask_line(request)
+        out = self._answers.get(line)
+        if out is None:
+            answer = parse_answer(line)
+            out = answer.get("out")
+            if set(answer) != {"out"} or not isinstance(out, dict):
+                raise Unjudged(f'{{"out":{{..}}}} expected, got {shown(answer)}')
+            if len(self._answers) < _REMEMBERED:
+                self._answers[line] = out
         return out
+
+    def scans(self, scans: Sequence[tuple[int, Mapping[str, Any]]]) -> list[Mapping[str, Any]]:
+        """The outputs after each of several scans, in one request; for adapters that say that they can."""
+        entries = [{"dt_ms": dt_ms, "in": inputs} for dt_ms, inputs in scans]
+        answer = parse_answer(self.ask({"op": "scans", "list": entries}))
+        outs = answer.get("list")
+        if set(answer) != {"list"} or not isinstance(outs, list):
+            raise Unjudged(f'{{"list":[..]}} expected, got {shown(answer)}')
+        if len(outs) != len(scans):
+            raise Unjudged(f"{len(scans)} answers expected, got {len(outs)}")
+        for out in outs:
+            if not isinstance(out, dict) or set(out) != {"out"} or not isinstance(out["out"], dict):
+                raise Unjudged(f'{{"out":{{..}}}} expected, got {shown(out)}')
+        return [out["out"] for out in outs]
+
+    def refused(self, request: Mapping[str, Any] | str) -> Mapping[str, Any]:
+        """Send what must be refused; nothing when it is, with {"error":"one line"}, else what was answered.
+
+        Raises Unjudged for an answer that is no JSON object.
+        """
+        text = request if isinstance(request, str) else _ENCODE(request)
+        line = self.ask_line(text.encode() + b"\n")
+        try:
+            answer = loads(line.decode("utf-8"))
+        except (ValueError, RecursionError):
+            answer = None
+        if not isinstance(answer, dict):
+            words = shown(line.decode("utf-8", "replace"))
+            raise Unjudged(f"a refusal or an answer was expected, got {words}")
+        error = answer.get("error")
+        if set(answer) == {"error"} and isinstance(error, str) and error and "\n" not in error:
+            return {}
+        return {"answer": answer}
 
     # ------------------------------------------------------------------------------------------ requests
 
@@ -164,18 +184,18 @@ class Adapter:
 
     def ask_line(self, line: bytes) -> bytes:
         """As `ask`, for a line that is ready to be sent."""
-        if not self._lines.empty():
-            self._refuse_stray(self._lines.get())
+        stray = self._lines.waiting()
+        if stray is not None:
+            self._refuse_stray(stray)
         self._send(line)
-        try:
-            answer = self._lines.get(timeout=self.timeout_s)
-        except queue.Empty:
-            raise Unjudged(f"no answer within {self.timeout_s:g} s") from None
+        answer = self._lines.get(self.timeout_s)
+        if answer is None:
+            raise Unjudged(f"no answer within {self.timeout_s:g} s")
         if isinstance(answer, bytes):
             if len(answer) > LONGEST_LINE:
                 raise Unjudged(f"an answer longer than {LONGEST_LINE} bytes")
             return answer
-        if answer == _TOO_LONG:
+        if answer == TOO_LONG:
             raise Unjudged(f"an answer longer than {LONGEST_LINE} bytes")
         raise Unjudged(self._how_it_ended())
 
@@ -204,17 +224,15 @@ class Adapter:
     def _refuse_stray(self, found: bytes | int) -> None:
         if isinstance(found, bytes):
             raise Unjudged(f"a line that nobody asked for: {_printable(found)}")
-        if found == _TOO_LONG:
+        if found == TOO_LONG:
             raise Unjudged(f"a line longer than {LONGEST_LINE} bytes that nobody asked for")
         raise Unjudged(self._how_it_ended())
 
     def quiet(self) -> None:
         """Wait a moment and raise Unjudged if one more line comes: an answer too many."""
-        try:
-            found = self._lines.get(timeout=GRACE_S)
-        except queue.Empty:
-            return
-        self._refuse_stray(found)
+        found = self._lines.get(GRACE_S)
+        if found is not None:
+            self._refuse_stray(found)
 
     def bye(self) -> None:
         """Say goodbye; whatever follows the answer is refused."""
@@ -223,11 +241,8 @@ class Adapter:
             raise Unjudged(f"bye was answered with {shown(answer)}")
         with contextlib.suppress(OSError):
             self._stdin.close()
-        try:
-            found = self._lines.get(timeout=ENDING_S)
-        except queue.Empty:
-            return
-        if found != _END:
+        found = self._lines.get(ENDING_S)
+        if found not in (None, END):
             self._refuse_stray(found)
 
     # -------------------------------------------------------------------------------------------- ending
@@ -261,12 +276,10 @@ class Adapter:
         self._kill()
         with contextlib.suppress(subprocess.TimeoutExpired):
             self.process.wait(timeout=ENDING_S)
-        for thread, stream in self._readers:
-            thread.join(GRACE_S)
-            if (
-                not thread.is_alive()
-            ):  # else a child that escaped still holds the pipe; leave it to the system
-                stream.close()
+        self._lines.close()
+        self._listener.join(GRACE_S)
+        if not self._listener.is_alive():  # else a child that escaped still holds the pipe
+            self._words.close()
 
     def __enter__(self) -> Adapter:
         return self

@@ -1,26 +1,41 @@
-"""The command `conform`, as far as it needs nothing but vectors and an adapter."""
+"""The command `conform`, as far as it needs nothing but vectors and a program."""
 
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.kit.adapter import Adapter
+from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Verdict, run_suite
-from modeproof.kit.text import as_record, as_text, write_json
-from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.judge import EXIT, Difference, Manner, Plan, Verdict, run_suite
+from modeproof.kit.resume import Resume
+from modeproof.kit.shelf import Shelf
+from modeproof.kit.text import (
+    as_junit,
+    as_record,
+    as_text,
+    difference_lines,
+    joint_word,
+    together,
+    write_json,
+    write_text,
+)
+from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Suite, open_suite
 
 EXIT_UNJUDGED = 2
+FAST = "fast"
+"""Stands for every fast suite that can be judged by the relation."""
 
 
 def add_parser(
     commands: Any, run: Callable[[argparse.Namespace], int] | None = None
 ) -> argparse.ArgumentParser:
-    """Add `conform`. `run` takes its place where more is at hand; the kit's own needs --vectors."""
+    """Add `conform`. `run` takes its place where more is at hand than vectors."""
     text = "judge a program by the specification: your own behind an adapter, or a built-in one"
     parser: argparse.ArgumentParser = commands.add_parser(
         "conform",
@@ -33,18 +48,54 @@ def add_parser(
     )
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--adapter", metavar="CMD", help="command that speaks adapter protocol 1")
+    which.add_argument("--s7", metavar="HOST[:PORT]", help="a PLC over the S7 protocol; needs --map")
     which.add_argument(
-        "--builtin", metavar="NAME", help="package in this repository (refimpl): every transition, both ways"
+        "--builtin", metavar="NAME", help="Python package (refimpl): every transition, both ways; or --suite"
     )
+    parser.add_argument("--map", type=Path, metavar="FILE", help="addresses of the signals in the PLC, CSV")
     parser.add_argument("--document", metavar="NAME", help="the document of the target, where two have one")
-    parser.add_argument("--suite", default="tour", metavar="NAME", help="test suite (default: tour)")
+    parser.add_argument(
+        "--suite",
+        action="append",
+        metavar="NAME",
+        help=f"test suite, may be repeated; {FAST}: all that end soon",
+    )
     parser.add_argument("--vectors", type=Path, metavar="FILE", help="vector file instead of --suite")
     parser.add_argument("--case", metavar="ID", help="only this case")
-    parser.add_argument("--relation", choices=("exact",), default="exact", help="how outputs are compared")
+    parser.add_argument("--scans", metavar="LIST", help="only these scans of it, as a verdict names them")
+    parser.add_argument(
+        "--relation",
+        choices=(EXACT, SETTLED, MONITOR),
+        default=EXACT,
+        help="outputs scan by scan (default), once they have settled, or the safety properties alone",
+    )
+    parser.add_argument(
+        "--latency", type=_count, metavar="N", help="scans that an input may need (default: as hello says)"
+    )
+    parser.add_argument(
+        "--hold", type=_count, default=0, metavar="MS", help="time of a scan that holds inputs (default 0)"
+    )
+    parser.add_argument(
+        "--slow", type=_factor, default=1, metavar="K", help="make all times of the suite K times as long"
+    )
+    parser.add_argument(
+        "--jobs", type=_factor, default=1, metavar="N", help="so many programs at once (default 1)"
+    )
     parser.add_argument(
         "--timeout", type=_seconds, default=10.0, metavar="S", help="limit for an answer (default 10 s)"
     )
+    parser.add_argument(
+        "--differences",
+        type=_factor,
+        default=20,
+        metavar="N",
+        help="end after so many differing cases (default 20)",
+    )
+    parser.add_argument(
+        "--resume", type=Path, metavar="FILE", help="note there what passed, and go on from there"
+    )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON as well")
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the result as JUnit XML as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run or run_kit)
     return parser
@@ -57,48 +108,157 @@ def _seconds(text: str) -> float:
     return value
 
 
+def _count(text: str) -> int:
+    value = int(text)
+    if not 0 <= value <= 100_000:
+        raise argparse.ArgumentTypeError("0 to 100000 expected")
+    return value
+
+
+def _factor(text: str) -> int:
+    value = int(text)
+    if not 1 <= value <= 100_000:
+        raise argparse.ArgumentTypeError("1 to 100000 expected")
+    return value
+
+
 def run_kit(args: argparse.Namespace) -> int:
-    """Run `conform` with the kit alone."""
+    """Run `conform` with the kit alone: by a file, or by the vectors that are in the kit."""
     try:
-        if args.vectors is None or args.adapter is None:
-            raise Unjudged("the kit alone needs --vectors FILE and --adapter CMD")
-        suite = open_suite(args.vectors)
-        if suite.target != args.target:
-            raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")
-        return judge(args, suite).status
+        if args.vectors is not None:
+            suites = [open_vectors(args)]
+        else:
+            suites = Shelf.own().suites(args.target, args.suite or [FAST], args.relation)
+        verdicts = judge(args, suites)
+        return EXIT[joint_word(verdicts)]
     except Unjudged as error:
         print(f"UNJUDGED: {error}", file=sys.stderr)
         return EXIT_UNJUDGED
 
 
-def judge(args: argparse.Namespace, suite: Suite) -> Verdict:
-    """Run the suite as the arguments say, print the verdict and write --json. Raises kit.errors.Unjudged."""
+def open_vectors(args: argparse.Namespace) -> Suite:
+    """The file that --vectors names. Raises Unjudged where it is of another target."""
+    suite = open_suite(args.vectors)
+    if suite.target != args.target:
+        raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")
+    return suite
+
+
+def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
+    """Run the suites as the arguments say, print the verdicts and write --json and --junit.
+
+    Raises Unjudged for arguments that do not go together.
+    """
+    if args.scans is not None and args.case is None:
+        raise Unjudged("--scans belongs to --case")
+    if args.resume is not None and (args.case is not None or len(suites) > 1):
+        raise Unjudged("--resume is for one suite at a time, and all its cases")
+    verdicts = []
+    for suite in suites:
+        verdict = _judge(args, suite)
+        verdicts.append(verdict)
+        print(as_text(verdict, again(args, suite, verdict), suite), flush=True)
+    if len(verdicts) > 1:
+        print(together(verdicts))
+    if args.json is not None:
+        record = as_record(verdicts[0])
+        if len(verdicts) > 1:
+            status = EXIT[joint_word(verdicts)]
+            record = {
+                "verdict": joint_word(verdicts),
+                "status": status,
+                "suites": list(map(as_record, verdicts)),
+            }
+        write_json(args.json, record)
+    if args.junit is not None:
+        write_text(args.junit, as_junit(verdicts))
+    return verdicts
+
+
+def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
+    resume = Resume(args.resume, suite, _program_words(args), args.relation) if args.resume else None
+    plan = Plan(
+        manner=Manner(args.relation, args.latency, args.hold, args.slow),
+        only=args.case,
+        part=args.scans,
+        jobs=args.jobs,
+        most=args.differences,
+        effort=60,
+        skip=resume.done if resume is not None else (),
+    )
 
     def progress(done: int, total: int) -> None:
-        print(f"{suite.target} {suite.name}: {done:,} of {total:,} scans", file=sys.stderr, flush=True)
+        if not args.quiet:
+            print(f"{suite.target} {suite.name}: {done:,} of {total:,} scans", file=sys.stderr, flush=True)
+
+    def first(found: Difference) -> None:
+        if not args.quiet:
+            print("first difference:", file=sys.stderr)
+            print("\n".join(difference_lines(found, suite)[:12]), file=sys.stderr, flush=True)
 
     verdict = run_suite(
         suite,
-        lambda: Adapter(args.adapter, args.timeout),
-        only=args.case,
-        on_progress=None if args.quiet else _now_and_then(progress),
+        starter(args, suite),
+        plan=plan,
+        on_progress=_now_and_then(progress),
+        on_difference=first,
+        on_passed=resume.note if resume is not None else None,
     )
-    print(as_text(verdict, again(args, verdict)))
-    if args.json is not None:
-        write_json(args.json, as_record(verdict))
+    if resume is not None:
+        resume.write()
     return verdict
 
 
-def again(args: argparse.Namespace, verdict: Verdict) -> str:
-    """The command that runs the case of the difference again."""
-    if verdict.difference is None:
+def starter(args: argparse.Namespace, suite: Suite) -> Callable[[], Program]:
+    """What starts the program that the arguments name. Raises Unjudged where something is missing."""
+    if args.adapter is not None:
+        return lambda: Adapter(args.adapter, args.timeout)
+    if args.s7 is not None:
+        if args.map is None:
+            raise Unjudged("--s7 needs --map FILE with the addresses of the signals")
+        if args.jobs > 1:
+            raise Unjudged("--s7: a PLC is one program; --jobs is for adapters")
+        try:
+            s7 = importlib.import_module("modeproof.kit.s7")
+        except ImportError as error:
+            raise Unjudged(f"--s7 cannot be used: {error}") from None
+        return lambda: s7.connect(args.s7, args.map, suite, args.timeout)
+    from modeproof.kit.builtin import Builtin
+
+    return lambda: Builtin(args.builtin, suite)
+
+
+def _program_words(args: argparse.Namespace) -> str:
+    if args.adapter is not None:
+        return f"--adapter {quoted(args.adapter)}"
+    if args.s7 is not None:
+        return f"--s7 {args.s7} --map {quoted(str(args.map))}"
+    return f"--builtin {args.builtin}"
+
+
+def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
+    """The command that runs the shortest case of the difference again."""
+    found = verdict.difference
+    if found is None:
         return ""
-    vectors = f"--vectors {quoted(str(args.vectors))}" if args.vectors else f"--suite {args.suite}"
-    document = f" --document {args.document}" if args.document else ""
-    return (
-        f"modeproof conform {args.target} --adapter {quoted(args.adapter)}{document} {vectors} "
-        f"--case {verdict.difference.case.id}"
-    )
+    packed = sys.argv[0].endswith(".pyz")
+    words = [f"python3 {quoted(sys.argv[0])}" if packed else "modeproof", "conform", args.target]
+    words.append(_program_words(args))
+    if args.document:
+        words.append(f"--document {args.document}")
+    words.append(f"--vectors {quoted(str(args.vectors))}" if args.vectors else f"--suite {suite.name}")
+    for name, value, usual in (
+        ("relation", args.relation, EXACT),
+        ("latency", args.latency, None),
+        ("hold", args.hold, 0),
+        ("slow", args.slow, 1),
+    ):
+        if value != usual:
+            words.append(f"--{name} {value}")
+    words.append(f"--case {found.case.id}")
+    if found.confirmed and len(found.shortest.scans) < len(found.case.scans):
+        words.append(f"--scans {found.part}")
+    return " ".join(words)
 
 
 def quoted(text: str) -> str:
@@ -109,11 +269,13 @@ def quoted(text: str) -> str:
 
 def _now_and_then(report: Callable[[int, int], None]) -> Callable[[int, int], None]:
     calls = 0
+    lock = threading.Lock()
 
     def sometimes(done: int, total: int) -> None:
         nonlocal calls
-        calls += 1
-        if calls % 4 == 1:
-            report(done, total)
+        with lock:
+            calls += 1
+            if calls % 4 == 1:
+                report(done, total)
 
     return sometimes

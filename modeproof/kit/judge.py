@@ -1,4 +1,4 @@
-"""Runs a suite against an adapter and judges the answers, relation `exact`: every output of every scan.
+"""Runs a suite against programs behind adapters, one or several at a time, and makes the verdict.
 
 Where a case holds requests that protocol 1 forbids, the adapter must refuse them; one that does not is told
 apart from a program that differs.
@@ -6,45 +6,54 @@ apart from a program that differs.
 
 from __future__ import annotations
 
-import json
-import marshal
+import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from modeproof.kit.adapter import Adapter, parse_answer
+from modeproof.kit.adapter import Program
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.signals import loads, shown
-from modeproof.kit.vectors import Case, Scan, Suite
+from modeproof.kit.relation import Failure, Hello, Manner, Session, read_hello
+from modeproof.kit.shrink import Part, Shrinker, cut, read_part
+from modeproof.kit.vectors import MONITOR, Case, Suite
+
+__all__ = ["CONFORMS", "DIFFERS", "UNJUDGED", "Difference", "Hello", "Manner", "Plan", "Verdict"]
+__all__ += ["read_hello", "run_suite"]
 
 CONFORMS, DIFFERS, UNJUDGED = "CONFORMS", "DIFFERS", "UNJUDGED"
 EXIT = {CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
 PROTOCOL = "protocol"
 """Stands for the step where an adapter answered what it must refuse."""
-BATCH = 64
-"""Scans in one `scans` request."""
-_REMEMBERED = 20_000
-_ENCODE = json.JSONEncoder(separators=(",", ":")).encode
+SHRINKING_S = 5.0
+"""No new attempt to make a case shorter begins after this time."""
 
 
 @dataclass(frozen=True)
-class Hello:
-    """What the adapter said about itself."""
+class Plan:
+    """What is run: the `manner`, one case (`only`) or a part of it (`part`), how many programs at once
+    (`jobs`).
 
-    name: str
-    version: str
-    unobserved: tuple[str, ...]
-    lists: bool
+    After `most` differing cases it ends. `effort` is how often a case may be run again to find a shorter one.
+    Cases whose number (from 0) is in `skip` passed in an earlier run.
+    """
+
+    manner: Manner = field(default_factory=Manner)
+    only: str | None = None
+    part: str | None = None
+    jobs: int = 1
+    most: int = 1
+    effort: int = 2
+    skip: Container[int] = ()
 
 
 @dataclass(frozen=True)
 class Difference:
-    """The first scan that came out wrong. `scan` counts from 1; `expected` and `got` hold what differs only.
+    """The first wrong scan of a case. `scan` counts from 1; `expected` and `got` hold what differs only.
 
-    `shortest` is the shortest case that leads to the same scan, `confirmed` whether it showed a difference
-    too.
+    `part` names the scans of `shortest`, the shortest part that was found to show a difference; `confirmed`
+    says whether it did so when it was run again.
     """
 
     case: Case
@@ -56,11 +65,24 @@ class Difference:
     got: Mapping[str, Any]
     shortest: Case
     confirmed: bool
+    when: str = ""
+    part: str = ""
+    broken: str = ""
+    says: str = ""
+
+    @property
+    def cause(self) -> tuple[str, ...]:
+        """What differences of one cause are likely to share: property or step, and the wrong outputs."""
+        return (self.broken or self.step, *sorted(self.expected))
 
 
 @dataclass
 class Verdict:
-    """The result of a run; `covered` counts for each step the transitions seen and all there are."""
+    """The result of a run; `covered` counts for each step the transitions seen and all there are.
+
+    `differences` holds one for each case that came out wrong, up to the number asked for; `properties` in how
+    many scans each safety property was put to the program; `passed` the numbers of the cases that passed.
+    """
 
     word: str
     target: str
@@ -72,8 +94,15 @@ class Verdict:
     seconds: float = 0.0
     adapter: str = ""
     unobserved: tuple[str, ...] = ()
+    latency: int = 0
     covered: dict[str, tuple[int, int]] = field(default_factory=dict)
-    difference: Difference | None = None
+    clauses: dict[str, tuple[int, int]] = field(default_factory=dict)
+    properties: dict[str, int] = field(default_factory=dict)
+    unjudged: tuple[str, ...] = ()
+    differences: list[Difference] = field(default_factory=list)
+    first_difference_s: float | None = None
+    passed: list[int] = field(default_factory=list)
+    ids: dict[str, str] = field(default_factory=dict)
     reason: str = ""
 
     @property
@@ -81,202 +110,214 @@ class Verdict:
         """The exit status."""
         return EXIT[self.word]
 
+    @property
+    def difference(self) -> Difference | None:
+        """The first difference, if there is one."""
+        return self.differences[0] if self.differences else None
+
+    def causes(self) -> list[tuple[tuple[str, ...], list[Difference]]]:
+        """The differences grouped by likely cause, the largest group first."""
+        found: dict[tuple[str, ...], list[Difference]] = {}
+        for one in self.differences:
+            found.setdefault(one.cause, []).append(one)
+        return sorted(found.items(), key=lambda item: -len(item[1]))
+
+
+Progress = Callable[[int, int], None]
+"""Gets the scans done and all there are."""
+
 
 def run_suite(
     suite: Suite,
-    start: Callable[[], Adapter],
+    start: Callable[[], Program],
     *,
     only: str | None = None,
-    on_progress: Callable[[int, int], None] | None = None,
+    plan: Plan | None = None,
+    on_progress: Progress | None = None,
+    on_difference: Callable[[Difference], None] | None = None,
+    on_passed: Callable[[int], None] | None = None,
 ) -> Verdict:
-    """Judge an adapter by a suite, or by the one case whose id is `only`.
+    """Judge a program by a suite, or by the one case whose id is `only`.
 
-    Ends with the first difference. Whatever cannot be judged ends in the verdict UNJUDGED; nothing is raised
-    for it, and the adapter is ended in every case. `on_progress` gets the scans done and all there are.
+    Whatever cannot be judged ends in the verdict UNJUDGED, with what was found so far; nothing is raised for
+    it, and every program is closed. `on_difference` is called at once with the first one, before it is made
+    shorter, `on_passed` with the number of each case that passed. An interruption from the keyboard is
+    UNJUDGED too.
     """
-    verdict = Verdict(UNJUDGED, suite.target, suite.name, suite.relation, cases_total=suite.case_count)
-    if only is not None:
-        verdict.cases_total = 1
+    plan = plan or Plan(only=only)
+    verdict = Verdict(UNJUDGED, suite.target, suite.name, plan.manner.relation)
+    verdict.cases_total = 1 if plan.only is not None else suite.case_count
+    run = _Run(suite, verdict, plan, on_progress, on_difference)
+    run.on_passed = on_passed
     began = time.monotonic()
-    run = _Run(suite, verdict, on_progress)
     try:
-        if suite.relation != "exact":
-            raise Unjudged(f"relation {suite.relation!r} is not known to this kit")
-        with start() as adapter:
-            run.with_adapter(adapter, only)
-    except Unjudged as error:
-        verdict.word = UNJUDGED
-        verdict.difference = None
-        verdict.reason = f"{run.place}: {error}" if run.place else str(error)
+        run.all(start)
+    except KeyboardInterrupt:
+        run.stop.set()
+        verdict.word, verdict.reason = UNJUDGED, f"interrupted after {verdict.cases:,} cases"
     verdict.seconds = time.monotonic() - began
-    verdict.covered = run.covered()
+    run.finish()
     return verdict
 
 
 class _Run:
     def __init__(
-        self, suite: Suite, verdict: Verdict, on_progress: Callable[[int, int], None] | None
+        self,
+        suite: Suite,
+        verdict: Verdict,
+        plan: Plan,
+        on_progress: Progress | None,
+        on_difference: Callable[[Difference], None] | None,
     ) -> None:
-        self.suite, self.verdict, self.on_progress = suite, verdict, on_progress
-        self.place = ""
-        self.compared: tuple[str, ...] = ()
-        self.known: dict[bytes, Mapping[str, Any]] = {}
-        self.good: set[bytes] = set()
+        self.suite, self.verdict, self.plan = suite, verdict, plan
+        self.on_progress, self.on_difference = on_progress, on_difference
+        self.on_passed: Callable[[int], None] | None = None
         self.seen: list[set[tuple[int, int, int]]] = [set() for _ in suite.steps]
-        self.reported = time.monotonic()
+        self.lock = threading.Lock()
+        self.stop = threading.Event()
+        self.began = self.reported = time.monotonic()
+        self.todo = self._todo()
+        self.troubles: list[str] = []
+        self.causes: set[tuple[str, ...]] = set()
 
-    def with_adapter(self, adapter: Adapter, only: str | None) -> None:
-        verdict, suite = self.verdict, self.suite
-        self.place = "hello"
-        hello = read_hello(parse_answer(adapter.ask(_hello(suite.target))), suite)
-        verdict.adapter = f"{hello.name} {hello.version}".strip()
-        verdict.unobserved = hello.unobserved
-        self.compared = tuple(name for name in suite.outputs if name not in hello.unobserved)
-        if not self.compared:
-            raise Unjudged("every output is unobserved, so nothing can be compared")
-        for case in suite.cases():
-            if only is not None and case.id != only:
-                continue
-            found = self._case(adapter, hello, case, counted=True)
-            if found is not None:
-                at, got = found
-                adapter.quiet()
-                verdict.difference = self._explain(adapter, hello, case, at, got)
-                verdict.word = DIFFERS
-                if case.scans[at].request is not None:
-                    verdict.reason = (
-                        "the adapter answers a request that protocol 1 tells it to refuse; "
-                        "this says nothing about the program behind it"
-                    )
-                break
-            verdict.cases += 1
+    def _todo(self) -> Iterator[tuple[int, Case]]:
+        plan, found = self.plan, False
+        for number, case in enumerate(self.suite.cases()):
+            if plan.only is not None:
+                if case.id != plan.only:
+                    continue
+                found = True
+                if plan.part is not None:
+                    case = cut(self.suite, case, read_part(plan.part, case))
+            if number in plan.skip:
+                self._passed(number, case)
+            else:
+                yield number, case
+        if plan.only is not None and not found:
+            raise Unjudged(f"no case with the id {plan.only}")
+
+    def _next(self) -> tuple[int, Case] | None:
+        with self.lock:
+            return None if self.stop.is_set() else next(self.todo, None)
+
+    def all(self, start: Callable[[], Program]) -> None:
+        """Run all cases; the verdict has its word then."""
+        verdict = self.verdict
+        if self.plan.jobs <= 1:
+            self._work(start)
         else:
-            if verdict.cases == 0:
-                raise Unjudged(f"no case with the id {only}" if only else "no case was run")
-            self.place = "bye"
-            adapter.bye()
+            threads = [
+                threading.Thread(target=self._work, args=(start,), daemon=True) for _ in range(self.plan.jobs)
+            ]
+            for thread in threads:
+                thread.start()
+            try:
+                for thread in threads:
+                    while thread.is_alive():
+                        thread.join(0.2)
+            except KeyboardInterrupt:
+                self.stop.set()
+                for thread in threads:
+                    thread.join()
+                raise
+        if self.troubles:
+            verdict.word, verdict.reason = UNJUDGED, self.troubles[0]
+        elif verdict.differences:
+            verdict.word = DIFFERS
+            if all(one.step == PROTOCOL for one in verdict.differences):
+                verdict.reason = (
+                    "the adapter answers a request that protocol 1 tells it to refuse; "
+                    "this says nothing about the program behind it"
+                )
+        elif verdict.cases == 0:
+            verdict.reason = "no case was run"
+        else:
             verdict.word = CONFORMS
-            return
-        if verdict.word == DIFFERS:
-            self.place = ""
 
-    def _case(
-        self, adapter: Adapter, hello: Hello, case: Case, counted: bool
-    ) -> tuple[int, Mapping[str, Any]] | None:
-        """Run one case; the first wrong scan (from 0) and the outputs it gave, or None."""
-        if case.reset:
-            self.place = f"{case.id}, reset"
-            answer = parse_answer(adapter.ask({"op": "reset", "params": case.params}))
-            if answer != {"ok": True}:
-                raise Unjudged(f"reset was answered with {shown(answer)}")
-        compared = self.compared
+    def _work(self, start: Callable[[], Program]) -> None:
+        """Take cases until none is left, or something ends it all."""
+        session: Session | None = None
+        program: Program | None = None
+        try:
+            program = start()
+            try:
+                session = _open(self.suite, program, self.plan.manner)
+                self._greet(session)
+                while (one := self._next()) is not None:
+                    self._case(session, *one)
+                if not self.stop.is_set():
+                    session.end()
+            finally:
+                self._account(session)
+                program.close()
+        except Unjudged as error:
+            place = session.place if session is not None and program is not None else ""
+            self.stop.set()
+            self.troubles.append(f"{place}: {error}" if place else str(error))
+
+    def _greet(self, session: Session) -> None:
+        verdict, hello = self.verdict, session.hello
+        with self.lock:
+            verdict.adapter = f"{hello.name} {hello.version}".strip()
+            verdict.unobserved = hello.unobserved
+            verdict.latency = session.latency
+            if session.watch is not None:
+                verdict.unjudged = session.watch.unjudged
+
+    def _account(self, session: Session | None) -> None:
+        if session is None or session.watch is None:
+            return
+        with self.lock:
+            for name, count in session.watch.counts.items():
+                self.verdict.properties[name] = self.verdict.properties.get(name, 0) + count
+
+    def _case(self, session: Session, number: int, case: Case) -> None:
+        before = session.scans
+        try:
+            failure = session.case(case)
+        finally:
+            with self.lock:
+                self.verdict.scans += session.scans - before
+        if failure is None:
+            with self.lock:
+                self._passed(number, case)
+                self._tell()
+            if self.on_passed is not None:
+                self.on_passed(number)
+            return
+        found = _difference(self.suite, case, failure)
+        if found.cause not in self.causes:  # an answer too many would make anything look wrong
+            session.quiet()
+        with self.lock:
+            new = found.cause not in self.causes
+            self.causes.add(found.cause)
+            first = self.verdict.first_difference_s is None
+            if first:
+                self.verdict.first_difference_s = time.monotonic() - self.began
+            if len(self.verdict.differences) >= self.plan.most:
+                return
+            at = len(self.verdict.differences)
+            self.verdict.differences.append(found)
+            self.verdict.ids[case.id] = "differs"
+            if len(self.verdict.differences) >= self.plan.most:
+                self.stop.set()
+        if first and self.on_difference is not None:
+            self.on_difference(found)
+        if new:
+            found = _shrunk(self.suite, session, found, failure, self.plan)
+            with self.lock:
+                self.verdict.differences[at] = found
+
+    def _passed(self, number: int, case: Case) -> None:
+        self.verdict.cases += 1
+        self.verdict.passed.append(number)
+        self.verdict.ids[case.id] = "passed"
         by_column = self.suite.header.get("counted_by") == "column"
         before = case.initial
-        for n, got in enumerate(self._answers(adapter, hello, case)):
-            scan = case.scans[n]
-            wanted = scan.outputs
-            if scan.request is not None:
-                if got:
-                    return n, got
-                continue
-            if counted:
-                self.verdict.scans += 1
-            if got != wanted and scan.compared and any(got[name] != wanted[name] for name in compared):
-                return n, got
-            if counted:
+        for scan in case.scans:
+            if scan.request is None:
                 self.seen[scan.step].add((case.graph, before, scan.column if by_column else scan.to))
                 before = scan.to
-        if counted:
-            self._tell()
-        return None
-
-    def _answers(self, adapter: Adapter, hello: Hello, case: Case) -> Iterator[Mapping[str, Any]]:
-        if hello.lists and not case.requests:
-            for first in range(0, len(case.scans), BATCH):
-                part = case.scans[first : first + BATCH]
-                self.place = f"{case.id}, scans {first + 1} to {first + len(part)}"
-                for n, out in enumerate(self._list(adapter, hello, part)):
-                    self.place = f"{case.id}, scan {first + n + 1}"
-                    yield self._checked(out, hello)
-            return
-        known = self.known
-        for n, scan in enumerate(case.scans):
-            self.place = f"{case.id}, scan {n + 1}"
-            if scan.request is not None:
-                yield _refusal(adapter.ask_line(_request_line(scan.request)))
-                continue
-            line = adapter.ask_line(_scan_line(scan))
-            out = known.get(line)
-            if out is None:
-                answer = parse_answer(line)
-                if set(answer) != {"out"}:
-                    raise Unjudged(f'{{"out":{{..}}}} expected, got {shown(answer)}')
-                out = self._checked(answer["out"], hello)
-                if len(known) < _REMEMBERED:
-                    known[line] = out
-            yield out
-        self.place = f"{case.id}, after the last scan"
-
-    def _list(self, adapter: Adapter, hello: Hello, part: Sequence[Scan]) -> list[Any]:
-        entries = [{"dt_ms": scan.dt_ms, "in": scan.inputs} for scan in part]
-        answer = parse_answer(adapter.ask({"op": "scans", "list": entries}))
-        outs = answer.get("list")
-        if set(answer) != {"list"} or not isinstance(outs, list):
-            raise Unjudged(f'{{"list":[..]}} expected, got {shown(answer)}')
-        if len(outs) != len(part):
-            raise Unjudged(f"{len(part)} answers expected, got {len(outs)}")
-        for out in outs:
-            if not isinstance(out, dict) or set(out) != {"out"}:
-                raise Unjudged(f'{{"out":{{..}}}} expected, got {shown(out)}')
-        return [out["out"] for out in outs]
-
-    def _checked(self, out: Any, hello: Hello) -> Mapping[str, Any]:
-        outputs = self.suite.outputs
-        if not isinstance(out, dict):
-            raise Unjudged(f"out must be an object, got {shown(out)}")
-        # Most answers repeat an earlier one; marshal tells true from 1 and 1 from 1.0, which == does not.
-        key = marshal.dumps(out)
-        if key in self.good:
-            return out
-        for name in out:
-            if name not in outputs:
-                raise Unjudged(f"an output {name!r} that the target does not have")
-        for name in self.compared:
-            if name not in out:
-                raise Unjudged(f"output {name} is missing")
-            fault = outputs[name].fault(out[name])
-            if fault:
-                raise Unjudged(fault)
-        if len(self.good) < _REMEMBERED:
-            self.good.add(key)
-        return out
-
-    def _explain(
-        self, adapter: Adapter, hello: Hello, case: Case, at: int, got: Mapping[str, Any]
-    ) -> Difference:
-        scan, suite = case.scans[at], self.suite
-        if scan.request is not None:
-            refused = {"error": "what is wrong, in one line"}
-            shortest = suite.shortest(case, at)
-            return Difference(case, at + 1, PROTOCOL, (), (), {"answer": refused}, got, shortest, True)
-        step = suite.steps[scan.step]
-        wrong = [name for name in self.compared if got[name] != scan.outputs[name]]
-        shortest = suite.shortest(case, at)
-        confirmed = len(shortest.scans) == at + 1
-        if not confirmed:
-            confirmed = self._case(adapter, hello, shortest, counted=False) is not None
-            adapter.quiet()
-        return Difference(
-            case=case,
-            scan=at + 1,
-            step=step.name,
-            clauses=step.clauses,
-            findings=step.findings,
-            expected={name: scan.outputs[name] for name in wrong},
-            got={name: got[name] for name in wrong},
-            shortest=shortest,
-            confirmed=confirmed,
-        )
 
     def _tell(self) -> None:
         now = time.monotonic()
@@ -284,58 +325,84 @@ class _Run:
             self.reported = now
             self.on_progress(self.verdict.scans, self.suite.scan_count)
 
-    def covered(self) -> dict[str, tuple[int, int]]:
+    def finish(self) -> None:
+        """Work out what was covered."""
         seen: Counter[str] = Counter()
+        total: Counter[str] = Counter()
+        clauses: dict[str, tuple[int, int]] = {}
         for step, pairs in zip(self.suite.steps, self.seen, strict=True):
             seen[step.name] += len(pairs)
-        return {step.name: (seen[step.name], step.transitions) for step in self.suite.steps}
+            total[step.name] += step.transitions
+            for clause in step.clauses:
+                have, all_ = clauses.get(clause, (0, 0))
+                clauses[clause] = (have + len(pairs), all_ + step.transitions)
+        self.verdict.covered = {name: (seen[name], count) for name, count in total.items()}
+        self.verdict.clauses = dict(sorted(clauses.items()))
 
 
-def _hello(target: str) -> dict[str, Any]:
-    return {"op": "hello", "protocol": 1, "target": target}
-
-
-def _scan_line(scan: Scan) -> bytes:
-    request = {"op": "scan", "dt_ms": scan.dt_ms, "in": scan.inputs}
-    return _ENCODE(request).encode() + b"\n"
-
-
-def _request_line(request: Mapping[str, Any] | str) -> bytes:
-    text = request if isinstance(request, str) else _ENCODE(request)
-    return text.encode() + b"\n"
-
-
-def _refusal(line: bytes) -> Mapping[str, Any]:
-    """Nothing for `{"error":"one line"}`, else what was answered. Raises Unjudged for what is no object."""
+def _open(suite: Suite, program: Program, manner: Manner) -> Session:
     try:
-        answer = loads(line.decode("utf-8"))
-    except (ValueError, RecursionError):
-        answer = None
-    if not isinstance(answer, dict):
-        raise Unjudged(f"a refusal or an answer was expected, got {shown(line.decode('utf-8', 'replace'))}")
-    error = answer.get("error")
-    if set(answer) == {"error"} and isinstance(error, str) and error and "\n" not in error:
-        return {}
-    return {"answer": answer}
+        return Session(suite, program, manner)
+    except Unjudged as error:
+        raise Unjudged(f"hello: {error}") from None
 
 
-def read_hello(answer: Mapping[str, Any], suite: Suite) -> Hello:
-    """Check the answer to hello. Raises Unjudged when the relation is not possible with it."""
-    if answer.get("ok") is not True:
-        raise Unjudged(f"hello was answered with {shown(answer, 200)}")
-    relations = answer.get("relations", ["exact"])
-    if not isinstance(relations, list) or suite.relation not in relations:
-        raise Unjudged(f"the adapter does not offer relation {suite.relation}: {shown(relations)}")
-    if answer.get("time", "virtual") != "virtual":
-        raise Unjudged(f"relation exact needs virtual time, the adapter has {shown(answer.get('time'))}")
-    latency = answer.get("max_latency_scans", 0)
-    if type(latency) is not int or latency != 0:
-        raise Unjudged(f"relation exact allows no latency, the adapter has {shown(latency)} scans")
-    unobserved = answer.get("unobserved", [])
-    if not isinstance(unobserved, list) or any(name not in suite.outputs for name in unobserved):
-        raise Unjudged(f"unobserved must list outputs of the target, got {shown(unobserved)}")
-    lists = answer.get("scans", False)
-    if type(lists) is not bool:
-        raise Unjudged(f"scans must be true or false, got {shown(lists)}")
-    names = [str(answer.get(key, "")) for key in ("name", "version")]
-    return Hello(names[0][:100] or "unnamed", names[1][:100], tuple(dict.fromkeys(unobserved)), lists)
+def _difference(suite: Suite, case: Case, failure: Failure) -> Difference:
+    """A failure in words; its shortest case is its beginning as yet."""
+    scan = case.scans[failure.at]
+    step = suite.steps[scan.step]
+    name, clauses, findings = step.name, step.clauses, step.findings
+    if scan.request is not None:
+        name, clauses, findings = PROTOCOL, (), ()
+    broken = failure.broken
+    part = Part(tuple(range(failure.at + 1)))
+    return Difference(
+        case=case,
+        scan=failure.at + 1,
+        step=name,
+        clauses=broken.clauses if broken is not None else clauses,
+        findings=findings if broken is None else (),
+        expected=failure.expected,
+        got=failure.got,
+        shortest=cut(suite, case, part),
+        confirmed=False,
+        when=failure.when,
+        part=str(part),
+        broken=broken.id if broken is not None else "",
+        says=broken.says if broken is not None else "",
+    )
+
+
+def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure, plan: Plan) -> Difference:
+    """The difference with a shorter case, as far as `effort` and time go. May raise Unjudged."""
+    left, ends = plan.effort, time.monotonic() + SHRINKING_S
+
+    def fails(case: Case) -> bool:
+        nonlocal left
+        if left <= 0 or time.monotonic() > ends:
+            raise StopIteration
+        left -= 1
+        scans = session.scans
+        again = session.case(case)
+        session.scans = scans
+        return again is not None
+
+    if found.step == PROTOCOL:
+        return _with(suite, found, Part(tuple(range(found.scan))), True)
+    whole = Part(tuple(range(found.scan)))
+    if plan.part is not None or plan.effort <= 0:
+        return _with(suite, found, whole, True)
+    anything = plan.manner.relation == MONITOR
+    best = Shrinker(suite, found.case, failure.at, fails, anything).run()
+    confirmed = best != whole
+    if not confirmed:
+        left, ends = 1, time.monotonic() + SHRINKING_S
+        confirmed = fails(cut(suite, found.case, whole))
+    session.quiet()
+    return _with(suite, found, best, confirmed)
+
+
+def _with(suite: Suite, found: Difference, part: Part, confirmed: bool) -> Difference:
+    values = {name: getattr(found, name) for name in Difference.__dataclass_fields__}
+    values |= {"shortest": cut(suite, found.case, part), "confirmed": confirmed, "part": str(part)}
+    return Difference(**values)

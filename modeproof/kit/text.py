@@ -1,61 +1,124 @@
-"""A verdict in words and as JSON."""
+"""A verdict in words, as JSON, and as JUnit XML."""
 
 from __future__ import annotations
 
 import json
 import os
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape, quoteattr
 
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import CONFORMS, Difference, Verdict
-from modeproof.kit.vectors import Case
+from modeproof.kit.judge import CONFORMS, DIFFERS, UNJUDGED, Difference, Verdict
+from modeproof.kit.vectors import EXACT, MONITOR, Case, Suite
 
 LONGEST_SHOWN = 40
+MOST_CAUSES = 10
 
 
-def as_text(verdict: Verdict, again: str = "") -> str:
-    """What is printed at the end; `again` is the command that runs the one case again."""
+def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None) -> str:
+    """What is printed at the end; `again` is the command that runs the shortest case again.
+
+    With the suite, clauses and decisions are told in words.
+    """
     lines = []
+    causes = verdict.causes()
     if verdict.difference is not None:
-        lines += _difference(verdict.difference)
+        lines += difference_lines(verdict.difference, suite)
         if again:
             lines += ["", f"again:   {again}"]
+        if len(verdict.differences) > 1:
+            lines += ["", f"{len(verdict.differences)} cases differ, by likely cause:"]
+            for cause, found in causes[:MOST_CAUSES]:
+                where, *outputs = cause
+                lines.append(
+                    f"  {len(found):>4}  {where}: {', '.join(outputs)}; first {found[0].case.id}, "
+                    f"shortest {min(len(one.shortest.scans) for one in found)} scans"
+                )
+            if len(causes) > MOST_CAUSES:
+                lines.append(f"  and {len(causes) - MOST_CAUSES} other causes")
         lines.append("")
-    seen = sum(have for have, _ in verdict.covered.values())
-    total = sum(all_ for _, all_ in verdict.covered.values())
-    rate = f", {verdict.scans / verdict.seconds:,.0f} scans a second" if verdict.seconds > 0.05 else ""
-    lines.append(
-        f"{verdict.target} {verdict.adapter}: {verdict.cases:,} of {verdict.cases_total:,} cases passed, "
-        f"{verdict.scans:,} scans, {seen:,} of {total:,} transitions, {verdict.seconds:.1f} s{rate}"
-    )
-    if verdict.word == CONFORMS:
-        missed = [f"{name} {have}/{all_}" for name, (have, all_) in verdict.covered.items() if have < all_]
-        if missed:
-            lines.append("not covered: " + ", ".join(missed))
-    if verdict.unobserved:
-        lines.append("not observed, so not judged: " + ", ".join(verdict.unobserved))
-    word = (
-        f"{verdict.word}({verdict.relation}, {verdict.suite})" if verdict.word == CONFORMS else verdict.word
-    )
-    lines.append(f"{word}: {verdict.reason}" if verdict.reason else word)
+    lines += _coverage(verdict)
+    lines.append(f"{verdict_word(verdict)}: {verdict.reason}" if verdict.reason else verdict_word(verdict))
     return "\n".join(lines)
 
 
-def _difference(found: Difference) -> list[str]:
+def verdict_word(verdict: Verdict) -> str:
+    """The word of the verdict, with relation and suite where it conforms."""
+    return (
+        f"{verdict.word}({verdict.relation}, {verdict.suite})" if verdict.word == CONFORMS else verdict.word
+    )
+
+
+def together(verdicts: Sequence[Verdict]) -> str:
+    """One line for several suites; UNJUDGED counts for more than DIFFERS."""
+    word = joint_word(verdicts)
+    if word == CONFORMS:
+        return f"{CONFORMS}({verdicts[0].relation}, {' '.join(one.suite for one in verdicts)})"
+    return f"{word}: {', '.join(f'{one.suite} {one.word}' for one in verdicts)}"
+
+
+def joint_word(verdicts: Sequence[Verdict]) -> str:
+    """The worst word of several."""
+    words = {one.word for one in verdicts}
+    return next(word for word in (UNJUDGED, DIFFERS, CONFORMS) if word in words)
+
+
+def _coverage(verdict: Verdict) -> list[str]:
+    seen = sum(have for have, _ in verdict.covered.values())
+    total = sum(all_ for _, all_ in verdict.covered.values())
+    rate = f", {verdict.scans / verdict.seconds:,.0f} scans a second" if verdict.seconds > 0.05 else ""
+    steps = "" if verdict.relation == MONITOR else f", {seen:,} of {total:,} transitions"
+    lines = [
+        f"{verdict.target} {verdict.adapter}: {verdict.cases:,} of {verdict.cases_total:,} cases passed, "
+        f"{verdict.scans:,} scans{steps}, {verdict.seconds:.1f} s{rate}"
+    ]
+    if verdict.word == CONFORMS and verdict.relation != MONITOR:
+        for what, counts in (("steps", verdict.covered), ("clauses", verdict.clauses)):
+            missed = [f"{name} {have}/{all_}" for name, (have, all_) in counts.items() if have < all_]
+            if missed:
+                lines.append(f"{what} not covered in full: " + ", ".join(missed))
+            elif counts:
+                lines.append(f"all {sum(1 for _, n in counts.values() if n)} {what} covered in full")
+    if verdict.relation != EXACT and verdict.word != UNJUDGED:
+        put = ", ".join(f"{name} {count:,}" for name, count in verdict.properties.items() if count)
+        never = [name for name, count in verdict.properties.items() if not count]
+        if put:
+            lines.append(f"safety properties, in so many scans each (latency {verdict.latency} scans): {put}")
+        if never:
+            lines.append("never put to the program, so not judged: " + ", ".join(never))
+    if verdict.unjudged:
+        lines.append("rest on outputs that are not observed, so not judged: " + ", ".join(verdict.unjudged))
+    if verdict.unobserved:
+        lines.append("not observed, so not judged: " + ", ".join(verdict.unobserved))
+    return lines
+
+
+def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]:
+    """One difference in words: where, what, by which clause and decision, and the shortest way there."""
     clauses = ", ".join(found.clauses) or "none cited"
-    findings = f"; our decisions: {', '.join(found.findings)}" if found.findings else ""
     lines = [
         f"case {found.case.id}, scan {found.scan} of {len(found.case.scans)}",
         f"why:     {found.case.why}",
-        f"step:    {found.step} (clauses: {clauses}{findings})",
-        "",
-        f"{'output':<20} {'expected':<20} got",
+        f"step:    {found.step} (clauses: {clauses})",
     ]
+    if found.broken:
+        lines.append(f"breaks:  {found.broken}: {found.says}")
+    elif found.when:
+        lines.append(f"here it  {found.when}")
+    if found.findings:
+        lines.append(f"differs from the document as we decided to read it: {', '.join(found.findings)}")
+    elif not found.broken and found.clauses:
+        lines.append("differs from the document")
+    if suite is not None:
+        for id in (*found.clauses, *found.findings):
+            if words := suite.said(id):
+                lines.append(f"  {id:<12} {words}")
+    lines += ["", f"{'output':<20} {'expected':<20} got"]
     for name, wanted in found.expected.items():
-        lines.append(f"{name:<20} {json.dumps(wanted):<20} {json.dumps(found.got[name])}")
+        lines.append(f"{name:<20} {json.dumps(wanted):<20} {json.dumps(found.got.get(name, found.got))}")
     lines += ["", *_way(found)]
     return lines
 
@@ -63,10 +126,11 @@ def _difference(found: Difference) -> list[str]:
 def _way(found: Difference) -> list[str]:
     case = found.shortest
     if found.confirmed:
-        title = f"shortest way there ({len(case.scans)} scans; it shows a difference too):"
+        title = f"shortest way there ({len(case.scans)} scans, which show it; of the case {found.part}):"
     else:
         title = (
-            f"shortest way there ({len(case.scans)} scans; alone it shows NO difference, see the whole case):"
+            f"the case up to there ({len(case.scans)} scans; run again it showed NO difference, so the "
+            "program does not always do the same):"
         )
     lines = [title, f"  reset {json.dumps(dict(case.params))}"]
     before: Mapping[str, Any] = {}
@@ -93,7 +157,6 @@ _NEW = object()
 
 def as_record(verdict: Verdict) -> dict[str, Any]:
     """The verdict for machines."""
-    found = verdict.difference
     return {
         "verdict": verdict.word,
         "status": verdict.status,
@@ -106,24 +169,72 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         "scans": verdict.scans,
         "seconds": round(verdict.seconds, 3),
         "unobserved": list(verdict.unobserved),
+        "latency_scans": verdict.latency,
         "covered": {name: list(pair) for name, pair in verdict.covered.items()},
+        "clauses": {name: list(pair) for name, pair in verdict.clauses.items()},
+        "properties": dict(verdict.properties),
+        "properties_unjudged": list(verdict.unjudged),
+        "first_difference_s": None
+        if verdict.first_difference_s is None
+        else round(verdict.first_difference_s, 3),
         "reason": verdict.reason,
-        "difference": None
-        if found is None
-        else {
-            "case": found.case.id,
-            "why": found.case.why,
-            "scan": found.scan,
-            "step": found.step,
-            "clauses": list(found.clauses),
-            "findings": list(found.findings),
-            "basis": found.case.basis,
-            "expected": dict(found.expected),
-            "got": dict(found.got),
-            "shortest": _scans(found.shortest),
-            "shortest_confirmed": found.confirmed,
-        },
+        "difference": None if verdict.difference is None else _record(verdict.difference),
+        "causes": [
+            {"at": cause[0], "outputs": list(cause[1:]), "cases": [one.case.id for one in found]}
+            for cause, found in verdict.causes()
+        ],
     }
+
+
+def _record(found: Difference) -> dict[str, Any]:
+    return {
+        "case": found.case.id,
+        "why": found.case.why,
+        "scan": found.scan,
+        "step": found.step,
+        "property": found.broken,
+        "when": found.when,
+        "clauses": list(found.clauses),
+        "findings": list(found.findings),
+        "basis": found.case.basis,
+        "expected": dict(found.expected),
+        "got": dict(found.got),
+        "shortest": _scans(found.shortest),
+        "shortest_scans_of_case": found.part,
+        "shortest_confirmed": found.confirmed,
+    }
+
+
+def as_junit(verdicts: Sequence[Verdict]) -> str:
+    """JUnit XML: a suite is a testsuite, a case a testcase, what could not be judged an error."""
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"]
+    for verdict in verdicts:
+        found = {one.case.id: one for one in verdict.differences}
+        errors = 1 if verdict.word == UNJUDGED else 0
+        name = quoteattr(f"{verdict.target} {verdict.relation} {verdict.suite}")
+        lines.append(
+            f'<testsuite name={name} tests="{len(verdict.ids) + errors}" failures="{len(found)}" '
+            f'errors="{errors}" time="{verdict.seconds:.3f}">'
+        )
+        for id in verdict.ids:
+            case = f"<testcase classname={quoteattr(verdict.target)} name={quoteattr(id)}"
+            if id not in found:
+                lines.append(case + "/>")
+                continue
+            message = quoteattr(f"{found[id].broken or found[id].step}, scan {found[id].scan}")
+            text = escape(_printed("\n".join(difference_lines(found[id]))))
+            lines += [case + ">", f"<failure message={message}>{text}</failure>", "</testcase>"]
+        if errors:
+            message = quoteattr(_printed(verdict.reason))
+            lines += [f'<testcase classname={quoteattr(verdict.target)} name="the run">']
+            lines += [f"<error message={message}/>", "</testcase>"]
+        lines.append("</testsuite>")
+    return "\n".join([*lines, "</testsuites>", ""])
+
+
+def _printed(text: str) -> str:
+    """Without what XML cannot hold."""
+    return "".join(one if one in "\n\t" or one.isprintable() else "?" for one in text)
 
 
 def _scans(case: Case) -> dict[str, Any]:
@@ -138,11 +249,16 @@ def _scans(case: Case) -> dict[str, Any]:
 
 def write_json(path: Path, record: Mapping[str, Any]) -> None:
     """Write a record as a whole or not at all. Raises Unjudged when that is not possible."""
+    write_text(path, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text as a whole or not at all. Raises Unjudged when that is not possible."""
     part = ""
     try:
         handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
         with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+            stream.write(text)
         os.replace(part, path)
     except OSError as error:
         if part and os.path.exists(part):

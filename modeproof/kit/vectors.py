@@ -1,6 +1,6 @@
 """Reads a vector file: a header line, then one test case a line (JSON Lines).
 
-The header names target, suite, relation, inputs, outputs and steps, and holds for each graph the rows of
+The header names target, suite, relations, inputs, outputs and steps, and holds for each graph the rows of
 outputs and a shortest way to each state. In a case `in` and `out` of a scan hold what differs from the scan
 before; in the first scan they are whole. `to` is the state after the scan, `step` the number of its step,
 `column` the number of the merged input column.
@@ -17,17 +17,21 @@ from __future__ import annotations
 import gzip
 import hashlib
 import json
+import zipfile
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from modeproof.kit.contract import Contract, read_contract
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal, loads, read_signals
 
 _ENCODE = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 KIND, VERSION = "modeproof-vectors", 1
+EXACT, SETTLED, MONITOR = "exact", "settled", "monitor"
+"""The relations: each scan's outputs; the outputs once they stand still; the safety properties alone."""
 PACKED = ".gz"
 """The suffix of a file that is packed with gzip."""
 FILE_NAME = "{suite}.jsonl.gz"
@@ -94,17 +98,19 @@ class Suite:
     target: str
     document: str
     name: str
-    relation: str
+    relations: tuple[str, ...]
     inputs: Mapping[str, Signal]
     outputs: Mapping[str, Signal]
+    parameters: Mapping[str, Mapping[str, Any]]
     steps: tuple[Step, ...]
     case_count: int
     scan_count: int
+    member: str = ""
 
     def cases(self) -> Iterator[Case]:
         """All cases in order. Raises Unjudged with line and cause for a line that cannot be used."""
         count = 0
-        for number, row in _rows(self.path):
+        for number, row in _rows(self.path, self.member):
             if number == 1:
                 continue
             count += 1
@@ -153,40 +159,42 @@ class Suite:
             reset=row.get("reset", True),
         )
 
-    def shortest(self, case: Case, scan: int) -> Case:
-        """A shortest case that ends with the inputs and in the state of scan number `scan` of `case`.
+    def contract(self) -> Contract | None:
+        """The safety properties of the target, where the header has them. Raises Unjudged."""
+        table = self.header.get("contract")
+        if table is None:
+            return None
+        place = f"{self.path.name}: contract"
+        return read_contract(table, self.inputs, self.outputs, self.parameters, place)
 
-        It is the beginning of `case` where the header says so: what shows the difference lies on the way.
-        """
-        if self.header.get("shrink") == "prefix":
-            return replace(case, scans=case.scans[: scan + 1])
+    def has_ways(self, case: Case) -> bool:
+        """Whether the header knows a shortest way to each state of the case's graph."""
+        return "ways" in self.header["graphs"][case.graph] and self.header.get("shrink") != "prefix"
+
+    def way(self, case: Case, state: int) -> tuple[Scan, ...]:
+        """A shortest way from power-up to a state. Raises Unjudged where the header knows none."""
         graph = self.header["graphs"][case.graph]
-        state = case.scans[scan - 1].to if scan else case.initial
+        if not self.has_ways(case):
+            raise Unjudged(f"{self.path.name}: no ways to states are known")
         way: list[Scan] = []
         while state != graph["initial"]:
             before, dt_ms, inputs, outputs, step, column = graph["ways"][state]
             way.append(Scan(dt_ms, inputs, outputs, step, state, column))
             state = before
-        scans = (*reversed(way), case.scans[scan])
-        return Case(
-            id=case_id(self.target, case.params, changes(scans)),
-            why=f"shortest way to scan {scan + 1} of {case.id}",
-            basis=case.basis,
-            clauses=self.steps[case.scans[scan].step].clauses,
-            params=case.params,
-            graph=case.graph,
-            initial=graph["initial"],
-            scans=scans,
-        )
+        return tuple(reversed(way))
+
+    def said(self, id: str) -> str:
+        """What the registers say of a clause or decision, in our words; nothing where they do not."""
+        return str(self.header.get("texts", {}).get(id, ""))
 
 
-def open_suite(path: Path) -> Suite:
-    """Read the header.
+def open_suite(path: Path, member: str = "") -> Suite:
+    """Read the header; with `member`, of that file in the archive `path`.
 
     Raises Unjudged for a missing file, another format, a header that lacks something, a suite without cases.
     """
     try:
-        _, header = next(iter(_rows(path)))
+        _, header = next(iter(_rows(path, member)))
     except StopIteration:
         raise Unjudged(f"{path.name}: the file is empty") from None
     place = f"{path.name}: header"
@@ -195,11 +203,13 @@ def open_suite(path: Path) -> Suite:
     try:
         suite = Suite(
             path=path,
+            member=member,
             header=header,
             target=header["target"],
             document=header["document"],
             name=header["suite"],
-            relation=header["relation"],
+            relations=tuple(header["relations"] if "relations" in header else [header["relation"]]),
+            parameters=dict(header.get("parameters", {})),
             inputs=read_signals(header["inputs"], place),
             outputs=read_signals(header["outputs"], place),
             steps=tuple(
@@ -245,17 +255,28 @@ def id_of_text(target: str, params: Mapping[str, Any], going_in: str) -> str:
     return f"{target}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
 
 
-def read_lines(path: Path) -> Iterator[bytes]:
-    """The lines of a vector file, packed or not. Raises Unjudged where it cannot be read to its end."""
+def read_lines(path: Path, member: str = "") -> Iterator[bytes]:
+    """The lines of a vector file, packed or not; with `member`, of a packed file in the archive `path`.
+
+    Raises Unjudged where it cannot be read to its end.
+    """
     try:
-        with gzip.open(path, "rb") if path.suffix == PACKED else path.open("rb") as stream:
-            yield from stream
-    except (OSError, EOFError, zlib.error) as error:
+        if member:
+            with (
+                zipfile.ZipFile(path) as archive,
+                archive.open(member) as packed,
+                gzip.open(packed) as stream,
+            ):
+                yield from stream
+        else:
+            with gzip.open(path, "rb") if path.suffix == PACKED else path.open("rb") as stream:
+                yield from stream
+    except (OSError, EOFError, KeyError, zlib.error, zipfile.BadZipFile) as error:
         raise Unjudged(f"{path}: {getattr(error, 'strerror', None) or error}") from None
 
 
-def _rows(path: Path) -> Iterator[tuple[int, Mapping[str, Any]]]:
-    for number, line in enumerate(read_lines(path), 1):
+def _rows(path: Path, member: str) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    for number, line in enumerate(read_lines(path, member), 1):
         try:
             row = loads(line) if number == 1 else json.loads(line)
         except (ValueError, RecursionError) as error:

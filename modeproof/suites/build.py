@@ -14,6 +14,7 @@ from modeproof.places import build, documents
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
+from modeproof.suites.contract import load_contract
 from modeproof.suites.write import Citations, write_suite
 
 
@@ -61,12 +62,16 @@ def ready_suite(
                 return there
         except KitUnjudged:
             pass  # a leftover of another version is built anew
+    devices = [load_device_graph(place, run) for run in runs]
+    contract = load_contract(place, document, devices[0].device, list(devices[0].forms.modes))
     stats = write_suite(
         path,
         suite,
-        [load_device_graph(place, run) for run in runs],
+        devices,
         citations=step_citations(place, document, target, on_built),
         sources=sources,
+        contract=contract,
+        texts=document_texts(place, document),
     )
     on_built(f"{target} {suite}: {stats}")
     return open_suite(path)
@@ -91,6 +96,16 @@ def step_citations(
     return lambda step: table.get(f"{module}!{step}", ((), ()))
 
 
+def document_texts(place: Path, document: str) -> dict[str, str]:
+    """What the registers say of each clause, and what was decided in each finding; nothing without them."""
+    try:
+        registers = load_document(place, document)
+    except Unjudged:
+        return {}
+    texts = {clause.id: clause.text for clause in registers.clauses}
+    return texts | {one.id: f"{one.title}: {one.decision}" for one in registers.findings}
+
+
 def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
     folder = place / "spec" / document
     own = Path(__file__).resolve().parent
@@ -103,8 +118,11 @@ def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
     registers = [
         folder / "interface.toml",
         folder / "classes.toml",
+        folder / "contracts.toml",
+        folder / "properties.toml",
         folder / "runs.toml",
         folder / "clauses.toml",
+        folder / "findings.toml",
     ]
     paths = [*graphs, *(path for path in registers if path.is_file()), *folder.glob("*.tla")]
     hashes = evidence.hashes(place, paths)

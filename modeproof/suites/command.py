@@ -17,12 +17,14 @@ from modeproof.graph.equal import Comparison, Difference, compare
 from modeproof.graph.implementation import load_implementation
 from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
-from modeproof.kit.text import as_record, write_json
-from modeproof.kit.vectors import open_suite
+from modeproof.kit.judge import EXIT
+from modeproof.kit.text import as_record, joint_word, write_json
+from modeproof.kit.vectors import EXACT, SETTLED
 from modeproof.lock import only_one
 from modeproof.places import root
 from modeproof.progress import Progress
 from modeproof.suites.build import find_target, ready_suite
+from modeproof.suites.write import SUITES
 from modeproof.tlc.runs import Run
 
 
@@ -34,9 +36,9 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Run `conform`; the exit status is that of the verdict."""
     try:
-        if args.builtin is not None:
+        if args.builtin is not None and args.suite is None and args.vectors is None:
             return _builtin(args)
-        return _adapter(args)
+        return _program(args)
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
 
@@ -44,25 +46,29 @@ def run(args: argparse.Namespace) -> int:
 # ----------------------------------------------------------------------------------------------- adapter
 
 
-def _adapter(args: argparse.Namespace) -> int:
+def _program(args: argparse.Namespace) -> int:
     place = root()
     document, device = find_target(place, args.target, args.document)
-    if not device.published:
+    if not device.published and args.builtin is None:
         raise Unjudged(f"{args.target} is no published target: nobody builds one; --builtin compares ours")
     if args.vectors is not None:
-        suite = open_suite(args.vectors)
-        if suite.target != args.target:
-            raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")
+        suites = [kit_command.open_vectors(args)]
     else:
         with only_one(place):
             make_graphs(place, open_runs(place, document, args.target), args.quiet)
-            suite = ready_suite(place, document, args.target, args.suite, _say)
+            suites = [
+                ready_suite(place, document, args.target, name, _say)
+                for name in chosen_suites(args.suite, args.relation)
+            ]
     started = time.time()
-    verdict = kit_command.judge(args, suite)
-    if args.case is None and args.vectors is None:
+    verdicts = kit_command.judge(args, suites)
+    for suite, verdict in zip(suites, verdicts, strict=True):
+        if args.case is not None or args.vectors is not None or args.adapter is None:
+            continue
+        manner = [] if args.relation == EXACT else [args.relation]
         record = evidence.make(
             kind="conformance",
-            id=f"adapter_{args.target}_{args.suite}",
+            id="_".join(["adapter", args.target, suite.name, *manner]),
             document=document,
             verdict=verdict.word,
             expected="CONFORMS",
@@ -76,7 +82,20 @@ def _adapter(args: argparse.Namespace) -> int:
             reason="" if verdict.status == 0 else verdict.reason or "the program differs",
         )
         evidence.write(place, record)
-    return verdict.status
+    return EXIT[joint_word(verdicts)]
+
+
+def chosen_suites(names: list[str] | None, relation: str) -> list[str]:
+    """The suites asked for; by default `tour`, or those that are made for the relation."""
+    if names is None:
+        if relation == EXACT:
+            return ["tour"]
+        return [name for name, kind in SUITES.items() if SETTLED in kind.relations]
+    chosen: list[str] = []
+    for name in names:
+        every = [one for one, kind in SUITES.items() if kind.fast and relation in kind.relations]
+        chosen += every if name == kit_command.FAST else [name]
+    return list(dict.fromkeys(chosen))
 
 
 # ----------------------------------------------------------------------------------------------- builtin
@@ -88,8 +107,8 @@ def _builtin(args: argparse.Namespace) -> int:
     runs = open_runs(place, document, args.target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {args.target}")
-    if args.case is not None or args.vectors is not None:
-        raise Unjudged("--case and --vectors belong to --adapter; --builtin replays every transition")
+    if args.case is not None:
+        raise Unjudged("--case needs --suite or --vectors; --builtin alone replays every transition")
     code = load_implementation(args.builtin, document, device.id)
     progress = Progress(quiet=args.quiet)
     found: list[tuple[Run, Comparison]] = []

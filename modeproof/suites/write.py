@@ -17,10 +17,11 @@ from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
-from modeproof.kit.vectors import KIND, PACKED, VERSION, id_of_text
+from modeproof.kit.vectors import EXACT, KIND, MONITOR, PACKED, SETTLED, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
 from modeproof.suites import refusals, sic, words
 from modeproof.suites.bound import lower_bound
+from modeproof.suites.contract import declare, declare_parameters
 from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
 
@@ -35,13 +36,17 @@ _SORTED = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 class Kind:
     """A suite: walks that take what `wanted` names, or the cases of a `plan`.
 
-    `counted_by` is what makes a transition besides state and step: the column or the next state.
+    `counted_by` is what makes a transition besides state and step: the column or the next state. `relations`
+    are those by which a program can be judged with it, the closest first; `fast` suites end within a minute
+    or so.
     """
 
     guarantees: str
     hypothesis: str
     does_not_show: str
     counted_by: str
+    relations: tuple[str, ...] = (EXACT, MONITOR)
+    fast: bool = True
     wanted: Callable[[Columns], list[list[int]]] | None = None
     plan: Plan | None = None
 
@@ -52,6 +57,7 @@ SUITES = {
         hypothesis="the program treats all inputs of a column alike; members take turns, not all are tried",
         does_not_show="a memory of the program beyond the states of the graph; inputs that were not used",
         counted_by="column",
+        fast=False,
         wanted=every_transition,
     ),
     "brief": Kind(
@@ -85,6 +91,7 @@ SUITES = {
         hypothesis="the adapter checks a request in one way, whatever the program behind it is doing",
         does_not_show="every combination of faults in one request; what the program does besides",
         counted_by="next state",
+        relations=(EXACT,),
         plan=refusals.plan,
     ),
     "sic": Kind(
@@ -95,6 +102,7 @@ SUITES = {
         hypothesis="the program settles in the scans given, and treats all inputs of a column alike",
         does_not_show="what outputs are while they settle; the transitions that single changes do not reach",
         counted_by="next state",
+        relations=(EXACT, SETTLED, MONITOR),
         plan=sic.plan,
     ),
 }
@@ -141,11 +149,15 @@ def write_suite(
     citations: Citations = no_citations,
     sources: Mapping[str, str] | None = None,
     generator: str = "modeproof",
+    contract: Mapping[str, Any] | None = None,
+    texts: Mapping[str, str] | None = None,
 ) -> Stats:
     """Build a suite of `SUITES` from all graphs of one target and write it as a whole or not at all.
 
-    `sources` are hashes of what the graphs were made from, by relative path. Raises Unjudged when the graphs
-    belong to several targets, when the walks do not cover what they must, or when the file cannot be written.
+    `sources` are hashes of what the graphs were made from, by relative path, `contract` what
+    `load_contract` says of the target, `texts` what clauses and findings say in our words. Raises Unjudged
+    when the graphs belong to several targets, when the walks do not cover what they must, or when the file
+    cannot be written.
     """
     if suite not in SUITES:
         raise Unjudged(f"no suite {suite!r}; there are: {', '.join(SUITES)}")
@@ -156,7 +168,8 @@ def write_suite(
         writer.add(number, device)
     if not writer.cases:
         raise Unjudged(f"{devices[0].device.id}: the suite would have no cases")
-    header = writer.header(dict(sources or {}), generator)
+    header = writer.header(dict(sources or {}), generator, contract)
+    header["texts"] = _cited_texts(header, texts or {})
     _write_lines(path, [_line(header), *writer.cases])
     return writer.stats()
 
@@ -365,10 +378,13 @@ class _Writer:
         self.scans += len(rows)
         self.longest = max(self.longest, len(rows))
 
-    def header(self, sources: Mapping[str, str], generator: str) -> dict[str, Any]:
+    def header(
+        self, sources: Mapping[str, str], generator: str, contract: Mapping[str, Any] | None
+    ) -> dict[str, Any]:
         device = self.device.device
         modes = list(self.device.forms.modes)
         kind = SUITES[self.suite]
+        relations = [one for one in kind.relations if one != MONITOR or contract]
         return {
             "kind": KIND,
             "version": VERSION,
@@ -376,7 +392,8 @@ class _Writer:
             "document": self.device.document,
             "protocol": 1,
             "suite": self.suite,
-            "relation": "exact",
+            "relations": relations,
+            "pace": "fast" if kind.fast else "slow",
             "counted_by": kind.counted_by,
             "shrink": "graph" if kind.plan is None else "prefix",
             "guarantees": kind.guarantees,
@@ -390,9 +407,11 @@ class _Writer:
             "states": self.states,
             "columns": self.columns,
             "transitions": sum(self.transitions.values()),
-            "inputs": _declare(device.inputs, modes),
-            "outputs": _declare(device.outputs, modes),
+            "inputs": declare(device.inputs, modes),
+            "outputs": declare(device.outputs, modes),
+            "parameters": declare_parameters(device),
             "steps": self._steps(device),
+            **({"contract": contract} if contract else {}),
             "graphs": self.graphs,
         }
 
@@ -497,20 +516,12 @@ def _changed(before: Pieces, now: Pieces) -> str:
     return ",".join([new for old, new in zip(before, now, strict=True) if old != new])
 
 
-def _declare(signals: Mapping[str, Signal], modes: Sequence[int]) -> dict[str, dict[str, Any]]:
-    table = {}
-    for name, signal in signals.items():
-        row: dict[str, Any] = {"type": signal.type}
-        if signal.minimum is not None:
-            row["min"] = signal.minimum
-        if signal.maximum is not None:
-            row["max"] = signal.maximum
-        if signal.values:
-            row["values"] = list(signal.values)
-        if signal.type in ("mode", "modes"):
-            row["modes"] = list(modes)
-        table[name] = row
-    return table
+def _cited_texts(header: Mapping[str, Any], texts: Mapping[str, str]) -> dict[str, str]:
+    """What is said of everything that the steps and the contract cite."""
+    cited = {id for step in header["steps"] for id in (*step["clauses"], *step["findings"])}
+    for one in header.get("contract", {}).get("properties", []):
+        cited.update(one["clauses"])
+    return {id: texts[id] for id in sorted(cited) if id in texts}
 
 
 def _line(row: Mapping[str, Any]) -> str:

@@ -34,14 +34,15 @@ class Scripted(Adapter):
 
     def __init__(self, suite: Suite, at: int, odd: bytes) -> None:
         self.right = [{"out": dict(scan.outputs)} for case in suite.cases() for scan in case.scans]
-        self.at, self.odd, self.count, self.scans = at, odd, 0, 0
+        self.at, self.odd, self.count, self.done = at, odd, 0, 0
+        self._requests, self._answers = {}, {}
 
     def ask_line(self, line: bytes) -> bytes:
         request = json.loads(line)
         answer: dict[str, Any] = HELLO if request["op"] == "hello" else {"ok": True}
         if request["op"] == "scan":
-            answer = self.right[self.scans]
-            self.scans += 1
+            answer = self.right[self.done]
+            self.done += 1
         self.count += 1
         return self.odd if self.count == self.at else json.dumps(answer).encode()
 

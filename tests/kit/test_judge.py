@@ -179,7 +179,7 @@ def test_children_of_the_adapter_are_ended_too(tmp_path: Path) -> None:
     with Adapter([sys.executable, "-c", child], 5.0) as adapter:
         assert b'"ok"' in adapter.ask({"op": "hello"})
     assert adapter.process.poll() is not None
-    assert not any(thread.is_alive() for thread, _ in adapter._readers), "someone still holds the pipe"
+    assert not adapter._listener.is_alive(), "someone still holds the pipe"
 
 
 def test_a_program_that_is_not_there_is_unjudged(suite: Suite) -> None:

@@ -1,0 +1,92 @@
+"""A program that is a Python package in this process: NAME.<document>.<target>, as the reference is built.
+
+The module has `power_up(Params) -> state` and `step(state, Inputs) -> (state, Outputs)`; words are numbers,
+modes -1 for none, sets of modes tuples of booleans.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.signals import Signal
+from modeproof.kit.vectors import EXACT, Suite
+
+_REMEMBERED = 20_000
+
+
+class Builtin:
+    """A `Program`. Raises Unjudged where the package has no such module, or what it raises itself."""
+
+    def __init__(self, package: str, suite: Suite) -> None:
+        name = f"{package}.{suite.document}.{suite.target}"
+        try:
+            self.code = importlib.import_module(name)
+            self._params, self._inputs = self.code.Params, self.code.Inputs
+            self._power_up, self._step = self.code.power_up, self.code.step
+        except (ImportError, AttributeError, ValueError) as error:
+            raise Unjudged(f"--builtin {package}: {error}") from None
+        self._name, self._suite = package, suite
+        self._state: Any = None
+        self._taken = [(name, _taker(of)) for name, of in suite.inputs.items()]
+        self._given = [(name, _giver(of)) for name, of in suite.outputs.items()]
+        self._known: dict[tuple[Any, ...], Any] = {}
+
+    def hello(self, target: str) -> Mapping[str, Any]:
+        """As of an adapter."""
+        return {"ok": True, "name": self._name, "version": "", "relations": [EXACT]}
+
+    def reset(self, params: Mapping[str, Any]) -> None:
+        """Power-up."""
+        kinds = self._suite.parameters
+        values = {}
+        for name, value in params.items():
+            modes = kinds.get(name, {}).get("type") == "modes"
+            values[name] = tuple(mode in value for mode in range(5)) if modes else value
+        try:
+            self._state = self._power_up(self._params(**values))
+        except (TypeError, ValueError) as error:
+            raise Unjudged(f"reset was refused: {error}") from None
+
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+        """One call of `step`."""
+        key = (dt_ms, *inputs.values())
+        given = self._known.get(key)
+        try:
+            if given is None:
+                given = self._inputs(dt_ms, **{name: take(inputs[name]) for name, take in self._taken})
+                if len(self._known) < _REMEMBERED:
+                    self._known[key] = given
+            self._state, out = self._step(self._state, given)
+        except (TypeError, ValueError, AttributeError) as error:
+            raise Unjudged(f"refused: {error}") from None
+        return {name: give(getattr(out, name)) for name, give in self._given}
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+def _taker(of: Signal) -> Callable[[Any], Any]:
+    if of.type == "word":
+        return lambda value: int(value, 16)
+    if of.type == "mode":
+        return lambda value: -1 if value is None else value
+    if of.type == "modes":
+        return lambda value: tuple(mode in value for mode in of.modes)
+    if of.type == "text":
+        return lambda value: value or ""
+    return lambda value: value
+
+
+def _giver(of: Signal) -> Callable[[Any], Any]:
+    if of.type == "word":
+        return lambda value: f"{value:04X}"
+    if of.type == "mode":
+        return lambda value: None if value == -1 else value
+    if of.type == "modes":
+        return lambda value: [mode for mode, there in zip(of.modes, value, strict=True) if there]
+    if of.type == "text" and "" in of.values:
+        return lambda value: value or None
+    return lambda value: value

@@ -1,0 +1,268 @@
+"""The safety properties of a target, judged scan by scan on what stands on its wires, whatever its steps.
+
+The header of a vector file holds them under `contract`, as data:
+
+    {"constants": {"CODES": [240, 15]},
+     "rules": [{"name": "level", "kind": "value", "is": "index(CODES, W) if ON else -1"},
+               {"name": "levels", "kind": "recent", "is": "level"},
+               {"name": "seen", "kind": "memory", "starts": false, "is": "ON and (seen or level >= 0)"}],
+     "properties": [{"id": "LampNeedsLevel", "says": "..", "clauses": [".."],
+                     "when": "LAMP", "holds": "seen"}]}
+
+Rules are evaluated in their order in every scan. Of kind `value` is what stands there now; a `memory` keeps
+its value until its place comes in the next scan, and starts with `starts`; `recent` is the list of the values
+in this scan and as many before it as the program may need to show what its inputs have done (`latency`, from
+0). A property must hold in every scan in which its `when` does.
+
+An expression is one in Python's notation, of: and or not, comparisons, in, + and -, `x if c else y`, lists,
+list[number], and the functions count index len max min sum. Names: inputs, outputs, parameters, `was_NAME`
+for an input or output in the scan before (0, false, or none before the first), constants, rules that stand
+before (of kind `memory` all), `dt_ms` and `latency`. Words are numbers; a mode that is not there is -1, an
+absent text "".
+"""
+
+from __future__ import annotations
+
+import ast
+from collections import deque
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from types import CodeType
+from typing import Any
+
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.signals import Signal
+
+KINDS = ("value", "memory", "recent")
+BEFORE = "was_"
+_NODES = (
+    ast.Expression,
+    ast.BoolOp,
+    ast.And,
+    ast.Or,
+    ast.UnaryOp,
+    ast.Not,
+    ast.USub,
+    ast.BinOp,
+    ast.Add,
+    ast.Sub,
+    ast.Compare,
+    ast.Eq,
+    ast.NotEq,
+    ast.Lt,
+    ast.LtE,
+    ast.Gt,
+    ast.GtE,
+    ast.In,
+    ast.NotIn,
+    ast.Call,
+    ast.Name,
+    ast.Load,
+    ast.Constant,
+    ast.List,
+    ast.Subscript,
+    ast.IfExp,
+)
+
+
+def _count(*values: object) -> int:
+    return sum(1 for value in values if value)
+
+
+def _index(values: Sequence[object], value: object) -> int:
+    for n, one in enumerate(values):
+        if one == value:
+            return n
+    return -1
+
+
+_FUNCTIONS = {"count": _count, "index": _index, "len": len, "max": max, "min": min, "sum": sum}
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A checked expression; `names` are the names that it uses, without functions."""
+
+    text: str
+    code: CodeType
+    names: frozenset[str]
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What is derived from the wires in every scan, in the order of the rules."""
+
+    name: str
+    kind: str
+    starts: Any
+    expression: Expression
+
+
+@dataclass(frozen=True)
+class Property:
+    """What must hold whenever `when` does. `outputs` are those that it rests on, rules included."""
+
+    id: str
+    says: str
+    clauses: tuple[str, ...]
+    when: Expression
+    holds: Expression
+    outputs: frozenset[str]
+
+
+@dataclass(frozen=True)
+class Contract:
+    """Rules and properties of one target; `parameters` gives types and default values on the wire."""
+
+    inputs: Mapping[str, Signal]
+    outputs: Mapping[str, Signal]
+    parameters: Mapping[str, Mapping[str, Any]]
+    constants: Mapping[str, Any]
+    rules: tuple[Rule, ...]
+    properties: tuple[Property, ...]
+
+
+def read_contract(
+    table: Mapping[str, Any],
+    inputs: Mapping[str, Signal],
+    outputs: Mapping[str, Signal],
+    parameters: Mapping[str, Mapping[str, Any]],
+    place: str,
+) -> Contract:
+    """Check a contract. Raises Unjudged naming the rule or property and what is wrong with it."""
+    try:
+        constants = dict(table["constants"])
+        signals = [*inputs, *outputs]
+        known = {*signals, *(BEFORE + name for name in signals), *parameters, *constants, "dt_ms", "latency"}
+        memory = {row["name"] for row in table["rules"] if row["kind"] == "memory"}
+        rules = []
+        rests_on: dict[str, frozenset[str]] = {name: frozenset((name,)) for name in outputs}
+        rests_on |= {BEFORE + name: frozenset((name,)) for name in outputs}
+        for row in table["rules"]:
+            where = f"{place}: rule {row['name']!r}"
+            if row["kind"] not in KINDS or not str(row["name"]).isidentifier() or row["name"] in known:
+                raise Unjudged(f"{where}: a new name and one of the kinds {', '.join(KINDS)} expected")
+            expression = _expression(row["is"], known | memory, where)
+            known.add(row["name"])
+            # A memory may be used before its place: then what it rests on is not known yet, and it rests on
+            # all outputs.
+            early = expression.names & memory - set(rests_on)
+            rests_on[row["name"]] = (
+                frozenset(outputs) if early - {row["name"]} else _rest(expression.names, rests_on)
+            )
+            rules.append(Rule(row["name"], row["kind"], row.get("starts"), expression))
+        properties = []
+        for row in table["properties"]:
+            where = f"{place}: property {row['id']!r}"
+            when, holds = (_expression(row[part], known, where) for part in ("when", "holds"))
+            rest = _rest(when.names | holds.names, rests_on)
+            properties.append(Property(row["id"], row["says"], tuple(row["clauses"]), when, holds, rest))
+    except (KeyError, TypeError, AttributeError) as error:
+        raise Unjudged(f"{place}: {type(error).__name__} {error}") from None
+    if not properties:
+        raise Unjudged(f"{place}: no property, so nothing is judged")
+    return Contract(inputs, outputs, parameters, constants, tuple(rules), tuple(properties))
+
+
+def _rest(names: Iterable[str], rests_on: Mapping[str, frozenset[str]]) -> frozenset[str]:
+    return frozenset().union(*(rests_on.get(name, frozenset()) for name in names))
+
+
+def _expression(text: str, known: Iterable[str], where: str) -> Expression:
+    try:
+        tree = ast.parse(text, mode="eval")
+    except (SyntaxError, ValueError, RecursionError) as error:
+        raise Unjudged(f"{where}: {error}: {text}") from None
+    called = {id(node.func) for node in ast.walk(tree) if isinstance(node, ast.Call)}
+    names = set()
+    for node in ast.walk(tree):
+        if not isinstance(node, _NODES):
+            raise Unjudged(f"{where}: {type(node).__name__} is not for contracts: {text}")
+        if isinstance(node, ast.Call) and (node.keywords or not isinstance(node.func, ast.Name)):
+            raise Unjudged(f"{where}: a call of another kind: {text}")
+        if isinstance(node, ast.Constant) and type(node.value) not in (bool, int, str):
+            raise Unjudged(f"{where}: a constant of another kind: {text}")
+        if isinstance(node, ast.Name):
+            allowed = _FUNCTIONS if id(node) in called else known
+            if node.id not in allowed:
+                raise Unjudged(f"{where}: unknown name {node.id!r}: {text}")
+            if id(node) not in called:
+                names.add(node.id)
+    return Expression(text, compile(tree, where, "eval"), frozenset(names))
+
+
+class Watch:
+    """Follows one program through its cases. `counts` says in how many scans each property was put to it.
+
+    Properties that rest on an output which is not observed are in `unjudged`, and never judged.
+    """
+
+    def __init__(self, contract: Contract, latency: int = 0, unobserved: Iterable[str] = ()) -> None:
+        hidden = frozenset(unobserved)
+        self.contract, self.latency = contract, latency
+        self.judged = tuple(one for one in contract.properties if not one.outputs & hidden)
+        self.unjudged = tuple(one.id for one in contract.properties if one.outputs & hidden)
+        self.counts = dict.fromkeys((one.id for one in self.judged), 0)
+        self._hidden = hidden
+        self._signals = {**contract.inputs, **contract.outputs}
+        self._words = [name for name, of in self._signals.items() if of.type == "word"]
+        self._gaps = {
+            name: -1 if of.type == "mode" else ""
+            for name, of in self._signals.items()
+            if of.type in ("mode", "text")
+        }
+        self._renamed = [(name, BEFORE + name) for name in self._signals]
+        self._env: dict[str, Any] = {}
+        self.reset({})
+
+    def reset(self, params: Mapping[str, Any]) -> None:
+        """Begin a case with these parameters (wire values; those left out take their defaults)."""
+        env: dict[str, Any] = {"__builtins__": {}, **_FUNCTIONS, **self.contract.constants}
+        env["latency"] = self.latency
+        for name, row in self.contract.parameters.items():
+            env[name] = params.get(name, row.get("default"))
+        for name, of in self._signals.items():
+            env[name] = {"word": 0, "bool": False, "mode": -1, "modes": [], "text": ""}.get(of.type, 0)
+        for rule in self.contract.rules:
+            if rule.kind == "memory":
+                env[rule.name] = rule.starts
+            elif rule.kind == "recent":
+                env[rule.name] = deque(maxlen=self.latency + 1)
+        self._env = env
+
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any], outputs: Mapping[str, Any]) -> Property | None:
+        """The first property that does not hold in this scan, if any. Values are those of the wire."""
+        env = self._env
+        for name, before in self._renamed:
+            env[before] = env[name]
+        env.update(inputs)
+        if self._hidden:
+            env.update((name, value) for name, value in outputs.items() if name not in self._hidden)
+        else:
+            env.update(outputs)
+        env["dt_ms"] = dt_ms
+        for name in self._words:
+            value = env[name]
+            if type(value) is str:
+                env[name] = int(value, 16)
+        for name, gap in self._gaps.items():
+            if env[name] is None:
+                env[name] = gap
+        name = ""
+        try:
+            for rule in self.contract.rules:
+                name = rule.name
+                value = eval(rule.expression.code, env)
+                if rule.kind == "recent":
+                    env[name].append(value)
+                else:
+                    env[name] = value
+            for one in self.judged:
+                name = one.id
+                if eval(one.when.code, env):
+                    self.counts[name] += 1
+                    if not eval(one.holds.code, env):
+                        return one
+        except (TypeError, ValueError, IndexError, KeyError, ArithmeticError) as error:
+            raise Unjudged(f"contract: {name}: {type(error).__name__} {error}") from None
+        return None

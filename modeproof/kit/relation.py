@@ -1,0 +1,367 @@
+"""How one case is put to a program, and when its answers are right: the three relations.
+
+`exact` compares all outputs in every scan. `settled` takes a case in groups, each one change of inputs and
+the scans in which the specification comes to rest: the inputs are held for as many scans as the program may
+need, and then the outputs must be those of the specification and stay so; in every scan each output must show
+what it showed before, or what it shows on the way or at the end, and the safety properties must hold.
+`monitor` judges the safety properties alone.
+"""
+
+from __future__ import annotations
+
+import marshal
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from modeproof.kit.adapter import Adapter, Program
+from modeproof.kit.contract import Property, Watch
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.signals import shown
+from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Case, Scan, Suite
+
+BATCH = 64
+"""Scans in one `scans` request."""
+STABLE = 2
+"""Scans for which settled outputs must stand."""
+MOST_LATENCY = 10_000
+_REMEMBERED = 20_000
+
+
+@dataclass(frozen=True)
+class Hello:
+    """What a program said about itself."""
+
+    name: str
+    version: str
+    unobserved: tuple[str, ...] = ()
+    lists: bool = False
+    latency: int = 0
+    real_time: bool = False
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How it is judged: the relation, and for programs that need several scans how inputs are held.
+
+    `latency` is the most scans that an input may need to have all its effects (None: as hello says);
+    `hold_ms` the time of a scan in which inputs are held; `slow` a factor for all times that the suite gives.
+    """
+
+    relation: str = EXACT
+    latency: int | None = None
+    hold_ms: int = 0
+    slow: int = 1
+
+
+@dataclass(frozen=True)
+class Failure:
+    """The first wrong scan of a case. `at` counts the scans of the case from 0.
+
+    `expected` and `got` hold the outputs that differ only; of a safety property, what it rests on. `after`
+    counts the scans for which inputs had been held. `when` says in words what kind of failure it is.
+    """
+
+    at: int
+    expected: Mapping[str, Any]
+    got: Mapping[str, Any]
+    when: str = ""
+    after: int = 0
+    broken: Property | None = None
+
+
+class Session:
+    """One program under judgement. `place` says what it is doing, for messages."""
+
+    def __init__(self, suite: Suite, program: Program, manner: Manner) -> None:
+        self.suite, self.program, self.manner = suite, program, manner
+        if manner.relation not in suite.relations:
+            raise Unjudged(
+                f"suite {suite.name} is for relation {' or '.join(suite.relations)}, not {manner.relation}"
+            )
+        self._where: tuple[Any, ...] = ("hello",)
+        self.hello = read_hello(program.hello(suite.target), suite, manner.relation)
+        self.latency = self.hello.latency if manner.latency is None else manner.latency
+        if not 0 <= self.latency <= MOST_LATENCY:
+            raise Unjudged(f"a latency of 0 to {MOST_LATENCY} scans expected, not {self.latency}")
+        self.compared = tuple(name for name in suite.outputs if name not in self.hello.unobserved)
+        if not self.compared:
+            raise Unjudged("every output is unobserved, so nothing can be compared")
+        self.watch: Watch | None = None
+        contract = suite.contract() if manner.relation != EXACT else None
+        if contract is not None:
+            self.watch = Watch(contract, self.latency, self.hello.unobserved)
+        if manner.relation == MONITOR and (self.watch is None or not self.watch.judged):
+            raise Unjudged("no safety property can be judged on the outputs that are observed")
+        self.scans = 0
+        self._good: set[bytes] = set()
+        self._adapter = program if isinstance(program, Adapter) else None
+
+    @property
+    def place(self) -> str:
+        """Case and scan, as far as it has come."""
+        return ", scan ".join(str(one) for one in self._where)
+
+    def case(self, case: Case) -> Failure | None:
+        """Put one case to the program; the first failure, or None when all is right. May raise Unjudged."""
+        if case.reset:
+            self._where = (f"{case.id}, reset",)
+            self.program.reset(self._slowed(case.params))
+        self._where = (case.id,)
+        if self.watch is not None:
+            self.watch.reset(self._slowed(case.params))
+        if self.manner.relation == EXACT:
+            failure = self._exact(case)
+        elif self.manner.relation == SETTLED or (SETTLED in self.suite.relations and self.latency):
+            failure = self._settled(case)
+        else:
+            failure = self._watched(case)
+        self._where = (f"{case.id}, after the last scan",)
+        return failure
+
+    def end(self) -> None:
+        """Say goodbye to a program that knows how to."""
+        self._where = ("bye",)
+        if self._adapter is not None:
+            self._adapter.bye()
+
+    def quiet(self) -> None:
+        """Make sure that what was just read was the answer to what was just asked."""
+        if self._adapter is not None:
+            self._adapter.quiet()
+
+    # -------------------------------------------------------------------------------------------- exact
+
+    def _exact(self, case: Case) -> Failure | None:
+        compared, every = self.compared, len(self.compared) == len(self.suite.outputs)
+        for n, got in enumerate(self._answers(case)):
+            scan = case.scans[n]
+            if scan.request is not None:
+                if got:
+                    refused = {"answer": {"error": "what is wrong, in one line"}}
+                    return Failure(n, refused, got, "not refused")
+                continue
+            self.scans += 1
+            wanted = scan.outputs
+            if got != wanted and scan.compared and (every or _differ(got, wanted, compared)):
+                return self._difference(n, wanted, got)
+        return None
+
+    def _difference(
+        self, n: int, wanted: Mapping[str, Any], got: Mapping[str, Any], when: str = "", after: int = 0
+    ) -> Failure:
+        wrong = [name for name in self.compared if got[name] != wanted[name]]
+        return Failure(
+            n, {name: wanted[name] for name in wrong}, {name: got[name] for name in wrong}, when, after
+        )
+
+    def _answers(self, case: Case) -> Iterator[Mapping[str, Any]]:
+        if self.hello.lists and self._adapter is not None and not case.requests:
+            for first in range(0, len(case.scans), BATCH):
+                part = case.scans[first : first + BATCH]
+                self._where = (case.id, f"{first + 1} to {first + len(part)}")
+                outs = self._adapter.scans([(scan.dt_ms * self.manner.slow, scan.inputs) for scan in part])
+                for n, out in enumerate(outs):
+                    self._where = (case.id, first + n + 1)
+                    yield self._checked(out)
+            return
+        ask, slow, checked, id = self.program.scan, self.manner.slow, self._checked, case.id
+        for n, scan in enumerate(case.scans, 1):
+            self._where = (id, n)
+            if scan.request is not None:
+                if self._adapter is None:
+                    raise Unjudged("what must be refused can only be sent to an adapter")
+                yield self._adapter.refused(scan.request)
+            else:
+                yield checked(ask(scan.dt_ms * slow, scan.inputs))
+
+    def _checked(self, out: Any) -> Mapping[str, Any]:
+        # Most answers repeat an earlier one; marshal tells true from 1 and 1 from 1.0, which == does not.
+        try:
+            key = marshal.dumps(out)
+        except ValueError:
+            raise Unjudged(f"out must be an object of plain values, got {shown(out)}") from None
+        if key in self._good:
+            return out  # type: ignore[no-any-return]
+        outputs = self.suite.outputs
+        if not isinstance(out, dict):
+            raise Unjudged(f"out must be an object, got {shown(out)}")
+        for name in out:
+            if name not in outputs:
+                raise Unjudged(f"an output {name!r} that the target does not have")
+        for name in self.compared:
+            if name not in out:
+                raise Unjudged(f"output {name} is missing")
+            fault = outputs[name].fault(out[name])
+            if fault:
+                raise Unjudged(fault)
+        if len(self._good) < _REMEMBERED:
+            self._good.add(key)
+        return out
+
+    # ------------------------------------------------------------------------------------------ settled
+
+    def _settled(self, case: Case) -> Failure | None:
+        before: Mapping[str, Any] | None = None
+        clock = _Clock(case, self.manner) if self.hello.real_time else None
+        for first, last in groups(case):
+            event, wanted = case.scans[first], case.scans[last].outputs
+            allowed: dict[str, list[Any]] = {name: [] for name in self.compared}
+            for row in (*((before,) if before else ()), *(s.outputs for s in case.scans[first : last + 1])):
+                for name, values in allowed.items():
+                    values.append(row[name])
+            held = max(self.latency, last - first) + STABLE
+            for after, out in enumerate(self._held(case, first, event, held)):
+                failure = self._passing(last, event, out, allowed, wanted, after)
+                if failure is None and after > held - STABLE and _differ(out, wanted, self.compared):
+                    when = f"held for {after} scans, and not what it settles to"
+                    failure = self._difference(last, wanted, out, when, after)
+                if failure is not None and self.manner.relation == MONITOR and failure.broken is None:
+                    failure = None
+                if failure is not None:
+                    return failure
+            before = wanted
+            if clock is not None:
+                clock.check(event)
+        return None
+
+    def _held(self, case: Case, first: int, event: Scan, held: int) -> Iterator[Mapping[str, Any]]:
+        """The outputs after an event and in the scans in which its inputs are held."""
+        times = [event.dt_ms * self.manner.slow, *[self.manner.hold_ms] * held]
+        if self.hello.lists and self._adapter is not None:
+            outs: Sequence[Mapping[str, Any]] = []
+            for start in range(0, len(times), BATCH):
+                self._where = (case.id, f"{first + 1}, held for {start} scans and more")
+                outs = self._adapter.scans([(dt_ms, event.inputs) for dt_ms in times[start : start + BATCH]])
+                for n, out in enumerate(outs, start):
+                    self._where = (case.id, f"{first + 1}, held for {n} scans")
+                    self.scans += 1
+                    yield self._checked(out)
+            return
+        for n, dt_ms in enumerate(times):
+            self._where = (case.id, f"{first + 1}, held for {n} scans")
+            self.scans += 1
+            yield self._checked(self.program.scan(dt_ms, event.inputs))
+
+    def _passing(
+        self,
+        at: int,
+        event: Scan,
+        out: Mapping[str, Any],
+        allowed: Mapping[str, Sequence[Any]],
+        wanted: Mapping[str, Any],
+        after: int,
+    ) -> Failure | None:
+        """What must hold in every scan, settled or not."""
+        if self.watch is not None:
+            dt_ms = self.manner.hold_ms if after else event.dt_ms * self.manner.slow
+            broken = self.watch.scan(dt_ms, event.inputs, out)
+            if broken is not None:
+                return self._broken(at, broken, wanted, out, after)
+        for name, values in allowed.items():
+            if out[name] not in values:
+                when = "shows what it may show neither before, nor on the way, nor settled"
+                return Failure(at, {name: wanted[name]}, {name: out[name]}, when, after)
+        return None
+
+    def _broken(
+        self, at: int, broken: Property, wanted: Mapping[str, Any], out: Mapping[str, Any], after: int
+    ) -> Failure:
+        names = [name for name in self.compared if name in broken.outputs and out[name] != wanted[name]]
+        names = names or [name for name in self.compared if name in broken.outputs]
+        return Failure(
+            at,
+            {name: wanted[name] for name in names},
+            {name: out[name] for name in names},
+            f"breaks {broken.id}",
+            after,
+            broken,
+        )
+
+    # ------------------------------------------------------------------------------------------ monitor
+
+    def _watched(self, case: Case) -> Failure | None:
+        assert self.watch is not None
+        for n, out in enumerate(self._answers(case)):
+            scan = case.scans[n]
+            self.scans += 1
+            broken = self.watch.scan(scan.dt_ms * self.manner.slow, scan.inputs, out)
+            if broken is not None:
+                return self._broken(n, broken, scan.outputs, out, 0)
+        return None
+
+    def _slowed(self, params: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Parameters with all times longer; what the suite leaves out takes its default, longer too."""
+        if self.manner.slow == 1:
+            return params
+        longer = {
+            name: params.get(name, row["default"]) * self.manner.slow
+            for name, row in self.suite.parameters.items()
+            if row["type"] == "ms"
+        }
+        return {**params, **longer}
+
+
+class _Clock:
+    """Real time goes on while inputs are held; more than the shortest time of a case would change it."""
+
+    def __init__(self, case: Case, manner: Manner) -> None:
+        self._slow = manner.slow
+        self._least = min((scan.dt_ms for scan in case.scans if scan.dt_ms), default=0) * manner.slow
+        self._began, self._meant = time.monotonic(), 0
+
+    def check(self, event: Scan) -> None:
+        """After each group. Raises Unjudged when too much time has gone by beside the times of the case."""
+        self._meant += event.dt_ms * self._slow
+        over = (time.monotonic() - self._began) * 1000 - self._meant
+        if self._least and over > self._least:
+            raise Unjudged(
+                f"holding the inputs took {over:.0f} ms, more than the case can bear ({self._least} ms); "
+                f"--slow {int(self._slow * over / self._least) + 1} gives it more"
+            )
+
+
+def groups(case: Case) -> Iterator[tuple[int, int]]:
+    """First and last scan of each change of inputs: up to a scan that is compared."""
+    first = 0
+    for n, scan in enumerate(case.scans):
+        if scan.compared or n + 1 == len(case.scans):
+            yield first, n
+            first = n + 1
+
+
+def _differ(got: Mapping[str, Any], wanted: Mapping[str, Any], names: Sequence[str]) -> bool:
+    return any(got[name] != wanted[name] for name in names)
+
+
+def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -> Hello:
+    """Check the answer to hello. Raises Unjudged when the relation is not possible with it."""
+    if answer.get("ok") is not True:
+        raise Unjudged(f"hello was answered with {shown(answer, 200)}")
+    offered = answer.get("relations", [EXACT])
+    # Who answers scan by scan also settles, and who settles can be watched.
+    enough = {EXACT: (EXACT,), SETTLED: (EXACT, SETTLED), MONITOR: (EXACT, SETTLED, MONITOR)}[relation]
+    if not isinstance(offered, list) or not any(one in offered for one in enough):
+        raise Unjudged(f"the adapter does not offer relation {relation}: {shown(offered)}")
+    time_is = answer.get("time", "virtual")
+    if time_is not in ("virtual", "real") or (relation == EXACT and time_is != "virtual"):
+        raise Unjudged(f"relation {relation} needs virtual time, the adapter has {shown(time_is)}")
+    latency = answer.get("max_latency_scans", 0)
+    if type(latency) is not int or latency < 0 or (relation == EXACT and latency != 0):
+        raise Unjudged(f"relation {relation} allows no latency, the adapter has {shown(latency)} scans")
+    unobserved = answer.get("unobserved", [])
+    if not isinstance(unobserved, list) or any(name not in suite.outputs for name in unobserved):
+        raise Unjudged(f"unobserved must list outputs of the target, got {shown(unobserved)}")
+    lists = answer.get("scans", False)
+    if type(lists) is not bool:
+        raise Unjudged(f"scans must be true or false, got {shown(lists)}")
+    names = [str(answer.get(key, "")) for key in ("name", "version")]
+    return Hello(
+        name=names[0][:100] or "unnamed",
+        version=names[1][:100],
+        unobserved=tuple(dict.fromkeys(unobserved)),
+        lists=lists,
+        latency=latency,
+        real_time=time_is == "real",
+    )

@@ -1,0 +1,68 @@
+"""The vectors that come with the kit: one packed file for each target and suite, and a list of them."""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
+
+FOLDER = "vectors"
+CONTENTS = "contents.json"
+"""The list in the folder: what is inside, and what was left out."""
+FAST = "fast"
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """Where the vectors are: a folder, or an archive with this folder in it."""
+
+    place: Path
+
+    @staticmethod
+    def own() -> Shelf:
+        """That of the archive that this code runs from, if it runs from one."""
+        for parent in Path(__file__).resolve().parents:
+            if parent.is_file():
+                return Shelf(parent)
+        raise Unjudged("no vectors are here: --vectors FILE names some")
+
+    def contents(self) -> Mapping[str, Any]:
+        """The list. Raises Unjudged where there is none."""
+        try:
+            with zipfile.ZipFile(self.place) as archive:
+                found: Mapping[str, Any] = json.loads(archive.read(f"{FOLDER}/{CONTENTS}"))
+        except (OSError, KeyError, ValueError, zipfile.BadZipFile) as error:
+            raise Unjudged(f"{self.place.name}: no vectors inside: {error}") from None
+        return found
+
+    def suites(self, target: str, names: Sequence[str], relation: str) -> list[Suite]:
+        """The suites asked for, in the order of the list. Raises Unjudged for one that is not inside."""
+        contents = self.contents()
+        targets = contents["targets"]
+        if target not in targets:
+            raise Unjudged(f"no target {target!r} inside; there are: {', '.join(targets)}")
+        rows = targets[target]
+        chosen = []
+        for name, row in rows.items():
+            fitting = relation in row["relations"] and row["pace"] == FAST
+            if name in names or (FAST in names and fitting):
+                chosen.append(open_suite(self.place, f"{FOLDER}/{target}/{FILE_NAME.format(suite=name)}"))
+        missing = [name for name in names if name != FAST and name not in rows]
+        if missing:
+            left_out = contents.get("left_out", {}).get(target, {}).get(missing[0], "")
+            why = f": {left_out}" if left_out else f"; there are: {', '.join(rows)}"
+            raise Unjudged(f"suite {missing[0]} is not inside{why}")
+        if not chosen:
+            raise Unjudged(f"no suite of {target} is for relation {relation}")
+        return chosen
+
+
+def member_name(target: str, suite: str) -> str:
+    """The name in the archive of the vectors of a suite."""
+    return str(PurePosixPath(FOLDER, target, FILE_NAME.format(suite=suite)))

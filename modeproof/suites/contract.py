@@ -1,0 +1,123 @@
+"""What spec/<document>/contracts.toml says of a device, as it stands in the header of its vector files.
+
+    [[contract]]
+    device = "lamp"
+    constants = { CODE = 0x0FF0 }
+
+    [[contract.rule]]                   kind: value (when left out), memory (then with starts), recent
+    name = "codes"
+    kind = "recent"
+    is = "word == CODE"
+
+    [[contract.property]]               id: one of properties.toml, which gives the clauses
+    id = "LightNeedsCode"
+    says = "The lamp goes on only with its code."
+    when = "LAMP and not was_LAMP"
+    holds = "True in codes"
+
+The notation is that of modeproof.kit.contract. A document without the file has no contracts: then there is no
+relation `monitor`, and `settled` watches nothing besides.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import Unjudged
+from modeproof.kit.contract import read_contract
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.kit.signals import read_signals
+from modeproof.registers.rows import Device, Signal
+
+FILE = "contracts.toml"
+_ROW = {"device", "constants", "rule", "property"}
+_RULE = {"name", "kind", "starts", "is"}
+_PROPERTY = {"id", "says", "when", "holds"}
+
+
+def load_contract(place: Path, document: str, device: Device, modes: list[int]) -> dict[str, Any] | None:
+    """The contract of a device for a header, or None where none is declared.
+
+    Raises Unjudged with file and row for a key or a property that does not exist, and for an expression that
+    cannot be evaluated.
+    """
+    path = place / "spec" / document / FILE
+    if not path.is_file():
+        return None
+    where = f"spec/{document}/{FILE}"
+    rows = [row for row in _toml(path, where).get("contract", []) if row.get("device") == device.id]
+    if not rows:
+        return None
+    if len(rows) > 1:
+        raise Unjudged(f"{where}: {device.id} has two contracts")
+    row = rows[0]
+    where = f"{where}: {device.id}"
+    _only(row, _ROW, where)
+    clauses = _clauses(place, document)
+    rules = []
+    for rule in row.get("rule", []):
+        _only(rule, _RULE, f"{where}: rule {rule.get('name')!r}")
+        rules.append({"kind": "value", **rule})
+    properties = []
+    for one in row.get("property", []):
+        _only(one, _PROPERTY, f"{where}: property {one.get('id')!r}")
+        if one.get("id") not in clauses:
+            raise Unjudged(f"{where}: property {one.get('id')!r} is none of properties.toml")
+        properties.append({**one, "clauses": clauses[one["id"]]})
+    table = {"constants": row.get("constants", {}), "rules": rules, "properties": properties}
+    try:
+        inputs, outputs = (
+            read_signals(declare(signals, modes), where) for signals in (device.inputs, device.outputs)
+        )
+        read_contract(table, inputs, outputs, declare_parameters(device), where)
+    except KitUnjudged as error:
+        raise Unjudged(str(error)) from None
+    return table
+
+
+def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[str, Any]]:
+    """Signals as a header declares them."""
+    table = {}
+    for name, signal in signals.items():
+        row: dict[str, Any] = {"type": signal.type}
+        if signal.minimum is not None:
+            row["min"] = signal.minimum
+        if signal.maximum is not None:
+            row["max"] = signal.maximum
+        if signal.values:
+            row["values"] = list(signal.values)
+        if signal.type in ("mode", "modes"):
+            row["modes"] = list(modes)
+        table[name] = row
+    return table
+
+
+def declare_parameters(device: Device) -> dict[str, dict[str, Any]]:
+    """Types and default values (on the wire) of the parameters that a run can give."""
+    return {
+        name: {"type": of.type, "default": of.default}
+        for name, of in device.parameters.items()
+        if of.type != "function"
+    }
+
+
+def _clauses(place: Path, document: str) -> dict[str, list[str]]:
+    where = f"spec/{document}/properties.toml"
+    rows = _toml(place / where, where).get("property", [])
+    return {row["id"]: list(row.get("clauses", [])) for row in rows}
+
+
+def _toml(path: Path, where: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Unjudged(f"{where}: {error}") from None
+
+
+def _only(row: Mapping[str, Any], allowed: set[str], where: str) -> None:
+    unknown = set(row) - allowed
+    if unknown:
+        raise Unjudged(f"{where}: unknown key {', '.join(sorted(unknown))}")
