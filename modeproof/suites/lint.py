@@ -13,6 +13,7 @@ from jsonschema import Draft202012Validator
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal
 from modeproof.kit.vectors import Case, Suite, open_suite, read_lines
+from modeproof.suites.complete import Track, gaps
 
 LARGEST = 20_000_000
 """Bytes of a file, as it is stored."""
@@ -30,7 +31,9 @@ def lint(path: Path, every: int = EVERY) -> list[str]:
         suite = open_suite(path)
         problems += _against(suite.header, "header", "header")
         problems += _shapes(path, every)
-        problems += _cases(suite)
+        tracks = _Tracks(suite)
+        problems += _cases(suite, tracks)
+        problems += tracks.gaps()
     except Unjudged as error:
         problems.append(str(error))
     return problems
@@ -68,7 +71,7 @@ def _line(place: str, where: str, message: str) -> str:
     return f"{place}: {where}: {message[:200]}"
 
 
-def _cases(suite: Suite) -> list[str]:
+def _cases(suite: Suite, tracks: _Tracks) -> list[str]:
     problems: list[str] = []
     ids: set[str] = set()
     scans = 0
@@ -81,9 +84,47 @@ def _cases(suite: Suite) -> list[str]:
         if case.basis == "document" and not case.clauses and any(step.clauses for step in suite.steps):
             problems.append(f"{case.id}: no clause is cited")
         problems += _values(suite, case, good)
+        tracks.add(case)
     if scans != suite.scan_count:
         problems.append(f"{scans} scans, the header says {suite.scan_count}")
     return problems
+
+
+class _Tracks:
+    """What the completeness of a suite is judged by, graph by graph (see modeproof.suites.complete)."""
+
+    def __init__(self, suite: Suite) -> None:
+        self._about: list[Mapping[str, Any]] = [
+            graph.get("complete", {}) if isinstance(graph, Mapping) else {}
+            for graph in suite.header.get("graphs", [])
+        ]
+        self._tracks: list[list[Track]] = [[] for _ in self._about]
+        self._numbers: dict[str, int] = {}
+
+    def add(self, case: Case) -> None:
+        """Keep a case of a graph for which completeness is claimed."""
+        about = self._about[case.graph]
+        if not about:
+            return
+        track, number_of = Track(), about["number_of"]
+        before: Mapping[str, Any] | None = None
+        number = 0
+        for scan in case.scans:
+            if scan.outputs != before:
+                before = scan.outputs
+                text = repr(sorted(scan.outputs.items()))
+                number = self._numbers.setdefault(text, len(self._numbers))
+            track.add(scan.column, number, number_of[scan.to])
+        self._tracks[case.graph].append(track)
+
+    def gaps(self) -> list[str]:
+        """What a program is still free to do that passes and has no more states than the header says."""
+        return [
+            f"graph {number}: not complete: {gap}"
+            for number, (about, tracks) in enumerate(zip(self._about, self._tracks, strict=True))
+            if about
+            for gap in gaps(tracks, about["states"], about["columns"])
+        ]
 
 
 def _values(suite: Suite, case: Case, good: set[tuple[str, str]]) -> list[str]:

@@ -8,7 +8,7 @@ import json
 import os
 import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,9 +19,10 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import EXACT, KIND, MONITOR, PACKED, SETTLED, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites import refusals, sic, words
+from modeproof.suites import refusals, sic, words, wp
 from modeproof.suites.bound import lower_bound
 from modeproof.suites.contract import declare, declare_parameters
+from modeproof.suites.identify import machine
 from modeproof.suites.script import Plan, Script, Shot
 from modeproof.suites.tour import Move, covers, every_step, every_transition, walks
 
@@ -34,7 +35,7 @@ _SORTED = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 
 @dataclass(frozen=True)
 class Kind:
-    """A suite: walks that take what `wanted` names, or the cases of a `plan`.
+    """A suite: walks that take what `wanted` names, or ready `walks`, or the cases of a `plan`.
 
     `counted_by` is what makes a transition besides state and step: the column or the next state. `relations`
     are those by which a program can be judged with it, the closest first; `fast` suites end within a minute
@@ -49,6 +50,8 @@ class Kind:
     fast: bool = True
     wanted: Callable[[Columns], list[list[int]]] | None = None
     plan: Plan | None = None
+    walks: Callable[[Columns, int, Sequence[Hashable]], list[list[Move]]] | None = None
+    why: str = "takes transitions no earlier case has taken"
 
 
 SUITES = {
@@ -66,6 +69,26 @@ SUITES = {
         does_not_show="what `tour` shows besides: every column in every state",
         counted_by="next state",
         wanted=every_step,
+    ),
+    "wp": Kind(
+        guarantees=(
+            "a program with at most n states (k = 0 more than the graph) that treats all inputs of a column "
+            "alike and passes is equal to the graph, over all columns; n stands under `complete` of each "
+            "graph; a column is a set of inputs that take the graph by the same step to the same state from "
+            "whatever state, time included; `modeproof vectors lint` proves this from the file alone"
+        ),
+        hypothesis=(
+            "the program has at most n states, counted as an observer of its outputs would count them, and "
+            "treats all inputs of a column alike; members take turns, not all are tried"
+        ),
+        does_not_show=(
+            "a program that remembers more than n states; inputs of a column that were not used; that a "
+            "reset is one is taken for granted"
+        ),
+        counted_by="column",
+        fast=False,
+        walks=wp.walks,
+        why="ends each new transition with inputs that tell the state it led to from all others",
     ),
     "words": Kind(
         guarantees=(
@@ -197,21 +220,50 @@ class _Writer:
         if kind.plan is not None:
             self._scripted(number, device, columns, kind.plan)
             return
-        assert kind.wanted is not None
-        wanted = kind.wanted(columns)
-        if self.suite == "tour":
-            self.bound += lower_bound(columns, device.graph.initial)
-        cases = walks(columns, device.graph.initial, wanted)
-        if not covers(columns, device.graph.initial, wanted, cases):
-            raise Unjudged(f"{device.name}: the suite {self.suite} does not cover what it must")
-        for steps, row in zip(columns.step_of, wanted, strict=True):
-            self.transitions.update(device.graph.steps[steps[column]] for column in row)
-        self.graphs.append(self._graph(device, columns))
+        if kind.walks is not None:
+            cases, about = self._ready(device, columns, kind.walks)
+        else:
+            cases, about = self._covering(device, columns, kind), {}
+        by_column = kind.counted_by == "column"
+        seen: set[tuple[int, int, int]] = set()
+        for state, column in {(move.state, move.column) for case in cases for move in case}:
+            after = column if by_column else columns.next_of[state][column]
+            seen.add((state, columns.step_of[state][column], after))
+        self.transitions.update(device.graph.steps[step] for _, step, _ in seen)
+        self.graphs.append({**self._graph(device, columns), **about})
         letters = _Letters(device, columns)
         rows: dict[tuple[Any, ...], Pieces] = {}
         for case in cases:
             self._case(number, device, columns, letters, case, rows)
         self.used += len(letters.used)
+
+    def _covering(self, device: DeviceGraph, columns: Columns, kind: Kind) -> list[list[Move]]:
+        """Walks that take what is wanted."""
+        assert kind.wanted is not None
+        initial, wanted = device.graph.initial, kind.wanted(columns)
+        if self.suite == "tour":
+            self.bound += lower_bound(columns, initial)
+        cases = walks(columns, initial, wanted)
+        if not covers(columns, initial, wanted, cases):
+            raise Unjudged(f"{device.name}: the suite {self.suite} does not cover what it must")
+        return cases
+
+    def _ready(
+        self,
+        device: DeviceGraph,
+        columns: Columns,
+        make: Callable[[Columns, int, Sequence[Hashable]], list[list[Move]]],
+    ) -> tuple[list[list[Move]], dict[str, Any]]:
+        """Walks, and for whom they leave no freedom; `number_of` numbers the states as outputs tell them."""
+        rows = [tuple(sorted(row.items())) for row in device.rows]
+        seen = machine(columns, rows, device.graph.initial)
+        complete = {
+            "states": len(seen.next_of),
+            "extra_states": 0,
+            "columns": len(columns.members),
+            "number_of": list(seen.number_of),
+        }
+        return make(columns, device.graph.initial, rows), {"complete": complete}
 
     def _scripted(self, number: int, device: DeviceGraph, columns: Columns, plan: Plan) -> None:
         column_of = {letter: c for c, members in enumerate(columns.members) for letter in members}
@@ -369,7 +421,7 @@ class _Writer:
             "id": id_of_text(device.device.id, device.params, ",".join(going_in)),
             "clauses": clauses,
             "basis": f"finding:{','.join(findings)}" if findings else "document",
-            "why": f"a walk through {device.run} that takes transitions no earlier case has taken",
+            "why": f"a walk through {device.run} that {SUITES[self.suite].why}",
             "timing": "exact",
             "params": dict(device.params),
             "graph": number,
