@@ -7,6 +7,7 @@ SHELL := /bin/bash
 PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && echo $$p && break; done)
 PY := .venv/bin/python
 STAMP := .venv/requirements.lock
+AWLSIM := .venv/awlsim.lock
 
 verify: $(STAMP)
 	@$(PY) -m modeproof verify
@@ -14,10 +15,10 @@ verify: $(STAMP)
 smoke: $(STAMP)
 	@$(PY) -m modeproof verify --lane smoke
 
-test: $(STAMP)
+test: $(STAMP) $(AWLSIM)
 	@$(PY) -m pytest
 
-bench: $(STAMP)
+bench: $(STAMP) $(AWLSIM)
 	@$(PY) -m tests.bench
 
 doctor:
@@ -26,7 +27,7 @@ doctor:
 lint: $(STAMP)
 	@$(PY) -m ruff format --check . && $(PY) -m ruff check . && $(PY) -m mypy
 
-venv: $(STAMP)
+venv: $(STAMP) $(AWLSIM)
 
 # The stamp is a copy of the lock, written last: a build that was cut short is built again, and a lock whose date
 # changed but whose text did not is no reason to build.
@@ -39,6 +40,15 @@ $(STAMP): requirements.lock pyproject.toml
 	  $(PY) -m pip --disable-pip-version-check install --quiet --no-index --no-deps --no-build-isolation -e . && \
 	  $(PY) -m modeproof.tlc.start_up && \
 	  cp requirements.lock $(STAMP); \
+	fi
+
+# For tests and the example only (GPL): the simulator of S7 statement list, which PyPI has as source. It is built with the
+# setuptools that is pinned above, without network but for the one file.
+$(AWLSIM): examples/awl/requirements.lock $(STAMP)
+	@if cmp -s $< $@ && $(PY) -c 'import awlsim' 2>/dev/null; then touch $@; else \
+	  AWLSIM_CYTHON_BUILD=0 $(PY) -m pip --disable-pip-version-check install --quiet --require-hashes --no-deps \
+	    --no-build-isolation --no-binary awlsim -r $< && \
+	  cp $< $@; \
 	fi
 
 lock:

@@ -1,10 +1,11 @@
 """Adapter protocol 1 for the statement-list programs in this folder. awlsim runs them, in this process alone.
 
-Usage: python examples/awl/adapter.py TARGET [PROGRAM]     TARGET is fplc or plc, PROGRAM an AWL source
+Usage: python examples/awl/adapter.py TARGET [PROGRAM]     TARGET is fplc or plc, PROGRAM an AWL source with
+                                                           symbols.csv beside it
 
-Where an input, output or parameter lies in the memory of the CPU is read from TARGET.map.csv. Time is virtual:
-dt_ms goes into a double word, and nothing in the programs asks a clock. awlsim is GPL-2.0-or-later and is
-imported nowhere else.
+Where an input, output or parameter lies in the memory of the CPU is read from TARGET.map.csv. Time is
+virtual: dt_ms goes into a double word, and nothing in the programs asks a clock. awlsim is GPL-2.0-or-later
+and is imported nowhere else.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 HERE = Path(__file__).resolve().parent
-SYMBOLS = HERE / "symbols.csv"
+SYMBOLS = "symbols.csv"
 LONGEST_MS = 3_600_000
 """No deadline is longer; a longer dt_ms is the same to the programs, and might overflow a double word."""
 MODES = range(5)
@@ -145,7 +146,9 @@ class Place:
     length: int
 
 
-ADDRESS = re.compile(r"(?:(?P<area>[IQM])|(?P<block>DB\d+)\.DB)(?P<size>[XWD]?)(?P<byte>\d+)(?:\.(?P<bit>[0-7]))?")
+ADDRESS = re.compile(
+    r"(?:(?P<area>[IQM])|(?P<block>DB\d+)\.DB)(?P<size>[XWD]?)(?P<byte>\d+)(?:\.(?P<bit>[0-7]))?"
+)
 LENGTHS = {"X": 1, "": 1, "W": 2, "D": 4}
 
 
@@ -176,7 +179,9 @@ class Cpu:
         try:
             parser = AwlParser()
             parser.parseText(program.read_text(encoding="utf-8"))
-            self.sim.loadSymbolTable(SymTabParser.parseText(SYMBOLS.read_text(encoding="utf-8")))
+            self.sim.loadSymbolTable(
+                SymTabParser.parseText((program.parent / SYMBOLS).read_text(encoding="utf-8"))
+            )
             self.sim.load(parser.getParseTree())
             self.sim.build()
         except AwlSimError as error:
@@ -185,7 +190,9 @@ class Cpu:
         cpu = self.sim.cpu
         cpu.build = lambda: None  # done; a startup would build all blocks again
         self.memory = {"I": cpu.inputs, "Q": cpu.outputs, "M": cpu.flags}
-        self.memory |= {f"DB{one.index}": one.structInstance.memory for one in cpu.allDBs() if one.structInstance}
+        self.memory |= {
+            f"DB{one.index}": one.structInstance.memory for one in cpu.allDBs() if one.structInstance
+        }
         self.bytes: dict[str, bytearray] = {area: one.getDataBytes() for area, one in self.memory.items()}
         self.loaded = {area: bytes(one) for area, one in self.bytes.items()}
         self.places = places
