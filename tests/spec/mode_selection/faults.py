@@ -13,7 +13,7 @@ KEY_FLOWS = Base("MC_KeyFlows_smoke")
 NO_FAULT = Base("MC_KeyFlows_no_fault")
 FPLC = Base(
     "MC_Fplc_arbitrary",
-    (('VECTORS = "all"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    (('VECTORS = "classes"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
 TEXT_ORDER = Base(
