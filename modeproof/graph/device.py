@@ -27,7 +27,7 @@ class DeviceGraph:
 
     `alphabet` holds for each input of the graph the values of all inputs and `dt_ms`; `rows` for each state
     the outputs that depend on the state alone; `passed` names the output that repeats an input of the same
-    scan; `params` are wire values, as the run declares them.
+    scan; `params` are wire values, as the run declares them; `place` is where the document's room is.
     """
 
     document: str
@@ -41,6 +41,7 @@ class DeviceGraph:
     params: Mapping[str, Any]
     classes: tuple[InputClass, ...]
     copied: Copied | None = None
+    place: Path | None = None
 
     @property
     def name(self) -> str:
@@ -165,6 +166,7 @@ def join(
         params=dict(params),
         classes=() if place is None else load_classes(place, document, device.id, alphabet),
         copied=None if place is None else load_copied(place, document, device.id, alphabet),
+        place=place,
     )
 
 

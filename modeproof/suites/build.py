@@ -121,6 +121,7 @@ def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
         folder / "contracts.toml",
         folder / "properties.toml",
         folder / "runs.toml",
+        folder / "sequences.toml",
         folder / "clauses.toml",
         folder / "findings.toml",
     ]

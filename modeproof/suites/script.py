@@ -33,7 +33,8 @@ class Script:
 
     Without `about` it is about all its steps. `renamed` gives other words for words of the graph, in inputs
     and outputs alike. Without `reset` the case begins before any reset. `judges` says, where refusals are the
-    matter, who is judged: the adapter, or the program behind one that must not refuse.
+    matter, who is judged: the adapter, or the program behind one that must not refuse. With `clauses` it
+    cites these, on this `basis`; without, what the steps cite.
     """
 
     why: str
@@ -42,6 +43,8 @@ class Script:
     renamed: Mapping[int, int] = field(default_factory=dict)
     reset: bool = True
     judges: str = ""
+    clauses: tuple[str, ...] = ()
+    basis: str = ""
 
 
 @dataclass(frozen=True)

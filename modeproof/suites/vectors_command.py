@@ -19,6 +19,7 @@ from modeproof.registers.load import load_interface
 from modeproof.suites.build import find_target, ready_suite, suite_file
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
+from modeproof.suites.sequences import declared
 from modeproof.suites.write import SUITES
 
 WITHIN = 1.05
@@ -79,7 +80,8 @@ def _build(place: Path, args: argparse.Namespace) -> int:
         for target in targets:
             document, _ = find_target(place, target)
             make_graphs(place, open_runs(place, document, target), quiet=True)
-            for suite in args.suite or SUITES:
+            every = [one for one in SUITES if one != "sequences" or declared(place, document, target)]
+            for suite in args.suite or every:
                 path = suite_file(place, document, target, suite)
                 if args.anew:
                     path.unlink(missing_ok=True)

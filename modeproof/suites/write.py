@@ -19,7 +19,7 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import EXACT, KIND, MONITOR, PACKED, SETTLED, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites import refusals, sic, words, wp
+from modeproof.suites import refusals, sequences, sic, words, wp
 from modeproof.suites.bound import lower_bound
 from modeproof.suites.contract import declare, declare_parameters
 from modeproof.suites.identify import machine
@@ -127,6 +127,16 @@ SUITES = {
         counted_by="next state",
         relations=(EXACT, SETTLED, MONITOR),
         plan=sic.plan,
+    ),
+    "sequences": Kind(
+        guarantees=(
+            "the document's diagrams are walked as drawn: every good flow, and every other ending that is "
+            "printed, from power-up; the clauses that a case is about are those of its boxes"
+        ),
+        hypothesis="none beyond these inputs: they are examples",
+        does_not_show="anything off the ways that are drawn",
+        counted_by="next state",
+        plan=sequences.plan,
     ),
 }
 """All suites by name."""
@@ -333,6 +343,8 @@ class _Writer:
         }
         if script.judges:
             case["judges"] = script.judges
+        if script.clauses:
+            case.update(clauses=sorted(script.clauses), basis=script.basis)
         if script.judges == ADAPTER:
             case.update(clauses=[], basis="protocol")
         if not script.reset:

@@ -95,14 +95,51 @@ DEVICE = Device(
     parameters={"T_ms": signal("T_ms", "ms", minimum=1, default=500)},
 )
 
+SEQUENCES = """
+[tables]
+CODE = ["0FF0"]
+[groups]
+buttons = ["press"]
+[[flow]]
+name = "shine"
+device = "lamp"
+graph = "OPEN_Lamp"
+for = { n = [0] }
+why = "Figure {n}: the button is pressed with the code, and the lamp shines for its time."
+clauses = ["TOY-1"]
+scans = [
+    { set = { buttons = [], word = "0000" }, dt_ms = 250, step = "StayOff" },
+    { set = { buttons = ["press"], word = "CODE[n]" }, step = "SwitchOn" },
+    { set = { buttons = [] }, dt_ms = 0, times = 2, step = "StayOn" },
+    { dt_ms = 500, step = "Expire" },
+]
+[[branch]]
+of = "shine"
+at = ["SwitchOn"]
+why = "Figure {n}: a word that is no code, and {at} does not come."
+clauses = ["TOY-1"]
+basis = "finding:T-01"
+scans = [{ set = { buttons = ["press"], word = "0001" }, step = "StayOff" }]
+[[branch]]
+of = "shine"
+at = ["end"]
+why = "Figure {n}: and once more."
+clauses = ["TOY-1"]
+scans = [{ set = { press = true }, dt_ms = 0, step = "SwitchOn" }]
+"""
+"""What the lamp's diagram would be."""
+
 WORDS = '[[class]]\ndevice = "lamp"\nrule = "words"\nfield = "word"\nrepresentative = "0001"\n'
 
 
-def lamp_graph(folder: Path, printed: Iterable[str] | None = None, classes: str = WORDS) -> DeviceGraph:
+def lamp_graph(
+    folder: Path, printed: Iterable[str] | None = None, classes: str = WORDS, sequences: str = SEQUENCES
+) -> DeviceGraph:
     """The graph of the lamp, joined with its declaration."""
     room = folder / "spec" / "toy"
     room.mkdir(parents=True, exist_ok=True)
     (room / "classes.toml").write_text(classes, encoding="utf-8")
+    (room / "sequences.toml").write_text(sequences, encoding="utf-8")
     graph = read_graph(write(folder / "OPEN_Lamp.txt", lines() if printed is None else printed))
     return join(
         "toy",

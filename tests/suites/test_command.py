@@ -11,7 +11,7 @@ import pytest
 from modeproof import evidence
 from modeproof.cli import main
 from modeproof.kit.__main__ import main as kit_main
-from tests.graph.printed import WORDS, lines, write
+from tests.graph.printed import SEQUENCES, WORDS, lines, write
 from tests.kit.programs import program
 
 INTERFACE = """
@@ -60,6 +60,7 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (room / "interface.toml").write_text(INTERFACE)
     (room / "runs.toml").write_text(RUNS)
     (room / "classes.toml").write_text(WORDS)
+    (room / "sequences.toml").write_text(SEQUENCES)
     graphs = tmp_path / "build" / "graphs" / "toy"
     graphs.mkdir(parents=True)
     write(graphs / "OPEN_Lamp.txt", lines())
@@ -137,7 +138,7 @@ def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[s
         (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
         (
             ["lamp", "--adapter", "x", "--suite", "toru"],
-            "no suite 'toru'; there are: tour, brief, wp, words, refusals, sic",
+            "no suite 'toru'; there are: tour, brief, wp, words, refusals, sic, sequences",
         ),
         (["lamp", "--adapter", "x", "--vectors", "none.jsonl"], "No such file"),
     ],
