@@ -130,7 +130,7 @@ class _Declared:
                 self.branches.append(row)
 
     def _is_mine(self, row: Mapping[str, Any]) -> bool:
-        return row["device"] == self.device.device.id and row["graph"] == self.device.run
+        return (row["device"], row["graph"]) == (self.device.device.id, self.device.run)
 
     def _only(self, row: Mapping[str, Any], allowed: set[str], name: object) -> None:
         missing = (allowed - {"for", "when", "basis"}) - set(row)
@@ -198,7 +198,7 @@ class _Declared:
         if found is None:
             raise Unjudged(f"{self.where}: when = {when!r}: two names and a comparison expected")
         one, compare, other = found.groups()
-        return bool(_COMPARE[compare](self._number(one, names), self._number(other, names)))
+        return _COMPARE[compare](self._number(one, names), self._number(other, names))
 
     def _number(self, text: str, names: Names) -> int:
         if text in names:
