@@ -344,7 +344,7 @@ class _Writer:
         if script.judges:
             case["judges"] = script.judges
         if script.clauses:
-            case.update(clauses=sorted(script.clauses), basis=script.basis)
+            case.update(clauses=sorted(set(script.clauses)), basis=script.basis)
         if script.judges == ADAPTER:
             case.update(clauses=[], basis="protocol")
         if not script.reset:

@@ -124,7 +124,7 @@ scans = [{ set = { buttons = ["press"], word = "0001" }, step = "StayOff" }]
 of = "shine"
 at = ["end"]
 why = "Figure {n}: and once more."
-clauses = ["TOY-1"]
+clauses = ["TOY-1", "TOY-1"]
 scans = [{ set = { press = true }, dt_ms = 0, step = "SwitchOn" }]
 """
 """What the lamp's diagram would be."""
