@@ -163,7 +163,7 @@ def measure(
         finally:
             progress.end(name)
         if judgement.verdict == "INCONCLUSIVE" and not over:
-            over = f"not tried: {series.points[0].x} to {point.x} already reach the limit"
+            over = f"not tried: {point.x} reached the limit of {series.limit_s:.0f} s"
         record = _record(place, series, point, tools, outcome, judgement, cpu_s, started)
         evidence.write(place, record)
         yield point, record
