@@ -131,6 +131,7 @@ def make_parser() -> argparse.ArgumentParser:
 
     _plug_in(commands, "conform", "modeproof.suites.command", "modeproof.kit.command")
     _plug_in(commands, "vectors", "modeproof.suites.vectors_command")
+    _plug_in(commands, "map", "modeproof.suites.map_command")
     _plug_in(commands, "trace", "modeproof.trace.command")
     _plug_in(commands, "registers", "modeproof.registers.command")
     _plug_in(commands, "findings", "modeproof.findings")

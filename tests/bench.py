@@ -1,24 +1,37 @@
 """Benchmarks, by `make bench`: machine, figure and spread. Nothing here is a test: being slow fails nothing.
 
 Replay: every transition of a device graph, from power-up, on the reference implementation in this process, on
-one core; outputs and states are compared in every scan. Missing graphs are made first, by TLC.
+one core; outputs and states are compared in every scan. Missing graphs are made first, by TLC. Then the first
+cases of a fast suite, on the statement-list program: behind its adapter, and in its simulated PLC over S7.
 """
 
 from __future__ import annotations
 
 import statistics
+import subprocess
 import sys
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
 
 from modeproof import evidence
 from modeproof.cli import main as modeproof
 from modeproof.graph.device import graph_file, load_device_graph
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
+from modeproof.kit import s7
+from modeproof.kit.adapter import Adapter, Program
+from modeproof.kit.vectors import Suite, open_suite
 from modeproof.places import documents, root
+from modeproof.registers.load import load_interface
+from modeproof.suites.contract import declare_parameters
 from modeproof.tlc.messages import LogReader
 from modeproof.tlc.runs import Run, load_runs
+from tests.kit.s7_plc import STEPPED, Plc
 
 REPEATS = 5
 SHORT_SECONDS = 2.0
@@ -78,6 +91,40 @@ def read_lines(run: Run) -> Callable[[], int]:
     return work
 
 
+CASES = 4
+AWL = Path("examples/awl")
+
+
+def drive(program: Program, suite: Suite) -> Callable[[], int]:
+    """The first cases of a suite, in lock-step, without any judgement; gives the number of scans."""
+
+    def work() -> int:
+        scans = 0
+        for case in islice(suite.cases(), CASES):
+            program.reset(case.params)
+            for scan in case.scans:
+                program.scan(scan.dt_ms, scan.inputs)
+            scans += len(case.scans)
+        return scans
+
+    return work
+
+
+@contextmanager
+def statement_list(place: Path, suite: Suite) -> Iterator[tuple[Program, Program]]:
+    """The program behind its adapter, and behind the S7 protocol."""
+    served = [sys.executable, str(place / AWL / "server.py"), suite.target]
+    command = [sys.executable, str(place / AWL / "adapter.py"), suite.target]
+    with Adapter(command, 60.0) as adapter:
+        adapter.hello(suite.target)
+        with subprocess.Popen(served, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as plc:
+            assert plc.stdout is not None
+            address = plc.stdout.readline().split()[-1]
+            with s7.connect(address, place / AWL / f"{suite.target}.map.csv", suite) as client:
+                yield adapter, client
+            plc.kill()
+
+
 def main() -> int:
     """Print all figures."""
     place = root()
@@ -103,6 +150,18 @@ def main() -> int:
         show(f"replay {run.id}", "scans", measure(replay(run)))
     biggest = max(runs, key=lambda run: graph_file(place, run).stat().st_size)
     show(f"read {biggest.id}", "lines", measure(read_lines(biggest)))
+    suite = open_suite(place / "examples/faulty/vectors/brief.jsonl.gz")
+    interface = load_interface(place, suite.document)
+    modes = [int(mode) for mode in interface.constants["MODES"]]
+    suite = replace(suite, parameters=declare_parameters(interface.devices[suite.target], modes))
+    with statement_list(place, suite) as (adapter, client):
+        show("awlsim behind its adapter", "scans", measure(drive(adapter, suite)))
+        show("awlsim over S7", "scans", measure(drive(client, suite)))
+    with tempfile.TemporaryDirectory() as folder, Plc() as plc:
+        addresses = Path(folder, "map.csv")
+        addresses.write_text(STEPPED, encoding="utf-8")
+        with s7.connect(plc.address, addresses, suite) as client:
+            show("refimpl over S7, client and server", "scans", measure(drive(client, suite)))
     return 0
 
 

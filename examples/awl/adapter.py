@@ -23,6 +23,7 @@ HERE = Path(__file__).resolve().parent
 SYMBOLS = "symbols.csv"
 LONGEST_MS = 3_600_000
 """No deadline is longer; a longer dt_ms is the same to the programs, and might overflow a double word."""
+TIME = "@dt_ms"
 MODES = range(5)
 LEVELS = {f"PERMITS_{level}": level for level in MODES}
 
@@ -125,7 +126,7 @@ def inputs(target: Target, entry: object) -> dict[str, int]:
     if set(given) != set(target.inputs):
         wrong = " ".join(sorted(set(given) ^ set(target.inputs)))
         raise Refused(f"in: exactly {' '.join(target.inputs)} expected; missing or unknown: {wrong}")
-    values = {"dt_ms": min(milliseconds("dt_ms", entry["dt_ms"]), LONGEST_MS)}
+    values = {TIME: min(milliseconds("dt_ms", entry["dt_ms"]), LONGEST_MS)}
     for name in target.bools:
         if type(given[name]) is not bool:
             raise Refused(f"{name}: true or false expected, got {given[name]!r}")
@@ -200,10 +201,10 @@ class Cpu:
             if place.area not in self.bytes or place.byte + place.length > len(self.bytes[place.area]):
                 raise SystemExit(f"{name}: {program.name} has no {place}")
 
-    def power_up(self, values: Mapping[str, int]) -> None:
-        """All memory as it was loaded, then the settings, then OB100."""
-        for area, content in self.loaded.items():
-            self.bytes[area][:] = content
+    def power_up(self, values: Mapping[str, int], keep: Sequence[str] = ()) -> None:
+        """All memory but the areas in `keep` as it was loaded, then the settings, then OB100."""
+        for area in set(self.loaded) - set(keep):
+            self.bytes[area][:] = self.loaded[area]
         self.write(values)
         self.run(self.sim.startup)
 
@@ -223,9 +224,7 @@ class Cpu:
     def write(self, values: Mapping[str, int]) -> None:
         """Values into memory; high byte first."""
         for name, value in values.items():
-            place = self.places.get(name)
-            if place is None:  # a program that does not use the time has no place for it
-                continue
+            place = self.places[name]
             memory = self.bytes[place.area]
             if place.bit < 0:
                 memory[place.byte : place.byte + place.length] = value.to_bytes(place.length, "big")

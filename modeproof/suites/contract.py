@@ -72,7 +72,7 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
         inputs, outputs = (
             read_signals(declare(signals, modes), where) for signals in (device.inputs, device.outputs)
         )
-        read_contract(table, inputs, outputs, declare_parameters(device), where)
+        read_contract(table, inputs, outputs, declare_parameters(device, modes), where)
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     return table
@@ -95,13 +95,10 @@ def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[s
     return table
 
 
-def declare_parameters(device: Device) -> dict[str, dict[str, Any]]:
+def declare_parameters(device: Device, modes: list[int]) -> dict[str, dict[str, Any]]:
     """Types and default values (on the wire) of the parameters that a run can give."""
-    return {
-        name: {"type": of.type, "default": of.default}
-        for name, of in device.parameters.items()
-        if of.type != "function"
-    }
+    chosen = {name: of for name, of in device.parameters.items() if of.type != "function"}
+    return {name: {**row, "default": chosen[name].default} for name, row in declare(chosen, modes).items()}
 
 
 def _clauses(place: Path, document: str) -> dict[str, list[str]]:

@@ -473,7 +473,7 @@ class _Writer:
             "transitions": sum(self.transitions.values()),
             "inputs": declare(device.inputs, modes),
             "outputs": declare(device.outputs, modes),
-            "parameters": declare_parameters(device),
+            "parameters": declare_parameters(device, modes),
             "steps": self._steps(device),
             **({"contract": contract} if contract else {}),
             "graphs": self.graphs,
