@@ -5,6 +5,12 @@
 
 #include <stdio.h>
 
+#ifndef FPLC_NAME /* what it says of itself: here of fplc.c, which answers scan by scan; the Makefile has that of fplc_boxes.c */
+#define FPLC_NAME "fplc.c"
+#define FPLC_RELATION "exact"
+#define FPLC_LATENCY "0" /* most scans after which an input that is held has had all its effects */
+#endif
+
 static fplc_memory memory; /* <-- */
 static fplc_outputs out;   /* <-- as it stands on the terminals between two scans */
 static bool is_reset;
@@ -95,8 +101,8 @@ int main(void)
                 wire_refuse(&line, "hello", "protocol 1 and target fplc only");
             }
             if (wire_all_taken(&line)) {
-                puts("{\"ok\":true,\"name\":\"fplc.c\",\"version\":\"1\",\"time\":\"virtual\"," /* <-- */
-                     "\"relations\":[\"exact\"],\"max_latency_scans\":0,\"unobserved\":[]}");
+                puts("{\"ok\":true,\"name\":\"" FPLC_NAME "\",\"version\":\"1\",\"time\":\"virtual\"," /* <-- */
+                     "\"relations\":[\"" FPLC_RELATION "\"],\"max_latency_scans\":" FPLC_LATENCY ",\"unobserved\":[]}");
             }
         } else if (wire_is(&line, "op", "bye")) {
             leaving = wire_all_taken(&line);

@@ -48,6 +48,8 @@ typedef struct { /* all that one scan leaves for the next */
     int8_t selection; /* latched from MW03 (E-16) */
     int8_t mode;      /* the active mode; none until the first switchover */
     uint32_t elapsed_ms; /* since the timer of this state was started */
+    uint8_t box;   /* of fplc_boxes.c alone: the diagram box that comes next in this step */
+    uint16_t word; /* of fplc_boxes.c alone: the word that is being judged */
 } fplc_memory;
 
 /* The defaults of the interface. */

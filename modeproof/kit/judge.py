@@ -350,8 +350,12 @@ def _open(suite: Suite, program: Program, manner: Manner) -> Session:
 def _difference(suite: Suite, case: Case, failure: Failure) -> Difference:
     """A failure in words; its shortest case is its beginning as yet."""
     scan = case.scans[failure.at]
-    step = suite.steps[scan.step]
-    name, clauses, findings = step.name, step.clauses, step.findings
+    steps = [
+        suite.steps[n] for n in dict.fromkeys(s.step for s in case.scans[failure.first : failure.at + 1])
+    ]
+    name = " > ".join(step.name for step in steps)
+    clauses = tuple(sorted({clause for step in steps for clause in step.clauses}))
+    findings = tuple(sorted({finding for step in steps for finding in step.findings}))
     if scan.request is not None:
         name, clauses, findings = PROTOCOL, (), ()
     broken = failure.broken

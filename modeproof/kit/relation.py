@@ -12,7 +12,7 @@ from __future__ import annotations
 import marshal
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program
@@ -60,7 +60,8 @@ class Failure:
     """The first wrong scan of a case. `at` counts the scans of the case from 0.
 
     `expected` and `got` hold the outputs that differ only; of a safety property, what it rests on. `after`
-    counts the scans for which inputs had been held. `when` says in words what kind of failure it is.
+    counts the scans for which inputs had been held since scan `since` of the case. `when` says in words what
+    kind of failure it is.
     """
 
     at: int
@@ -69,6 +70,12 @@ class Failure:
     when: str = ""
     after: int = 0
     broken: Property | None = None
+    since: int | None = None
+
+    @property
+    def first(self) -> int:
+        """The scan in which the inputs changed that were held since."""
+        return self.at if self.since is None else self.since
 
 
 class Session:
@@ -220,7 +227,7 @@ class Session:
                 if failure is not None and self.manner.relation == MONITOR and failure.broken is None:
                     failure = None
                 if failure is not None:
-                    return failure
+                    return replace(failure, since=first)
             before = wanted
             if clock is not None:
                 clock.check(event)

@@ -51,7 +51,7 @@ def read_part(text: str, case: Case) -> Part:
             way = int(word[1:]) - 1
             continue
         first, _, last = word.partition("-")
-        kept += range(int(first) - 1, int(last or first))
+        kept += range(int(first) - 1, min(int(last or first), len(case.scans) + 1))
     if not kept or kept != sorted(set(kept)) or not 0 <= kept[0] <= kept[-1] < len(case.scans):
         raise Unjudged(f"--scans: ascending numbers of 1 to {len(case.scans)} expected: {text}")
     if way is not None and not 0 <= way < len(case.scans):

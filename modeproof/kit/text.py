@@ -16,6 +16,7 @@ from modeproof.kit.vectors import EXACT, MONITOR, Case, Suite
 
 LONGEST_SHOWN = 40
 MOST_CAUSES = 10
+MOST_MISSED = 12
 
 
 def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None) -> str:
@@ -79,7 +80,8 @@ def _coverage(verdict: Verdict) -> list[str]:
         for what, counts in (("steps", verdict.covered), ("clauses", verdict.clauses)):
             missed = [f"{name} {have}/{all_}" for name, (have, all_) in counts.items() if have < all_]
             if missed:
-                lines.append(f"{what} not covered in full: " + ", ".join(missed))
+                more = f" and {len(missed) - MOST_MISSED} more" if len(missed) > MOST_MISSED else ""
+                lines.append(f"{what} not covered in full: {', '.join(missed[:MOST_MISSED])}{more}")
             elif counts:
                 lines.append(f"all {sum(1 for _, n in counts.values() if n)} {what} covered in full")
     if verdict.relation != EXACT and verdict.word != UNJUDGED:

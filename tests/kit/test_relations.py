@@ -1,0 +1,225 @@
+"""The three relations: what each lets pass, and what each finds."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof.kit.adapter import Adapter
+from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
+from modeproof.kit.relation import groups
+from modeproof.kit.text import as_record, as_text
+from modeproof.kit.vectors import Suite, open_suite
+from modeproof.suites.write import write_suite
+from tests.graph.printed import lamp_graph
+from tests.kit.lamps import CONTRACT, Lamp, Late, Slow, SlowAndFlickering, SlowAndWrong, SlowerThanItSays
+from tests.kit.programs import program
+
+
+def made(folder: Path, name: str, contract: Mapping[str, Any] | None = CONTRACT) -> Suite:
+    path = folder / f"{name}.jsonl.gz"
+    write_suite(path, name, [lamp_graph(folder)], citations=lambda step: (("TOY-1",), ()), contract=contract)
+    return open_suite(path)
+
+
+@pytest.fixture
+def sic(tmp_path: Path) -> Suite:
+    return made(tmp_path, "sic")
+
+
+@pytest.fixture
+def tour(tmp_path: Path) -> Suite:
+    return made(tmp_path, "tour")
+
+
+def judged(suite: Suite, start: Callable[[], Any], relation: str, **manner: Any) -> Verdict:
+    programs: list[Lamp] = []
+
+    def started() -> Any:
+        programs.append(start())
+        return programs[-1]
+
+    verdict = run_suite(suite, started, plan=Plan(Manner(relation, **manner), effort=30))
+    assert all(one.closed for one in programs), "a program was not closed"
+    return verdict
+
+
+def test_a_slow_program_passes_settled_and_monitor_and_not_exact(sic: Suite) -> None:
+    assert judged(sic, Slow, "settled").word == "CONFORMS"
+    assert judged(sic, Slow, "monitor").word == "CONFORMS"
+    assert "does not offer relation exact" in judged(sic, Slow, "exact").reason
+
+    class Boasting(Slow):
+        hello_says = {"relations": ["exact"], "max_latency_scans": 0}  # noqa: RUF012
+
+    assert judged(sic, Boasting, "exact").word == "DIFFERS"
+
+
+@pytest.mark.parametrize("relation", ["exact", "settled", "monitor"])
+def test_who_answers_scan_by_scan_passes_them_all(sic: Suite, relation: str) -> None:
+    verdict = judged(sic, Lamp, relation)
+    assert (verdict.word, verdict.relation) == ("CONFORMS", relation)
+    assert as_text(verdict).endswith(f"CONFORMS({relation}, sic)")
+
+
+def test_settled_covers_transitions_and_counts_what_the_properties_were_put_to(sic: Suite) -> None:
+    verdict = judged(sic, Slow, "settled")
+    assert all(have == total for have, total in verdict.covered.values())
+    assert verdict.properties["LightNeedsCode"] > 0 and verdict.latency == 3
+    assert "safety properties, in so many scans each (latency 3 scans): LightNeedsCode" in as_text(verdict)
+    assert as_record(verdict)["properties"] == verdict.properties
+
+
+def test_what_settles_wrongly_is_found(sic: Suite) -> None:
+    class Dim(Slow):
+        def shown(self, out: Mapping[str, Any]) -> Mapping[str, Any]:
+            return {**out, "MW": "0000"}
+
+    found = judged(sic, Dim, "settled").difference
+    assert found is not None and found.confirmed
+    assert (found.expected, found.got) == ({"MW": "0FF0"}, {"MW": "0000"})
+    late = judged(sic, Late, "settled").difference
+    assert late is not None and "not what it settles to" in late.when and late.step == "Expire > StayOff"
+
+
+def test_a_forbidden_output_on_the_way_is_found_though_it_settles_well(sic: Suite) -> None:
+    verdict = judged(sic, SlowAndFlickering, "settled")
+    found = verdict.difference
+    assert found is not None and dict(found.got) == {"MW": "FFFF"}
+    assert "neither before, nor on the way" in found.when
+    assert judged(sic, SlowAndFlickering, "monitor").word == "CONFORMS", "no property speaks of it"
+
+
+def test_a_program_that_is_slower_than_it_says_differs_until_it_says_so(sic: Suite) -> None:
+    assert judged(sic, SlowerThanItSays, "settled").word == "DIFFERS"
+    assert judged(sic, SlowerThanItSays, "settled", latency=8).word == "CONFORMS"
+
+
+@pytest.mark.parametrize("relation", ["settled", "monitor"])
+def test_a_broken_property_is_found_at_any_pace_and_told_by_its_name(sic: Suite, relation: str) -> None:
+    verdict = judged(sic, SlowAndWrong, relation)
+    found = verdict.difference
+    assert found is not None and found.broken == "LightNeedsCode" and found.clauses == ("TOY-1",)
+    assert "breaks:  LightNeedsCode: The lamp goes on only with its code." in as_text(verdict)
+    assert len(found.shortest.scans) <= len(found.case.scans)
+
+
+def test_monitor_lets_pass_what_no_property_forbids_and_says_what_it_judged(tour: Suite) -> None:
+    verdict = judged(tour, Late, "monitor")
+    assert verdict.word == "CONFORMS" and verdict.properties == {"LightNeedsCode": 5}
+    assert "transitions" not in as_text(verdict), "what was passed through is not known"
+
+
+def test_a_property_that_was_never_put_to_the_program_is_named(tour: Suite) -> None:
+    class Dark(Lamp):
+        def shown(self, out: Mapping[str, Any]) -> Mapping[str, Any]:
+            return {"LAMP": False, "MW": "0000"}
+
+    text = as_text(judged(tour, Dark, "monitor"))
+    assert "never put to the program, so not judged: LightNeedsCode" in text
+
+
+def test_properties_of_outputs_that_are_not_observed_are_named_and_not_judged(sic: Suite) -> None:
+    class Half(Slow):
+        hello_says = {"unobserved": ["LAMP"]}  # noqa: RUF012
+
+        def shown(self, out: Mapping[str, Any]) -> Mapping[str, Any]:
+            return {"MW": out["MW"]}
+
+    verdict = judged(sic, Half, "settled")
+    assert verdict.word == "CONFORMS" and verdict.unjudged == ("LightNeedsCode",)
+    assert "rest on outputs that are not observed" in as_text(verdict)
+    assert "no safety property can be judged" in judged(sic, Half, "monitor").reason
+
+
+def test_a_suite_says_which_relations_it_is_for(tmp_path: Path, tour: Suite) -> None:
+    assert "is for relation exact or monitor, not settled" in judged(tour, Lamp, "settled").reason
+    bare = made(tmp_path, "sic", None)
+    assert bare.relations == ("exact", "settled")
+    assert "not monitor" in judged(bare, Lamp, "monitor").reason
+    assert judged(bare, Slow, "settled").word == "CONFORMS"
+
+
+def test_inputs_are_held_within_a_group(sic: Suite) -> None:
+    for case in sic.cases():
+        for first, last in groups(case):
+            held = [scan.inputs for scan in case.scans[first : last + 1]]
+            assert all(one == held[0] for one in held) and case.scans[last].compared
+
+
+class RealTime(Slow):
+    """Time passes by itself: what is given as dt is slept."""
+
+    hello_says = {"time": "real"}  # noqa: RUF012
+    lazy_s = 0.0
+
+    def reset(self, params: Mapping[str, Any]) -> None:
+        super().reset(params)
+        self.at = time.monotonic()
+
+    def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+        time.sleep(max(0.0, self.at + dt_ms / 1000 - time.monotonic()) + self.lazy_s)
+        now = time.monotonic()
+        passed, self.at = int((now - self.at) * 1000), now
+        return super().scan(passed, inputs)
+
+
+def short(suite: Suite) -> str:
+    return min(suite.cases(), key=lambda case: sum(scan.dt_ms for scan in case.scans)).id
+
+
+def test_a_program_in_real_time_can_be_judged_once_it_settles(sic: Suite) -> None:
+    case = next(one for one in sic.cases() if 0 < sum(scan.dt_ms for scan in one.scans) <= 500)
+    plan = Plan(Manner("settled"), only=case.id)
+    assert run_suite(sic, RealTime, plan=plan).word == "CONFORMS"
+    exact = run_suite(sic, RealTime, plan=Plan(only=case.id))
+    assert exact.word == "UNJUDGED" and "exact" in exact.reason
+
+
+def test_time_that_holding_takes_beside_that_of_the_case_is_unjudged(sic: Suite) -> None:
+    class Lazy(RealTime):
+        lazy_s = 0.06
+
+    case = next(one for one in sic.cases() if 0 < sum(scan.dt_ms for scan in one.scans) <= 500)
+    verdict = run_suite(sic, Lazy, plan=Plan(Manner("settled"), only=case.id))
+    assert verdict.word == "UNJUDGED" and "--slow" in verdict.reason
+
+
+def test_times_can_be_made_longer(sic: Suite) -> None:
+    seen: list[int] = []
+
+    class Noting(Slow):
+        def reset(self, params: Mapping[str, Any]) -> None:
+            super().reset(params)
+            seen.append(params.get("T_ms", 0))
+
+    assert judged(sic, Noting, "settled", slow=7).word == "CONFORMS"
+    assert set(seen[1:]) == {3500}
+
+
+def test_over_the_protocol_the_relations_are_the_same(sic: Suite, tmp_path: Path) -> None:
+    slow = """
+HELLO["relations"], HELLO["max_latency_scans"] = ["settled"], 2
+late = []
+def answer(m, out):
+    late.append(out)
+    say({"out": late[-3] if len(late) > 2 else late[0]})
+"""
+    lists = slow + 'HELLO["scans"] = True\n'
+    for code, relation, word in (
+        ("", "settled", "CONFORMS"),
+        ('HELLO["scans"] = True', "settled", "CONFORMS"),
+        ('HELLO["scans"] = True', "monitor", "CONFORMS"),
+        ("LIMIT = 501", "settled", "DIFFERS"),
+        ('HELLO["scans"] = True\nLIMIT = 501', "settled", "DIFFERS"),
+        ("same = lambda word: True", "monitor", "DIFFERS"),
+        (slow, "exact", "UNJUDGED"),
+        (lists, "exact", "UNJUDGED"),
+    ):
+        command = program(tmp_path, code)
+        plan = Plan(Manner(relation))
+        assert run_suite(sic, lambda command=command: Adapter(command), plan=plan).word == word, code
