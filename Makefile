@@ -2,7 +2,7 @@
 # Only relative paths are used, so the checkout may lie in a folder whose name contains spaces.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
-.PHONY: verify smoke test bench doctor lint lock clean venv
+.PHONY: verify smoke test bench kit doctor lint lock clean venv
 
 PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && echo $$p && break; done)
 PY := .venv/bin/python
@@ -20,6 +20,10 @@ test: $(STAMP) $(AWLSIM)
 
 bench: $(STAMP) $(AWLSIM)
 	@$(PY) -m tests.bench
+
+# One file for a PLC developer: build/modeproof-kit.pyz
+kit: $(STAMP)
+	@$(PY) -m modeproof vectors pack
 
 doctor:
 	@if [ -x $(PY) ]; then $(PY) -m modeproof doctor; else $(if $(PYTHON),$(PYTHON),false) -m modeproof doctor; fi

@@ -261,6 +261,7 @@ def write_text(path: Path, text: str) -> None:
         handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
         with os.fdopen(handle, "w", encoding="utf-8") as stream:
             stream.write(text)
+        os.chmod(part, 0o644)
         os.replace(part, path)
     except OSError as error:
         if part and os.path.exists(part):

@@ -1,4 +1,4 @@
-"""The command `modeproof vectors`: build, lint, stats, show."""
+"""The command `modeproof vectors`: build, lint, stats, show, pack."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.graph.device import open_runs
 from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
 from modeproof.lock import only_one
@@ -19,6 +20,7 @@ from modeproof.registers.load import load_interface
 from modeproof.suites.build import find_target, ready_suite, suite_file
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
+from modeproof.suites.pack import NAME, pack
 from modeproof.suites.sequences import declared
 from modeproof.suites.write import SUITES
 
@@ -49,6 +51,13 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         if name == "stats":
             one.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON as well")
         one.set_defaults(run=run)
+    packer = actions.add_parser(
+        "pack",
+        help="write build/modeproof-kit.pyz: the kit with its vectors, for any Python",
+        description="Builds the fast suites of all published targets and packs them with the kit.",
+    )
+    packer.add_argument("--to", type=Path, metavar="FILE", help=f"another file than build/{NAME}")
+    packer.set_defaults(run=run, targets=[], suite=None, anew=False)
     show = actions.add_parser("show", help="show one case", description="Show one case.")
     show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
     form = show.add_mutually_exclusive_group()
@@ -61,23 +70,15 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     place = root()
-    action = {"build": _build, "lint": _lint, "stats": _stats, "show": _show}[args.action]
+    action = {"build": _build, "lint": _lint, "stats": _stats, "show": _show, "pack": _pack}[args.action]
     return action(place, args)
 
 
 def _build(place: Path, args: argparse.Namespace) -> int:
-    from modeproof.graph.device import open_runs
     from modeproof.suites.command import make_graphs
 
-    targets = args.targets or [
-        name
-        for document in documents(place)
-        if (place / "spec" / document / "interface.toml").is_file()
-        for name, device in load_interface(place, document).devices.items()
-        if device.published and open_runs(place, document, name)
-    ]
     with only_one(place):
-        for target in targets:
+        for target in args.targets or _published(place):
             document, _ = find_target(place, target)
             make_graphs(place, open_runs(place, document, target), quiet=True)
             every = [one for one in SUITES if one != "sequences" or declared(place, document, target)]
@@ -88,6 +89,40 @@ def _build(place: Path, args: argparse.Namespace) -> int:
                 ready_suite(place, document, target, suite, lambda line: print(line, flush=True))
                 digest = _digest(path)
                 print(f"{target} {suite}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}", flush=True)
+    return EXIT_AS_EXPECTED
+
+
+def _published(place: Path) -> dict[str, str]:
+    """Every published target that has graphs, and its document."""
+    return {
+        name: document
+        for document in documents(place)
+        if (place / "spec" / document / "interface.toml").is_file()
+        for name, device in load_interface(place, document).devices.items()
+        if device.published and open_runs(place, document, name)
+    }
+
+
+def _pack(place: Path, args: argparse.Namespace) -> int:
+    targets = _published(place)
+    if not targets:
+        raise Unjudged("no published target has graphs, so there is nothing to pack")
+    for target, document in targets.items():
+        args.targets = [target]
+        args.suite = [
+            name
+            for name, kind in SUITES.items()
+            if kind.fast and (kind.always or declared(place, document, target))
+        ]
+        _build(place, args)
+    path = args.to or build(place) / NAME
+    contents = pack(place, targets, path)
+    for target, suites in contents["targets"].items():
+        print(f"{target}: {', '.join(suites)}")
+        for name, why in contents["left_out"][target].items():
+            print(f"    without {name}: {why}")
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    print(f"{path}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}")
     return EXIT_AS_EXPECTED
 
 

@@ -39,7 +39,7 @@ class Kind:
 
     `counted_by` is what makes a transition besides state and step: the column or the next state. `relations`
     are those by which a program can be judged with it, the closest first; `fast` suites end within a minute
-    or so.
+    or so. Not `always` is there a suite of every target.
     """
 
     guarantees: str
@@ -48,6 +48,7 @@ class Kind:
     counted_by: str
     relations: tuple[str, ...] = (EXACT, MONITOR)
     fast: bool = True
+    always: bool = True
     wanted: Callable[[Columns], list[list[int]]] | None = None
     plan: Plan | None = None
     walks: Callable[[Columns, int, Sequence[Hashable]], list[list[Move]]] | None = None
@@ -136,6 +137,7 @@ SUITES = {
         hypothesis="none beyond these inputs: they are examples",
         does_not_show="anything off the ways that are drawn",
         counted_by="next state",
+        always=False,
         plan=sequences.plan,
     ),
 }

@@ -1,0 +1,97 @@
+"""Packs the kit into one file that needs nothing but Python: the code of modeproof.kit and vectors.
+
+Inside are the fast suites of every published target. The same inputs give the same bytes: no dates, names in
+order.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from modeproof import kit
+from modeproof.errors import Unjudged
+from modeproof.kit.shelf import CONTENTS, FOLDER, member_name
+from modeproof.kit.vectors import open_suite
+from modeproof.suites.build import suite_file
+from modeproof.suites.write import SUITES
+
+LARGEST = 5_000_000
+"""Bytes of the whole file."""
+NAME = "modeproof-kit.pyz"
+_MAIN = "import sys\n\nfrom modeproof.kit.__main__ import main\n\nsys.exit(main())\n"
+_FIRST_DATE = (1980, 1, 1, 0, 0, 0)
+_SHEBANG = b"#!/usr/bin/env python3\n"
+
+
+def pack(place: Path, targets: Mapping[str, str], path: Path) -> dict[str, Any]:
+    """Write the kit with the vectors of `targets` (target to document), which must have been built.
+
+    Returns its list of contents. Raises Unjudged where a fast suite is missing, or the file would be larger
+    than `LARGEST`; then none is written.
+    """
+    contents: dict[str, Any] = {"targets": {}, "left_out": {}}
+    members: dict[str, bytes] = {"__main__.py": _MAIN.encode(), "modeproof/__init__.py": b""}
+    for source in sorted(Path(kit.__file__).parent.glob("*.py")):
+        members[f"modeproof/kit/{source.name}"] = source.read_bytes()
+    with contextlib.suppress(OSError):
+        members["LICENSE"] = (place / "LICENSE").read_bytes()
+    for target, document in sorted(targets.items()):
+        inside, outside = {}, {}
+        for name, about in SUITES.items():
+            file = suite_file(place, document, target, name)
+            if not about.fast:
+                outside[name] = f"it is too large; `modeproof vectors build {target} --suite {name}` makes it"
+                continue
+            if not file.is_file():
+                if about.always:
+                    raise Unjudged(f"{target}: suite {name} is not built; `modeproof vectors build` does it")
+                continue
+            suite = open_suite(file)
+            inside[name] = {
+                "relations": list(suite.relations),
+                "pace": suite.header["pace"],
+                "cases": suite.case_count,
+                "scans": suite.scan_count,
+                "guarantees": suite.header["guarantees"],
+            }
+            members[member_name(target, name)] = file.read_bytes()
+        contents["targets"][target] = inside
+        contents["left_out"][target] = outside
+    members[f"{FOLDER}/{CONTENTS}"] = json.dumps(contents, indent=1, sort_keys=True).encode()
+    _write(path, members)
+    return contents
+
+
+def _write(path: Path, members: Mapping[str, bytes]) -> None:
+    part = ""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(_SHEBANG)
+            with zipfile.ZipFile(stream, "w") as archive:
+                for name, data in sorted(members.items()):
+                    info = zipfile.ZipInfo(name, _FIRST_DATE)
+                    info.external_attr = 0o644 << 16
+                    info.create_system = 3
+                    packed = zipfile.ZIP_STORED if name.endswith(".gz") else zipfile.ZIP_DEFLATED
+                    archive.writestr(info, data, packed, 9)
+        size = os.path.getsize(part)
+        if size > LARGEST:
+            raise Unjudged(f"{path.name}: {size:,} bytes, more than {LARGEST:,}; a suite must stay outside")
+        os.chmod(part, 0o755)
+        os.replace(part, path)
+        part = ""
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
+    finally:
+        if part:
+            with contextlib.suppress(OSError):
+                os.unlink(part)
