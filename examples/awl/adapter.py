@@ -23,6 +23,8 @@ HERE = Path(__file__).resolve().parent
 SYMBOLS = "symbols.csv"
 LONGEST_MS = 3_600_000
 """No deadline is longer; a longer dt_ms is the same to the programs, and might overflow a double word."""
+LONGEST_CYCLE_S = 600.0
+"""awlsim's own watch looks at the clock, and a busy machine is no fault; the kit has a time limit too."""
 TIME = "@dt_ms"
 MODES = range(5)
 LEVELS = {f"PERMITS_{level}": level for level in MODES}
@@ -190,6 +192,7 @@ class Cpu:
         self.program = program
         cpu = self.sim.cpu
         cpu.build = lambda: None  # done; a startup would build all blocks again
+        cpu.setCycleTimeLimit(LONGEST_CYCLE_S)
         self.memory = {"I": cpu.inputs, "Q": cpu.outputs, "M": cpu.flags}
         self.memory |= {
             f"DB{one.index}": one.structInstance.memory for one in cpu.allDBs() if one.structInstance

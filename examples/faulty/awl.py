@@ -56,10 +56,10 @@ def suite_of(fault: Fault) -> Suite:
     return open_suite(vectors("plc-brief" if target_of(fault) == "plc" else suite))
 
 
-def judge(program: Path, suite: Suite) -> Verdict:
+def judge(program: Path, suite: Suite, timeout_s: float = TIMEOUT_S) -> Verdict:
     """What the kit says about a program."""
     command = [sys.executable, str(ADAPTER), suite.target, str(program)]
-    return run_suite(suite, lambda: Adapter(command, TIMEOUT_S))
+    return run_suite(suite, lambda: Adapter(command, timeout_s))
 
 
 def judge_all(folder: Path, faults: Sequence[Fault]) -> dict[str, Verdict]:

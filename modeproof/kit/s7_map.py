@@ -46,6 +46,7 @@ CONTROLS = {
 """The symbols that step the program, and their types."""
 WRITTEN = (RESET, STEP, TIME)
 UNOBSERVED = "-"
+LARGEST = 65535
 _ADDRESS = re.compile(
     r"([IQMEA])([BWD]?)(\d{1,5})(?:\.([0-7]))?|DB(\d{1,5})\.DB([XBWD])(\d{1,5})(?:\.([0-7]))?"
 )
@@ -166,6 +167,8 @@ def parse_address(address: str, kind: str, place: str) -> Place:
     area, size, byte, bit, block, db_size, db_byte, db_bit = found.groups()
     if block is not None:
         area, size, byte, bit = "DB", "" if db_size == "X" else db_size, db_byte, db_bit
+    if int(block or 0) > LARGEST or int(byte) > LARGEST:
+        raise Unjudged(f"{place}: {address}: numbers go to {LARGEST}")
     wanted = "" if kind == "BOOL" else SIZES[BYTES[kind]]
     if size != wanted or (bit is not None) != (kind == "BOOL"):
         raise Unjudged(f"{place}: {address} is no address of a {kind}")

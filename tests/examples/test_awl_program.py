@@ -74,7 +74,7 @@ def test_one_bad_scan_of_a_list_is_refused_with_all_of_it(tmp_path: Path) -> Non
     [
         ("      JL    LOST", "      JX    LOST", "JX"),
         ('L     "EKS_outputs"', 'L     "EKS_output"', "EKS_output"),
-        ("LOST: JU    FAIL", "LOST: JU    LOST", "Cycle time exceed"),
+        ("LOST: JU    FAIL", "LOST: JU    LOST", "no answer within 5 s"),
     ],
 )
 def test_a_program_that_cannot_run_is_one_line_and_no_verdict(
@@ -85,7 +85,7 @@ def test_a_program_that_cannot_run_is_one_line_and_no_verdict(
     assert text.count(old) == 1
     text = text.replace(old, new).replace("JU    STRT ", "JU    LOST ")
     program.write_text(text, encoding="utf-8")
-    verdict = judge(program, open_suite(vectors("words")))
+    verdict = judge(program, open_suite(vectors("words")), 5.0 if cause.startswith("no answer") else 60.0)
     assert (verdict.word, verdict.status) == ("UNJUDGED", 2)
     assert cause in verdict.reason and "\n" not in verdict.reason
 

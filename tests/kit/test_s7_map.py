@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from modeproof.cli import main
@@ -86,6 +86,25 @@ def test_a_map_that_does_not_fit_is_refused_with_line_and_symbol(
     with pytest.raises(Unjudged, match=r"^plc\.csv: ") as caught:
         read_map(written(tmp_path, (old, new)), INPUTS, OUTPUTS, PARAMETERS)
     assert said in str(caught.value) and "\n" not in str(caught.value)
+
+
+pieces = st.sampled_from(
+    [*GOOD.replace("\n", ",").split(","), ",", "\n", '"', "\0", "", "-", "DB70000.DBW0", "MW99999", "é"]
+)
+
+
+@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(pieces, max_size=40).map("".join))
+def test_any_text_is_a_map_that_fits_or_is_refused_in_one_line(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "plc.csv"
+    for whole in (text, GOOD + text):
+        path.write_text(whole, encoding="utf-8", newline="")
+        try:
+            found = read_map(path, INPUTS, OUTPUTS, PARAMETERS)
+        except Unjudged as error:
+            assert str(error).startswith("plc.csv: ") and "\n" not in str(error)
+        else:
+            assert set(found.inputs) == set(INPUTS)
 
 
 def test_a_map_that_is_not_there_is_refused(tmp_path: Path) -> None:
