@@ -274,7 +274,7 @@ class Session:
                     "name": f"{self.cpu.program.name} in awlsim",
                     "version": "1",
                     "time": "virtual",
-                    "relations": ["exact", "settled"],
+                    "relations": ["exact", "settled", "monitor"],
                     "max_latency_scans": 0,
                     "unobserved": [],
                     "scans": True,

@@ -194,19 +194,21 @@ def test_nobody_there_is_unjudged(suite: Suite, tmp_path: Path) -> None:
     assert f"no S7 server at 127.0.0.1:{port}" in verdict.reason and "\n" not in verdict.reason
 
 
-def test_somebody_who_speaks_something_else_is_unjudged(suite: Suite, tmp_path: Path) -> None:
+@pytest.mark.parametrize("says", ["b'HTTP/1.1 400 Bad Request' + b' ' * 80", "b'\\3\\0\\0\\7'", "b''"])
+def test_somebody_who_speaks_something_else_or_nothing_is_unjudged(
+    says: str, suite: Suite, tmp_path: Path
+) -> None:
     path = tmp_path / "map.csv"
     path.write_text(STEPPED, encoding="utf-8")
-    code = (
-        "import socket; s = socket.create_server(('127.0.0.1', 0)); print(s.getsockname()[1], flush=True)\n"
-    )
-    code += "c, _ = s.accept(); c.sendall(b'HTTP/1.1 400 Bad Request' + b' ' * 80); c.recv(999)"
+    code = "import socket, time; s = socket.create_server(('127.0.0.1', 0))\n"
+    code += f"print(s.getsockname()[1], flush=True)\nc, _ = s.accept(); c.sendall({says}); time.sleep(60)"
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout is not None
         address = f"127.0.0.1:{int(other.stdout.readline())}"
+        began = time.monotonic()
         verdict = run_suite(suite, lambda: s7.connect(address, path, suite, 1.0))
         other.kill()
-    assert verdict.word == "UNJUDGED" and address in verdict.reason
+    assert verdict.word == "UNJUDGED" and address in verdict.reason and time.monotonic() - began < 30
 
 
 @pytest.mark.parametrize("most", [0, 1, 20])
