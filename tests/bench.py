@@ -162,6 +162,9 @@ def main() -> int:
         addresses.write_text(STEPPED, encoding="utf-8")
         with s7.connect(plc.address, addresses, suite) as client:
             show("refimpl over S7, client and server", "scans", measure(drive(client, suite)))
+    from tests.bench_kit import show_kit
+
+    show_kit(place)
     return 0
 
 

@@ -43,7 +43,9 @@ class Program(Protocol):
     Values are those of the wire (see `modeproof.kit`): words are four upper-case hex digits, booleans bool.
     The judge calls `hello` once, then for each case `reset` and some `scan`, and in any case `close`. Every
     method may raise `Unjudged` with one line that says what is wrong and what to do; nothing else. The judge
-    adds case and scan. What `scan` returns is checked by the judge: types, missing and extra outputs.
+    adds case and scan. What `scan` returns is checked by the judge: types, missing and extra outputs. Where a
+    program has an attribute `keeps_answers` that is true, it never changes what it has returned, so that the
+    same object need not be checked again.
     """
 
     def hello(self, target: str) -> Mapping[str, Any]:
@@ -70,6 +72,8 @@ class Program(Protocol):
 
 class Adapter:
     """A running adapter, a `Program`; use it as a context manager. Every method may raise Unjudged."""
+
+    keeps_answers = True
 
     def __init__(
         self,

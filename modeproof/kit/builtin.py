@@ -20,6 +20,8 @@ _REMEMBERED = 20_000
 class Builtin:
     """A `Program`. Raises Unjudged where the package has no such module, or what it raises itself."""
 
+    keeps_answers = True
+
     def __init__(self, package: str, suite: Suite) -> None:
         name = f"{package}.{suite.document}.{suite.target}"
         try:
@@ -33,6 +35,7 @@ class Builtin:
         self._taken = [(name, _taker(of)) for name, of in suite.inputs.items()]
         self._given = [(name, _giver(of)) for name, of in suite.outputs.items()]
         self._known: dict[tuple[Any, ...], Any] = {}
+        self._rows: dict[Any, dict[str, Any]] = {}
 
     def hello(self, target: str) -> Mapping[str, Any]:
         """As of an adapter."""
@@ -62,7 +65,12 @@ class Builtin:
             self._state, out = self._step(self._state, given)
         except (TypeError, ValueError, AttributeError) as error:
             raise Unjudged(f"refused: {error}") from None
-        return {name: give(getattr(out, name)) for name, give in self._given}
+        row = self._rows.get(out)
+        if row is None:
+            row = {name: give(getattr(out, name)) for name, give in self._given}
+            if len(self._rows) < _REMEMBERED:
+                self._rows[out] = row
+        return row
 
     def close(self) -> None:
         """Nothing is held."""

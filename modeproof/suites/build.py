@@ -15,7 +15,8 @@ from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.suites.contract import load_contract
-from modeproof.suites.write import Citations, write_suite
+from modeproof.suites.sequences import declared
+from modeproof.suites.write import SUITES, Citations, write_suite
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
@@ -35,6 +36,26 @@ def find_target(place: Path, target: str, document: str | None = None) -> tuple[
     if len(found) > 1:
         raise Unjudged(f"{target} is in {' and '.join(name for name, _ in found)}; choose with --document")
     return found[0]
+
+
+def published(place: Path) -> dict[str, str]:
+    """Every published target that has graphs, and its document."""
+    return {
+        name: document
+        for document in documents(place)
+        if (place / "spec" / document / "interface.toml").is_file()
+        for name, device in load_interface(place, document).devices.items()
+        if device.published and open_runs(place, document, name)
+    }
+
+
+def fast_suites(place: Path, document: str, target: str) -> list[str]:
+    """The suites of a target that end soon."""
+    return [
+        name
+        for name, kind in SUITES.items()
+        if kind.fast and (kind.always or declared(place, document, target))
+    ]
 
 
 def suite_file(place: Path, document: str, target: str, suite: str) -> Path:

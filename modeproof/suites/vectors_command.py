@@ -15,9 +15,8 @@ from modeproof.graph.device import open_runs
 from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
 from modeproof.lock import only_one
-from modeproof.places import build, documents, root
-from modeproof.registers.load import load_interface
-from modeproof.suites.build import find_target, ready_suite, suite_file
+from modeproof.places import build, root
+from modeproof.suites.build import fast_suites, find_target, published, ready_suite, suite_file
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
@@ -78,7 +77,7 @@ def _build(place: Path, args: argparse.Namespace) -> int:
     from modeproof.suites.command import make_graphs
 
     with only_one(place):
-        for target in args.targets or _published(place):
+        for target in args.targets or published(place):
             document, _ = find_target(place, target)
             make_graphs(place, open_runs(place, document, target), quiet=True)
             every = [one for one in SUITES if one != "sequences" or declared(place, document, target)]
@@ -92,28 +91,13 @@ def _build(place: Path, args: argparse.Namespace) -> int:
     return EXIT_AS_EXPECTED
 
 
-def _published(place: Path) -> dict[str, str]:
-    """Every published target that has graphs, and its document."""
-    return {
-        name: document
-        for document in documents(place)
-        if (place / "spec" / document / "interface.toml").is_file()
-        for name, device in load_interface(place, document).devices.items()
-        if device.published and open_runs(place, document, name)
-    }
-
-
 def _pack(place: Path, args: argparse.Namespace) -> int:
-    targets = _published(place)
+    targets = published(place)
     if not targets:
         raise Unjudged("no published target has graphs, so there is nothing to pack")
     for target, document in targets.items():
         args.targets = [target]
-        args.suite = [
-            name
-            for name, kind in SUITES.items()
-            if kind.fast and (kind.always or declared(place, document, target))
-        ]
+        args.suite = fast_suites(place, document, target)
         _build(place, args)
     path = args.to or build(place) / NAME
     contents = pack(place, targets, path)
