@@ -208,7 +208,7 @@ def test_somebody_who_speaks_something_else_or_nothing_is_unjudged(
         began = time.monotonic()
         verdict = run_suite(suite, lambda: s7.connect(address, path, suite, 1.0))
         other.kill()
-    assert verdict.word == "UNJUDGED" and address in verdict.reason and time.monotonic() - began < 30
+    assert verdict.word == "UNJUDGED" and address in verdict.reason and time.monotonic() - began < 60
 
 
 @pytest.mark.parametrize("most", [0, 1, 20])
@@ -224,7 +224,7 @@ def test_a_plc_without_a_harness_is_unjudged_within_the_time_limit(suite: Suite)
     with Plc(dead=True) as plc:
         verdict = judged(suite, plc, STEPPED, timeout_s=0.3)
     assert verdict.word == "UNJUDGED" and "@reset was not cleared within 0.3 s" in verdict.reason
-    assert time.monotonic() - began < 8
+    assert time.monotonic() - began < 60
 
 
 def test_a_place_that_the_plc_does_not_have_is_unjudged(suite: Suite, plc: Plc) -> None:
