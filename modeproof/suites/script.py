@@ -17,8 +17,8 @@ _QUOTED = re.compile(r'"(\w+)"')
 class Shot:
     """One scan of a script: an input of the alphabet, or a request that the adapter must refuse.
 
-    `values` take the place of fields of the letter: other members of its classes. With `settling` the outputs
-    of the scan are not compared.
+    `values` take the place of fields of the letter: other members of its classes, or another time. With
+    `settling` the outputs of the scan are not compared.
     """
 
     letter: int = 0

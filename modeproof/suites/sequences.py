@@ -82,12 +82,6 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
     return Scripts(cases, {"clauses": sorted({clause for case in cases for clause in case.clauses})})
 
 
-def declared(place: Path, document: str, device: str) -> bool:
-    """Whether a document's room declares sequences of a device."""
-    flows = _read(place, document).get("flow", [])
-    return device in {row.get("device") for row in flows}
-
-
 def _read(place: Path, document: str) -> dict[str, Any]:
     path = place / "spec" / document / FILE
     if not path.is_file():

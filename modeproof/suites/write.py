@@ -19,7 +19,7 @@ from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import EXACT, KIND, MONITOR, PACKED, SETTLED, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites import refusals, sequences, sic, words, wp
+from modeproof.suites import refusals, sequences, sic, times, words, wp
 from modeproof.suites.bound import lower_bound
 from modeproof.suites.contract import declare, declare_parameters
 from modeproof.suites.identify import machine
@@ -129,6 +129,18 @@ SUITES = {
         relations=(EXACT, SETTLED, MONITOR),
         plan=sic.plan,
     ),
+    "times": Kind(
+        guarantees=(
+            "in every control state where time passes, the time of one scan is sent in pieces too, to the "
+            "millisecond; and where a state stays as it is, it is held for more than 32,768 ms and for about "
+            "65,536 ms; after each, inputs follow by which outputs tell the right state from the same "
+            "control state at another time"
+        ),
+        hypothesis="the program counts time in one way in all states of a control state",
+        does_not_show="every split of every time; waits of days",
+        counted_by="next state",
+        plan=times.plan,
+    ),
     "sequences": Kind(
         guarantees=(
             "the document's diagrams are walked as drawn: every good flow, and every other ending that is "
@@ -142,6 +154,11 @@ SUITES = {
     ),
 }
 """All suites by name."""
+
+
+class NoCases(Unjudged):
+    """A suite that has nothing to try in these graphs: no time passes, or the document declares nothing."""
+
 
 Pieces = tuple[str, ...]
 """Signals as they are written, `"name":value` each, in the order of the names."""
@@ -202,7 +219,7 @@ def write_suite(
     for number, device in enumerate(devices):
         writer.add(number, device)
     if not writer.cases:
-        raise Unjudged(f"{devices[0].device.id}: the suite would have no cases")
+        raise NoCases(f"{devices[0].device.id} {suite}: the suite would have no cases")
     header = writer.header(dict(sources or {}), generator, contract)
     header["texts"] = _cited_texts(header, texts or {})
     _write_lines(path, [_line(header), *writer.cases])
@@ -319,7 +336,8 @@ class _Writer:
             if not script.about or n in script.about:
                 cited.add(graph.steps[step])
             now_in, now_out = known.pieces(shot, state, script.renamed)
-            dt_ms, change = device.alphabet[shot.letter]["dt_ms"], _changed(inputs, now_in)
+            dt_ms = shot.values.get("dt_ms", device.alphabet[shot.letter]["dt_ms"])
+            change = _changed(inputs, now_in)
             going_in.append(f"[{dt_ms},{{{change}}}]")
             settling = ',"settling":true' if shot.settling else ""
             rows.append(

@@ -1,0 +1,147 @@
+"""Suite `times`: the same time in many small scans, and waits that outlast a counter of 16 bits.
+
+The graph has a few lengths of time only. Two kinds of cases go beyond them:
+
+- pieces: where a scan with some time leads to another state, and the same inputs without time do not, the
+  time is sent in pieces: all but a millisecond and then that one, pieces of 10 ms, pieces of no round length.
+  Before the last piece the outputs are as before, after it as the graph has them. A program that rounds the
+  time of each scan is too slow or too fast.
+- long waits: where a state stays as it is however long the inputs are held, they are held for more than
+  32,768 ms and for about 65,536 ms. A program whose timer overflows begins anew.
+
+After each come inputs by which outputs tell the right state from those of the same control state at another
+time. That times add up is taken for granted: lengths that a program compares time with are multiples of the
+graph's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from modeproof.graph.columns import Columns
+from modeproof.graph.device import DeviceGraph
+from modeproof.suites.apart import Apart
+from modeproof.suites.script import Alphabet, Script, Scripts, Shot, control_state, ways_from_power_up
+
+STATES = 4
+"""So many states of a control state have long waits at most, and twice as many have pieces."""
+SIGNED, UNSIGNED = 1 << 15, 1 << 16
+LONGEST_WAIT = 200
+"""Scans; where the longest time of the graph is too short for that there are no long waits."""
+
+
+def plan(device: DeviceGraph, columns: Columns) -> Scripts:
+    """The cases for one graph; none for a device without time."""
+    times = sorted({letter["dt_ms"] for letter in device.alphabet})
+    search = _Search(device, columns)
+    pieces = list(search.pieces(times[1])) if times[0] == 0 and len(times) > 1 else []
+    waits = list(search.waits(times[-1])) if len(times) > 1 else []
+    return Scripts([*pieces, *waits], {"pieces": len(pieces), "long_waits": len(waits)})
+
+
+def split(time_ms: int) -> list[list[int]]:
+    """Ways to send a time in pieces."""
+    ways = [[time_ms - 1, 1]]
+    for piece in (10, 33):
+        if piece < time_ms:
+            rest = time_ms % piece
+            ways.append([piece] * (time_ms // piece) + ([rest] if rest else []))
+    return ways
+
+
+class _Search:
+    def __init__(self, device: DeviceGraph, columns: Columns) -> None:
+        self.device, self.columns, self.graph = device, columns, device.graph
+        self.apart = Apart(columns, [tuple(sorted(row.items())) for row in device.rows])
+        self.ways = ways_from_power_up(device)
+        states = [state for state, way in enumerate(self.ways) if way is not None]
+        self.states = sorted(states, key=lambda state: (len(self.ways[state] or ()), state))
+        self.control = [control_state(device, state) for state in range(len(self.ways))]
+        self.like: dict[tuple[object, ...], list[int]] = {}
+        for state in self.states:
+            key = (self.control[state], *sorted(device.rows[state].items()))
+            self.like.setdefault(key, []).append(state)
+
+    def pieces(self, time_ms: int) -> Iterator[Script]:
+        """Cases in which a time of the graph comes in pieces."""
+        alphabet = Alphabet(self.device)
+        pairs = [
+            (n, later)
+            for n, letter in enumerate(self.device.alphabet)
+            if letter["dt_ms"] == 0 and (later := alphabet.changed(n, dt_ms=time_ms)) is not None
+        ]
+        done: dict[tuple[str, str], int] = {}
+        for state in self.states:
+            seen: set[int] = set()
+            for n, later in pairs[state % 7 :] + pairs[: state % 7]:
+                after, step = self.graph.next_of[state][later], self.graph.step_of[state][later]
+                key = (self.control[state], self.graph.steps[step])
+                if self.graph.next_of[state][n] != state or after == state or step in seen:
+                    continue
+                if done.get(key, 0) == 2 * STATES:
+                    continue
+                seen.add(step)
+                done[key] = done.get(key, 0) + 1
+                for way in split(time_ms):
+                    yield from self._probed(
+                        f"in {key[0]}, {time_ms} ms in {len(way)} scans are {time_ms} ms: {key[1]}",
+                        state,
+                        [
+                            *(Shot(n, {"dt_ms": piece}) for piece in way[:-1]),
+                            Shot(later, {"dt_ms": way[-1]}),
+                        ],
+                        after,
+                        others=[state],
+                    )
+
+    def waits(self, longest: int) -> Iterator[Script]:
+        """Cases in which nothing happens for long."""
+        if UNSIGNED // longest > LONGEST_WAIT:
+            return
+        around = UNSIGNED // longest
+        lengths = (SIGNED // longest + 2, around - 1, around, around + 1)
+        long = [n for n, letter in enumerate(self.device.alphabet) if letter["dt_ms"] == longest]
+        done: dict[str, int] = {}
+        for state in self.states:
+            control = self.control[state]
+            stays = [n for n in long if self.graph.next_of[state][n] == state]
+            if not stays or done.get(control, 0) == STATES:
+                continue
+            done[control] = done.get(control, 0) + 1
+            for turn, length in enumerate(lengths):
+                letter = stays[(state + turn) * 5 % len(stays)]
+                why = f"in {control}, nothing changes for {length * longest:,} ms"
+                yield from self._probed(why, state, [Shot(letter)] * length, state, others=[])
+                for leaving, after in self._out(state):
+                    shots = [*[Shot(letter)] * length, Shot(leaving)]
+                    yield from self._probed(why, state, shots, after, others=[])
+
+    def _out(self, state: int) -> Iterator[tuple[int, int]]:
+        """Where no other time in the control state can be told apart: two inputs that lead out of it."""
+        key = (self.control[state], *sorted(self.device.rows[state].items()))
+        if len(self.like[key]) == 1:
+            found: dict[int, int] = {}
+            for letter, after in enumerate(self.graph.next_of[state]):
+                if after != state and len(found) < 2:
+                    found.setdefault(after, letter)
+            yield from ((letter, after) for after, letter in found.items())
+
+    def _probed(
+        self, why: str, state: int, shots: list[Shot], after: int, others: list[int]
+    ) -> Iterator[Script]:
+        """The way to a state, the shots, and each sequence that tells the state after them from others."""
+        way = self.ways[state] or ()
+        key = (self.control[after], *sorted(self.device.rows[after].items()))
+        probes = {
+            self.apart.sequence(after, other) or () for other in [*others, *self.like[key]] if other != after
+        }
+        for probe in sorted(probes) or [()]:
+            yield Script(
+                why=why,
+                shots=[
+                    *(Shot(letter) for letter in way),
+                    *shots,
+                    *(Shot(self.columns.members[column][0]) for column in probe),
+                ],
+                about=tuple(range(len(way), len(way) + len(shots))),
+            )

@@ -1,0 +1,73 @@
+"""Time in small pieces, and waits longer than a counter of 16 bits lasts: where a program forgets time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from modeproof.graph.columns import merge_columns
+from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.vectors import open_suite
+from modeproof.suites.times import plan, split
+from modeproof.suites.write import NoCases, write_suite
+from tests.graph.printed import lamp_graph, lines
+from tests.kit.programs import starter
+from tests.suites.relay import relay_graph
+
+ROUNDED = """
+right = scan
+def scan(m): return right({**m, "dt_ms": m["dt_ms"] // UNIT * UNIT})
+"""
+OVERFLOW = """
+right, idle = scan, 0
+def scan(m):  # dark for longer than the counter lasts: pressed, it shines for the rest of it
+    global idle, elapsed
+    idle = 0 if on else idle + m["dt_ms"]
+    out = right(m)
+    if on and BITS <= idle: elapsed, idle = idle % BITS - BITS // 2, 0
+    return out
+"""
+
+
+def test_a_good_program_passes(tmp_path: Path) -> None:
+    write_suite(tmp_path / "t", "times", [lamp_graph(tmp_path)])
+    suite = open_suite(tmp_path / "t")
+    notes = suite.header["graphs"][0]
+    assert notes["pieces"] > 0 and notes["long_waits"] > 0
+    assert run_suite(suite, starter(tmp_path)).word == CONFORMS
+
+
+@pytest.mark.parametrize("unit", [2, 10, 50])
+def test_a_program_that_rounds_the_time_of_each_scan_passes_the_tour_but_not_this(
+    tmp_path: Path, unit: int
+) -> None:
+    graph = lamp_graph(tmp_path)
+    for name, word in (("tour", CONFORMS), ("wp", CONFORMS), ("times", DIFFERS)):
+        write_suite(tmp_path / name, name, [graph])
+        fault = ROUNDED.replace("UNIT", str(unit))
+        assert run_suite(open_suite(tmp_path / name), starter(tmp_path, fault)).word == word
+
+
+@pytest.mark.parametrize("bits", [1 << 15, 1 << 16])
+def test_a_program_whose_timer_overflows_passes_the_tour_but_not_this(tmp_path: Path, bits: int) -> None:
+    graph = lamp_graph(tmp_path, lines())
+    for name, word in (("tour", CONFORMS), ("times", DIFFERS)):
+        write_suite(tmp_path / name, name, [graph])
+        fault = OVERFLOW.replace("BITS", str(bits))
+        assert run_suite(open_suite(tmp_path / name), starter(tmp_path, fault)).word == word
+
+
+@given(st.integers(2, 5000))
+def test_pieces_add_up(time_ms: int) -> None:
+    assert all(sum(way) == time_ms and min(way) > 0 and len(way) > 1 for way in split(time_ms))
+
+
+def test_a_device_without_time_has_no_such_cases(tmp_path: Path) -> None:
+    graph = relay_graph(tmp_path)
+    assert list(plan(graph, merge_columns(graph)).cases) == []
+    with pytest.raises(NoCases, match="relay times: the suite would have no cases"):
+        write_suite(tmp_path / "t", "times", [graph])
+    assert not (tmp_path / "t").exists()
