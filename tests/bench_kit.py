@@ -18,7 +18,7 @@ from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.builtin import Builtin
 from modeproof.kit.judge import Plan, run_suite
 from modeproof.kit.vectors import Suite
-from modeproof.suites.build import fast_suites, published, ready_suite
+from modeproof.suites.build import published, ready_fast_suites, ready_suite
 from tests.bench import REPEATS, measure, show
 
 NOTHING = """
@@ -108,7 +108,7 @@ def show_kit(place: Path) -> None:
 
 
 def _show_fast(place: Path, document: str, target: str, command: Sequence[str]) -> None:
-    fast = [ready_suite(place, document, target, name) for name in fast_suites(place, document, target)]
+    fast = ready_fast_suites(place, document, target)
     # our own adapter refuses as it must, but knows no lists in the suite that asks for refusals
     began = time.perf_counter()
     scans = sum(judge(one, lambda: Adapter(command))() for one in fast)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -15,8 +16,7 @@ from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.suites.contract import load_contract
-from modeproof.suites.sequences import declared
-from modeproof.suites.write import SUITES, Citations, write_suite
+from modeproof.suites.write import SUITES, Citations, NoCases, write_suite
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
@@ -47,15 +47,6 @@ def published(place: Path) -> dict[str, str]:
         for name, device in load_interface(place, document).devices.items()
         if device.published and open_runs(place, document, name)
     }
-
-
-def fast_suites(place: Path, document: str, target: str) -> list[str]:
-    """The suites of a target that end soon."""
-    return [
-        name
-        for name, kind in SUITES.items()
-        if kind.fast and (kind.always or declared(place, document, target))
-    ]
 
 
 def suite_file(place: Path, document: str, target: str, suite: str) -> Path:
@@ -96,6 +87,16 @@ def ready_suite(
     )
     on_built(f"{target} {suite}: {stats}")
     return open_suite(path)
+
+
+def ready_fast_suites(place: Path, document: str, target: str) -> list[Suite]:
+    """The suites of a target that end soon, as `ready_suite` opens them, without those that have no cases."""
+    found = []
+    for name, kind in SUITES.items():
+        if kind.fast:
+            with contextlib.suppress(NoCases):
+                found.append(ready_suite(place, document, target, name))
+    return found
 
 
 def step_citations(

@@ -6,7 +6,7 @@ import argparse
 import hashlib
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
 from modeproof.lock import only_one
 from modeproof.places import build, root
-from modeproof.suites.build import fast_suites, find_target, published, ready_suite, suite_file
+from modeproof.suites.build import find_target, published, ready_suite, suite_file
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
@@ -73,36 +73,42 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _build(place: Path, args: argparse.Namespace) -> int:
+    targets = args.targets or list(published(place))
+    _make(place, targets, args.suite or SUITES, leave_out=not args.suite, anew=args.anew)
+    return EXIT_AS_EXPECTED
+
+
+def _make(
+    place: Path, targets: Iterable[str], suites: Iterable[str], *, leave_out: bool, anew: bool = False
+) -> None:
+    """Build suites of targets. With `leave_out` one that would have no cases is left out."""
     from modeproof.suites.command import make_graphs
 
     with only_one(place):
-        for target in args.targets or published(place):
+        for target in targets:
             document, _ = find_target(place, target)
             make_graphs(place, open_runs(place, document, target), quiet=True)
-            for suite in args.suite or SUITES:
+            for suite in suites:
                 path = suite_file(place, document, target, suite)
-                if args.anew:
+                if anew:
                     path.unlink(missing_ok=True)
                 try:
                     ready_suite(place, document, target, suite, lambda line: print(line, flush=True))
                 except NoCases as error:
-                    if args.suite:
+                    if not leave_out:
                         raise
+                    path.unlink(missing_ok=True)
                     print(f"{error}; left out", flush=True)
                     continue
                 digest = _digest(path)
                 print(f"{target} {suite}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}", flush=True)
-    return EXIT_AS_EXPECTED
 
 
 def _pack(place: Path, args: argparse.Namespace) -> int:
     targets = published(place)
     if not targets:
         raise Unjudged("no published target has graphs, so there is nothing to pack")
-    for target, document in targets.items():
-        args.targets = [target]
-        args.suite = fast_suites(place, document, target)
-        _build(place, args)
+    _make(place, targets, [name for name, kind in SUITES.items() if kind.fast], leave_out=True)
     path = args.to or build(place) / NAME
     contents = pack(place, targets, path)
     for target, suites in contents["targets"].items():

@@ -139,6 +139,7 @@ SUITES = {
         hypothesis="the program counts time in one way in all states of a control state",
         does_not_show="every split of every time; waits of days",
         counted_by="next state",
+        always=False,
         plan=times.plan,
     ),
     "sequences": Kind(
