@@ -41,6 +41,7 @@ def _evidence(document: Document, seconds: float = 1.5) -> dict[str, dict[str, A
                 "properties": list(one.properties),
                 "premises": ["a premise", "another"],
                 "unused": ["a premise", "another"] if number == 0 else ["another"],
+                "shared": seconds,
                 "queries": QUERIES,
             },
         }
