@@ -31,7 +31,7 @@ from refimpl.mode_selection.code_tables import RE, SE, SW
 from tests.kit.s7_plc import FREE, MAP, STEPPED, Plc
 
 ROOT = Path(__file__).resolve().parents[2]
-SETTLING = 7
+SETTLING = 6
 """Scans after each change of inputs; no run of steps is longer."""
 Event = tuple[int, dict[str, Any]]
 NOTHING: dict[str, Any] = dict.fromkeys(("LA", "A", "B", "C", "D", "STR"), False) | {
@@ -172,7 +172,7 @@ def test_outputs_without_an_address_are_unobserved(suite: Suite, plc: Plc) -> No
 
 def test_a_plc_that_runs_freely_conforms_by_settled_and_cannot_be_judged_by_exact(tmp_path: Path) -> None:
     slow = {"T_ON_ms": 60_000, "T_SEQ_ms": 60_000, "T_REM_ms": 60_000, "T_DWELL_ms": 900}
-    suite = suite_of(tmp_path, case_row(journey(4000)[:9], slow))
+    suite = suite_of(tmp_path, case_row(journey(6000)[:9], slow))
     with Plc(cycle_ms=1) as plc:
         verdict = judged(suite, plc, FREE)
         assert (verdict.word, verdict.reason) == ("CONFORMS", "")
