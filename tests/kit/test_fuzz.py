@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping
 from typing import Any
 
 import pytest
@@ -10,10 +12,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import run_suite
+from modeproof.kit.judge import Manner, Plan, run_suite
+from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
+from tests.kit.lamps import CONTRACT, Lamp
 
 HELLO = {"ok": True, "name": "x", "version": "1", "time": "virtual", "relations": ["exact"]}
 
@@ -60,6 +64,13 @@ def suite(tmp_path_factory: pytest.TempPathFactory) -> Suite:
     return open_suite(folder / "tour.jsonl")
 
 
+@pytest.fixture(scope="module")
+def sic(tmp_path_factory: pytest.TempPathFactory) -> Suite:
+    folder = tmp_path_factory.mktemp("fuzz_sic")
+    write_suite(folder / "sic.jsonl", "sic", [lamp_graph(folder)], contract=CONTRACT)
+    return open_suite(folder / "sic.jsonl")
+
+
 @settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
 @given(at=st.integers(1, 8), odd=answers)
 def test_an_odd_answer_never_passes_and_never_breaks_the_kit(suite: Suite, at: int, odd: bytes) -> None:
@@ -74,3 +85,43 @@ def test_an_odd_answer_never_passes_and_never_breaks_the_kit(suite: Suite, at: i
     else:
         assert verdict.word == "DIFFERS" and verdict.difference is not None and verdict.status == 1
         assert type(json.loads(odd)["out"]["LAMP"]) is bool
+
+
+@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(
+    at=st.integers(1, 12),
+    odd=json_values | outs,
+    relation=st.sampled_from(["settled", "monitor"]),
+    jobs=st.sampled_from([1, 1, 1, 2]),
+)
+def test_nor_under_the_other_relations(at: int, odd: object, relation: str, jobs: int, sic: Suite) -> None:
+    class Odd(Lamp):
+        def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
+            right = super().scan(dt_ms, inputs)
+            return odd["out"] if self.scans == at and isinstance(odd, dict) and "out" in odd else right
+
+        def hello(self, target: str) -> Mapping[str, Any]:
+            right = super().hello(target)
+            return odd if at == 12 and isinstance(odd, dict) else right
+
+    verdict = run_suite(sic, Odd, plan=Plan(Manner(relation), jobs=jobs))
+    assert verdict.word in ("CONFORMS", "DIFFERS", "UNJUDGED") and "\n" not in verdict.reason
+    if verdict.word == "UNJUDGED":
+        assert verdict.reason
+    text, junit = as_text(verdict, suite=sic), as_junit([verdict])
+    assert text.splitlines()[-1].startswith(verdict.word) and ElementTree.fromstring(junit) is not None
+    json.dumps(as_record(verdict), allow_nan=False)
+
+
+@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
+@given(answer=json_values | st.lists(outs, max_size=4).map(lambda outs: {"list": outs}))
+def test_nor_does_an_odd_answer_to_a_list(suite: Suite, answer: object) -> None:
+    class Listed(Scripted):
+        def ask_line(self, line: bytes) -> bytes:
+            request = json.loads(line)
+            if request["op"] == "hello":
+                return json.dumps({**HELLO, "scans": True}).encode()
+            return json.dumps(answer if request["op"] == "scans" else {"ok": True}).encode()
+
+    verdict = run_suite(suite, lambda: Listed(suite, 0, b""))
+    assert verdict.word == "UNJUDGED" and verdict.reason and "\n" not in verdict.reason
