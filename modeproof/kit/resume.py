@@ -11,7 +11,7 @@ from typing import Any
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.text import write_json
-from modeproof.kit.vectors import Suite, read_lines
+from modeproof.kit.vectors import Suite
 
 KIND = "modeproof-resume"
 EVERY_S = 2.0
@@ -30,7 +30,7 @@ class Resume:
             "kind": KIND,
             "target": suite.target,
             "suite": suite.name,
-            "vectors": hashlib.sha256(next(read_lines(suite.path, suite.member))).hexdigest(),
+            "vectors": hashlib.sha256(json.dumps(suite.header).encode()).hexdigest(),
             "program": program,
             "relation": relation,
         }

@@ -6,11 +6,11 @@ import json
 import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
+from modeproof.kit.vectors import Suite, open_suite
 
 FOLDER = "vectors"
 CONTENTS = "contents.json"
@@ -52,7 +52,7 @@ class Shelf:
         for name, row in rows.items():
             fitting = relation in row["relations"] and row["pace"] == FAST
             if name in names or (FAST in names and fitting):
-                chosen.append(open_suite(self.place, f"{FOLDER}/{target}/{FILE_NAME.format(suite=name)}"))
+                chosen.append(open_suite(self.place, f"{FOLDER}/{row['file']}"))
         missing = [name for name in names if name != FAST and name not in rows]
         if missing:
             left_out = contents.get("left_out", {}).get(target, {}).get(missing[0], "")
@@ -61,8 +61,3 @@ class Shelf:
         if not chosen:
             raise Unjudged(f"no suite of {target} is for relation {relation}")
         return chosen
-
-
-def member_name(target: str, suite: str) -> str:
-    """The name in the archive of the vectors of a suite."""
-    return str(PurePosixPath(FOLDER, target, FILE_NAME.format(suite=suite)))

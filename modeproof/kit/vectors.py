@@ -15,7 +15,6 @@ without it, the graph's shortest way to the state is tried.
 from __future__ import annotations
 
 import gzip
-import hashlib
 import json
 import zipfile
 import zlib
@@ -24,16 +23,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from modeproof.kit.compact import expand
 from modeproof.kit.contract import Contract, read_contract
 from modeproof.kit.errors import Unjudged
+from modeproof.kit.ids import case_id as case_id
+from modeproof.kit.ids import id_of_text as id_of_text
 from modeproof.kit.signals import Signal, loads, read_signals
 
-_ENCODE = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 KIND, VERSION = "modeproof-vectors", 1
 EXACT, SETTLED, MONITOR = "exact", "settled", "monitor"
 """The relations: each scan's outputs; the outputs once they stand still; the safety properties alone."""
 PACKED = ".gz"
 """The suffix of a file that is packed with gzip."""
+COMPACT = ".compact"
+"""The suffix of a member of an archive that is in the form of modeproof.kit.compact."""
 FILE_NAME = "{suite}.jsonl.gz"
 """How the file of a suite is called in the folder of its target."""
 
@@ -243,20 +246,6 @@ def changes(scans: Sequence[Scan]) -> list[tuple[int | str, Any]]:
     return found
 
 
-def case_id(target: str, params: Mapping[str, Any], going_in: Sequence[tuple[int | str, Any]]) -> str:
-    """The id of a case: a hash of what goes in, so that it survives when expectations or order change.
-
-    `going_in` holds for each scan the time and the inputs that change, or "refuse" and the request.
-    """
-    return id_of_text(target, params, _ENCODE(going_in)[1:-1])
-
-
-def id_of_text(target: str, params: Mapping[str, Any], going_in: str) -> str:
-    """As `case_id`, for changes that are written already: `[10,{"A":true}],[10,{}]`."""
-    text = f"[{_ENCODE(params)},[{going_in}]]"
-    return f"{target}-{hashlib.sha256(text.encode()).hexdigest()[:12]}"
-
-
 def read_lines(path: Path, member: str = "") -> Iterator[bytes]:
     """The lines of a vector file, packed or not; with `member`, of a packed file in the archive `path`.
 
@@ -278,6 +267,14 @@ def read_lines(path: Path, member: str = "") -> Iterator[bytes]:
 
 
 def _rows(path: Path, member: str) -> Iterator[tuple[int, Mapping[str, Any]]]:
+    if member.endswith(COMPACT):
+        try:
+            with zipfile.ZipFile(path) as archive:
+                data = archive.read(member)
+        except (OSError, KeyError, zipfile.BadZipFile) as error:
+            raise Unjudged(f"{path}: {member}: {error}") from None
+        yield from enumerate(expand(data), 1)
+        return
     for number, line in enumerate(read_lines(path, member), 1):
         try:
             row = loads(line) if number == 1 else json.loads(line)

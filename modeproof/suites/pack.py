@@ -17,8 +17,9 @@ from typing import Any
 
 from modeproof import kit
 from modeproof.errors import Unjudged
-from modeproof.kit.shelf import CONTENTS, FOLDER, member_name
-from modeproof.kit.vectors import open_suite
+from modeproof.kit.compact import compact, same
+from modeproof.kit.shelf import CONTENTS, FOLDER
+from modeproof.kit.vectors import COMPACT, open_suite, read_lines
 from modeproof.suites.build import suite_file
 from modeproof.suites.write import SUITES
 
@@ -30,11 +31,11 @@ _FIRST_DATE = (1980, 1, 1, 0, 0, 0)
 _SHEBANG = b"#!/usr/bin/env python3\n"
 
 
-def pack(place: Path, targets: Mapping[str, str], path: Path) -> dict[str, Any]:
+def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = False) -> dict[str, Any]:
     """Write the kit with the vectors of `targets` (target to document), which must have been built.
 
-    Returns its list of contents. Raises Unjudged where a fast suite is missing, or the file would be larger
-    than `LARGEST`; then none is written.
+    Inside are the fast suites, or `every` suite. Returns its list of contents. Raises Unjudged where a suite
+    is missing, or the file would be larger than `LARGEST`; then none is written.
     """
     contents: dict[str, Any] = {"targets": {}, "left_out": {}}
     members: dict[str, bytes] = {"__main__.py": _MAIN.encode(), "modeproof/__init__.py": b""}
@@ -46,7 +47,7 @@ def pack(place: Path, targets: Mapping[str, str], path: Path) -> dict[str, Any]:
         inside, outside = {}, {}
         for name, about in SUITES.items():
             file = suite_file(place, document, target, name)
-            if not about.fast:
+            if not (about.fast or every):
                 outside[name] = f"it is too large; `modeproof vectors build {target} --suite {name}` makes it"
                 continue
             if not file.is_file():
@@ -54,19 +55,36 @@ def pack(place: Path, targets: Mapping[str, str], path: Path) -> dict[str, Any]:
                     raise Unjudged(f"{target}: suite {name} is not built; `modeproof vectors build` does it")
                 continue
             suite = open_suite(file)
+            ending, data = _smaller(file)
             inside[name] = {
+                "file": f"{target}/{name}{ending}",
+                "bytes": len(data),
                 "relations": list(suite.relations),
                 "pace": suite.header["pace"],
                 "cases": suite.case_count,
                 "scans": suite.scan_count,
                 "guarantees": suite.header["guarantees"],
             }
-            members[member_name(target, name)] = file.read_bytes()
+            members[f"{FOLDER}/{inside[name]['file']}"] = data
         contents["targets"][target] = inside
         contents["left_out"][target] = outside
     members[f"{FOLDER}/{CONTENTS}"] = json.dumps(contents, indent=1, sort_keys=True).encode()
     _write(path, members)
     return contents
+
+
+def _smaller(source: Path) -> tuple[str, bytes]:
+    """A vector file as it goes in, and the ending of its name: compact where that can be, and read back."""
+    packed = source.read_bytes()
+    try:
+        data = compact(read_lines(source))
+    except ValueError:
+        return ".jsonl.gz", packed
+    if len(data) >= len(packed):
+        return ".jsonl.gz", packed
+    if not same(read_lines(source), data):
+        raise Unjudged(f"{source.name}: its compact form does not give the same rows")
+    return COMPACT, data
 
 
 def _write(path: Path, members: Mapping[str, bytes]) -> None:
@@ -81,7 +99,7 @@ def _write(path: Path, members: Mapping[str, bytes]) -> None:
                     info = zipfile.ZipInfo(name, _FIRST_DATE)
                     info.external_attr = 0o644 << 16
                     info.create_system = 3
-                    packed = zipfile.ZIP_STORED if name.endswith(".gz") else zipfile.ZIP_DEFLATED
+                    packed = zipfile.ZIP_STORED if name.endswith((".gz", COMPACT)) else zipfile.ZIP_DEFLATED
                     archive.writestr(info, data, packed, 9)
         size = os.path.getsize(part)
         if size > LARGEST:

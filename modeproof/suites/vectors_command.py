@@ -55,6 +55,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         description="Builds the fast suites of all published targets and packs them with the kit.",
     )
     packer.add_argument("--to", type=Path, metavar="FILE", help=f"another file than build/{NAME}")
+    packer.add_argument("--all", action="store_true", help="the slow suites too: building them takes long")
     packer.set_defaults(run=run, targets=[], suite=None, anew=False)
     show = actions.add_parser("show", help="show one case", description="Show one case.")
     show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
@@ -108,11 +109,12 @@ def _pack(place: Path, args: argparse.Namespace) -> int:
     targets = published(place)
     if not targets:
         raise Unjudged("no published target has graphs, so there is nothing to pack")
-    _make(place, targets, [name for name, kind in SUITES.items() if kind.fast], leave_out=True)
+    _make(place, targets, [name for name, kind in SUITES.items() if kind.fast or args.all], leave_out=True)
     path = args.to or build(place) / NAME
-    contents = pack(place, targets, path)
+    contents = pack(place, targets, path, args.all)
     for target, suites in contents["targets"].items():
-        print(f"{target}: {', '.join(suites)}")
+        sizes = [f"{name} {row['bytes']:,}" for name, row in suites.items()]
+        print(f"{target}: {', '.join(sizes)} bytes")
         for name, why in contents["left_out"][target].items():
             print(f"    without {name}: {why}")
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
