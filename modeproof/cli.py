@@ -644,6 +644,17 @@ def code_under_proof() -> Any:
         raise Unjudged(f"proofs cannot be run: {error}") from None
 
 
+def copies_of_code() -> Any:
+    """What makes a copy of a package of code with one definition changed.
+
+    Raises Unjudged when the proofs cannot be imported.
+    """
+    try:
+        return importlib.import_module("proofs.mutants.copies")
+    except ImportError as error:
+        raise Unjudged(f"proofs cannot be run: {error}") from None
+
+
 def _coverage(args: argparse.Namespace, place: Path, names: Sequence[str], progress: Any) -> int:
     from modeproof.lock import only_one
     from modeproof.summary import status_of

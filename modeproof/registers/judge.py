@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from modeproof.registers.adequacy_page import check_adequacy_page
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.load import documents, load_document
@@ -60,6 +61,7 @@ def judge_tree(root: Path) -> list[Problem]:
         *check_no_document_known(root, [one.interface for one in loaded], loaded),
         *check_pages(root, loaded),
         *check_proofs_page(root, loaded),
+        *check_adequacy_page(root, loaded),
     ]
 
 

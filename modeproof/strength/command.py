@@ -26,7 +26,9 @@ def add_parser(commands: Any) -> None:
     text = "one-edit mutants of the specification or of the code, and what each of them breaks"
     parser = commands.add_parser("mutate", help=text, description=text[0].upper() + text[1:] + ".")
     parser.add_argument(
-        "what", choices=("spec", "impl"), help="the specification, judged by TLC; the code, by theorems"
+        "what",
+        choices=("spec", "impl"),
+        help="the specification, judged by TLC; the code, by theorems or vectors",
     )
     parser.add_argument("modules", nargs="*", metavar="DEVICE", help="only these modules (default: all)")
     parser.add_argument("--document", metavar="NAME", help="only this document")
@@ -34,13 +36,17 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--only", action="append", metavar="ID", help="only this mutant (or a pattern)")
     parser.add_argument("--show", metavar="ID", help="show the edit as a diff, and the judgement so far")
     parser.add_argument(
-        "--complete", action="store_true", help="ask the costly tiers about killed mutants too"
+        "--complete", action="store_true", help="ask the costlier judges about killed mutants too"
     )
     parser.add_argument(
         "--render", action="store_true", help="write the page in docs/ from the results there are"
     )
-    parser.add_argument("--judge", choices=("theorems",), help="what judges mutants of the code")
-    parser.add_argument("--jobs", type=int, metavar="N", help="TLC runs at once (default: one a core)")
+    parser.add_argument(
+        "--judge",
+        choices=("theorems", "vectors"),
+        help="what judges mutants of the code: theorems (the default), or the published vectors alone",
+    )
+    parser.add_argument("--jobs", type=int, metavar="N", help="so many at once (default: one a core)")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=_mutate)
@@ -53,8 +59,11 @@ def _mutate(args: argparse.Namespace) -> int:
 
     place = root()
     if args.what == "impl":
+        from modeproof.strength.adequacy_command import mutate_by_vectors
         from modeproof.strength.implementation_command import mutate_implementation
 
+        if args.judge == "vectors":
+            return mutate_by_vectors(place, args)
         return mutate_implementation(place, args)
     if args.judge is not None:
         raise Unjudged(

@@ -202,6 +202,11 @@ class Implementation:
 
 def sources(place: Path, names: Iterable[str]) -> list[str]:
     """The programs of these modules and of all that they import of proofs/ and refimpl/, without comments."""
+    return [f"{name} {text}" for name, text in sorted(closure(place, names).items())]
+
+
+def closure(place: Path, names: Iterable[str]) -> dict[str, str]:
+    """These modules and all of the tree that they import, by name, each as its program without comments."""
     found: dict[str, str] = {}
     waiting = list(names)
     while waiting:
@@ -216,7 +221,7 @@ def sources(place: Path, names: Iterable[str]) -> list[str]:
                 waiting += [alias.name for alias in node.names]
             elif isinstance(node, ast.ImportFrom) and node.module:
                 waiting += [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
-    return [f"{name} {text}" for name, text in sorted(found.items())]
+    return found
 
 
 def judge_implementation(

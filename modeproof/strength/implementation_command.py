@@ -28,7 +28,7 @@ def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
 
     if str(place) not in sys.path:
         sys.path.insert(0, str(place))
-    code = Implementation(place, _document(place, args.document), code_under_proof())
+    code = Implementation(place, document_of(place, args.document), code_under_proof())
     strange = sorted(set(args.modules) - {one.module for one in code.every})
     if strange:
         names = ", ".join(sorted({one.module for one in code.every}))
@@ -52,7 +52,8 @@ def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
     return report(code.register.explained, register, judged, len(chosen) == len(code.every), args)
 
 
-def _document(place: Path, named: str | None) -> str:
+def document_of(place: Path, named: str | None) -> str:
+    """The document whose code is judged. Raises Unjudged when it is not clear which one."""
     known = [name for name in documents(place) if register_path(place, name).is_file()]
     if named is not None and named not in known:
         raise Unjudged(f"document {named} has no proofs/{named}/strength.toml")

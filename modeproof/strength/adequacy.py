@@ -1,0 +1,377 @@
+"""How strong the published vectors are: mutants of the shipped code, judged by the vectors alone.
+
+The mutants are those that the theorems judge (implementation.py). Here each runs in a process of its own
+against the suites of every published target that can reach its edit, the shortest suite first, and stops at
+the first that tells it from the shipped code. One that the theorems have proved EQUIVALENT is not judged
+again. What reaches no published target is out of scope, and is counted.
+
+An answer holds as long as the code, the replay and that very suite are the same; so a suite that is new or
+has changed is asked alone.
+"""
+
+from __future__ import annotations
+
+import inspect
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Protocol
+
+from modeproof.errors import Unjudged
+from modeproof.graph.implementation import from_module, load_implementation
+from modeproof.graph.values import ValueForms
+from modeproof.kit.vectors import Suite
+from modeproof.processes import in_forks
+from modeproof.progress import Progress
+from modeproof.registers.load import load_interface
+from modeproof.registers.rows import Device, Interface
+from modeproof.strength import replay
+from modeproof.strength.campaign import Judged, so_far
+from modeproof.strength.implementation import Implementation, closure
+from modeproof.strength.mutant import Mutant
+from modeproof.strength.replay import Vectors, contents, vectors_of
+from modeproof.strength.results import Results, digest
+
+LEAST_S, TIMES = 20.0, 30
+"""A mutant gets so many times as long as the shipped code took for a suite, and at least these seconds."""
+UNMEASURED, INVALID = "unmeasured", "invalid"
+
+
+class Copies(Protocol):
+    """What makes a copy of a package with one definition changed: see proofs/mutants/copies.py."""
+
+    CopyError: type[Exception]
+
+    def Change(self, module: str, definition: str, text: str, lines: tuple[int, int] | None) -> Any:
+        """A change."""
+
+    def copied(self, package: str, change: Any) -> Any:
+        """The copy; its `modules` are the copied modules by name."""
+
+
+@dataclass(frozen=True)
+class Published:
+    """A suite of one target as it is published; `contents` is a hash of what it says."""
+
+    suite: Suite
+    contents: str
+
+    @property
+    def name(self) -> str:
+        """The suite's name."""
+        return self.suite.name
+
+    @property
+    def target(self) -> str:
+        """Its target."""
+        return self.suite.target
+
+
+def published(suites: Sequence[Suite]) -> tuple[Published, ...]:
+    """The suites, those of the same name together, the shortest name first."""
+    cost: dict[str, int] = {}
+    for one in suites:
+        cost[one.name] = cost.get(one.name, 0) + one.scan_count
+    ordered = sorted(suites, key=lambda one: (cost[one.name], one.name))
+    return tuple(Published(one, contents(one.path)) for one in ordered)
+
+
+@dataclass
+class Adequacy:
+    """The mutants of one document's code and the suites that judge them; `proved`: what the theorems said."""
+
+    code: Implementation
+    copies: Copies
+    suites: Sequence[Published]
+    proved: Results
+    interface: Interface = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.interface = load_interface(self.place, self.code.document)
+
+    @property
+    def place(self) -> Path:
+        """The root of the tree."""
+        return self.code.place
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The names of the suites in the order of asking."""
+        return tuple(dict.fromkeys(one.name for one in self.suites))
+
+    @cached_property
+    def targets(self) -> Mapping[str, str]:
+        """The published targets that have vectors, and the module of each."""
+        wanted = dict.fromkeys(one.target for one in self.suites)
+        modules = {name.rpartition(".")[2]: name for name in self.code.reached}
+        missing = [one for one in wanted if one not in modules]
+        if missing:
+            raise Unjudged(f"{missing[0]} has vectors, and no module of that name is judged")
+        return {one: modules[one] for one in wanted}
+
+    @cached_property
+    def _reach(self) -> Mapping[str, frozenset[str]]:
+        """For each target the modules that it can reach."""
+        return {one: frozenset(closure(self.place, [module])) for one, module in self.targets.items()}
+
+    def targets_of(self, mutant: Mutant) -> tuple[str, ...]:
+        """The targets whose program the edit can change."""
+        module = self.code.mutants[mutant.id][0]
+        return tuple(one for one in self.targets if module in self._reach[one])
+
+    @cached_property
+    def every(self) -> tuple[Mutant, ...]:
+        """Every mutant that can change a published target."""
+        return tuple(one for one in self.code.every if self.targets_of(one))
+
+    @cached_property
+    def out_of_scope(self) -> tuple[Mutant, ...]:
+        """The others."""
+        return tuple(one for one in self.code.every if not self.targets_of(one))
+
+    @cached_property
+    def base(self) -> str:
+        """A hash of the code and of what runs and compares it."""
+        programs = [f"{name} {text}" for name, text in sorted(closure(self.place, self.code.reached).items())]
+        return digest([*programs, inspect.getsource(replay), _source_of(self.copies)])
+
+    def theorems_say(self, mutant: Mutant) -> Mapping[str, Any] | None:
+        """The judgement by theorems that holds for the code as it is now."""
+        return self.code.find(self.proved, mutant)
+
+    @cached_property
+    def equivalent(self) -> frozenset[str]:
+        """The mutants that the theorems have proved to be the shipped code."""
+        said = ((one.id, self.theorems_say(one)) for one in self.every)
+        return frozenset(
+            id for id, record in said if record is not None and record["verdict"] == "EQUIVALENT"
+        )
+
+    # ---- what is known
+
+    def answers(self, results: Results, mutant: Mutant) -> list[dict[str, Any]]:
+        """The answers that hold now."""
+        record = results.records.get((mutant.id, self.base))
+        if record is None:
+            return []
+        now = {(one.name, one.target): one.contents for one in self.suites}
+        return [
+            one for one in record["answers"] if now.get((one["suite"], one["target"]), "") == one["vectors"]
+        ]
+
+    def to_ask(self, mutant: Mutant, answers: Sequence[Mapping[str, Any]], complete: bool) -> tuple[str, ...]:
+        """The suites that are still to be asked."""
+        if any(one["result"] in (UNMEASURED, INVALID) for one in answers):
+            return ()
+        if mutant.id in self.equivalent and not complete:
+            return ()
+        if not complete and killers(answers):
+            return ()
+        had = {(one["suite"], one["target"]) for one in answers}
+        caught = set(killers(answers))
+        wanted = self.targets_of(mutant)
+        open_ones = [
+            one.name
+            for one in self.suites
+            if one.target in wanted and one.name not in caught and (one.name, one.target) not in had
+        ]
+        return tuple(dict.fromkeys(open_ones))
+
+    def judged(self, results: Results, mutant: Mutant, complete: bool = False) -> Judged | None:
+        """The judgement, if all suites that must be asked have answered."""
+        answers = self.answers(results, mutant)
+        if self.to_ask(mutant, answers, complete):
+            return None
+        record = results.records.get((mutant.id, self.base), {})
+        return Judged(mutant, {**_about(mutant), **record, **self._verdict(mutant, answers)})
+
+    def known(self, results: Results) -> list[Judged]:
+        """The mutants in scope that are judged."""
+        found = (self.judged(results, one) for one in self.every)
+        return [one for one in found if one is not None]
+
+    def _verdict(self, mutant: Mutant, answers: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+        caught, word, reason = killers(answers), "SURVIVED", ""
+        unmeasured = [one for one in answers if one["result"] == UNMEASURED]
+        refused = [one for one in answers if one["result"] == replay.REFUSES]
+        if mutant.id in self.equivalent:
+            word, reason = "EQUIVALENT", "proved by the theorem campaign"
+            if caught:
+                raise Unjudged(
+                    f"{mutant.id} is proved EQUIVALENT, and the suite {caught[0]} tells it from the shipped "
+                    "code: one of the two judges is wrong"
+                )
+        elif caught:
+            word = "KILLED"
+        elif unmeasured:
+            word, reason = UNMEASURED.upper(), unmeasured[0]["detail"]
+        elif any(one["result"] == INVALID for one in answers):
+            word, reason = "INVALID", answers[0]["detail"]
+        elif refused:
+            word, reason = UNMEASURED.upper(), f"only refuses what it must answer: {refused[0]['detail']}"
+        return {"verdict": word, "killers": list(caught), "reason": reason, "answers": list(answers)}
+
+
+def killers(answers: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:
+    """The suites that tell the mutant from the shipped code, in the order of asking."""
+    caught = (one["suite"] for one in answers if one["result"] in (replay.DIFFERS, replay.RAISES))
+    return tuple(dict.fromkeys(caught))
+
+
+def _about(mutant: Mutant) -> dict[str, Any]:
+    return {
+        "mutant": mutant.id,
+        "module": mutant.module,
+        "operator": mutant.operator,
+        "definition": mutant.definition,
+        "seconds": 0.0,
+    }
+
+
+def _source_of(copies: Copies) -> str:
+    return inspect.getsource(copies) if isinstance(copies, ModuleType) else ""
+
+
+# ---------------------------------------------------------------------------------------------- the campaign
+
+
+def judge_by_vectors(
+    adequacy: Adequacy,
+    chosen: Sequence[Mutant],
+    results: Results,
+    progress: Progress,
+    jobs: int,
+    complete: bool = False,
+    limit: Callable[[float], float] = lambda shipped: max(LEAST_S, TIMES * shipped),
+) -> list[Judged]:
+    """The judgement of each chosen mutant, in their order; what is known already is not judged again.
+
+    One suite after the other, the mutants that are left in parallel. Every suite must first pass the shipped
+    code, and find a fault planted in it: Unjudged otherwise. `limit` gives the seconds for a mutant from
+    those that the shipped code took. Ctrl-C ends the processes; what was judged stays. complete: also suites
+    that come after the first killer, and mutants that are proved EQUIVALENT, which no suite may kill.
+    """
+    if results.remark:
+        progress.say(results.remark)
+    held = {one.id: adequacy.answers(results, one) for one in chosen}
+    before = sum(1 for one in chosen if held[one.id])
+    if before:
+        progress.say(f"{before} of {len(chosen)} mutants have answers from before")
+    for name in adequacy.names:
+        waiting = [one for one in chosen if name in adequacy.to_ask(one, held[one.id], complete)]
+        if waiting:
+            _Stage(adequacy, name, results, progress, held, complete).run(waiting, jobs, limit)
+    judged = [adequacy.judged(results, one, complete) for one in chosen]
+    return [one for one in judged if one is not None]
+
+
+@dataclass
+class _Stage:
+    """One suite put to the mutants that are left."""
+
+    adequacy: Adequacy
+    name: str
+    results: Results
+    progress: Progress
+    held: dict[str, list[dict[str, Any]]]
+    complete: bool
+    vectors: dict[str, tuple[Vectors, str]] = field(default_factory=dict)
+
+    def run(self, waiting: Sequence[Mutant], jobs: int, limit: Callable[[float], float]) -> None:
+        """Judge them, and write each answer as it comes."""
+        task = f"suite {self.name}"
+        self.progress.expect(1)
+        self.progress.begin(task)
+        try:
+            shipped = self._load(
+                task, {one for mutant in waiting for one in self.adequacy.targets_of(mutant)}
+            )
+            limit_s = limit(shipped)
+            began, done = time.monotonic(), 0
+            for outcome in in_forks(self._judge, waiting, jobs, limit_s):
+                if outcome is not None:
+                    mutant = waiting[outcome.number]
+                    new = outcome.result
+                    if new is None:
+                        new = [self._unmeasured(mutant, outcome.why, limit_s)]
+                    self._keep(mutant, new)
+                    done += 1
+                words = {one.id: {"verdict": _so_far(self.held[one.id])} for one in waiting}
+                self.progress.update(task, so_far(len(waiting), done, time.monotonic() - began, words))
+        finally:
+            self.progress.end(task)
+
+    def _load(self, task: str, targets: set[str]) -> float:
+        """Read the suite of each target, and let it judge the shipped code; the seconds that this takes."""
+        adequacy, seconds = self.adequacy, 0.0
+        document = adequacy.code.document
+        forms = ValueForms([int(mode) for mode in adequacy.interface.constants.get("MODES", ())])
+        for one in adequacy.suites:
+            if one.name == self.name and one.target in targets:
+                self.progress.update(task, f"reading {one.target}")
+                package = adequacy.targets[one.target].split(".")[0]
+                code = load_implementation(package, document, one.target)
+                vectors = vectors_of(one.suite, self._device(one.target), forms, code)
+                self.progress.update(task, f"the shipped {one.target}, with a fault in its last scan")
+                seconds += replay.control(vectors, code).seconds
+                self.vectors[one.target] = vectors, one.contents
+        return seconds
+
+    def _device(self, target: str) -> Device:
+        return self.adequacy.interface.devices[target]
+
+    def _judge(self, mutant: Mutant) -> list[dict[str, Any]]:
+        """What this suite says of a mutant, for one target after the other until one catches it."""
+        adequacy = self.adequacy
+        change = adequacy.code.change(mutant)
+        wanted = [one for one in adequacy.targets_of(mutant) if one in self.vectors]
+        had = {one["target"] for one in self.held[mutant.id] if one["suite"] == self.name}
+        found: list[dict[str, Any]] = []
+        package = change["module"].rpartition(".")[0]
+        told = adequacy.copies.Change(change["module"], change["definition"], change["text"], change["lines"])
+        try:
+            copy = adequacy.copies.copied(package, told)
+        except adequacy.copies.CopyError as error:
+            return [self._answer(wanted[0], replay.Answer(INVALID, 0, detail=str(error)))]
+        for target in wanted:
+            if target not in had:
+                module = adequacy.targets[target]
+                code = from_module(copy.modules[module], f"{module} ({mutant.id})")
+                found.append(self._answer(target, replay.replay(self.vectors[target][0], code)))
+                if killers(found):
+                    break
+        return found
+
+    def _answer(self, target: str, said: replay.Answer) -> dict[str, Any]:
+        return {"suite": self.name, "target": target, "vectors": self.vectors[target][1], **asdict(said)}
+
+    def _unmeasured(self, mutant: Mutant, why: str, limit_s: float) -> dict[str, Any]:
+        target = next(one for one in self.adequacy.targets_of(mutant) if one in self.vectors)
+        return self._answer(target, replay.Answer(UNMEASURED, 0, detail=why, seconds=limit_s))
+
+    def _keep(self, mutant: Mutant, new: Sequence[dict[str, Any]]) -> None:
+        """Add the answers to what is known of the mutant, and to the file, at once."""
+        every = self.held[mutant.id] = [*self.held[mutant.id], *new]
+        left = self.adequacy.to_ask(mutant, every, self.complete)
+        word = "" if left else self.adequacy._verdict(mutant, every)["verdict"]
+        self.results.add(
+            {
+                **_about(mutant),
+                "inputs": self.adequacy.base,
+                "complete": not self.adequacy.to_ask(mutant, every, True),
+                "verdict": word,
+                "killers": list(killers(every)),
+                "reason": "" if word else f"still to be asked: {', '.join(left)}",
+                "answers": every,
+                "seconds": round(sum(one["seconds"] for one in every), 3),
+            }
+        )
+
+
+def _so_far(answers: Sequence[Mapping[str, Any]]) -> str:
+    if killers(answers):
+        return "KILLED"
+    return "UNMEASURED" if any(one["result"] == UNMEASURED for one in answers) else ""

@@ -1,0 +1,352 @@
+"""The vectors judge mutants of a small program: each meets its fate, and a judge that cannot see is found."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.graph.implementation import Implementation as Implemented
+from modeproof.kit.vectors import open_suite
+from modeproof.places import root
+from modeproof.progress import Progress
+from modeproof.registers.adequacy_page import PAGE, check_adequacy_page
+from modeproof.strength import replay
+from modeproof.strength.adequacy import Adequacy, judge_by_vectors, published
+from modeproof.strength.adequacy_page import render
+from modeproof.strength.adequacy_register import read_explanations, register_path
+from modeproof.strength.campaign import Judged
+from modeproof.strength.explain import unexplained
+from modeproof.strength.implementation import Implementation
+from modeproof.strength.replay import Played, Vectors
+from modeproof.strength.results import Results, read_results
+from proofs.mutants import copies
+from tests.strength.gates import GATE, Room, build_place, unload, write_vectors
+
+SHORT = [[True, False]]
+LONG = [[False], [True, True, True, True, False, True]]
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Iterator[Path]:
+    build_place(tmp_path)
+    write_vectors(tmp_path / "short.jsonl", "short", SHORT)
+    write_vectors(tmp_path / "long.jsonl", "long", LONG)
+    yield tmp_path
+    unload()
+
+
+def adequacy_of(place: Path, names: tuple[str, ...] = ("long", "short")) -> Adequacy:
+    suites = published([open_suite(place / f"{name}.jsonl") for name in names])
+    proved = read_results(place / "impl.jsonl")
+    return Adequacy(Implementation(place, "toy", Room(place)), copies, suites, proved)
+
+
+def campaign(
+    place: Path,
+    complete: bool = False,
+    names: tuple[str, ...] = ("long", "short"),
+    definitions: tuple[str, ...] = ("WORDS", "word"),
+    limit_s: float = 30.0,
+) -> tuple[Adequacy, Results, list[Judged]]:
+    adequacy = adequacy_of(place, names)
+    results = read_results(place / "vectors.jsonl")
+    chosen = [one for one in adequacy.every if one.definition in definitions or not definitions]
+    judged = judge_by_vectors(
+        adequacy, chosen, results, Progress(quiet=True), 2, complete, lambda shipped: limit_s
+    )
+    return adequacy, results, judged
+
+
+def by_edit(judged: list[Judged], definition: str, old: str, new: str) -> Judged:
+    (one,) = [
+        one
+        for one in judged
+        if (one.mutant.definition, one.mutant.old, one.mutant.new) == (definition, old, new)
+    ]
+    return one
+
+
+def test_each_mutant_meets_its_fate(place: Path) -> None:
+    adequacy, _, judged = campaign(place)
+    assert adequacy.names == ("short", "long"), "the shortest suite is asked first"
+    assert len(judged) > 10
+
+    first = by_edit(judged, "WORDS", "5", "6")
+    assert (first.word, first.killers) == ("KILLED", ("short",))
+    (answer,) = first.record["answers"]
+    assert (answer["result"], answer["scan"], answer["scans"]) == ("differs", 1, 1)
+    assert "expected Outputs(LAMP=False, MW=5)" in answer["detail"]
+
+    later = by_edit(judged, "WORDS", "9", "10")
+    assert later.killers == ("long",)
+    assert [one["result"] for one in later.record["answers"]] == ["passes", "differs"]
+    caught = later.record["answers"][1]
+    assert (caught["scan"], caught["scans"]) == (2, 3), "the second scan of the second case"
+
+    assert by_edit(judged, "word", "2", "3").word == "SURVIVED"
+
+
+def test_a_scan_that_raises_is_a_difference(place: Path) -> None:
+    _, _, judged = campaign(place)
+    one = by_edit(judged, "word", "count - 1", "(count + 1)")
+    assert (one.word, one.killers) == ("KILLED", ("short",))
+    (answer,) = one.record["answers"]
+    assert (answer["result"], answer["scan"]) == ("raises", 1)
+    assert answer["detail"] == "IndexError: tuple index out of range"
+
+
+def test_a_mutant_that_never_ends_is_ended_and_unmeasured(place: Path) -> None:
+    build_place(place, GATE.replace("    if count >", "    while count >"))
+    _, _, judged = campaign(place, definitions=("counted",), limit_s=1.0)
+    endless = by_edit(judged, "counted", "count - 1", "(count + 1)")
+    assert endless.word == "UNMEASURED"
+    assert "limit of 1 s" in endless.record["reason"]
+    assert not endless.killers
+
+
+def test_refusing_what_must_be_answered_is_no_kill_by_itself(place: Path) -> None:
+    _, _, judged = campaign(place)
+    one = by_edit(judged, "word", "count <= 2", "count < 2")
+    assert (one.word, one.killers) == ("UNMEASURED", ())
+    assert "only refuses what it must answer" in one.record["reason"]
+    assert "scan 2: GateError: count: cannot be" in one.record["reason"]
+    passed, refused = one.record["answers"]
+    assert (passed["result"], refused["result"], refused["refused"]) == ("passes", "refuses", 3)
+
+
+class Refusal(ValueError):
+    field = "press"
+
+
+@pytest.mark.parametrize(
+    ("presses", "result", "scan"),
+    [([1, 0, 1], "refuses", 0), ([1, 0, 2], "differs", 3), ([0, 0], "refuses", 0), ([1, 1], "differs", 2)],
+)
+def test_a_refusal_leaves_the_memory_as_it_was_and_what_follows_is_compared(
+    presses: list[int], result: str, scan: int
+) -> None:
+    """The program adds what it is given, but refuses zero; it should add 1 in every scan that is not zero."""
+
+    def step(state: int, given: int) -> tuple[int, int]:
+        if given == 0:
+            raise Refusal
+        return state + given, state + given
+
+    code = Implemented("adder", int, int, int, lambda params: 0, step)
+    wanted = [1, 2, 2] if 0 in presses else [1, 3]
+    case = Played("one", None, list(zip(presses, wanted, strict=False)))
+    answer = replay.replay(Vectors("adder", "toy", [case], 0), code)
+    assert (answer.result, answer.scan, answer.refused) == (result, scan, presses.count(0))
+
+
+def test_what_no_suite_catches_survives_and_must_be_explained(place: Path) -> None:
+    _, _, judged = campaign(place, names=("short",))
+    survivor = by_edit(judged, "WORDS", "9", "10")
+    assert survivor.word == "SURVIVED"
+    assert survivor.mutant.id in {one.mutant.id for one in unexplained((), judged)}
+    row = f'[[survivor]]\nids = ["{survivor.mutant.id}"]\nkind = "harmless"\nwhy = "The suite is short."\n'
+    register_path(place, "toy").write_text(row, encoding="utf-8")
+    explained = read_explanations(place, "toy")
+    assert survivor.mutant.id not in {one.mutant.id for one in unexplained(explained, judged)}
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [("x = 1\n", "unknown field 'x'"), ("[", "adequacy.toml"), ("survivor = 1\n", "list of tables")],
+)
+def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
+    register_path(place, "toy").write_text(text, encoding="utf-8")
+    with pytest.raises(Unjudged, match=complaint):
+        read_explanations(place, "toy")
+
+
+def test_what_reaches_no_published_target_is_out_of_scope(place: Path) -> None:
+    adequacy = adequacy_of(place)
+    assert {one.module for one in adequacy.out_of_scope} == {"valve"}
+    assert {one.module for one in adequacy.every} == {"gate"}
+
+
+# ---------------------------------------------------------------- a judge that cannot see
+
+
+def test_a_judge_that_never_fails_is_found(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(replay, "_replay", lambda vectors, code: replay.Answer(replay.PASSES, 1))
+    with pytest.raises(Unjudged, match="a fault that was planted in the last scan was not found"):
+        campaign(place)
+
+
+def test_a_judge_that_always_fails_is_found(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(replay, "_replay", lambda vectors, code: replay.Answer(replay.DIFFERS, 1))
+    with pytest.raises(Unjudged, match="the shipped code itself does not pass"):
+        campaign(place)
+
+
+def test_vectors_that_the_shipped_code_does_not_pass_judge_nobody(tmp_path: Path) -> None:
+    build_place(tmp_path, GATE.replace("WORDS = (5, 9)", "WORDS = (5, 8)"))
+    write_vectors(tmp_path / "long.jsonl", "long", LONG)
+    with pytest.raises(Unjudged, match="the shipped code itself does not pass"):
+        campaign(tmp_path, names=("long",))
+    unload()
+
+
+def test_a_suite_that_compares_nothing_judges_nobody(place: Path) -> None:
+    write_vectors(place / "short.jsonl", "short", SHORT, settling=True)
+    with pytest.raises(Unjudged, match="no scan of the suite is compared"):
+        campaign(place, names=("short",))
+
+
+def test_a_scan_that_settles_is_not_compared(place: Path) -> None:
+    write_vectors(place / "settling.jsonl", "settling", [[True, True], [False]], settling=True)
+    text = (place / "settling.jsonl").read_text().rsplit('"settling": true', 1)
+    (place / "settling.jsonl").write_text('"settling": false'.join(text))
+    _, _, judged = campaign(place, names=("settling",))
+    assert by_edit(judged, "WORDS", "9", "10").word == "SURVIVED"
+
+
+# ---------------------------------------------------------------- equivalents
+
+
+def proved_equivalent(place: Path, mutant: Any) -> None:
+    code = Implementation(place, "toy", Room(place))
+    record = {
+        "mutant": mutant.id,
+        "module": mutant.module,
+        "verdict": "EQUIVALENT",
+        "killers": [],
+        "reason": "",
+        "answers": [],
+        "complete": False,
+        "witness": "",
+        "seconds": 0.0,
+    }
+    record["inputs"] = code.stamp(record)
+    read_results(place / "impl.jsonl").add(record)
+
+
+def test_what_is_proved_equivalent_is_not_judged_again(place: Path) -> None:
+    _, _, judged = campaign(place, names=("short",))
+    survivor = by_edit(judged, "WORDS", "9", "10").mutant
+    proved_equivalent(place, survivor)
+    (place / "vectors.jsonl").unlink()
+    _, results, judged = campaign(place, names=("short",))
+    assert by_edit(judged, "WORDS", "9", "10").word == "EQUIVALENT"
+    assert not results.of(survivor.id)
+
+
+def test_a_proof_that_is_not_of_this_code_is_not_used(place: Path) -> None:
+    _, _, judged = campaign(place, names=("short",))
+    proved_equivalent(place, by_edit(judged, "WORDS", "9", "10").mutant)
+    (place / "proofs/mutants/bench.py").write_text("X = 1\n")
+    assert not adequacy_of(place).equivalent
+
+
+def test_a_suite_that_catches_what_is_proved_equivalent_is_a_contradiction(place: Path) -> None:
+    adequacy = adequacy_of(place)
+    (mutant,) = [one for one in adequacy.every if (one.definition, one.new) == ("WORDS", "10")]
+    proved_equivalent(place, mutant)
+    with pytest.raises(Unjudged, match="one of the two judges is wrong"):
+        campaign(place, complete=True)
+
+
+# ---------------------------------------------------------------- going on
+
+
+def test_a_campaign_that_was_cut_off_goes_on_and_known_answers_stay(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, _, before = campaign(place)
+    file = place / "vectors.jsonl"
+    lines = file.read_bytes().splitlines(keepends=True)
+    file.write_bytes(b"".join(lines[:-3]) + lines[-3][:20])
+    _, results, after = campaign(place)
+    assert "cut off" in results.remark
+    assert [(one.mutant.id, one.word) for one in after] == [(one.mutant.id, one.word) for one in before]
+
+    def refuse(*anything: Any) -> Any:
+        raise AssertionError("nothing is left to be judged")
+
+    monkeypatch.setattr(replay, "replay", refuse)
+    campaign(place)
+
+
+def test_a_new_suite_is_asked_of_what_is_left_alone(place: Path) -> None:
+    _, _, before = campaign(place, names=("short",))
+    killed = {one.mutant.id for one in before if one.word == "KILLED"}
+    assert 0 < len(killed) < len(before)
+    _, results, _ = campaign(place)
+    for (id, _), record in results.records.items():
+        asked = [one["suite"] for one in record["answers"]]
+        assert asked == (["short"] if id in killed else ["short", "long"])
+
+
+def test_an_answer_of_vectors_that_changed_is_not_used(place: Path) -> None:
+    campaign(place)
+    adequacy = adequacy_of(place)
+    results = read_results(place / "vectors.jsonl")
+    (mutant,) = [one for one in adequacy.every if (one.definition, one.new) == ("WORDS", "10")]
+    assert [one["suite"] for one in adequacy.answers(results, mutant)] == ["short", "long"]
+    write_vectors(place / "long.jsonl", "long", [*LONG, [True]])
+    other = adequacy_of(place)
+    assert [one["suite"] for one in other.answers(results, mutant)] == ["short"]
+    assert other.judged(results, mutant) is None
+
+
+def test_answers_about_other_code_are_not_used(place: Path) -> None:
+    campaign(place)
+    (place / "toyimpl/toy/gate.py").write_text(GATE + "\nMORE = 1\n")
+    assert not adequacy_of(place).known(read_results(place / "vectors.jsonl"))
+    (place / "toyimpl/toy/gate.py").write_text(GATE + "\n# a comment\n")
+    assert adequacy_of(place).known(read_results(place / "vectors.jsonl"))
+
+
+def test_complete_asks_every_suite_of_every_mutant(place: Path) -> None:
+    _, results, _ = campaign(place)
+    assert not all(record["complete"] for record in results.records.values())
+    _, results, judged = campaign(place, complete=True)
+    assert all(record["complete"] for record in results.records.values())
+    for one in judged:
+        unmeasured = [answer["result"] for answer in one.record["answers"]].count("unmeasured")
+        assert unmeasured or {answer["suite"] for answer in one.record["answers"]} == {"short", "long"}
+    assert by_edit(judged, "WORDS", "5", "6").killers == ("short", "long")
+
+
+# ---------------------------------------------------------------- the page
+
+
+def test_the_page_is_of_all_mutants_and_drift_is_found(place: Path) -> None:
+    adequacy = adequacy_of(place)
+    with pytest.raises(Unjudged, match="are not judged for this code and these vectors"):
+        render(adequacy, read_results(place / "vectors.jsonl"), ())
+    adequacy, results, _ = campaign(place, names=("short",), definitions=())
+    register_path(place, "toy").write_text("", encoding="utf-8")
+    assert render(adequacy, results, ()) == EXIT_NOT_AS_EXPECTED, "survivors are not explained"
+
+    def drift() -> list[str]:
+        documents: Any = [type("Named", (), {"name": "toy"})()]
+        return [problem.text.split(";")[0] for problem in check_adequacy_page(place, documents)]
+
+    assert drift() == []
+    text = (place / PAGE).read_text(encoding="utf-8")
+    assert "**Not explained.**" in text and "| `short` | 2 |" in text
+    (place / PAGE).write_text(text.replace("survive", "thrive"), encoding="utf-8")
+    assert drift() == ["the page was changed by hand"]
+    (place / PAGE).write_text(text, encoding="utf-8")
+    register_path(place, "toy").write_text(
+        '[[survivor]]\nids = ["x"]\nkind = "harmless"\nwhy = "y"\n', encoding="utf-8"
+    )
+    assert drift() == ["the explanations changed since the page was rendered"]
+    register_path(place, "toy").write_text("", encoding="utf-8")
+    (place / "spec/toy/interface.toml").write_text("document = 'toy'\n", encoding="utf-8")
+    assert drift() == ["the graphs changed since the page was rendered"]
+    (place / PAGE).unlink()
+    assert drift() == ["the page is missing"]
+
+
+@pytest.mark.skipif(not (root() / PAGE).is_file(), reason="the page is not rendered yet")
+def test_the_page_of_the_shipped_code_leaves_no_survivor_unexplained() -> None:
+    text = (root() / PAGE).read_text(encoding="utf-8")
+    assert "**Not explained.**" not in text and ", 0 of them unexplained" in text
