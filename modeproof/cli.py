@@ -638,19 +638,22 @@ def code_under_proof() -> Any:
 
     Raises Unjudged when the proofs cannot be imported.
     """
-    try:
-        return importlib.import_module("proofs.mutants.bench")
-    except ImportError as error:
-        raise Unjudged(f"proofs cannot be run: {error}") from None
+    return _of_proofs("proofs.mutants.bench")
 
 
 def copies_of_code() -> Any:
-    """What makes a copy of a package of code with one definition changed.
+    """What makes a copy of a package of code with one definition changed. Raises Unjudged."""
+    return _of_proofs("proofs.mutants.copies")
 
-    Raises Unjudged when the proofs cannot be imported.
-    """
+
+def observer_of_code() -> Any:
+    """What proves that nobody can tell a changed copy by inputs and outputs. Raises Unjudged."""
+    return _of_proofs("proofs.mutants.observed")
+
+
+def _of_proofs(name: str) -> Any:
     try:
-        return importlib.import_module("proofs.mutants.copies")
+        return importlib.import_module(name)
     except ImportError as error:
         raise Unjudged(f"proofs cannot be run: {error}") from None
 

@@ -35,7 +35,7 @@ def stamped_adequacy(root: Path, names: Sequence[str], text: str) -> str:
 
 def check_adequacy_page(root: Path, documents: Sequence[Document]) -> list[Problem]:
     """What has drifted between the page and what it rests on; nothing where no document has the register."""
-    names = [one.name for one in documents if (root / "spec" / one.name / REGISTER).is_file()]
+    names = [one.name for one in documents if (root / "refimpl" / one.name / REGISTER).is_file()]
     if not names:
         return []
     if not (root / PAGE).is_file():
@@ -63,7 +63,7 @@ def _rests_on(root: Path, names: Sequence[str]) -> Mapping[str, str]:
         folder = root / "spec" / name
         files = [*(root / "refimpl").glob("*.py"), *(root / "refimpl" / name).glob("*.py")]
         code += [f"{path.name} {ast.dump(ast.parse(read_text(root, path)))}" for path in sorted(files)]
-        registers.append(json.dumps(read_toml(root, folder / REGISTER), sort_keys=True))
+        registers.append(json.dumps(read_toml(root, root / "refimpl" / name / REGISTER), sort_keys=True))
         rows = read_toml(root, folder / "runs.toml").get("run", [])
         graphs += [row for row in rows if "graph" in row]
         graphs += [

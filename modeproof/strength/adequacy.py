@@ -3,7 +3,9 @@
 The mutants are those that the theorems judge (implementation.py). Here each runs in a process of its own
 against the suites of every published target that can reach its edit, the shortest suite first, and stops at
 the first that tells it from the shipped code. One that the theorems have proved EQUIVALENT is not judged
-again. What reaches no published target is out of scope, and is counted.
+again. Before the longest suite, what is left is put to an observer: it proves of some that nobody can tell
+them from the shipped code by inputs and outputs. What reaches no published target is out of scope, and is
+counted.
 
 An answer holds as long as the code, the replay and that very suite are the same; so a suite that is new or
 has changed is asked alone.
@@ -11,6 +13,7 @@ has changed is asked alone.
 
 from __future__ import annotations
 
+import ast
 import inspect
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -27,7 +30,7 @@ from modeproof.kit.vectors import Suite
 from modeproof.processes import in_forks
 from modeproof.progress import Progress
 from modeproof.registers.load import load_interface
-from modeproof.registers.rows import Device, Interface
+from modeproof.registers.rows import Interface
 from modeproof.strength import replay
 from modeproof.strength.campaign import Judged, so_far
 from modeproof.strength.implementation import Implementation, closure
@@ -38,6 +41,10 @@ from modeproof.strength.results import Results, digest
 LEAST_S, TIMES = 20.0, 30
 """A mutant gets so many times as long as the shipped code took for a suite, and at least these seconds."""
 UNMEASURED, INVALID = "unmeasured", "invalid"
+EQUIVALENT = "EQUIVALENT"
+BY_REFUSAL = "only refuses what it must answer"
+OBSERVER_S = 600.0
+"""Wall-clock time of the observer for one mutant."""
 
 
 class Copies(Protocol):
@@ -50,6 +57,16 @@ class Copies(Protocol):
 
     def copied(self, package: str, change: Any) -> Any:
         """The copy; its `modules` are the copied modules by name."""
+
+
+class Observer(Protocol):
+    """What proves that nobody can tell a changed copy from the code: see proofs/mutants/observed.py."""
+
+    def bench_of(self, document: str) -> Any:
+        """What it needs to know of the shipped code."""
+
+    def observe(self, bench: Any, change: Any, file: str) -> Any:
+        """A verdict (EQUIVALENT, DIFFERS or UNMEASURED), a witness and a reason."""
 
 
 @dataclass(frozen=True)
@@ -85,6 +102,7 @@ class Adequacy:
 
     code: Implementation
     copies: Copies
+    observer: Observer
     suites: Sequence[Published]
     proved: Results
     interface: Interface = field(init=False)
@@ -136,7 +154,12 @@ class Adequacy:
     def base(self) -> str:
         """A hash of the code and of what runs and compares it."""
         programs = [f"{name} {text}" for name, text in sorted(closure(self.place, self.code.reached).items())]
-        return digest([*programs, inspect.getsource(replay), _source_of(self.copies)])
+        return digest([*programs, _program_of(replay), _program_of(self.copies)])
+
+    @cached_property
+    def observes_by(self) -> str:
+        """A hash of what the observer rests on."""
+        return digest([self.base, self.code.base, _program_of(self.observer)])
 
     def theorems_say(self, mutant: Mutant) -> Mapping[str, Any] | None:
         """The judgement by theorems that holds for the code as it is now."""
@@ -150,6 +173,11 @@ class Adequacy:
             id for id, record in said if record is not None and record["verdict"] == "EQUIVALENT"
         )
 
+    def change(self, mutant: Mutant) -> Any:
+        """The edit as what makes copies takes it."""
+        told = self.code.change(mutant)
+        return self.copies.Change(told["module"], told["definition"], told["text"], told["lines"])
+
     # ---- what is known
 
     def answers(self, results: Results, mutant: Mutant) -> list[dict[str, Any]]:
@@ -162,16 +190,28 @@ class Adequacy:
             one for one in record["answers"] if now.get((one["suite"], one["target"]), "") == one["vectors"]
         ]
 
-    def to_ask(self, mutant: Mutant, answers: Sequence[Mapping[str, Any]], complete: bool) -> tuple[str, ...]:
+    def observed(self, results: Results, mutant: Mutant) -> Mapping[str, Any] | None:
+        """What the observer said, if that holds now."""
+        said = results.records.get((mutant.id, self.base), {}).get("observed")
+        return said if said is not None and said["inputs"] == self.observes_by else None
+
+    def to_ask(
+        self,
+        mutant: Mutant,
+        answers: Sequence[Mapping[str, Any]],
+        observed: Mapping[str, Any] | None,
+        complete: bool,
+    ) -> tuple[str, ...]:
         """The suites that are still to be asked."""
         if any(one["result"] in (UNMEASURED, INVALID) for one in answers):
             return ()
-        if mutant.id in self.equivalent and not complete:
+        same = mutant.id in self.equivalent or (observed is not None and observed["verdict"] == EQUIVALENT)
+        if same and not complete:
             return ()
         if not complete and killers(answers):
             return ()
         had = {(one["suite"], one["target"]) for one in answers}
-        caught = set(killers(answers))
+        caught = killers(answers)
         wanted = self.targets_of(mutant)
         open_ones = [
             one.name
@@ -182,41 +222,54 @@ class Adequacy:
 
     def judged(self, results: Results, mutant: Mutant, complete: bool = False) -> Judged | None:
         """The judgement, if all suites that must be asked have answered."""
-        answers = self.answers(results, mutant)
-        if self.to_ask(mutant, answers, complete):
+        answers, observed = self.answers(results, mutant), self.observed(results, mutant)
+        if self.to_ask(mutant, answers, observed, complete):
             return None
         record = results.records.get((mutant.id, self.base), {})
-        return Judged(mutant, {**_about(mutant), **record, **self._verdict(mutant, answers)})
+        return Judged(mutant, {**_about(mutant), **record, **self.verdict(mutant, answers, observed)})
 
     def known(self, results: Results) -> list[Judged]:
         """The mutants in scope that are judged."""
         found = (self.judged(results, one) for one in self.every)
         return [one for one in found if one is not None]
 
-    def _verdict(self, mutant: Mutant, answers: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    def verdict(
+        self, mutant: Mutant, answers: Sequence[Mapping[str, Any]], observed: Mapping[str, Any] | None
+    ) -> dict[str, Any]:
+        """The word, the suites that kill, and the reason, once all have answered.
+
+        Raises Unjudged when a suite catches what is proved to be the same.
+        """
         caught, word, reason = killers(answers), "SURVIVED", ""
-        unmeasured = [one for one in answers if one["result"] == UNMEASURED]
-        refused = [one for one in answers if one["result"] == replay.REFUSES]
+        same = ""
         if mutant.id in self.equivalent:
-            word, reason = "EQUIVALENT", "proved by the theorem campaign"
-            if caught:
-                raise Unjudged(
-                    f"{mutant.id} is proved EQUIVALENT, and the suite {caught[0]} tells it from the shipped "
-                    "code: one of the two judges is wrong"
-                )
+            same = "the theorem campaign"
+        elif observed is not None and observed["verdict"] == EQUIVALENT:
+            same = "the observer: nobody can tell it by inputs and outputs"
+        refusing = [one for one in answers if one["result"] == replay.REFUSES]
+        unmeasured = [one for one in answers if one["result"] == UNMEASURED]
+        if same and (caught or refusing):
+            name = (caught or [refusing[0]["suite"]])[0]
+            raise Unjudged(
+                f"{mutant.id} is proved EQUIVALENT by {same}, and the suite {name} tells it from the shipped "
+                "code: one of the two judges is wrong"
+            )
+        if same:
+            word, reason = EQUIVALENT, f"proved by {same}"
         elif caught:
             word = "KILLED"
         elif unmeasured:
             word, reason = UNMEASURED.upper(), unmeasured[0]["detail"]
         elif any(one["result"] == INVALID for one in answers):
-            word, reason = "INVALID", answers[0]["detail"]
-        elif refused:
-            word, reason = UNMEASURED.upper(), f"only refuses what it must answer: {refused[0]['detail']}"
+            word, reason = INVALID.upper(), answers[0]["detail"]
+        elif refusing:
+            caught = tuple(dict.fromkeys(one["suite"] for one in refusing))
+            word, reason = "KILLED", f"{BY_REFUSAL}: {refusing[0]['detail']}"
         return {"verdict": word, "killers": list(caught), "reason": reason, "answers": list(answers)}
 
 
 def killers(answers: Sequence[Mapping[str, Any]]) -> tuple[str, ...]:
-    """The suites that tell the mutant from the shipped code, in the order of asking."""
+    """The suites in which the mutant gives wrong outputs or raises, in the order of asking."""
     caught = (one["suite"] for one in answers if one["result"] in (replay.DIFFERS, replay.RAISES))
     return tuple(dict.fromkeys(caught))
 
@@ -231,8 +284,9 @@ def _about(mutant: Mutant) -> dict[str, Any]:
     }
 
 
-def _source_of(copies: Copies) -> str:
-    return inspect.getsource(copies) if isinstance(copies, ModuleType) else ""
+def _program_of(module: object) -> str:
+    """A module as a program without comments."""
+    return ast.dump(ast.parse(inspect.getsource(module))) if isinstance(module, ModuleType) else ""
 
 
 # ---------------------------------------------------------------------------------------------- the campaign
@@ -256,84 +310,172 @@ def judge_by_vectors(
     """
     if results.remark:
         progress.say(results.remark)
-    held = {one.id: adequacy.answers(results, one) for one in chosen}
-    before = sum(1 for one in chosen if held[one.id])
+    run = _Campaign(adequacy, results, progress, jobs, complete)
+    before = sum(1 for one in chosen if adequacy.answers(results, one))
     if before:
         progress.say(f"{before} of {len(chosen)} mutants have answers from before")
     for name in adequacy.names:
-        waiting = [one for one in chosen if name in adequacy.to_ask(one, held[one.id], complete)]
+        if name == adequacy.names[-1]:
+            run.observe(chosen)
+        waiting = [one for one in chosen if name in run.to_ask(one)]
         if waiting:
-            _Stage(adequacy, name, results, progress, held, complete).run(waiting, jobs, limit)
+            _Stage(run, name).run(waiting, limit)
     judged = [adequacy.judged(results, one, complete) for one in chosen]
     return [one for one in judged if one is not None]
+
+
+@dataclass
+class _Campaign:
+    """What is known of the mutants so far, in the results; each new answer is written as it comes."""
+
+    adequacy: Adequacy
+    results: Results
+    progress: Progress
+    jobs: int
+    complete: bool
+
+    def answers(self, mutant: Mutant) -> list[dict[str, Any]]:
+        """The answers of suites that hold."""
+        return self.adequacy.answers(self.results, mutant)
+
+    def to_ask(self, mutant: Mutant) -> tuple[str, ...]:
+        """The suites that are still to be asked."""
+        observed = self.adequacy.observed(self.results, mutant)
+        return self.adequacy.to_ask(mutant, self.answers(mutant), observed, self.complete)
+
+    def keep(
+        self,
+        mutant: Mutant,
+        new: Sequence[dict[str, Any]] = (),
+        observed: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Write what is known of the mutant with what is new."""
+        adequacy = self.adequacy
+        answers = [*self.answers(mutant), *new]
+        said = observed or adequacy.observed(self.results, mutant)
+        left = adequacy.to_ask(mutant, answers, said, self.complete)
+        found = {"verdict": "", "killers": [], "reason": f"still to be asked: {', '.join(left)}"}
+        if not left:
+            found = adequacy.verdict(mutant, answers, said)
+        self.results.add(
+            {
+                **_about(mutant),
+                **found,
+                "inputs": adequacy.base,
+                "complete": not adequacy.to_ask(mutant, answers, said, True),
+                "answers": answers,
+                "observed": said,
+                "seconds": round(sum(one["seconds"] for one in answers), 3),
+            }
+        )
+
+    def each(
+        self,
+        task: str,
+        work: Callable[[Mutant], Any],
+        waiting: Sequence[Mutant],
+        limit_s: float,
+        take: Callable[[Mutant, Any, str], None],
+    ) -> None:
+        """Work on each mutant in a process of its own; `take` gets the result, or None and why."""
+        began, done = time.monotonic(), 0
+        for outcome in in_forks(work, waiting, self.jobs, limit_s):
+            if outcome is not None:
+                take(waiting[outcome.number], outcome.result, outcome.why)
+                done += 1
+            words = {one.id: self.results.records.get((one.id, self.adequacy.base), {}) for one in waiting}
+            counted = {id: {"verdict": record.get("verdict", "")} for id, record in words.items()}
+            self.progress.update(task, so_far(len(waiting), done, time.monotonic() - began, counted))
+
+    def observe(self, chosen: Sequence[Mutant]) -> None:
+        """Put what no suite has caught to the observer."""
+        adequacy = self.adequacy
+        waiting = [
+            one
+            for one in chosen
+            if one.id not in adequacy.equivalent
+            and self.to_ask(one)
+            and adequacy.observed(self.results, one) is None
+            and all(answer["result"] == replay.PASSES for answer in self.answers(one))
+        ]
+        if not waiting:
+            return
+        task = "observer"
+        self.progress.expect(1)
+        self.progress.begin(task)
+        try:
+            self.progress.update(task, "exploring the shipped code")
+            bench = adequacy.observer.bench_of(adequacy.code.document)
+
+            def work(mutant: Mutant) -> dict[str, Any]:
+                change = adequacy.code.change(mutant)
+                said = adequacy.observer.observe(bench, adequacy.change(mutant), change["file"])
+                return {"verdict": said.verdict, "witness": said.witness, "reason": said.reason}
+
+            def take(mutant: Mutant, said: dict[str, Any] | None, why: str) -> None:
+                found = said or {"verdict": UNMEASURED.upper(), "witness": "", "reason": why}
+                self.keep(mutant, observed={**found, "inputs": adequacy.observes_by})
+
+            self.each(task, work, waiting, OBSERVER_S, take)
+        finally:
+            self.progress.end(task)
 
 
 @dataclass
 class _Stage:
     """One suite put to the mutants that are left."""
 
-    adequacy: Adequacy
+    campaign: _Campaign
     name: str
-    results: Results
-    progress: Progress
-    held: dict[str, list[dict[str, Any]]]
-    complete: bool
     vectors: dict[str, tuple[Vectors, str]] = field(default_factory=dict)
 
-    def run(self, waiting: Sequence[Mutant], jobs: int, limit: Callable[[float], float]) -> None:
+    @property
+    def adequacy(self) -> Adequacy:
+        """The mutants and the suites."""
+        return self.campaign.adequacy
+
+    def run(self, waiting: Sequence[Mutant], limit: Callable[[float], float]) -> None:
         """Judge them, and write each answer as it comes."""
-        task = f"suite {self.name}"
-        self.progress.expect(1)
-        self.progress.begin(task)
+        progress, task = self.campaign.progress, f"suite {self.name}"
+        progress.expect(1)
+        progress.begin(task)
         try:
-            shipped = self._load(
-                task, {one for mutant in waiting for one in self.adequacy.targets_of(mutant)}
-            )
-            limit_s = limit(shipped)
-            began, done = time.monotonic(), 0
-            for outcome in in_forks(self._judge, waiting, jobs, limit_s):
-                if outcome is not None:
-                    mutant = waiting[outcome.number]
-                    new = outcome.result
-                    if new is None:
-                        new = [self._unmeasured(mutant, outcome.why, limit_s)]
-                    self._keep(mutant, new)
-                    done += 1
-                words = {one.id: {"verdict": _so_far(self.held[one.id])} for one in waiting}
-                self.progress.update(task, so_far(len(waiting), done, time.monotonic() - began, words))
+            targets = {one for mutant in waiting for one in self.adequacy.targets_of(mutant)}
+            limit_s = limit(self._load(task, targets))
+
+            def take(mutant: Mutant, new: list[dict[str, Any]] | None, why: str) -> None:
+                self.campaign.keep(mutant, new or [self._unmeasured(mutant, why, limit_s)])
+
+            self.campaign.each(task, self._judge, waiting, limit_s, take)
         finally:
-            self.progress.end(task)
+            progress.end(task)
 
     def _load(self, task: str, targets: set[str]) -> float:
         """Read the suite of each target, and let it judge the shipped code; the seconds that this takes."""
-        adequacy, seconds = self.adequacy, 0.0
+        adequacy, progress, seconds = self.adequacy, self.campaign.progress, 0.0
         document = adequacy.code.document
         forms = ValueForms([int(mode) for mode in adequacy.interface.constants.get("MODES", ())])
         for one in adequacy.suites:
             if one.name == self.name and one.target in targets:
-                self.progress.update(task, f"reading {one.target}")
+                progress.update(task, f"reading {one.target}")
                 package = adequacy.targets[one.target].split(".")[0]
                 code = load_implementation(package, document, one.target)
-                vectors = vectors_of(one.suite, self._device(one.target), forms, code)
-                self.progress.update(task, f"the shipped {one.target}, with a fault in its last scan")
+                device = adequacy.interface.devices[one.target]
+                vectors = vectors_of(one.suite, device, forms, code)
+                progress.update(task, f"the shipped {one.target}, with a fault in its last scan")
                 seconds += replay.control(vectors, code).seconds
                 self.vectors[one.target] = vectors, one.contents
         return seconds
 
-    def _device(self, target: str) -> Device:
-        return self.adequacy.interface.devices[target]
-
     def _judge(self, mutant: Mutant) -> list[dict[str, Any]]:
         """What this suite says of a mutant, for one target after the other until one catches it."""
         adequacy = self.adequacy
-        change = adequacy.code.change(mutant)
         wanted = [one for one in adequacy.targets_of(mutant) if one in self.vectors]
-        had = {one["target"] for one in self.held[mutant.id] if one["suite"] == self.name}
+        had = {one["target"] for one in self.campaign.answers(mutant) if one["suite"] == self.name}
         found: list[dict[str, Any]] = []
-        package = change["module"].rpartition(".")[0]
-        told = adequacy.copies.Change(change["module"], change["definition"], change["text"], change["lines"])
+        change = adequacy.change(mutant)
         try:
-            copy = adequacy.copies.copied(package, told)
+            copy = adequacy.copies.copied(change.module.rpartition(".")[0], change)
         except adequacy.copies.CopyError as error:
             return [self._answer(wanted[0], replay.Answer(INVALID, 0, detail=str(error)))]
         for target in wanted:
@@ -351,27 +493,3 @@ class _Stage:
     def _unmeasured(self, mutant: Mutant, why: str, limit_s: float) -> dict[str, Any]:
         target = next(one for one in self.adequacy.targets_of(mutant) if one in self.vectors)
         return self._answer(target, replay.Answer(UNMEASURED, 0, detail=why, seconds=limit_s))
-
-    def _keep(self, mutant: Mutant, new: Sequence[dict[str, Any]]) -> None:
-        """Add the answers to what is known of the mutant, and to the file, at once."""
-        every = self.held[mutant.id] = [*self.held[mutant.id], *new]
-        left = self.adequacy.to_ask(mutant, every, self.complete)
-        word = "" if left else self.adequacy._verdict(mutant, every)["verdict"]
-        self.results.add(
-            {
-                **_about(mutant),
-                "inputs": self.adequacy.base,
-                "complete": not self.adequacy.to_ask(mutant, every, True),
-                "verdict": word,
-                "killers": list(killers(every)),
-                "reason": "" if word else f"still to be asked: {', '.join(left)}",
-                "answers": every,
-                "seconds": round(sum(one["seconds"] for one in every), 3),
-            }
-        )
-
-
-def _so_far(answers: Sequence[Mapping[str, Any]]) -> str:
-    if killers(answers):
-        return "KILLED"
-    return "UNMEASURED" if any(one["result"] == UNMEASURED for one in answers) else ""

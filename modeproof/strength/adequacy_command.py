@@ -58,14 +58,15 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
 
 def adequacy_of(place: Path, document: str, quiet: bool = True) -> Adequacy:
     """The mutants, and every suite of every published target; suites are built when missing."""
-    from modeproof.cli import code_under_proof, copies_of_code
+    from modeproof.cli import code_under_proof, copies_of_code, observer_of_code
 
     code = Implementation(place, document, code_under_proof())
     try:
         suites = published(_suites(place, document, quiet))
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
-    return Adequacy(code, copies_of_code(), suites, read_results(results_path(place, document, "impl")))
+    proved = read_results(results_path(place, document, "impl"))
+    return Adequacy(code, copies_of_code(), observer_of_code(), suites, proved)
 
 
 def _suites(place: Path, document: str, quiet: bool) -> Sequence[Suite]:
@@ -99,11 +100,14 @@ def _show(adequacy: Adequacy, mutant: Mutant, results: Results) -> int:
             f"    {one['suite']} {one['target']}: {one['result']} after {one['scans']:,} scans"
             f"{'; ' + where if where else ''}"
         )
+    said = adequacy.observed(results, mutant)
+    if said is not None:
+        print(f"    observer: {said['verdict']}  {said['witness'] or said['reason']}")
     judged = adequacy.judged(results, mutant)
     print(f"{judged.word}  {', '.join(judged.killers)}" if judged else "not judged yet for this code")
-    said = adequacy.theorems_say(mutant)
-    if said is not None:
-        print(f"by theorems: {said['verdict']}  {', '.join(said['killers'])}")
-        if said["witness"]:
-            print(f"    {said['witness']}")
+    proved = adequacy.theorems_say(mutant)
+    if proved is not None:
+        print(f"by theorems: {proved['verdict']}  {', '.join(proved['killers'])}")
+        if proved["witness"]:
+            print(f"    {proved['witness']}")
     return 0

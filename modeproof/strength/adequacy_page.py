@@ -13,7 +13,7 @@ from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.registers.adequacy_page import PAGE, stamped_adequacy
 from modeproof.strength import replay
-from modeproof.strength.adequacy import Adequacy
+from modeproof.strength.adequacy import BY_REFUSAL, Adequacy
 from modeproof.strength.campaign import WORDS, Judged
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.page import counted, edit_of, markdown, percent, survivors
@@ -59,6 +59,7 @@ def _head(adequacy: Adequacy, judged: Sequence[Judged], explained: Sequence[Expl
     real = counts["KILLED"] + counts["SURVIVED"] + counts["UNMEASURED"]
     open_ones = len(unexplained(explained, judged))
     seconds = sum(one.record["seconds"] for one in judged)
+    refusing = sum(one.word == "KILLED" and one.record["reason"].startswith(BY_REFUSAL) for one in judged)
     out = len(adequacy.out_of_scope)
     document = adequacy.code.document
     targets = ", ".join(f"`{one}`" for one in adequacy.targets)
@@ -81,11 +82,11 @@ and the theorems judge them. The shortest suite is asked first, and a mutant tha
 
 | word | meaning |
 |---|---|
-| KILLED | in some scan of some suite its outputs are not those that the vectors demand, or it raises an error that is no refusal |
-| EQUIVALENT | the theorem campaign has proved, path by path, that it does what the shipped code does; it is not judged again |
+| KILLED | in some scan of some suite its outputs are not those that the vectors demand, or it raises an error. {refusing} of them do nothing else wrong but refuse inputs that they must answer; of such a program the kit says UNJUDGED, and never CONFORMS |
+| EQUIVALENT | proved, for all inputs, times and parameters: by the theorem campaign, that it returns the same; or by an observer, that it differs only in memory that nothing reads again, so that nobody can tell it by inputs and outputs |
 | SURVIVED | every suite of every target that reaches the edit passes |
 | INVALID | the text does not compile; not counted as killed |
-| UNMEASURED | a limit of time came first (it may never end), or it only refuses inputs that it must answer; counts against the score |
+| UNMEASURED | a limit of time came first (it may never end); counts against the score |
 
 Before a suite judges any mutant, the shipped code must pass it, and must be caught when its outputs are wrong in the very last scan. The mutants
 run in process, without a wire; what an adapter must refuse (suite `refusals`) is therefore not part of this, for no edit is made in an adapter.
@@ -112,6 +113,7 @@ def _by_suite(adequacy: Adequacy, judged: Sequence[Judged]) -> str:
         asked = len({one.mutant.id for one, _ in of_suite})
         caught = [answer for _, answer in of_suite if _caught(answer)]
         raised = sum(answer["result"] == replay.RAISES for answer in caught)
+        refused = len({one.mutant.id for one, answer in of_suite if answer["result"] == replay.REFUSES})
         until = [answer["scans"] for answer in caught]
         rows.append(
             [
@@ -121,14 +123,15 @@ def _by_suite(adequacy: Adequacy, judged: Sequence[Judged]) -> str:
                 len(caught),
                 percent(len(caught), asked),
                 raised,
+                refused,
                 f"{median(until):,.0f}" if until else "-",
                 f"{max(until):,}" if until else "-",
             ]
         )
-    head = ["suite", "scans", "asked", "caught", "of asked", "by an error", "median", "most"]
+    head = ["suite", "scans", "asked", "caught", "of asked", "by an error", "refuse only", "median", "most"]
     text = (
         "## By suite\n\nIn the order of asking, which is that of length; all targets together. Asked: mutants that no suite above has caught. By an error: "
-        "caught because a scan raises. Median and most: scans of the suite that were run until it caught one.\n\n"
+        "caught because a scan raises. Refuse only: not caught by this suite but for refusals; the next suites are asked too. Median and most: scans of the suite that were run until it caught one.\n\n"
     )
     return text + markdown(head, rows) + _alone(adequacy, real)
 
@@ -186,8 +189,16 @@ def _unmeasured(judged: Sequence[Judged]) -> str:
     return "## Invalid, unmeasured\n\n" + "\n".join(lines) + "\n"
 
 
+def _folded(ones: Sequence[Judged]) -> str:
+    lines = [f"<details><summary>{len(ones)} EQUIVALENT</summary>\n"]
+    lines += [f"- `{one.mutant.id}` {edit_of(one.mutant)}" for one in ones]
+    return "\n".join([*lines, "\n</details>\n\n"]) if ones else ""
+
+
 def _not_judged(adequacy: Adequacy, judged: Sequence[Judged]) -> str:
-    same = [one for one in judged if one.word == "EQUIVALENT"]
+    equal = [one for one in judged if one.word == "EQUIVALENT"]
+    same = [one for one in equal if one.mutant.id in adequacy.equivalent]
+    unseen = [one for one in equal if one.mutant.id not in adequacy.equivalent]
     asked = [one for one in same if one.record["answers"]]
     modules = Counter(one.module for one in adequacy.out_of_scope)
     out = ", ".join(f"{count} of `{module}`" for module, count in sorted(modules.items())) or "none"
@@ -199,5 +210,7 @@ def _not_judged(adequacy: Adequacy, judged: Sequence[Judged]) -> str:
     return (
         "## Not judged here\n\n"
         f"- Proved EQUIVALENT by the theorem campaign: {len(same)}; they are listed in [strength-impl.md](strength-impl.md).{control}\n"
-        f"- Out of scope, for no published target reaches them: {out}.\n"
+        f"- Told by nobody, by the observer (`proofs/mutants/observed.py`): {len(unseen)}. No suite that they were put to catches any of them:\n\n"
+        + _folded(unseen)
+        + f"- Out of scope, for no published target reaches them: {out}.\n"
     )

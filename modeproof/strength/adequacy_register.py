@@ -11,7 +11,7 @@ from modeproof.strength.register import Explained, read_explained, refuse_unknow
 
 def register_path(place: Path, document: str) -> Path:
     """Where the register lies."""
-    return place / "spec" / document / "adequacy.toml"
+    return place / "refimpl" / document / "adequacy.toml"
 
 
 def read_explanations(place: Path, document: str) -> tuple[Explained, ...]:

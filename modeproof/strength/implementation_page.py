@@ -91,6 +91,11 @@ place of a name in [strength.toml](../proofs/{code.document}/strength.toml).
 
 A scan that raises breaks the theorem that every scan ends with a state and outputs. The first theorem that falls is named; the others are
 not asked unless `--complete` says so.
+
+**What the score does not say.** It measures the theorems, by small faults in one place of one program: not that this program is right, and
+nothing about a program of yours. It knows no fault in two places, no function that is missing from program and theorems alike, and no
+misreading of the document that both share. A theorem that kills nothing here is not idle for that: those before it in the list may have killed first,
+or no single edit may break it. [adequacy.md](adequacy.md) asks the test vectors about the same mutants.
 """
 
 
@@ -112,7 +117,8 @@ def _by_theorem(code: Implementation, judged: Sequence[Judged]) -> str:
     nothing = [name for name in names if not first[name]]
     notes = [
         "Asked: mutants to which the theorem was put, those before it in the list having found nothing.",
-        f"Kill nothing here, for others come first: {names_of(nothing)}.",
+        f"Kill nothing here: {names_of(nothing)}. Either others killed first, or no single edit breaks them; the planted faults that "
+        "refute a theorem are among its examples in [proofs.md](proofs.md).",
     ]
     return (
         "## By theorem\n\n"

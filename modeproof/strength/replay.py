@@ -9,7 +9,6 @@ any other error in `power_up` or `step` is a difference.
 
 from __future__ import annotations
 
-import gzip
 import hashlib
 import json
 import marshal
@@ -22,7 +21,8 @@ from typing import Any
 from modeproof.errors import Unjudged
 from modeproof.graph.implementation import Implementation
 from modeproof.graph.values import ValueForms
-from modeproof.kit.vectors import Case, Suite
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.kit.vectors import Case, Suite, read_lines
 from modeproof.registers.rows import Device
 
 PASSES, DIFFERS, RAISES, REFUSES = "passes", "differs", "raises", "refuses"
@@ -207,11 +207,11 @@ def contents(path: Path) -> str:
     """A hash of what a vector file says: its cases, and how they are to be read. Raises Unjudged."""
     found = hashlib.sha256()
     try:
-        with gzip.open(path, "rb") if path.suffix == ".gz" else path.open("rb") as stream:
-            header = json.loads(stream.readline())
-            found.update(json.dumps({key: header.get(key) for key in _HEADER}, sort_keys=True).encode())
-            for line in stream:
-                found.update(line)
-    except (OSError, EOFError, ValueError, AttributeError) as error:
-        raise Unjudged(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+        lines = read_lines(path)
+        header = json.loads(next(lines))
+        found.update(json.dumps({key: header.get(key) for key in _HEADER}, sort_keys=True).encode())
+        for line in lines:
+            found.update(line)
+    except (KitUnjudged, StopIteration, ValueError, AttributeError) as error:
+        raise Unjudged(f"{path.name}: cannot be read: {error}") from None
     return found.hexdigest()[:16]

@@ -139,6 +139,7 @@ def build_place(root: Path, gate: str = GATE) -> Path:
         ("proofs/toy/subjects.py", f"from {PACKAGE}.toy import gate\n"),
         ("proofs/mutants/bench.py", ""),
         ("docs/x.md", ""),
+        ("refimpl/toy/__init__.py", ""),
     ):
         path = root / file
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -39,10 +41,34 @@ def place(tmp_path: Path) -> Iterator[Path]:
     unload()
 
 
-def adequacy_of(place: Path, names: tuple[str, ...] = ("long", "short")) -> Adequacy:
+@dataclass
+class Watcher:
+    """Stands for the observer: nobody can tell a mutant whose text holds one of these."""
+
+    same: tuple[str, ...] = ()
+    said: str = "EQUIVALENT"
+    asked: int = 0
+
+    def bench_of(self, document: str) -> Any:
+        self.asked += 1
+        return "bench"
+
+    def observe(self, bench: Any, change: Any, file: str) -> Any:
+        assert bench == "bench" and Path(file).is_file()
+        if any(text in change.text for text in self.same):
+            return SimpleNamespace(verdict=self.said, witness="", reason="")
+        return SimpleNamespace(verdict="DIFFERS", witness="somewhere", reason="")
+
+
+WATCHER = Watcher()
+
+
+def adequacy_of(
+    place: Path, names: tuple[str, ...] = ("long", "short"), watcher: Watcher = WATCHER
+) -> Adequacy:
     suites = published([open_suite(place / f"{name}.jsonl") for name in names])
     proved = read_results(place / "impl.jsonl")
-    return Adequacy(Implementation(place, "toy", Room(place)), copies, suites, proved)
+    return Adequacy(Implementation(place, "toy", Room(place)), copies, watcher, suites, proved)
 
 
 def campaign(
@@ -51,8 +77,9 @@ def campaign(
     names: tuple[str, ...] = ("long", "short"),
     definitions: tuple[str, ...] = ("WORDS", "word"),
     limit_s: float = 30.0,
+    watcher: Watcher = WATCHER,
 ) -> tuple[Adequacy, Results, list[Judged]]:
-    adequacy = adequacy_of(place, names)
+    adequacy = adequacy_of(place, names, watcher)
     results = read_results(place / "vectors.jsonl")
     chosen = [one for one in adequacy.every if one.definition in definitions or not definitions]
     judged = judge_by_vectors(
@@ -108,14 +135,16 @@ def test_a_mutant_that_never_ends_is_ended_and_unmeasured(place: Path) -> None:
     assert not endless.killers
 
 
-def test_refusing_what_must_be_answered_is_no_kill_by_itself(place: Path) -> None:
+def test_refusing_what_must_be_answered_kills_in_the_end_and_is_told_apart(place: Path) -> None:
     _, _, judged = campaign(place)
     one = by_edit(judged, "word", "count <= 2", "count < 2")
-    assert (one.word, one.killers) == ("UNMEASURED", ())
-    assert "only refuses what it must answer" in one.record["reason"]
+    assert (one.word, one.killers) == ("KILLED", ("long",))
+    assert one.record["reason"].startswith("only refuses what it must answer: ")
     assert "scan 2: GateError: count: cannot be" in one.record["reason"]
     passed, refused = one.record["answers"]
     assert (passed["result"], refused["result"], refused["refused"]) == ("passes", "refuses", 3)
+    both = by_edit(judged, "word", "count <= 2", "False")
+    assert [answer["suite"] for answer in both.record["answers"]] == ["short", "long"], "asked on"
 
 
 class Refusal(ValueError):
@@ -252,6 +281,28 @@ def test_a_suite_that_catches_what_is_proved_equivalent_is_a_contradiction(place
         campaign(place, complete=True)
 
 
+def test_what_nobody_can_tell_is_not_put_to_the_longest_suite(place: Path) -> None:
+    watcher = Watcher(same=("count <= 3",))
+    _, _, judged = campaign(place, watcher=watcher)
+    same = by_edit(judged, "word", "2", "3")
+    assert (same.word, watcher.asked) == ("EQUIVALENT", 1)
+    assert [one["suite"] for one in same.record["answers"]] == ["short"]
+    told = by_edit(judged, "WORDS", "9", "10")
+    assert (told.word, told.record["observed"]["witness"]) == ("KILLED", "somewhere")
+    campaign(place, watcher=watcher)
+    assert watcher.asked == 1, "what it said is kept"
+
+
+def test_an_observer_that_is_wrong_is_found_by_a_suite(place: Path) -> None:
+    with pytest.raises(Unjudged, match="one of the two judges is wrong"):
+        campaign(place, watcher=Watcher(same=("WORDS = (5, 10)",)), complete=True)
+
+
+def test_what_the_observer_does_not_know_survives(place: Path) -> None:
+    _, _, judged = campaign(place, watcher=Watcher(same=("count <= 3",), said="UNMEASURED"))
+    assert by_edit(judged, "word", "2", "3").word == "SURVIVED"
+
+
 # ---------------------------------------------------------------- going on
 
 
@@ -275,7 +326,7 @@ def test_a_campaign_that_was_cut_off_goes_on_and_known_answers_stay(
 
 def test_a_new_suite_is_asked_of_what_is_left_alone(place: Path) -> None:
     _, _, before = campaign(place, names=("short",))
-    killed = {one.mutant.id for one in before if one.word == "KILLED"}
+    killed = {one.mutant.id for one in before if one.word == "KILLED" and not one.record["reason"]}
     assert 0 < len(killed) < len(before)
     _, results, _ = campaign(place)
     for (id, _), record in results.records.items():
