@@ -3,7 +3,7 @@
 The mutants are those that the theorems judge (implementation.py). Here each runs in a process of its own
 against the suites of every published target that can reach its edit, the shortest suite first, and stops at
 the first that tells it from the shipped code. One that the theorems have proved EQUIVALENT is not judged
-again. Before the longest suite, what is left is put to an observer: it proves of some that nobody can tell
+again. Before the first long suite, what is left is put to an observer: it proves of some that nobody can tell
 them from the shipped code by inputs and outputs. What reaches no published target is out of scope, and is
 counted.
 
@@ -43,6 +43,8 @@ LEAST_S, TIMES = 20.0, 30
 UNMEASURED, INVALID = "unmeasured", "invalid"
 EQUIVALENT = "EQUIVALENT"
 BY_REFUSAL = "only refuses what it must answer"
+LONG = 100_000
+"""Scans of a suite that take as long as the observer needs for a mutant."""
 OBSERVER_S = 600.0
 """Wall-clock time of the observer for one mutant."""
 
@@ -119,6 +121,14 @@ class Adequacy:
     def names(self) -> tuple[str, ...]:
         """The names of the suites in the order of asking."""
         return tuple(dict.fromkeys(one.name for one in self.suites))
+
+    @cached_property
+    def observes_before(self) -> str:
+        """The suite before which the observer is asked: the first long one, or the last one."""
+        scans = {
+            name: sum(one.suite.scan_count for one in self.suites if one.name == name) for name in self.names
+        }
+        return next((name for name in self.names if scans[name] >= LONG), self.names[-1])
 
     @cached_property
     def targets(self) -> Mapping[str, str]:
@@ -315,7 +325,7 @@ def judge_by_vectors(
     if before:
         progress.say(f"{before} of {len(chosen)} mutants have answers from before")
     for name in adequacy.names:
-        if name == adequacy.names[-1]:
+        if name == adequacy.observes_before:
             run.observe(chosen)
         waiting = [one for one in chosen if name in run.to_ask(one)]
         if waiting:
