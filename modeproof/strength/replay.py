@@ -111,12 +111,12 @@ def vectors_of(suite: Suite, device: Device, forms: ValueForms, code: Implementa
         for scan in case.scans:
             if scan.request is not None:
                 continue
-            given = marshal.dumps((scan.dt_ms, scan.inputs))
+            given = marshal.dumps((scan.dt_ms, dict(scan.inputs)))
             if given not in inputs:
                 inputs[given] = record(code.inputs, device.inputs, scan.inputs, dt_ms=scan.dt_ms)
             wanted = None
             if scan.compared:
-                key = marshal.dumps(scan.outputs)
+                key = marshal.dumps(dict(scan.outputs))
                 if key not in outputs:
                     outputs[key] = record(code.outputs, device.outputs, scan.outputs)
                 wanted = outputs[key]

@@ -92,9 +92,9 @@ def sight_of(device: Device) -> Sight:
     while True:
         before = {control: frozenset(found) for control, found in direct.items()}
         for control, rows in handed.items():
-            for then, name, read in rows:
+            for then, name, sources in rows:
                 if name in before[then]:
-                    direct[control] |= read
+                    direct[control] |= sources
         if before == {control: frozenset(found) for control, found in direct.items()}:
             return Sight(device, before)
 
