@@ -191,14 +191,15 @@ class Adequacy:
     # ---- what is known
 
     def answers(self, results: Results, mutant: Mutant) -> list[dict[str, Any]]:
-        """The answers that hold now."""
+        """The answers that hold now, in the order of the suites."""
         record = results.records.get((mutant.id, self.base))
         if record is None:
             return []
         now = {(one.name, one.target): one.contents for one in self.suites}
-        return [
+        holding = [
             one for one in record["answers"] if now.get((one["suite"], one["target"]), "") == one["vectors"]
         ]
+        return sorted(holding, key=lambda one: self.names.index(one["suite"]))
 
     def observed(self, results: Results, mutant: Mutant) -> Mapping[str, Any] | None:
         """What the observer said, if that holds now."""
@@ -212,21 +213,26 @@ class Adequacy:
         observed: Mapping[str, Any] | None,
         complete: bool,
     ) -> tuple[str, ...]:
-        """The suites that are still to be asked."""
+        """The suites that are still to be asked: those up to the first that kills, or all.
+
+        What is proved to be the same is asked of none; complete: of the short ones, as a check on both.
+        """
         if any(one["result"] in (UNMEASURED, INVALID) for one in answers):
             return ()
-        same = mutant.id in self.equivalent or (observed is not None and observed["verdict"] == EQUIVALENT)
-        if same and not complete:
-            return ()
-        if not complete and killers(answers):
-            return ()
+        asked, caught = self.names, killers(answers)
+        if mutant.id in self.equivalent or (observed is not None and observed["verdict"] == EQUIVALENT):
+            asked = asked[: asked.index(self.observes_before)] if complete else ()
+        elif caught and not complete:
+            asked = asked[: asked.index(caught[0])]
         had = {(one["suite"], one["target"]) for one in answers}
-        caught = killers(answers)
         wanted = self.targets_of(mutant)
         open_ones = [
             one.name
             for one in self.suites
-            if one.target in wanted and one.name not in caught and (one.name, one.target) not in had
+            if one.target in wanted
+            and one.name in asked
+            and one.name not in caught
+            and (one.name, one.target) not in had
         ]
         return tuple(dict.fromkeys(open_ones))
 
@@ -316,7 +322,8 @@ def judge_by_vectors(
     One suite after the other, the mutants that are left in parallel. Every suite must first pass the shipped
     code, and find a fault planted in it: Unjudged otherwise. `limit` gives the seconds for a mutant from
     those that the shipped code took. Ctrl-C ends the processes; what was judged stays. complete: also suites
-    that come after the first killer, and mutants that are proved EQUIVALENT, which no suite may kill.
+    that come after the first killer, and of mutants that are proved EQUIVALENT the short ones, which must not
+    kill them.
     """
     if results.remark:
         progress.say(results.remark)
@@ -362,6 +369,7 @@ class _Campaign:
         """Write what is known of the mutant with what is new."""
         adequacy = self.adequacy
         answers = [*self.answers(mutant), *new]
+        answers.sort(key=lambda one: adequacy.names.index(one["suite"]))
         said = observed or adequacy.observed(self.results, mutant)
         left = adequacy.to_ask(mutant, answers, said, self.complete)
         found = {"verdict": "", "killers": [], "reason": f"still to be asked: {', '.join(left)}"}

@@ -95,10 +95,14 @@ of this one is, such as a memory that the specification does not have.
 """
 
 
-def _answers(judged: Sequence[Judged]) -> Iterator[tuple[Judged, Mapping[str, Any]]]:
+def _until_caught(adequacy: Adequacy, judged: Sequence[Judged]) -> Iterator[tuple[Judged, Mapping[str, Any]]]:
+    """The answers up to the first suite that catches a mutant."""
+    order = adequacy.names.index
     for one in judged:
+        caught = [order(answer["suite"]) for answer in one.record["answers"] if _caught(answer)]
         for answer in one.record["answers"]:
-            yield one, answer
+            if order(answer["suite"]) <= min(caught, default=len(adequacy.names)):
+                yield one, answer
 
 
 def _caught(answer: Mapping[str, Any]) -> bool:
@@ -107,9 +111,10 @@ def _caught(answer: Mapping[str, Any]) -> bool:
 
 def _by_suite(adequacy: Adequacy, judged: Sequence[Judged]) -> str:
     real = [one for one in judged if one.word != "EQUIVALENT"]
+    answers = list(_until_caught(adequacy, real))
     rows: list[list[object]] = []
     for name in adequacy.names:
-        of_suite = [(one, answer) for one, answer in _answers(real) if answer["suite"] == name]
+        of_suite = [pair for pair in answers if pair[1]["suite"] == name]
         asked = len({one.mutant.id for one, _ in of_suite})
         caught = [answer for _, answer in of_suite if _caught(answer)]
         raised = sum(answer["result"] == replay.RAISES for answer in caught)
