@@ -71,7 +71,6 @@ def adequacy_of(place: Path, document: str, quiet: bool = True) -> Adequacy:
 
 def _suites(place: Path, document: str, quiet: bool) -> Sequence[Suite]:
     from modeproof.graph.device import open_runs
-    from modeproof.suites.build import ready_suite
     from modeproof.suites.command import make_graphs
     from modeproof.suites.write import SUITES
 
@@ -80,10 +79,23 @@ def _suites(place: Path, document: str, quiet: bool) -> Sequence[Suite]:
         runs = open_runs(place, document, target)
         if device.published and runs:
             make_graphs(place, runs, quiet)
-            found += [ready_suite(place, document, target, suite, _say) for suite in SUITES]
+            every = (_suite(place, document, target, name) for name in SUITES)
+            found += [one for one in every if one is not None]
     if not found:
         raise Unjudged(f"{document}: no published target has vectors")
     return found
+
+
+def _suite(place: Path, document: str, target: str, name: str) -> Suite | None:
+    """The suite; None where the target has no cases of its kind, such as times or declared sequences."""
+    from modeproof.suites.build import ready_suite
+
+    try:
+        return ready_suite(place, document, target, name, _say)
+    except Unjudged as error:
+        if str(error).endswith("the suite would have no cases"):
+            return None
+        raise
 
 
 def _say(line: str) -> None:
