@@ -100,8 +100,8 @@ class Implementation:
 
     @cached_property
     def reached(self) -> Mapping[str, tuple[Path, frozenset[str]]]:
-        """The modules that some step reaches."""
-        return self.code.reached(self.document)
+        """The modules that some step reaches, by name: so is the order of the mutants and of the pages."""
+        return dict(sorted(self.code.reached(self.document).items()))
 
     @cached_property
     def modules(self) -> dict[str, Module]:
