@@ -14,7 +14,7 @@ from modeproof.registers.adequacy_page import PAGE
 from modeproof.registers.load import load_interface
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors, published
 from modeproof.strength.adequacy_page import render
-from modeproof.strength.adequacy_register import read_explanations, register_path
+from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.command import chosen_of, report
 from modeproof.strength.implementation import Implementation
 from modeproof.strength.implementation_command import document_of
@@ -44,7 +44,7 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
         if args.show is not None:
             return _show(adequacy, chosen[0], results)
         if args.render:
-            status = render(adequacy, results, read_explanations(place, document))
+            status = render(adequacy, results, read_register(place, document).explained)
             print(f"{PAGE} is written")
             return status
         progress = Progress(quiet=args.quiet)
@@ -53,7 +53,7 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
     print(f"{len(adequacy.out_of_scope)} mutants more reach no published target and are out of scope")
     register = register_path(place, document).relative_to(place).as_posix()
     whole = len(judged) == len(adequacy.every)
-    return report(read_explanations(place, document), register, judged, whole, args)
+    return report(read_register(place, document).explained, register, judged, whole, args)
 
 
 def adequacy_of(place: Path, document: str, quiet: bool = True) -> Adequacy:
@@ -74,12 +74,16 @@ def _suites(place: Path, document: str, quiet: bool) -> Sequence[Suite]:
     from modeproof.suites.command import make_graphs
     from modeproof.suites.write import SUITES
 
+    chosen = read_register(place, document).suites or tuple(SUITES)
+    strange = [name for name in chosen if name not in SUITES]
+    if strange:
+        raise Unjudged(f"{register_path(place, document).name}: no suite {strange[0]!r}")
     found = []
     for target, device in load_interface(place, document).devices.items():
         runs = open_runs(place, document, target)
         if device.published and runs:
             make_graphs(place, runs, quiet)
-            every = (_suite(place, document, target, name) for name in SUITES)
+            every = (_suite(place, document, target, name) for name in chosen)
             found += [one for one in every if one is not None]
     if not found:
         raise Unjudged(f"{document}: no published target has vectors")

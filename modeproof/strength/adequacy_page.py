@@ -16,9 +16,10 @@ from modeproof.strength import replay
 from modeproof.strength.adequacy import BY_REFUSAL, Adequacy
 from modeproof.strength.campaign import WORDS, Judged
 from modeproof.strength.explain import explanation_problems, unexplained
-from modeproof.strength.page import counted, edit_of, markdown, percent, survivors
+from modeproof.strength.page import counted, edit_of, markdown, names_of, percent, survivors
 from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
+from modeproof.suites.write import SUITES
 
 
 def render(adequacy: Adequacy, results: Results, explained: Sequence[Explained]) -> int:
@@ -138,7 +139,9 @@ def _by_suite(adequacy: Adequacy, judged: Sequence[Judged]) -> str:
         "## By suite\n\nIn the order of asking, which is that of length; all targets together. Asked: mutants that no suite above has caught. By an error: "
         "caught because a scan raises. Refuse only: not caught by this suite but for refusals; the next suites are asked too. Median and most: scans of the suite that were run until it caught one.\n\n"
     )
-    return text + markdown(head, rows) + _alone(adequacy, real)
+    others = [name for name in SUITES if name not in adequacy.names]
+    left_out = f"\nNot asked: {names_of(others)}.\n" if others else ""
+    return text + markdown(head, rows) + left_out + _alone(adequacy, real)
 
 
 def _alone(adequacy: Adequacy, real: Sequence[Judged]) -> str:

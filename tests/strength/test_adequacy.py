@@ -19,7 +19,7 @@ from modeproof.registers.adequacy_page import PAGE, check_adequacy_page
 from modeproof.strength import replay
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors, published
 from modeproof.strength.adequacy_page import render
-from modeproof.strength.adequacy_register import read_explanations, register_path
+from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.campaign import Judged
 from modeproof.strength.explain import unexplained
 from modeproof.strength.implementation import Implementation
@@ -179,18 +179,23 @@ def test_what_no_suite_catches_survives_and_must_be_explained(place: Path) -> No
     assert survivor.mutant.id in {one.mutant.id for one in unexplained((), judged)}
     row = f'[[survivor]]\nids = ["{survivor.mutant.id}"]\nkind = "harmless"\nwhy = "The suite is short."\n'
     register_path(place, "toy").write_text(row, encoding="utf-8")
-    explained = read_explanations(place, "toy")
+    explained = read_register(place, "toy").explained
     assert survivor.mutant.id not in {one.mutant.id for one in unexplained(explained, judged)}
 
 
 @pytest.mark.parametrize(
     ("text", "complaint"),
-    [("x = 1\n", "unknown field 'x'"), ("[", "adequacy.toml"), ("survivor = 1\n", "list of tables")],
+    [
+        ("x = 1\n", "unknown field 'x'"),
+        ("[", "adequacy.toml"),
+        ("survivor = 1\n", "list of tables"),
+        ("suites = 'tour'\n", "list of names"),
+    ],
 )
 def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
     register_path(place, "toy").write_text(text, encoding="utf-8")
     with pytest.raises(Unjudged, match=complaint):
-        read_explanations(place, "toy")
+        read_register(place, "toy")
 
 
 def test_what_reaches_no_published_target_is_out_of_scope(place: Path) -> None:
