@@ -26,7 +26,6 @@ from typing import Any, Protocol
 from modeproof.errors import Unjudged
 from modeproof.graph.implementation import from_module, load_implementation
 from modeproof.graph.values import ValueForms
-from modeproof.kit.vectors import Suite
 from modeproof.processes import in_forks
 from modeproof.progress import Progress
 from modeproof.registers.load import load_interface
@@ -35,7 +34,8 @@ from modeproof.strength import replay
 from modeproof.strength.campaign import Judged, so_far
 from modeproof.strength.implementation import Implementation, closure
 from modeproof.strength.mutant import Mutant
-from modeproof.strength.replay import Vectors, contents, vectors_of
+from modeproof.strength.published import Published
+from modeproof.strength.replay import Vectors, vectors_of
 from modeproof.strength.results import Results, digest
 
 LEAST_S, TIMES = 20.0, 30
@@ -69,33 +69,6 @@ class Observer(Protocol):
 
     def observe(self, bench: Any, change: Any, file: str) -> Any:
         """A verdict (EQUIVALENT, DIFFERS or UNMEASURED), a witness and a reason."""
-
-
-@dataclass(frozen=True)
-class Published:
-    """A suite of one target as it is published; `contents` is a hash of what it says."""
-
-    suite: Suite
-    contents: str
-
-    @property
-    def name(self) -> str:
-        """The suite's name."""
-        return self.suite.name
-
-    @property
-    def target(self) -> str:
-        """Its target."""
-        return self.suite.target
-
-
-def published(suites: Sequence[Suite]) -> tuple[Published, ...]:
-    """The suites, those of the same name together, the shortest name first."""
-    cost: dict[str, int] = {}
-    for one in suites:
-        cost[one.name] = cost.get(one.name, 0) + one.scan_count
-    ordered = sorted(suites, key=lambda one: (cost[one.name], one.name))
-    return tuple(Published(one, contents(one.path)) for one in ordered)
 
 
 @dataclass

@@ -12,13 +12,14 @@ from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import Suite
 from modeproof.registers.adequacy_page import PAGE
 from modeproof.registers.load import load_interface
-from modeproof.strength.adequacy import Adequacy, judge_by_vectors, published
+from modeproof.strength.adequacy import Adequacy, judge_by_vectors
 from modeproof.strength.adequacy_page import render
 from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.command import chosen_of, report
 from modeproof.strength.implementation import Implementation
 from modeproof.strength.implementation_command import document_of
 from modeproof.strength.mutant import Mutant, diff
+from modeproof.strength.published import published
 from modeproof.strength.results import Results, read_results, results_path
 
 RESULTS = "vectors"

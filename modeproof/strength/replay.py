@@ -9,25 +9,19 @@ any other error in `power_up` or `step` is a difference.
 
 from __future__ import annotations
 
-import hashlib
-import json
 import marshal
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.graph.implementation import Implementation
 from modeproof.graph.values import ValueForms
-from modeproof.kit.errors import Unjudged as KitUnjudged
-from modeproof.kit.vectors import Case, Suite, read_lines
+from modeproof.kit.vectors import Case, Suite
 from modeproof.registers.rows import Device
 
 PASSES, DIFFERS, RAISES, REFUSES = "passes", "differs", "raises", "refuses"
-_HEADER = ("kind", "version", "target", "document", "suite", "relation", "inputs", "outputs")
-"""What of a header says how the cases are to be read; the rest says where they come from."""
 
 
 @dataclass(frozen=True)
@@ -203,17 +197,3 @@ def control(vectors: Vectors, code: Implementation) -> Answer:
     if found.scans != vectors.last_compared or found.refused:
         raise Unjudged(f"{name}: the shipped code itself does not pass: {found.case}, scan {found.scan}")
     return found
-
-
-def contents(path: Path) -> str:
-    """A hash of what a vector file says: its cases, and how they are to be read. Raises Unjudged."""
-    found = hashlib.sha256()
-    try:
-        lines = read_lines(path)
-        header = json.loads(next(lines))
-        found.update(json.dumps({key: header.get(key) for key in _HEADER}, sort_keys=True).encode())
-        for line in lines:
-            found.update(line)
-    except (KitUnjudged, StopIteration, ValueError, AttributeError) as error:
-        raise Unjudged(f"{path.name}: cannot be read: {error}") from None
-    return found.hexdigest()[:16]

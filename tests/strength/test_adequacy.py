@@ -17,12 +17,13 @@ from modeproof.places import root
 from modeproof.progress import Progress
 from modeproof.registers.adequacy_page import PAGE, check_adequacy_page
 from modeproof.strength import replay
-from modeproof.strength.adequacy import Adequacy, judge_by_vectors, published
+from modeproof.strength.adequacy import Adequacy, judge_by_vectors
 from modeproof.strength.adequacy_page import render
 from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.campaign import Judged
 from modeproof.strength.explain import unexplained
 from modeproof.strength.implementation import Implementation
+from modeproof.strength.published import contents, published
 from modeproof.strength.replay import Played, Vectors
 from modeproof.strength.results import Results, read_results
 from proofs.mutants import copies
@@ -361,6 +362,21 @@ def test_an_answer_of_vectors_that_changed_is_not_used(place: Path) -> None:
     other = adequacy_of(place)
     assert [one["suite"] for one in other.answers(results, mutant)] == ["short"]
     assert other.judged(results, mutant) is None
+
+
+def test_what_a_case_cites_is_not_what_it_demands(place: Path) -> None:
+    path = place / "short.jsonl"
+    text = path.read_text(encoding="utf-8")
+    before = contents(path)
+    path.write_text(text.replace('"it counts"', '"otherwise"').replace('"clauses": []', '"clauses": ["A-1"]'))
+    assert contents(path) == before
+    for old, new in (('"LAMP": false', '"LAMP": true'), ('"dt_ms": 10', '"dt_ms": 11'), ('"word"', '"int"')):
+        assert old in text
+        path.write_text(text.replace(old, new, 1), encoding="utf-8")
+        assert contents(path) != before
+    path.write_text("", encoding="utf-8")
+    with pytest.raises(Unjudged, match="cannot be read"):
+        contents(path)
 
 
 def test_answers_about_other_code_are_not_used(place: Path) -> None:
