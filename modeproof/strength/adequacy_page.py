@@ -77,7 +77,7 @@ the shipped code ({percent(counts["KILLED"], real)}); {counts["SURVIVED"]} survi
 .venv/bin/modeproof mutate impl --judge vectors --render   # this page
 ```
 
-Running the mutants took {seconds / 60:.0f} minutes of processor time. The mutants are those of [strength-impl.md](strength-impl.md): {len(judged) + out} in all. {out} of them are
+Running the mutants took {seconds / 60:.0f} minutes, all processes together, on a busy machine. The mutants are those of [strength-impl.md](strength-impl.md): {len(judged) + out} in all. {out} of them are
 edits of code that no published target reaches, such as that of a device which nobody builds and which has no vectors; they are out of scope here,
 and the theorems judge them. The shortest suite is asked first, and a mutant that is caught is not put to the next one.
 
