@@ -236,8 +236,8 @@ def test_a_suite_that_compares_nothing_judges_nobody(place: Path) -> None:
 
 def test_a_scan_that_settles_is_not_compared(place: Path) -> None:
     write_vectors(place / "settling.jsonl", "settling", [[True, True], [False]], settling=True)
-    text = (place / "settling.jsonl").read_text().rsplit('"settling": true', 1)
-    (place / "settling.jsonl").write_text('"settling": false'.join(text))
+    text = (place / "settling.jsonl").read_text().rsplit(', "settling": true', 1)
+    (place / "settling.jsonl").write_text("".join(text))
     _, _, judged = campaign(place, names=("settling",))
     assert by_edit(judged, "WORDS", "9", "10").word == "SURVIVED"
 
