@@ -158,7 +158,7 @@ class Identifiers:
                 key=lambda pair: (pair[1].bit_count(), len(pair[0]), pair[0]),
             )
             if left == others:
-                word = self._between(state, others.bit_length() - 1)
+                word = between(self.machine, self.chosen, state, others.bit_length() - 1)
                 answer, like = self._answers(word)
                 left = others & like[answer[state]]
             found.append(word)
@@ -206,18 +206,18 @@ class Identifiers:
             level = deeper
         return None
 
-    def _between(self, one: int, other: int) -> Word:
-        """A shortest sequence that tells two states apart."""
-        of = self.machine
-        queue: deque[tuple[int, int, Word]] = deque([(one, other, ())])
-        seen = {(one, other)}
-        while queue:
-            a, b, word = queue.popleft()
-            for column in self.chosen:
-                if of.out_of[a][column] != of.out_of[b][column]:
-                    return (*word, column)
-                pair = (of.next_of[a][column], of.next_of[b][column])
-                if pair not in seen:
-                    seen.add(pair)
-                    queue.append((*pair, (*word, column)))
-        raise Unjudged("two states of a machine are the same")
+
+def between(of: Machine, chosen: Sequence[int], one: int, other: int) -> Word:
+    """A shortest sequence of chosen columns that tells two states apart. Raises Unjudged where none does."""
+    queue: deque[tuple[int, int, Word]] = deque([(one, other, ())])
+    seen = {(one, other)}
+    while queue:
+        a, b, word = queue.popleft()
+        for column in chosen:
+            if of.out_of[a][column] != of.out_of[b][column]:
+                return (*word, column)
+            pair = (of.next_of[a][column], of.next_of[b][column])
+            if pair not in seen:
+                seen.add(pair)
+                queue.append((*pair, (*word, column)))
+    raise Unjudged("two states of a machine are the same")

@@ -17,9 +17,10 @@ from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
+from modeproof.kit.rule import words as words_of
 from modeproof.kit.vectors import EXACT, KIND, MONITOR, PACKED, SETTLED, VERSION, id_of_text
 from modeproof.registers.rows import Device, Signal
-from modeproof.suites import refusals, sequences, sic, times, words, wp
+from modeproof.suites import extra, refusals, sequences, sic, times, words, wp
 from modeproof.suites.bound import lower_bound
 from modeproof.suites.contract import declare, declare_parameters
 from modeproof.suites.identify import machine
@@ -52,6 +53,7 @@ class Kind:
     wanted: Callable[[Columns], list[list[int]]] | None = None
     plan: Plan | None = None
     walks: Callable[[Columns, int, Sequence[Hashable]], list[list[Move]]] | None = None
+    rule: Callable[[DeviceGraph, Columns], dict[str, Any]] | None = None
     why: str = "takes transitions no earlier case has taken"
 
 
@@ -90,6 +92,22 @@ SUITES = {
         fast=False,
         walks=wp.walks,
         why="ends each new transition with inputs that tell the state it led to from all others",
+    ),
+    "wp1": Kind(
+        guarantees=(
+            "a program with at most n + 1 states (k = 1 more than the graph) that passes answers every "
+            "sequence of the sub-alphabet rightly, after the way to each state; under `rule` of each graph "
+            "stand n (`states`), the columns of the sub-alphabet (the first `sub` of `letters`), and what "
+            "the cases are made from while they are judged"
+        ),
+        hypothesis=(
+            "the program has at most n + 1 states, counted as an observer of its outputs would count them, "
+            "and is a function of them and of the inputs that are used"
+        ),
+        does_not_show="the other columns, which `wp` takes for k = 0; a program that remembers more",
+        counted_by="next state",
+        fast=False,
+        rule=extra.rule,
     ),
     "words": Kind(
         guarantees=(
@@ -219,7 +237,7 @@ def write_suite(
     writer = _Writer(suite, devices, citations)
     for number, device in enumerate(devices):
         writer.add(number, device)
-    if not writer.cases:
+    if not (writer.cases or writer.made):
         raise NoCases(f"{devices[0].device.id} {suite}: the suite would have no cases")
     header = writer.header(dict(sources or {}), generator, contract)
     header["texts"] = _cited_texts(header, texts or {})
@@ -237,7 +255,7 @@ class _Writer:
         self.cases: list[str] = []
         self.graphs: list[dict[str, Any]] = []
         self.states = self.columns = self.scans = self.longest = self.inputs = self.used = 0
-        self.bound = 0
+        self.bound = self.made = 0
         self.ids: set[str] = set()
 
     def add(self, number: int, device: DeviceGraph) -> None:
@@ -247,6 +265,9 @@ class _Writer:
         self.states += len(columns.next_of)
         self.columns += len(columns.members)
         self.inputs += len(device.alphabet)
+        if kind.rule is not None:
+            self._ruled(device, kind.rule(device, columns))
+            return
         if kind.plan is not None:
             self._scripted(number, device, columns, kind.plan)
             return
@@ -266,6 +287,27 @@ class _Writer:
         for case in cases:
             self._case(number, device, columns, letters, case, rows)
         self.used += len(letters.used)
+
+    def _ruled(self, device: DeviceGraph, rule: dict[str, Any]) -> None:
+        """Count what a rule makes, with the steps as the header numbers them."""
+        numbers = [self.steps[name] for name in device.graph.steps]
+        rule["step"] = [[numbers[step] for step in row] for row in rule["step"]]
+        nexts, initial = rule["next"], device.graph.initial
+        seen: set[tuple[int, int]] = set()
+        for word in words_of(rule):
+            if word:
+                self.made += 1
+                self.scans += len(word)
+                self.longest = max(self.longest, len(word))
+                state = initial
+                for letter in word:
+                    seen.add((state, letter))
+                    state = nexts[state][letter]
+        taken = {(state, rule["step"][state][letter], nexts[state][letter]) for state, letter in seen}
+        names = list(self.device.device.steps)
+        self.transitions.update(names[step] for _, step, _ in taken)
+        self.used += len(rule["letters"])
+        self.graphs.append({**self._about(device), "rule": rule})
 
     def _covering(self, device: DeviceGraph, columns: Columns, kind: Kind) -> list[list[Move]]:
         """Walks that take what is wanted."""
@@ -480,13 +522,13 @@ class _Writer:
             "relations": relations,
             "pace": "fast" if kind.fast else "slow",
             "counted_by": kind.counted_by,
-            "shrink": "graph" if kind.plan is None else "prefix",
+            "shrink": "graph" if kind.plan is None and kind.rule is None else "prefix",
             "guarantees": kind.guarantees,
             "hypothesis": kind.hypothesis,
             "does_not_show": kind.does_not_show,
             "generator": generator,
             "sources": dict(sorted(sources.items())),
-            "cases": len(self.cases),
+            "cases": len(self.cases) + self.made,
             "scans": self.scans,
             **({"lower_bound": self.bound} if self.bound else {}),
             "states": self.states,
@@ -521,7 +563,7 @@ class _Writer:
             transitions=sum(self.transitions.values()),
             inputs_used=self.used,
             inputs=self.inputs,
-            cases=len(self.cases),
+            cases=len(self.cases) + self.made,
             scans=self.scans,
             longest=self.longest,
         )

@@ -115,7 +115,7 @@ def written(folder: Path, *changes: tuple[str, str]) -> Path:
         ('old = "0x3C3C, 0x0F0F}; /* MW03"', 'old = "0x3C3D"', "stands 0 times"),
         ('id = "letter-for-zero"', 'id = "word-mistyped"', "the same id"),
         ('suite = "brief"', 'suite = "breif"', "breif"),
-        ('suite = "wp"\nreason', 'suite = "brief"\nreason', "reason"),
+        ('suite = "none"\nreason', 'suite = "brief"\nreason', "reason"),
         ('mistake = "One', 'mistakes = "One', "mistake"),
         ('id = "word-mistyped"', "id = ", "faults.toml"),
     ],
