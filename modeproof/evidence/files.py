@@ -51,7 +51,7 @@ def write(place: Path, record: Mapping[str, Any]) -> Path:
     return path
 
 
-def write_whole(path: Path, content: bytes) -> None:
+def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
     """Write a file atomically. Raises Unjudged when that fails; then the old file, if any, is still there."""
     part: str | None = None
     try:
@@ -61,7 +61,7 @@ def write_whole(path: Path, content: bytes) -> None:
             stream.write(content)
             stream.flush()
             os.fsync(stream.fileno())
-        os.chmod(part, 0o644)
+        os.chmod(part, mode)
         os.replace(part, path)
         part = None
         folder = os.open(path.parent, os.O_RDONLY)

@@ -7,9 +7,8 @@ order.
 from __future__ import annotations
 
 import contextlib
+import io
 import json
-import os
-import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,6 +16,7 @@ from typing import Any
 
 from modeproof import kit
 from modeproof.errors import Unjudged
+from modeproof.evidence.files import write_whole
 from modeproof.kit.compact import compact, same
 from modeproof.kit.shelf import CONTENTS, FOLDER
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
@@ -88,28 +88,18 @@ def _smaller(source: Path) -> tuple[str, bytes]:
 
 
 def _write(path: Path, members: Mapping[str, bytes]) -> None:
-    part = ""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(_SHEBANG)
-            with zipfile.ZipFile(stream, "w") as archive:
-                for name, data in sorted(members.items()):
-                    info = zipfile.ZipInfo(name, _FIRST_DATE)
-                    info.external_attr = 0o644 << 16
-                    info.create_system = 3
-                    packed = zipfile.ZIP_STORED if name.endswith((".gz", COMPACT)) else zipfile.ZIP_DEFLATED
-                    archive.writestr(info, data, packed, 9)
-        size = os.path.getsize(part)
-        if size > LARGEST:
-            raise Unjudged(f"{path.name}: {size:,} bytes, more than {LARGEST:,}; a suite must stay outside")
-        os.chmod(part, 0o755)
-        os.replace(part, path)
-        part = ""
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        if part:
-            with contextlib.suppress(OSError):
-                os.unlink(part)
+    packed = io.BytesIO()
+    packed.write(_SHEBANG)
+    with zipfile.ZipFile(packed, "w") as archive:
+        for name, data in sorted(members.items()):
+            info = zipfile.ZipInfo(name, _FIRST_DATE)
+            info.external_attr = 0o644 << 16
+            info.create_system = 3
+            method = zipfile.ZIP_STORED if name.endswith((".gz", COMPACT)) else zipfile.ZIP_DEFLATED
+            archive.writestr(info, data, method, 9)
+    content = packed.getvalue()
+    if len(content) > LARGEST:
+        raise Unjudged(
+            f"{path.name}: {len(content):,} bytes, more than {LARGEST:,}; a suite must stay outside"
+        )
+    write_whole(path, content, 0o755)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
 import gzip
+import io
 import json
-import os
-import tempfile
 from collections import Counter
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.errors import Unjudged
+from modeproof.evidence.files import write_whole
 from modeproof.graph.classes import Members
 from modeproof.graph.columns import Columns, merge_columns
 from modeproof.graph.device import DeviceGraph
@@ -656,25 +655,11 @@ def _line(row: Mapping[str, Any]) -> str:
 
 
 def _write_lines(path: Path, lines: Sequence[str]) -> None:
-    part = ""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-        with os.fdopen(handle, "wb") as stream:
-            if path.suffix == PACKED:
-                # No name and no date: the same lines give the same bytes.
-                with gzip.GzipFile("", "wb", PACKING, stream, mtime=0) as packed:
-                    packed.writelines(line.encode() for line in lines)
-            else:
-                stream.writelines(line.encode() for line in lines)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.chmod(part, 0o644)
-        os.replace(part, path)
-        part = ""
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        if part:
-            with contextlib.suppress(OSError):
-                os.unlink(part)
+    content = "".join(lines).encode()
+    if path.suffix == PACKED:
+        held = io.BytesIO()
+        # No name, date or system (gzip.compress names the system): the same lines, the same bytes anywhere.
+        with gzip.GzipFile("", "wb", PACKING, held, mtime=0) as packed:
+            packed.write(content)
+        content = held.getvalue()
+    write_whole(path, content)

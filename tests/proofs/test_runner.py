@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 import z3
 
-from proofs import runner
+from proofs import runner, solvers
 from proofs.runner import TheoremResult, prove, prove_all, unused_premises
 from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3, core_of
 from proofs.theorem import Queries, Query, Theorem, claim, control, theorem, theorems_of
@@ -280,6 +280,15 @@ def test_a_core_has_no_formula_that_can_be_left_out() -> None:
     formulas = {"a": a, "a or b": z3.Or(a, b), "not b": z3.Not(b), "b or c": z3.Or(b, c), "not a": z3.Not(a)}
     assert core_of(Query("q", formulas, "unsat")) == ("a or b", "not b", "not a")
     assert core_of(control("q", {"a": a})) is None
+
+
+def test_a_core_is_not_known_when_z3_reaches_its_limit(monkeypatch: pytest.MonkeyPatch) -> None:
+    x, y = z3.BitVecs("x y", 16)
+    hard = {"a product": x * y == 40961, "both large": z3.And(x > 1, y > 1, z3.ULT(x, 300), z3.ULT(y, 130))}
+    query = Query("q", {**hard, "and not": z3.BoolVal(False)}, "unsat")
+    assert core_of(query) == ("and not",)
+    monkeypatch.setattr(solvers, "CORE_LIMIT", 1)
+    assert core_of(query) is None
 
 
 def test_a_premise_counts_as_needed_as_long_as_a_core_is_not_known(tmp_path: Path) -> None:

@@ -1,0 +1,37 @@
+"""What the theorems of a document share: made once, and no theorem is lost where it cannot be made."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import SimpleNamespace
+
+import pytest
+
+from modeproof import cli
+
+
+def test_where_it_cannot_be_made_nothing_is_shared_and_the_theorems_are_still_asked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    left: list[str] = []
+
+    @contextmanager
+    def made() -> Iterator[None]:
+        yield
+        left.append("left")
+
+    @contextmanager
+    def broken() -> Iterator[None]:
+        raise ValueError("the code cannot be explored")
+        yield
+
+    for prepared, expected in ((made, ["left"]), (broken, [])):
+        left.clear()
+        monkeypatch.setattr(
+            importlib, "import_module", lambda name, it=prepared: SimpleNamespace(prepared=it)
+        )
+        with cli._prepared("any") as seconds:
+            assert seconds >= 0 and left == []
+        assert left == expected
