@@ -11,9 +11,9 @@ from typing import Any
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.eks_safety import JUDGE, same_vector
-from proofs.mode_selection.scanned import Scanned
-from proofs.mode_selection.sentences import Said
+from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 

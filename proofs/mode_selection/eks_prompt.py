@@ -12,10 +12,11 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.eks_safety import JUDGE, SEEN, read_is, same_key
 from proofs.mode_selection.invariants import REMEMBERING, WORKING, key_accepted, no_key
-from proofs.mode_selection.scanned import Scanned, control, none_set, vector
-from proofs.mode_selection.sentences import Said
+from proofs.mode_selection.vocabulary import none_set, vector
+from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 IN_ORDER: Final = frozenset(

@@ -14,11 +14,12 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.devices import CHECKSUM_AGREES, EKS
 from proofs.mode_selection.invariants import EKS_INVARIANT, key_accepted
 from proofs.mode_selection.ranges import codes
-from proofs.mode_selection.scanned import Scanned, all_set, none_set, one_set, several_set, vector
-from proofs.mode_selection.sentences import Judge, Said, Sentence
+from proofs.mode_selection.vocabulary import all_set, none_set, one_set, several_set, vector
+from proofs.sentences import Judge, Said, Sentence
 from proofs.theorem import Queries, theorem
 from proofs.words import constant
 

@@ -8,9 +8,10 @@ from typing import Any, Final
 
 import z3
 
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
-from proofs.mode_selection.scanned import NONE, Scanned, none_set, vector
-from proofs.mode_selection.sentences import Always, Judge
+from proofs.mode_selection.vocabulary import NONE, none_set, vector
+from proofs.sentences import Always, Judge
 from proofs.theorem import Queries, theorem
 
 

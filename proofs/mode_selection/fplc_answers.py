@@ -12,14 +12,15 @@ from typing import Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.devices import FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_prompt import no_word, signalled
 from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import CLOCKED
 from proofs.mode_selection.observer import Seen
-from proofs.mode_selection.scanned import Scanned, code, control, mode, permits
-from proofs.mode_selection.sentences import Said
+from proofs.mode_selection.vocabulary import code, mode, permits
+from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 DWELLING: Final = ("Start", "Settle", "Error")

@@ -10,13 +10,14 @@ from __future__ import annotations
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_order import selection_stands
 from proofs.mode_selection.fplc_prompt import signalled
 from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import TRANSACTION
-from proofs.mode_selection.scanned import Scanned, code
-from proofs.mode_selection.sentences import Said
+from proofs.mode_selection.vocabulary import code
+from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 

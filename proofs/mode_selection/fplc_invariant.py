@@ -11,7 +11,7 @@ from typing import Final
 from proofs.mode_selection.devices import FPLC
 from proofs.mode_selection.invariants import FPLC_INVARIANT
 from proofs.mode_selection.observer import NOTHING, SEEN, sees
-from proofs.mode_selection.sentences import Judge
+from proofs.sentences import Judge
 from proofs.theorem import Queries, theorem
 
 JUDGE: Final = Judge(FPLC, FPLC_INVARIANT, SEEN, sees, NOTHING)

@@ -12,14 +12,15 @@ from typing import Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.devices import FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_prompt import signalled
 from proofs.mode_selection.fplc_safety import TIMED, deadline, now
 from proofs.mode_selection.invariants import CLOCKED, HOLDING, TRANSACTION
 from proofs.mode_selection.observer import INSERTION
-from proofs.mode_selection.scanned import NONE, Scanned, code, control, mode
-from proofs.mode_selection.sentences import Said
+from proofs.mode_selection.vocabulary import NONE, code, mode
+from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 WAITING: Final = (

@@ -10,21 +10,13 @@ from typing import Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_safety import TIMED, deadline, now, zeros_everywhere
 from proofs.mode_selection.invariants import CLOCKED, HOLDING, TRANSACTION
 from proofs.mode_selection.observer import INSERTION, REMOVAL, Seen
-from proofs.mode_selection.scanned import (
-    NONE,
-    Scanned,
-    all_set,
-    control,
-    none_set,
-    only_of,
-    several_set,
-    vector,
-)
-from proofs.mode_selection.sentences import Said, Sentence
+from proofs.mode_selection.vocabulary import NONE, all_set, none_set, only_of, several_set, vector
+from proofs.sentences import Said, Sentence
 from proofs.theorem import Queries, theorem
 
 ZEROS_AWAITED: Final = ("Start", "AwaitZeros", "Error")

@@ -15,12 +15,13 @@ import z3
 
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, Scans, control, memory, parameters
 from proofs.mode_selection.devices import FPLC
 from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import HOLDING
 from proofs.mode_selection.observer import INSERTION
-from proofs.mode_selection.scanned import Scanned, Scans, control, memory, none_set, parameters, vector
-from proofs.mode_selection.sentences import Judge, Said
+from proofs.mode_selection.vocabulary import none_set, vector
+from proofs.sentences import Judge, Said
 from proofs.theorem import Queries, claim, theorem
 from proofs.theorem import control as control_query
 

@@ -13,13 +13,13 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.ends import TRUE
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.invariants import HOLDING, ON_ERROR_NONE
 from proofs.mode_selection.observer import FROM_ONES, INSERTION, REMOVAL, SEEN, Seen
-from proofs.mode_selection.scanned import (
+from proofs.mode_selection.vocabulary import (
     LEVELS,
     NONE,
-    Scanned,
     code,
     is_mode,
     mode,
@@ -30,7 +30,7 @@ from proofs.mode_selection.scanned import (
     several_set,
     vector,
 )
-from proofs.mode_selection.sentences import Said, Sentence
+from proofs.sentences import Said, Sentence
 from proofs.theorem import Queries, theorem
 
 TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL))

@@ -9,25 +9,23 @@ only while a transaction runs, and the machine permits it to that level; and wha
 really on the wires in this insertion. Every conjunct is needed: a control of some theorem drops it.
 
 The panel and the EKS have one each below, the PLC needs none. For other proofs:
-`holds(FPLC_INVARIANT, FPLC, state, seen)` is the whole as one formula, `conjuncts(..)` the same by name. That
+`Judge.known` is the whole as one formula, `conjuncts(..)` the same by name. That
 they are true at power-up and after every scan are theorems of fplc_invariant.py, panel_safety.py and
 eks_safety.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Final
 
 import z3
 
-from proofs.explorer.device import Device
 from proofs.explorer.ends import TRUE
+from proofs.explorer.invariant import Conjunct
 from proofs.mode_selection.devices import KEY_ID_MAX
-from proofs.mode_selection.observer import INSERTION, REMOVAL, SEEN, Seen
+from proofs.mode_selection.observer import INSERTION, REMOVAL, Seen
 from proofs.mode_selection.ranges import codes
-from proofs.mode_selection.scanned import NONE, control, is_mode, memory, parameters, permits
+from proofs.mode_selection.vocabulary import NONE, is_mode, permits
 from proofs.words import one_of
 
 TRANSACTION: Final = frozenset(
@@ -40,32 +38,6 @@ CLOCKED: Final = INSERTION | REMOVAL | {"Start", "Settle", "Error"}
 """The states in which time is counted."""
 ON_ERROR_NONE: Final = 1
 """The value "none" of ON_ERROR in terms: its place in interface.toml."""
-
-Formula = Callable[[str, Any, Any, Any], z3.BoolRef]
-
-
-@dataclass(frozen=True)
-class Conjunct:
-    """One sentence of an invariant; `formula` gets the control state, memory, parameters and the observer."""
-
-    name: str
-    sentence: str
-    formula: Formula
-
-
-def conjuncts(
-    invariant: tuple[Conjunct, ...], device: Device, state: Any, seen: Any = SEEN
-) -> dict[str, z3.BoolRef]:
-    """The conjuncts that say something of this state, by name. `state`: a State record of the device."""
-    s, p, where = memory(device, state), parameters(device, state), control(device, state)
-    found = {one.name: one.formula(where, s, p, seen) for one in invariant}
-    return {name: formula for name, formula in found.items() if not z3.is_true(formula)}
-
-
-def holds(invariant: tuple[Conjunct, ...], device: Device, state: Any, seen: Any = SEEN) -> z3.BoolRef:
-    """The whole invariant of this state as one formula."""
-    return z3.And(*conjuncts(invariant, device, state, seen).values())
-
 
 # ---------------------------------------------------------------- F-PLC
 

@@ -13,16 +13,8 @@ from typing import Final
 
 import z3
 
-from proofs.mode_selection.scanned import (
-    NONE,
-    Scanned,
-    all_set,
-    code,
-    mode,
-    none_set,
-    one_set,
-    vector,
-)
+from proofs.explorer.scanned import Scanned
+from proofs.mode_selection.vocabulary import NONE, all_set, code, mode, none_set, one_set, vector
 
 INSERTION: Final = frozenset({"PulseOnes", "PulseZeros", "OneOutput"})
 REMOVAL: Final = frozenset({"Clear", "AwaitZeros"})

@@ -11,9 +11,10 @@ from typing import Any
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.panel_safety import JUDGE, touched
-from proofs.mode_selection.scanned import LEVELS, NONE, Scanned, code, control, mode
-from proofs.mode_selection.sentences import Said
+from proofs.mode_selection.vocabulary import LEVELS, NONE, code, mode
+from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 

@@ -10,10 +10,11 @@ from typing import Any, Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.devices import HMI
 from proofs.mode_selection.invariants import HMI_INVARIANT
-from proofs.mode_selection.scanned import LEVELS, NONE, Scanned, code, mode, none_set, permits
-from proofs.mode_selection.sentences import Judge, Said, Sentence
+from proofs.mode_selection.vocabulary import LEVELS, NONE, code, mode, none_set, permits
+from proofs.sentences import Judge, Said, Sentence
 from proofs.theorem import Queries, theorem
 
 JUDGE: Final = Judge(HMI, HMI_INVARIANT)

@@ -11,9 +11,9 @@ from typing import Final
 import z3
 
 from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.devices import PLC
-from proofs.mode_selection.scanned import Scanned
-from proofs.mode_selection.sentences import Judge, Said
+from proofs.sentences import Judge, Said
 from proofs.theorem import Queries, theorem
 
 JUDGE: Final = Judge(PLC, ())

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 
 from proofs.explorer.device import judging, scans
+from proofs.explorer.scanned import scans_of
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
-from proofs.mode_selection.scanned import scans_of
 
 
 @contextmanager

@@ -1,22 +1,8 @@
 """Each device's `step`, path by path: every scan takes exactly one path, and none of them raises."""
 
-from proofs.explorer.device import LOGIC, Device, no_two_paths, scans, some_path
 from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC
-from proofs.theorem import Queries, TheoremError, claim, theorem
-
-
-def _exactly_one_path(device: Device) -> Queries:
-    """For each control state: some path applies, and no two do."""
-    for scan in scans(device):
-        for path in scan.paths:
-            if path.raised is not None:
-                raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
-        given = {"memory, inputs and parameters in their ranges": scan.premise}
-        conditions = [path.condition for path in scan.paths]
-        name = f"{scan.control.value}, {len(conditions)} paths"
-        yield from claim(f"{name}: one applies", given, some_path(conditions), LOGIC)
-        if len(conditions) > 1:
-            yield from claim(f"{name}: no two apply", given, no_two_paths(conditions), LOGIC)
+from proofs.sentences import exactly_one_path
+from proofs.theorem import Queries, theorem
 
 
 @theorem(
@@ -25,20 +11,20 @@ def _exactly_one_path(device: Device) -> Queries:
     properties=["EveryScanIsAnswered"],
     slow=True,
 )
-def every_scan_of_the_fplc_takes_exactly_one_path() -> Queries:
+def every_scan_of_the_fplc_takesexactly_one_path() -> Queries:
     """In every control state of the F-PLC, with any memory, inputs, times and parameters in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
 
     All 65536 words in MW03 and MW07, levels and modes 0 to 4 or none, times without limit, all parameters
     that the code accepts. Nothing is assumed about how the memory came about.
     """
-    yield from _exactly_one_path(FPLC)
+    yield from exactly_one_path(FPLC)
 
 
 @theorem(clauses=["EKS-GP-2", "EKS-GP-3"], findings=["E-08"], properties=["EveryScanIsAnswered"])
-def every_scan_of_the_plc_takes_exactly_one_path() -> Queries:
+def every_scan_of_the_plc_takesexactly_one_path() -> Queries:
     """In every control state of the PLC, with any words, `step` has one path only: the copy that is due."""
-    yield from _exactly_one_path(PLC)
+    yield from exactly_one_path(PLC)
 
 
 @theorem(
@@ -47,18 +33,18 @@ def every_scan_of_the_plc_takes_exactly_one_path() -> Queries:
     properties=["EveryScanIsAnswered"],
     slow=True,
 )
-def every_scan_of_the_panel_takes_exactly_one_path() -> Queries:
+def every_scan_of_the_panel_takesexactly_one_path() -> Queries:
     """In every control state of the panel, with any memory, words, touch and permissions in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
     """
-    yield from _exactly_one_path(HMI)
+    yield from exactly_one_path(HMI)
 
 
 @theorem(clauses=["EKS-GP-3", "EKS-KS-1", "EKS-KS-7"], findings=["E-41"], properties=["EveryScanIsAnswered"])
-def every_scan_of_the_eks_takes_exactly_one_path() -> Queries:
+def every_scan_of_the_eks_takesexactly_one_path() -> Queries:
     """In every control state of the EKS, with any key in memory and in the reader and any settings, exactly
     one path of `step` applies, and it ends with a state and outputs.
 
     The maker's checksum is not public: whether it agrees is left open, so both answers are covered.
     """
-    yield from _exactly_one_path(EKS)
+    yield from exactly_one_path(EKS)

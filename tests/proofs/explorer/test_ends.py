@@ -7,9 +7,9 @@ from proofs.explorer.device import Device, scans
 from proofs.explorer.ends import TRUE, End, always, ends, in_terms, some, tree, value
 from proofs.explorer.explore import Path, explore
 from proofs.explorer.records import filled, terms
+from proofs.explorer.scanned import outputs_of
 from proofs.explorer.values import flag, word
 from proofs.mode_selection.devices import EKS, HMI
-from proofs.mode_selection.scanned import outputs_of
 
 
 def _same(one: z3.BoolRef, other: z3.BoolRef, premise: z3.BoolRef = TRUE) -> bool:

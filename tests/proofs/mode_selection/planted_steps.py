@@ -14,9 +14,9 @@ import z3
 from proofs.explorer.device import Device, Scan, explored_from
 from proofs.explorer.ends import End, ends
 from proofs.explorer.records import evaluated, filled
+from proofs.explorer.scanned import Scans
 from proofs.mode_selection.devices import CHECKSUM_AGREES
-from proofs.mode_selection.scanned import Scans
-from proofs.mode_selection.sentences import Judge, Sentence, demanded
+from proofs.sentences import Judge, Sentence, demanded
 
 _NUMBER = itertools.count()
 

@@ -12,6 +12,7 @@ import z3
 
 from modeproof.registers import load_document
 from proofs.explorer.errors import ConcretizationError
+from proofs.explorer.scanned import Scanned, Scans
 from proofs.mode_selection import (
     eks_prompt,
     eks_safety,
@@ -21,9 +22,8 @@ from proofs.mode_selection import (
     plc_safety,
 )
 from proofs.mode_selection.devices import ROOT
-from proofs.mode_selection.scanned import Scanned, Scans
-from proofs.mode_selection.sentences import Judge, Said, Sentence
 from proofs.runner import prove_all
+from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Query, Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc

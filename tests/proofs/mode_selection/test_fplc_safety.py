@@ -7,13 +7,13 @@ from typing import Any
 import pytest
 import z3
 
+from proofs.explorer.scanned import Scanned, Scans
 from proofs.mode_selection import every_device, fplc_invariant, fplc_order, fplc_prompt, fplc_safety
 from proofs.mode_selection.devices import DEVICES, FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.invariants import FPLC_INVARIANT
-from proofs.mode_selection.scanned import Scanned, Scans
-from proofs.mode_selection.sentences import Judge, Said, Sentence
 from proofs.runner import prove_all
+from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Query, Theorem
 from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted

@@ -15,13 +15,14 @@ from typing import Any
 
 import z3
 
-from proofs.explorer.device import LOGIC, Device, Scan, judged
+from proofs.explorer.device import LOGIC, Device, Scan, judged, no_two_paths, some_path
+from proofs.explorer.device import scans as scans_from
 from proofs.explorer.ends import FALSE, TRUE, in_terms
 from proofs.explorer.explore import conjunction, explore
-from proofs.mode_selection.invariants import Conjunct, conjuncts
-from proofs.mode_selection.scanned import Property, Scanned, Scans, scanned, scans_of
-from proofs.mode_selection.scanned import control as control_of
-from proofs.theorem import NotJudged, Queries, Query, claim, control
+from proofs.explorer.invariant import Conjunct, conjuncts
+from proofs.explorer.scanned import Property, Scanned, Scans, scanned, scans_of
+from proofs.explorer.scanned import control as control_of
+from proofs.theorem import NotJudged, Queries, Query, TheoremError, claim, control
 
 Said = tuple[z3.BoolRef, z3.BoolRef] | None
 """What is supposed of a scan, and what is then demanded; None where a path is not spoken of."""
@@ -82,6 +83,10 @@ class Judge:
         known = conjuncts(self.invariant, self.device, scans.scan.state, self.seen)
         kept = {f"before: {name}": formula for name, formula in known.items() if name not in without}
         return {"memory, inputs and parameters in their ranges": scans.scan.premise, **kept}
+
+    def known(self, state: Any) -> z3.BoolRef:
+        """The invariant of this state (a State record) as one formula."""
+        return z3.And(*conjuncts(self.invariant, self.device, state, self.seen).values())
 
     # ---- the invariant
 
@@ -173,3 +178,17 @@ class Judge:
 
 def _leads_to(end: str) -> Property:
     return lambda one: TRUE if one.becomes(end) else FALSE
+
+
+def exactly_one_path(device: Device) -> Queries:
+    """For each control state: some path of `step` applies, no two do, and none raises."""
+    for scan in scans_from(device):
+        for path in scan.paths:
+            if path.raised is not None:
+                raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
+        given = {"memory, inputs and parameters in their ranges": scan.premise}
+        conditions = [path.condition for path in scan.paths]
+        name = f"{scan.control.value}, {len(conditions)} paths"
+        yield from claim(f"{name}: one applies", given, some_path(conditions), LOGIC)
+        if len(conditions) > 1:
+            yield from claim(f"{name}: no two apply", given, no_two_paths(conditions), LOGIC)
