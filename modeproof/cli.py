@@ -126,7 +126,9 @@ def make_parser() -> argparse.ArgumentParser:
         "--coverage", action="store_true", help="instead: what of each step the feasible paths pass through"
     )
     other.add_argument(
-        "--render", action="store_true", help="instead: write docs/proofs.md from the evidence of both"
+        "--render",
+        action="store_true",
+        help="instead: write docs/<document>/proofs.md from the evidence of both",
     )
 
     _plug_in(commands, "conform", "modeproof.suites.command", "modeproof.kit.command")
@@ -380,7 +382,7 @@ def _prove(args: argparse.Namespace) -> int:
     if args.coverage:
         return _coverage(args, place, names, progress)
     if args.render:
-        return _render_proofs(args, place)
+        return _render_proofs(args, place, names)
     records: list[dict[str, Any]] = []
     with only_one(place):
         for name in names:
@@ -393,8 +395,8 @@ def _prove(args: argparse.Namespace) -> int:
     print(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
     if compared := [record for record in records if record["kind"] == "agreement"]:
         print("\n".join([agreement_line(compared), *compared[0]["result"]["problems"]]))
-    if not args.theorems and args.document is None and status == 0:
-        status = _compare_proofs_page(place)
+    if not args.theorems and status == 0:
+        status = max(_compare_proofs_page(place, name) for name in names)
     _write_json(args, status, proofs=records)
     return status
 
@@ -572,8 +574,8 @@ def prove_theorem(
     return record
 
 
-def _proofs_page(place: Path) -> str:
-    """docs/proofs.md as the evidence gives it.
+def _proofs_page(place: Path, name: str) -> str:
+    """The page of a document's proofs as the evidence gives it.
 
     Raises Unjudged with what to run when evidence is missing, not as expected, or of other files.
     """
@@ -583,53 +585,55 @@ def _proofs_page(place: Path) -> str:
     from modeproof.registers.proofs_page import theorems_by_file
     from modeproof.report.proofs import render_proofs
 
-    chosen = [load_document(place, name) for name in documents(place) if _has_proofs(place, name)]
+    document = load_document(place, name)
+    theorems = [one.name for rows in theorems_by_file(document).values() for one in rows]
+    again_by = {"coverage": f"modeproof prove --document {name} --coverage"}
+    if _has_agreement(place, name):
+        again_by[ID] = f"modeproof prove --document {name}"
     found: dict[str, dict[str, Any]] = {}
-    for document in chosen:
-        names = [one.name for rows in theorems_by_file(document).values() for one in rows]
-        again_by = {"coverage": "modeproof prove --coverage"}
-        if _has_agreement(place, document.name):
-            again_by[ID] = "modeproof prove"
-        for name in [*names, *again_by]:
-            record = evidence.read(evidence.evidence_path(place, document.name, name))
-            again = again_by.get(name, f"modeproof prove {name}")
-            if not record["as_expected"]:
-                raise Unjudged(f"{name}: its evidence is not as expected; run {again}")
-            paths = [place / path for path in record["inputs"]]
-            gone = [path for path in paths if not path.is_file()]
-            if gone or evidence.hashes(place, paths) != record["inputs"]:
-                raise Unjudged(f"{name}: files have changed since; run {again}")
-            found.setdefault(document.name, {})[name] = record
-    return render_proofs(chosen, found)
+    for id in [*theorems, *again_by]:
+        record = evidence.read(evidence.evidence_path(place, name, id))
+        again = again_by.get(id, f"modeproof prove --document {name} {id}")
+        if not record["as_expected"]:
+            raise Unjudged(f"{id}: its evidence is not as expected; run {again}")
+        paths = [place / path for path in record["inputs"]]
+        gone = [path for path in paths if not path.is_file()]
+        if gone or evidence.hashes(place, paths) != record["inputs"]:
+            raise Unjudged(f"{id}: files have changed since; run {again}")
+        found[id] = record
+    return render_proofs(document, found)
 
 
-def _render_proofs(args: argparse.Namespace, place: Path) -> int:
+def _render_proofs(args: argparse.Namespace, place: Path, names: Sequence[str]) -> int:
     from modeproof.evidence.files import write_whole
-    from modeproof.registers.proofs_page import PAGE
+    from modeproof.registers.proofs_page import proofs_page
 
-    if args.theorems or args.document:
-        raise Unjudged("--render writes the page of all theorems: give it no name")
-    write_whole(place / PAGE, _proofs_page(place).encode("utf-8"))
-    print(f"{PAGE} rendered")
-    _write_json(args, 0, page=PAGE)
+    if args.theorems:
+        raise Unjudged("--render writes the page of all theorems of a document: give it no theorem")
+    pages = {proofs_page(name): _proofs_page(place, name) for name in names}
+    for page, text in pages.items():
+        write_whole(place / page, text.encode("utf-8"))
+        print(f"{page} rendered")
+    _write_json(args, 0, pages=list(pages))
     return 0
 
 
-def _compare_proofs_page(place: Path) -> int:
+def _compare_proofs_page(place: Path, name: str) -> int:
     """0 when the page says what this run gave, or there is none; 1 when it has drifted."""
-    from modeproof.registers.proofs_page import PAGE, comparable
+    from modeproof.registers.proofs_page import comparable, proofs_page
 
-    path = place / PAGE
+    page = proofs_page(name)
+    path = place / page
     if not path.is_file():
         return 0
     try:
-        now = _proofs_page(place)
+        now = _proofs_page(place, name)
     except Unjudged as error:
-        print(f"{PAGE}: not compared: {error.message}")
+        print(f"{page}: not compared: {error.message}")
         return 0
     if comparable(path.read_text(encoding="utf-8")) == comparable(now):
         return 0
-    print(f"{PAGE}: the page differs from what this run gave; run modeproof prove --render")
+    print(f"{page}: the page differs from what this run gave; run modeproof prove --document {name} --render")
     return EXIT_NOT_AS_EXPECTED
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import argparse
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +24,7 @@ from modeproof.registers.models import read_constants, restored
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.schema import suggestion
-from modeproof.registers.stamps import FINDINGS, REMEDY
+from modeproof.registers.stamps import REMEDY, folder_of
 from modeproof.report.findings import Material, render
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain, sha256
@@ -42,7 +42,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     """Add the command; `args.run(args)` returns 0 as expected, 1 not as expected, and raises Unjudged."""
     parser = subparsers.add_parser(
         "findings",
-        help="compare or render the pages of the findings (docs/findings.md)",
+        help="compare or render the pages of the findings (docs/<document>/findings.md)",
         description="Compares the pages of the findings with registers and evidence, or renders them anew. "
         "Needs the evidence of every run and theorem that a finding names (modeproof verify makes it). "
         "Exit status: 0 as expected, 1 a page has drifted, 2 could not be judged.",
@@ -66,11 +66,13 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("no document has a replay.toml, so there is no page to render")
     pages: dict[str, str] = {}
     for name in chosen:
-        of_document = render(gather(place, name))
-        if twice := sorted(pages.keys() & of_document.keys()):
-            raise Unjudged(f"two documents have the page {twice[0]}; choose one with --document")
-        pages |= of_document
-    status, drifted = (_write(place, pages), []) if args.render else _compare(place, pages)
+        pages |= render(gather(place, name))
+    folders = [folder_of(name) for name in chosen]
+    drifted: list[str] = []
+    if args.render:
+        status = _write(place, pages, folders)
+    else:
+        status, drifted = _compare(place, pages, folders)
     if args.json is not None:
         content = {"command": "findings", "status": status, "pages": sorted(pages), "drifted": drifted}
         write_whole(args.json, (json.dumps(content, indent=1) + "\n").encode("utf-8"))
@@ -140,19 +142,23 @@ def _fault(place: Path, document: str, record: Mapping[str, Any], run: Run | Non
     return ""
 
 
-def _write(place: Path, pages: Mapping[str, str]) -> int:
-    stale = [
-        path for path in sorted((place / FINDINGS).glob("*.md")) if f"{FINDINGS}/{path.name}" not in pages
-    ]
+def _without_finding(place: Path, pages: Mapping[str, str], folders: Sequence[str]) -> list[str]:
+    """Pages of findings that no finding with evidence has."""
+    there = [f"{folder}/{path.name}" for folder in folders for path in (place / folder).glob("*.md")]
+    return sorted(name for name in there if name not in pages)
+
+
+def _write(place: Path, pages: Mapping[str, str], folders: Sequence[str]) -> int:
+    stale = _without_finding(place, pages, folders)
     for name, text in sorted(pages.items()):
         write_whole(place / name, text.encode("utf-8"))
     for path in stale:
-        path.unlink()
+        (place / path).unlink()
     print(f"{len(pages)} pages rendered" + (f", {len(stale)} removed" if stale else ""))
     return EXIT_AS_EXPECTED
 
 
-def _compare(place: Path, pages: Mapping[str, str]) -> tuple[int, list[str]]:
+def _compare(place: Path, pages: Mapping[str, str], folders: Sequence[str]) -> tuple[int, list[str]]:
     drifted = []
     for name, text in sorted(pages.items()):
         path = place / name
@@ -160,9 +166,8 @@ def _compare(place: Path, pages: Mapping[str, str]) -> tuple[int, list[str]]:
             drifted.append(f"{name}: the page is missing")
         elif _comparable(path.read_text(encoding="utf-8")) != _comparable(text):
             drifted.append(f"{name}: the page differs from what registers and evidence give")
-    for path in sorted((place / FINDINGS).glob("*.md")):
-        if f"{FINDINGS}/{path.name}" not in pages:
-            drifted.append(f"{FINDINGS}/{path.name}: no finding with evidence has this page")
+    for name in _without_finding(place, pages, folders):
+        drifted.append(f"{name}: no finding with evidence has this page")
     for line in drifted:
         print(f"  {line}; {REMEDY}")
     print(f"{len(pages) - len(drifted)} of {len(pages)} pages as registers and evidence give them")

@@ -15,6 +15,7 @@ from modeproof.lock import only_one
 from modeproof.places import documents
 from modeproof.places import root as repository_root
 from modeproof.progress import Progress
+from modeproof.registers.pages import SCALING, SCALING_PICTURE, page_of
 from modeproof.report.scaling import Curve, Measured, chart, page
 from modeproof.tlc.scaling import KIND, Series, has_scaling, load_scaling, measure
 from modeproof.tlc.toolchain import find_toolchain
@@ -23,20 +24,19 @@ if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
 COMMAND = ".venv/bin/modeproof scale"
-PAGE, PICTURE = "scaling.md", "scaling.svg"
 
 
 def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     """Add the command; `args.run(args)` returns 0, or 2 when a point was not judged, and raises Unjudged."""
     parser = subparsers.add_parser(
         "scale",
-        help="measure how the model grows (docs/scaling.md)",
+        help="measure how the model grows (docs/<document>/scaling.md)",
         description="Measures the series of spec/<document>/scaling.toml, one TLC run after the other, or "
-        "renders docs/scaling.md and docs/scaling.svg from what was measured. A point beyond its time limit "
-        "is left out, and said.",
+        "renders scaling.md and scaling.svg in docs/<document> from what was measured. A point beyond its "
+        "time limit is left out, and said.",
     )
     parser.add_argument("series", nargs="*", metavar="SERIES", help="only these series")
-    parser.add_argument("--document", metavar="NAME", help="which document of spec/, if several have series")
+    parser.add_argument("--document", metavar="NAME", help="which document, if several have series")
     parser.add_argument(
         "--point", type=int, action="append", metavar="X", help="only this point of each series"
     )
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
     if unknown := [name for name in args.series if name not in known]:
         raise Unjudged(f"no series {unknown[0]!r}; there are: {', '.join(known)}")
     if args.render:
-        render(place, series)
+        render(place, found[0], series)
         return EXIT_AS_EXPECTED
     tools, progress, status = find_toolchain(), Progress(quiet=args.quiet), EXIT_AS_EXPECTED
     with only_one(place):
@@ -85,11 +85,12 @@ def _only(series: Series, wanted: Sequence[int] | None) -> Series:
     return replace(series, points=points)
 
 
-def render(place: Path, series: Sequence[Series]) -> None:
-    """Write docs/scaling.md and docs/scaling.svg from the evidence that is there."""
+def render(place: Path, document: str, series: Sequence[Series]) -> None:
+    """Write the page and the chart of a document from the evidence that is there."""
     curves = [_curve(place, one) for one in series]
-    write_whole(place / "docs" / PICTURE, chart(curves).encode())
-    write_whole(place / "docs" / PAGE, page(curves, COMMAND, PICTURE).encode())
+    write_whole(place / page_of(document, SCALING_PICTURE), chart(curves).encode())
+    text = page(curves, f"{COMMAND} --document {document}", SCALING_PICTURE)
+    write_whole(place / page_of(document, SCALING), text.encode())
 
 
 def _curve(place: Path, series: Series) -> Curve:

@@ -110,7 +110,7 @@ def render(root: Path) -> None:
     loaded = [load_document(root, name) for name in documents(root)]
     for path in pages(root):
         text = read_text(root, path)
-        rendered = render_blocks(text, loaded)
+        rendered = render_blocks(text, loaded, shown(root, path))
         if rendered != text:
             write_text(path, rendered)
             print(f"rendered {shown(root, path)}")

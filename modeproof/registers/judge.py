@@ -45,6 +45,8 @@ def judge(document: Document) -> Judgement:
         *cross_check(document, sources),
         *check_switches(document, sources),
         *check_findings_pages(document),
+        *check_proofs_page(document.root, document),
+        *check_adequacy_page(document),
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),
@@ -60,8 +62,6 @@ def judge_tree(root: Path) -> list[Problem]:
         *check_imports(root),
         *check_no_document_known(root, [one.interface for one in loaded], loaded),
         *check_pages(root, loaded),
-        *check_proofs_page(root, loaded),
-        *check_adequacy_page(root, loaded),
     ]
 
 

@@ -9,16 +9,15 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 
 from modeproof.registers.citations import read_sources
 from modeproof.registers.files import read_text
+from modeproof.registers.pages import PROOFS, page_of
 from modeproof.registers.python_source import PythonTheorem
 from modeproof.registers.rows import Document, Problem
 
-PAGE = "docs/proofs.md"
 REMEDY = "run modeproof prove, modeproof prove --coverage and modeproof prove --render"
 _STAMP = re.compile(r"<!-- rendered by modeproof prove: theorems (\w{12}), text (\w{12}) -->\n\Z")
 
@@ -33,19 +32,18 @@ def _digest(text: str) -> str:
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:12]
 
 
-def _theorems(documents: Sequence[Document]) -> str:
+def _theorems(document: Document) -> str:
     rows = [
         [document.name, file, {key: value for key, value in asdict(one).items() if key != "line"}]
-        for document in documents
         for file, theorems in theorems_by_file(document).items()
         for one in theorems
     ]
     return _digest(json.dumps(rows, sort_keys=True, ensure_ascii=False))
 
 
-def stamped_proofs(documents: Sequence[Document], text: str) -> str:
+def stamped_proofs(document: Document, text: str) -> str:
     """The page with its stamp."""
-    stamp = f"theorems {_theorems(documents)}, text {_digest(text)}"
+    stamp = f"theorems {_theorems(document)}, text {_digest(text)}"
     return f"{text}\n<!-- rendered by modeproof prove: {stamp} -->\n"
 
 
@@ -54,18 +52,24 @@ def comparable(text: str) -> str:
     return re.sub(r"\| [\d,]+\.\d \|", "| s |", re.sub(r"text \w{12} -->", "text", text))
 
 
-def check_proofs_page(root: Path, documents: Sequence[Document]) -> list[Problem]:
+def proofs_page(document: str) -> str:
+    """The path of a document's page."""
+    return page_of(document, PROOFS)
+
+
+def check_proofs_page(root: Path, document: Document) -> list[Problem]:
     """What has drifted between the theorems and their page; nothing where there is no page yet."""
-    path = root / PAGE
+    page = proofs_page(document.name)
+    path = root / page
     if not path.is_file():
         return []
     text = read_text(root, path)
     match = _STAMP.search(text)
     if match is None:
-        return [Problem(PAGE, "", f"the page has no stamp; {REMEDY}")]
+        return [Problem(page, "", f"the page has no stamp; {REMEDY}")]
     problems = []
-    if match.group(1) != _theorems(documents):
-        problems.append(Problem(PAGE, "", f"the theorems have changed since the page was rendered; {REMEDY}"))
+    if match.group(1) != _theorems(document):
+        problems.append(Problem(page, "", f"the theorems have changed since the page was rendered; {REMEDY}"))
     if match.group(2) != _digest(text[: match.start() - 1]):
-        problems.append(Problem(PAGE, "", f"the page was changed by hand; {REMEDY}"))
+        problems.append(Problem(page, "", f"the page was changed by hand; {REMEDY}"))
     return problems

@@ -16,21 +16,34 @@ from dataclasses import asdict
 from typing import Any
 
 from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.pages import DEVIATIONS, FINDINGS, page_of
 from modeproof.registers.replay import has_replay
 from modeproof.registers.rows import Document, Finding, Problem
 
-FINDINGS = "docs/findings"
-INDEX = "docs/findings.md"
-TABLE = "docs/deviations.md"
 REMEDY = "run modeproof findings --render"
 _STAMP = re.compile(
     r"<!-- rendered by modeproof findings: registers (\w{12}), runs (\w{12}), text (\w{12}) -->\n\Z"
 )
 
 
-def page_name(finding: Finding) -> str:
+def folder_of(document: str) -> str:
+    """The folder with the page of each finding of a document."""
+    return page_of(document, FINDINGS).removesuffix(".md")
+
+
+def page_name(document: str, finding: Finding) -> str:
     """The path of a finding's page."""
-    return f"{FINDINGS}/{finding.id}.md"
+    return f"{folder_of(document)}/{finding.id}.md"
+
+
+def index_name(document: str) -> str:
+    """The path of the index of a document's findings."""
+    return page_of(document, FINDINGS)
+
+
+def table_name(document: str) -> str:
+    """The path of the table of a document's deviations."""
+    return page_of(document, DEVIATIONS)
 
 
 def _digest(value: Any) -> str:
@@ -76,7 +89,10 @@ def has_page(finding: Finding) -> bool:
 
 def check_findings_pages(document: Document) -> list[Problem]:
     """What has drifted between a document's registers and its pages; nothing where it has none yet."""
-    if not has_replay(document.root, document.name) or not (document.root / INDEX).is_file():
+    if (
+        not has_replay(document.root, document.name)
+        or not (document.root / index_name(document.name)).is_file()
+    ):
         return []
     return check_stamps(document, filter(has_page, document.findings))
 
@@ -85,8 +101,8 @@ def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Proble
     """Pages that are missing, that no finding has, or whose stamp is not that of registers and text."""
     problems = []
     root = document.root
-    wanted: dict[str, Finding | None] = {page_name(one): one for one in expected}
-    wanted |= {INDEX: None, TABLE: None}
+    wanted: dict[str, Finding | None] = {page_name(document.name, one): one for one in expected}
+    wanted |= {index_name(document.name): None, table_name(document.name): None}
     for name, finding in wanted.items():
         path = root / name
         if not path.is_file():
@@ -94,8 +110,9 @@ def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Proble
             continue
         for text in _faults(document, finding, read_text(root, path)):
             problems.append(Problem(name, "", text))
-    for path in sorted((root / FINDINGS).glob("*.md")):
-        name = f"{FINDINGS}/{path.name}"
+    folder = folder_of(document.name)
+    for path in sorted((root / folder).glob("*.md")):
+        name = f"{folder}/{path.name}"
         if name not in wanted:
             problems.append(Problem(name, "", f"no finding with evidence has this page; {REMEDY}"))
     return problems

@@ -4,25 +4,27 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import asdict
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from modeproof.registers.fault_table import render_fault_matrix, render_faults_table
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.matrix import Row
+from modeproof.registers.pages import pages_there
 from modeproof.registers.rows import Document, Problem
 
 COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
 """The columns of the text table; JSON and CSV have all fields."""
 
 BLOCK = re.compile(
-    r"(<!-- begin (properties|picture|faults|fault matrix)(?: ([a-z][a-z0-9_]*))? -->\n)"
-    r"(.*?)(<!-- end(?: (?:properties|picture|faults|fault matrix))? -->)",
+    r"(<!-- begin (properties|picture|faults|fault matrix|documents)(?: ([a-z][a-z0-9_]*))? -->\n)"
+    r"(.*?)(<!-- end(?: (?:properties|picture|faults|fault matrix|documents))? -->)",
     re.DOTALL,
 )
-BEGIN = re.compile(r"<!-- begin (?:properties|picture|fault)")
+BEGIN = re.compile(r"<!-- begin (?:properties|picture|fault|documents)")
 
 
 def matrix_text(rows: Sequence[Row]) -> str:
@@ -119,22 +121,41 @@ RENDERERS = {
 }
 
 
-def render_blocks(text: str, documents: Sequence[Document]) -> str:
+def render_rooms(document: Document, here: PurePosixPath) -> str:
+    """A document in an index: its title, its targets and where to read on; `here` is the page's folder."""
+    name = document.name
+    devices = document.interface.devices.values()
+    targets = ", ".join(f"`{one.id}`" for one in devices if one.published) or "none"
+    places = [(f"spec/{name}", "registers and TLA+"), *pages_there(document.root, name)]
+    links = ", ".join(f"[{words}]({_relative(path, here)})" for path, words in places)
+    return f"- **`{name}`** {document.about.title}. Targets: {targets}. {links}.\n"
+
+
+def _relative(path: str, here: PurePosixPath) -> str:
+    return PurePosixPath(os.path.relpath(path, here)).as_posix()
+
+
+def render_blocks(text: str, documents: Sequence[Document], page: str = "README.md") -> str:
     """The page with each block `<!-- begin WHAT [DOCUMENT] --> .. <!-- end -->` rendered anew.
 
-    WHAT is a key of `RENDERERS`. Without a name the block holds those of all documents.
+    WHAT is a key of `RENDERERS`, or `documents` for an index. Without a name the block holds those of all
+    documents. `page` is the path of the page from the root, for its links.
     """
+    here = PurePosixPath(page).parent
 
     def block(match: re.Match[str]) -> str:
         chosen = [one for one in documents if match.group(3) in (None, one.name)]
+        if match.group(2) == "documents":
+            return match.group(1) + "".join(render_rooms(one, here) for one in chosen) + match.group(5)
         return match.group(1) + "\n".join(map(RENDERERS[match.group(2)], chosen)) + match.group(5)
 
     return BLOCK.sub(block, text)
 
 
 def pages(root: Path) -> list[Path]:
-    """The pages that may hold rendered blocks: README.md and docs/*.md, as far as they exist."""
-    return [path for path in [root / "README.md", *sorted((root / "docs").glob("*.md"))] if path.is_file()]
+    """The pages that may hold rendered blocks: README.md, docs/*.md and docs/<document>/*.md."""
+    own = [*sorted((root / "docs").glob("*.md")), *sorted((root / "docs").glob("*/*.md"))]
+    return [path for path in [root / "README.md", *own] if path.is_file()]
 
 
 def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
@@ -144,7 +165,7 @@ def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
         text = read_text(root, path)
         if len(BEGIN.findall(text)) != len(BLOCK.findall(text)):
             problems.append(Problem(shown(root, path), "", "a rendered block has no end, or is malformed"))
-        elif render_blocks(text, documents) != text:
+        elif render_blocks(text, documents, shown(root, path)) != text:
             problems.append(
                 Problem(
                     shown(root, path),

@@ -16,7 +16,7 @@ from modeproof.registers.citations import Sources, ids_of
 from modeproof.registers.models import Constant, restored
 from modeproof.registers.replay import Traces
 from modeproof.registers.rows import Document, Finding, Property, Run
-from modeproof.registers.stamps import INDEX, TABLE, has_page, page_name, stamped
+from modeproof.registers.stamps import has_page, index_name, page_name, stamped, table_name
 from modeproof.report.cells import Cells
 from modeproof.report.scan_table import Comparison, compare, markdown, scan_table, who
 
@@ -38,6 +38,20 @@ class Material:
     evidence: Mapping[str, Mapping[str, Any]]
     walks: Mapping[str, Mapping[str, Any]]
     constants: Mapping[str, Mapping[str, Constant]]
+
+    @property
+    def index(self) -> str:
+        """The path of the index."""
+        return index_name(self.document.name)
+
+    @property
+    def table(self) -> str:
+        """The path of the table of deviations."""
+        return table_name(self.document.name)
+
+    def page(self, finding: Finding) -> str:
+        """The path of a finding's page."""
+        return page_name(self.document.name, finding)
 
     def run(self, name: str) -> Run | None:
         """A declared run."""
@@ -63,12 +77,12 @@ def render(material: Material) -> dict[str, str]:
     deviations.
     """
     pages = {
-        page_name(one): stamped(material.document, one, _page(material, one))
+        material.page(one): stamped(material.document, one, _page(material, one))
         for one in material.document.findings
         if has_page(one)
     }
-    pages[INDEX] = stamped(material.document, None, _index(material))
-    pages[TABLE] = stamped(material.document, None, _deviations(material))
+    pages[material.index] = stamped(material.document, None, _index(material))
+    pages[material.table] = stamped(material.document, None, _deviations(material))
     return pages
 
 
@@ -86,13 +100,13 @@ def _sentence(text: str) -> str:
 
 
 def _page(material: Material, finding: Finding) -> str:
-    here = page_name(finding)
+    here = material.page(finding)
     clauses = {clause.id: clause for clause in material.document.clauses}
     lines = [
         f"# {finding.id}: {finding.title}",
         "",
-        f"Class: **{finding.severity}**. [All findings]({_link(here, INDEX)}), "
-        f"[what each deviation does]({_link(here, TABLE)}).",
+        f"Class: **{finding.severity}**. [All findings]({_link(here, material.index)}), "
+        f"[what each deviation does]({_link(here, material.table)}).",
         "",
         "## What the text says",
         "",
@@ -117,7 +131,7 @@ def _page(material: Material, finding: Finding) -> str:
 def _drawing(finding: Finding) -> str:
     if finding.drawing_could_settle:
         return (
-            "The flowcharts themselves were not available to us. A drawing could settle which reading is "
+            "The drawings themselves were not available to us. A drawing could settle which reading is "
             "meant, so this "
             "is no error of the document; below is what follows where a program is written from its text."
         )
@@ -194,8 +208,8 @@ def _tables(
     table = scan_table(walk, names, traces, cells)
     lines = [
         "A row is what stands after one step, and what the step read; **bold** is what has changed since "
-        "the row before. A "
-        "word is in hex with its meaning in its own range; 0 is 0000, no selection and no level.",
+        "the row before."
+        + (" A word is in hex, with what it means in its own range; 0 is 0000." if traces.words else ""),
         "",
         table.text,
     ]
@@ -383,27 +397,26 @@ def _index(material: Material) -> str:
     lines = [
         f"# Findings: {material.document.about.title}",
         "",
-        f"Where the text of {material.document.about.number} contradicts itself or is silent, how it can "
-        "be read, and what "
+        "Where the text contradicts itself or is silent, how it can be read, and what "
         f"was decided. {len(findings)} findings: {count['safety']} of class safety, "
         f"{count['availability']} availability, "
         f"{count[WORDING]} wording. {shown} have a page with evidence; for {open_ones} of class safety or "
         "availability "
         "the last column says why no model shows them.",
         "",
-        f"[What each deviation does]({_link(INDEX, TABLE)}) puts them side by side: restored alone, which "
-        "property falls, in "
+        f"[What each deviation does]({_link(material.index, material.table)}) puts them side by "
+        "side: restored alone, which property falls, in "
         "how many steps. The whole text of every finding, with all its readings, is in "
-        f"[findings.toml]({_link(INDEX, material.document.source('findings'))}).",
+        f"[findings.toml]({_link(material.index, material.document.source('findings'))}).",
         "",
-        "*Drawing*: the flowcharts were not available to us; where one could settle a finding, it is no "
+        "*Drawing*: the drawings were not available to us; where one could settle a finding, it is no "
         "error of the "
         "document. Rendered by `modeproof findings --render`.",
         "",
     ]
     rows = []
     for one in findings:
-        name = f"[{one.id}]({_link(INDEX, page_name(one))})" if has_page(one) else one.id
+        name = f"[{one.id}]({_link(material.index, material.page(one))})" if has_page(one) else one.id
         rows.append(
             [
                 name,
@@ -459,8 +472,8 @@ def _deviations(material: Material) -> str:
         "does). A reading "
         "that breaks nothing is reported as harmless, with the run that shows it. The traces are on the "
         "pages of the "
-        f"[findings]({_link(TABLE, INDEX)}). Seconds are those of one run on the machine that rendered "
-        "this page.",
+        f"[findings]({_link(material.table, material.index)}). Seconds are those of one run on the "
+        "machine that rendered this page.",
         "",
         "## One reading restored",
         "",
@@ -493,7 +506,8 @@ def _all_at_once(material: Material, run: Run) -> list[str]:
     lines = ["## All of them: does the printed procedure work at all?", ""]
     for one in _findings_of(material, run):
         lines += [
-            f"[{one.id}]({_link(TABLE, page_name(one))}), {one.title}. {_sentence(one.consequence)}",
+            f"[{one.id}]({_link(material.table, material.page(one))}), {one.title}. "
+            f"{_sentence(one.consequence)}",
             "",
         ]
     return lines
@@ -541,7 +555,8 @@ def _deviation(material: Material, run: Run) -> list[str]:
     readings = material.readings(run)
     result = record["result"]
     links = "<br>".join(
-        (f"[{one.id}]({_link(TABLE, page_name(one))})" if has_page(one) else one.id) + f" {one.title}"
+        (f"[{one.id}]({_link(material.table, material.page(one))})" if has_page(one) else one.id)
+        + f" {one.title}"
         for one in _findings_of(material, run)
     )
     broken = ", ".join(one.id for one in material.document.assumptions if run.id in one.breaks)

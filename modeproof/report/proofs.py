@@ -12,28 +12,27 @@ Record = Mapping[str, Any]
 
 INTRODUCTION = """# What is proved of the shipped code
 
-Each row is a theorem about the very Python in `refimpl/`, run path by path on symbolic values, or about the
-tables. PROVED means: z3 found no counterexample among all values named, and cvc5, which reads the exported
-file alone, found none either. A *claim* is one such question; its *twin* shows that its premises can be met;
-an *example* must be found, mostly one that shows that a planted fault or the printed text is noticed.
+Each row is a theorem about the very Python in `refimpl/{document}/`, run path by path on symbolic
+values, or about the tables. PROVED means: z3 found no counterexample among all values named, and cvc5, which
+reads the exported file alone, found none either. A *claim* is one such question; its *twin* shows that its
+premises can be met; an *example* must be found, mostly one that shows that a planted fault or the
+printed text is noticed.
 
 ```
-.venv/bin/modeproof prove               # all of it; one theorem by its name
-.venv/bin/modeproof prove --coverage    # what of each step the paths pass through
-.venv/bin/modeproof prove --render      # this page, from the evidence of these two
+.venv/bin/modeproof prove --document {document}               # all of it; one theorem by its name
+.venv/bin/modeproof prove --document {document} --coverage    # what of each step the paths pass through
+.venv/bin/modeproof prove --document {document} --render      # this page, from the evidence of these two
 ```
 
-Every question is a file, `build/proofs/<document>/<theorem>/*.smt2`, with theorem, clauses and expected
-answer at its top. What the proofs do not show is in [limits](limits.md).
+Every question is a file, `build/proofs/{document}/<theorem>/*.smt2`, with theorem, clauses and expected
+answer at its top. What the proofs do not show is in [limits](../limits.md).
 """
 
 
-def render_proofs(documents: Sequence[Document], evidence: Mapping[str, Mapping[str, Record]]) -> str:
-    """The whole page, stamped. `evidence`: by document, then by the name of the theorem, and `coverage`."""
-    lines = [INTRODUCTION]
-    for document in documents:
-        lines += _section(document, evidence[document.name])
-    return stamped_proofs(documents, "\n".join(lines))
+def render_proofs(document: Document, evidence: Mapping[str, Record]) -> str:
+    """The page of a document, stamped. `evidence`: by the name of the theorem, and `coverage`."""
+    lines = [INTRODUCTION.format(document=document.name), *_section(document, evidence)]
+    return stamped_proofs(document, "\n".join(lines))
 
 
 def _section(document: Document, records: Mapping[str, Record]) -> Iterator[str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from modeproof.errors import Unjudged
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import Suite
-from modeproof.registers.adequacy_page import PAGE
+from modeproof.registers.adequacy_page import adequacy_page
 from modeproof.registers.load import load_interface
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors
 from modeproof.strength.adequacy_page import render
@@ -46,7 +46,7 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
             return _show(adequacy, chosen[0], results)
         if args.render:
             status = render(adequacy, results, read_register(place, document).explained)
-            print(f"{PAGE} is written")
+            print(f"{adequacy_page(document)} is written")
             return status
         progress = Progress(quiet=args.quiet)
         judged = judge_by_vectors(adequacy, chosen, results, progress, args.jobs or cores(), args.complete)

@@ -1,4 +1,4 @@
-"""Renders docs/adequacy.md from the results: which suite tells each mutant from the shipped code."""
+"""Renders docs/<document>/adequacy.md from the results: which suite tells each mutant from the shipped code."""
 
 # ruff: noqa: E501 - the lines of the page are as long as its paragraphs
 
@@ -11,7 +11,7 @@ from typing import Any
 
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
-from modeproof.registers.adequacy_page import PAGE, stamped_adequacy
+from modeproof.registers.adequacy_page import adequacy_page, stamped_adequacy
 from modeproof.strength import replay
 from modeproof.strength.adequacy import BY_REFUSAL, Adequacy
 from modeproof.strength.campaign import WORDS, Judged
@@ -34,8 +34,9 @@ def render(adequacy: Adequacy, results: Results, explained: Sequence[Explained])
             "run without --render"
         )
     text = page(adequacy, judged, explained)
-    whole = stamped_adequacy(adequacy.place, [adequacy.code.document], text)
-    write_whole(adequacy.place / PAGE, whole.encode("utf-8"))
+    document = adequacy.code.document
+    whole = stamped_adequacy(adequacy.place, document, text)
+    write_whole(adequacy.place / adequacy_page(document), whole.encode("utf-8"))
     bad = unexplained(explained, judged) or explanation_problems(explained, judged, complete=True)
     return EXIT_NOT_AS_EXPECTED if bad else 0
 
@@ -72,9 +73,9 @@ property, nothing but inputs and the outputs that must follow. **{counts["KILLED
 the shipped code ({percent(counts["KILLED"], real)}); {counts["SURVIVED"]} survive, {open_ones} of them unexplained; {counts["UNMEASURED"]} could not be measured.**
 
 ```
-.venv/bin/modeproof mutate impl --judge vectors            # judges what is not judged yet; can be stopped and taken up again
-.venv/bin/modeproof mutate impl --judge vectors --show ID  # one edit, what each suite says, what the theorems say
-.venv/bin/modeproof mutate impl --judge vectors --render   # this page
+.venv/bin/modeproof mutate impl --judge vectors --document {document}            # judges what is not judged yet; can be stopped and taken up again
+.venv/bin/modeproof mutate impl --judge vectors --document {document} --show ID  # one edit, what each suite says, what the theorems say
+.venv/bin/modeproof mutate impl --judge vectors --document {document} --render   # this page
 ```
 
 Running the mutants took {seconds / 60:.0f} minutes, all processes together, on a busy machine. The mutants are those of [strength-impl.md](strength-impl.md): {len(judged) + out} in all. {out} of them are

@@ -16,7 +16,7 @@ from modeproof.strength.campaign import WORDS, Judged, Known, all_mutants, defau
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant, diff
-from modeproof.strength.page import render
+from modeproof.strength.page import page_path, render
 from modeproof.strength.register import Explained, load_strength, path_of
 from modeproof.strength.results import Results, read_results, results_path
 
@@ -87,7 +87,7 @@ def _mutate(args: argparse.Namespace) -> int:
         return _show(bench, chosen[0], results)
     if args.render:
         status = render(bench, every, results)
-        print("docs/strength.md is written")
+        print(f"{page_path(document)} is written")
         return status
     with only_one(place):
         judged = judge_all(

@@ -14,7 +14,7 @@ from modeproof.strength.implementation import (
     judge_implementation,
     register_path,
 )
-from modeproof.strength.implementation_page import PAGE, render
+from modeproof.strength.implementation_page import page_path, render
 from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.results import Results, read_results, results_path
 
@@ -43,7 +43,7 @@ def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
         return _show(code, chosen[0], results)
     if args.render:
         status = render(code, results)
-        print(f"{PAGE} is written")
+        print(f"{page_path(code.document)} is written")
         return status
     with only_one(place):
         progress = Progress(quiet=args.quiet)

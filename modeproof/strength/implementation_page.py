@@ -1,4 +1,4 @@
-"""Renders docs/strength-impl.md from the results: which theorem each mutant of the shipped code breaks."""
+"""Renders docs/<document>/strength-impl.md from the results: which theorem each mutant of the shipped code breaks."""
 
 # ruff: noqa: E501 - the lines of the page are as long as its paragraphs
 
@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
+from modeproof.registers.pages import STRENGTH_OF_CODE, page_of
 from modeproof.strength.campaign import WORDS, Judged
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.implementation import Implementation
@@ -24,7 +25,10 @@ from modeproof.strength.page import (
 )
 from modeproof.strength.results import Results
 
-PAGE = "docs/strength-impl.md"
+
+def page_path(document: str) -> str:
+    """The path of a document's page."""
+    return page_of(document, STRENGTH_OF_CODE)
 
 
 def render(code: Implementation, results: Results) -> int:
@@ -39,7 +43,7 @@ def render(code: Implementation, results: Results) -> int:
         )
     text = page(code, judged)
     stamp = f"<!-- rendered by modeproof mutate: base {code.base}, text {text_digest(text)} -->\n"
-    write_whole(code.place / PAGE, (text + "\n" + stamp).encode("utf-8"))
+    write_whole(code.place / page_path(code.document), (text + "\n" + stamp).encode("utf-8"))
     explained = code.register.explained
     bad = unexplained(explained, judged) or explanation_problems(explained, judged, complete=True)
     return EXIT_NOT_AS_EXPECTED if bad else 0
@@ -72,14 +76,14 @@ asked about each result. **{counts["KILLED"]} of {real} mutants that behave diff
 ({percent(counts["KILLED"], real)}); {counts["SURVIVED"]} survive, {open_ones} of them unexplained; {counts["UNMEASURED"]} could not be measured.**
 
 ```
-.venv/bin/modeproof mutate impl --judge theorems  # judges what is not judged yet; can be stopped and taken up again
-.venv/bin/modeproof mutate impl --show ID         # one edit, where it differs, and what the theorems say
-.venv/bin/modeproof mutate impl --render          # this page
+.venv/bin/modeproof mutate impl --document {code.document}            # judges what is not judged yet; can be stopped and taken up again
+.venv/bin/modeproof mutate impl --document {code.document} --show ID  # one edit, where it differs, and what the theorems say
+.venv/bin/modeproof mutate impl --document {code.document} --render   # this page
 ```
 
 Judging took {seconds / 60:.0f} minutes in all, one mutant a process. Which edits are made is a rule, not a sample:
-`modeproof/strength/python_operators.py`. Which theorems judge is declared in [judges.py](../proofs/{code.document}/judges.py), what is put in the
-place of a name in [strength.toml](../proofs/{code.document}/strength.toml).
+`modeproof/strength/python_operators.py`. Which theorems judge is declared in [judges.py](../../proofs/{code.document}/judges.py), what is put in the
+place of a name in [strength.toml](../../proofs/{code.document}/strength.toml).
 
 | word | meaning |
 |---|---|

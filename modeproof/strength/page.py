@@ -1,4 +1,4 @@
-"""Renders docs/strength.md and docs/strength.csv from the results: which property each mutant breaks.
+"""Renders strength.md and strength.csv in docs/<document> from the results: which property each mutant breaks.
 
 The last line of the page is a stamp: the hash of what each module's judgement rests on, and of the page's own
 text. A page that was edited by hand is found out; one whose specification has moved says for what it holds.
@@ -20,6 +20,7 @@ from pathlib import Path
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.registers.load import load_document
+from modeproof.registers.pages import KILL_TABLE, STRENGTH, page_of
 from modeproof.strength.campaign import WORDS, Judged, Known, inputs_now
 from modeproof.strength.explain import explanation_of, explanation_problems, unexplained
 from modeproof.strength.judge import Bench
@@ -28,8 +29,12 @@ from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
 from modeproof.tlc.schedule import cores
 
-PAGE, TABLE = "docs/strength.md", "docs/strength.csv"
 _STAMP = re.compile(r"<!-- rendered by modeproof mutate: (.*), text (\w{12}) -->\n\Z")
+
+
+def page_path(document: str) -> str:
+    """The path of a document's page."""
+    return page_of(document, STRENGTH)
 
 
 def render(bench: Bench, every: Sequence[Mutant], results: Results) -> int:
@@ -45,8 +50,9 @@ def render(bench: Bench, every: Sequence[Mutant], results: Results) -> int:
     text = page(bench, judged)
     inputs = ", ".join(f"{module} {value}" for module, value in sorted(inputs_now(bench).items()))
     stamp = f"<!-- rendered by modeproof mutate: {inputs}, text {text_digest(text)} -->\n"
-    write_whole(bench.place / PAGE, (text + "\n" + stamp).encode("utf-8"))
-    write_whole(bench.place / TABLE, table(judged).encode("utf-8"))
+    document = bench.strength.document
+    write_whole(bench.place / page_path(document), (text + "\n" + stamp).encode("utf-8"))
+    write_whole(bench.place / page_of(document, KILL_TABLE), table(judged).encode("utf-8"))
     explained = bench.strength.explained
     bad = unexplained(explained, judged) or explanation_problems(explained, judged, complete=True)
     return EXIT_NOT_AS_EXPECTED if bad else 0
@@ -59,7 +65,7 @@ def known(bench: Bench, every: Sequence[Mutant], results: Results) -> list[Judge
     return [Judged(one, record) for one, record in found if record is not None]
 
 
-def stamp_of(place: Path, page: str = PAGE) -> tuple[dict[str, str], bool]:
+def stamp_of(place: Path, page: str) -> tuple[dict[str, str], bool]:
     """What a page says it rests on, and whether its text is as it was rendered.
 
     Raises Unjudged when there is no page or no stamp.
@@ -132,14 +138,14 @@ were asked about each result. **{counts["KILLED"]} of {real} mutants that behave
 ({percent(counts["KILLED"], real)}); {counts["SURVIVED"]} survive, {open_ones} of them unexplained; {counts["UNMEASURED"]} could not be measured.**
 
 ```
-.venv/bin/modeproof mutate spec            # judges what is not judged yet; can be stopped and taken up again
-.venv/bin/modeproof mutate spec --show ID  # one edit, and what came of it
-.venv/bin/modeproof mutate spec --render   # this page and strength.csv, the whole matrix
+.venv/bin/modeproof mutate spec --document {bench.strength.document}            # judges what is not judged yet; can be stopped and taken up again
+.venv/bin/modeproof mutate spec --document {bench.strength.document} --show ID  # one edit, and what came of it
+.venv/bin/modeproof mutate spec --document {bench.strength.document} --render   # this page and strength.csv, the whole matrix
 ```
 
 TLC ran for {seconds / 60:.0f} minutes in all on {cores()} cores ({platform.system()}, {platform.machine()}), as many runs at once as there are
 cores. Which edits are made is a rule, not a sample: `modeproof/strength/operators.py`. Which runs judge, in which order and at which
-bounds, is declared in [strength.toml](../spec/{bench.strength.document}/strength.toml). A mutant that something has killed is not put to the
+bounds, is declared in [strength.toml](../../spec/{bench.strength.document}/strength.toml). A mutant that something has killed is not put to the
 costlier runs (their columns are empty in the matrix), unless `--complete` asks for it.
 
 | word | meaning |

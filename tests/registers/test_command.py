@@ -100,3 +100,16 @@ def test_a_picture_that_lost_a_signal_is_found_and_drawn_anew(tree: Any, registe
     assert all(name in text for name in [*latch.inputs, *latch.outputs])
     tree.write("README.md", text.replace(next(iter(latch.inputs)), "lost"))
     assert registers_command(tree.root) == 1
+
+
+def test_an_index_lists_each_document_with_the_pages_that_it_has(
+    tree: Any, registers_command: Command
+) -> None:
+    tree.write("docs/README.md", "<!-- begin documents -->\n<!-- end documents -->\n")
+    assert registers_command(tree.root, "--render") == 0
+    text = (tree.root / "docs/README.md").read_text(encoding="utf-8")
+    assert "- **`door`** A door. Targets: `latch`. [registers and TLA+](../spec/door).\n" in text
+    tree.write("docs/door/findings.md", "x\n")
+    assert registers_command(tree.root) == 1, "a page that the index does not name"
+    assert registers_command(tree.root, "--render") == 0
+    assert "[findings](door/findings.md)." in (tree.root / "docs/README.md").read_text(encoding="utf-8")

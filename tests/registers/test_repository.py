@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -34,3 +35,26 @@ def test_every_column_of_the_matrix_is_filled_somewhere(name: str) -> None:
 def test_walls_between_rooms_hold_and_rendered_tables_have_not_drifted() -> None:
     assert documents(ROOT) == tuple(FOLDERS)
     assert [str(problem) for problem in judge_tree(ROOT)] == []
+
+
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
+
+
+def broken_links(root: Path) -> list[str]:
+    """Links of README.md, docs/ and examples/ that lead to no file."""
+    pages = [root / "README.md", *root.glob("docs/**/*.md"), *root.glob("examples/**/*.md")]
+    return [
+        f"{page.relative_to(root).as_posix()}: {target}"
+        for page in pages
+        for target in LINK.findall(CODE.sub("", page.read_text(encoding="utf-8")))
+        if "://" not in target and not (page.parent / target).exists()
+    ]
+
+
+def test_every_link_of_every_page_leads_somewhere(tmp_path: Path) -> None:
+    assert broken_links(ROOT) == []
+    (tmp_path / "README.md").write_text("[a](docs/a.md) [b](docs/gone.md#x) `[c](no)` [d](https://e.org/f)\n")
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs/a.md").write_text("[up](../README.md)\n")
+    assert broken_links(tmp_path) == ["README.md: docs/gone.md"]

@@ -29,7 +29,7 @@ def change(root: Path, name: str, old: str, new: str) -> None:
 def test_the_page_shows_trace_and_decided_behaviour_and_rendering_again_gives_the_same_bytes(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    page = (checked / "docs/findings/E-01.md").read_text(encoding="utf-8")
+    page = (checked / "docs/box/findings/E-01.md").read_text(encoding="utf-8")
     for expected in (
         "# E-01: does it wait for the door",
         "A drawing could settle which reading is meant, so this is no error of the document",
@@ -51,14 +51,14 @@ def test_the_page_shows_trace_and_decided_behaviour_and_rendering_again_gives_th
         "No device differs from the decided behaviour here",
     ):
         assert expected in page, page
-    assert not (checked / "docs/findings/E-02.md").exists()
-    index = (checked / "docs/findings.md").read_text(encoding="utf-8")
+    assert not (checked / "docs/box/findings/E-02.md").exists()
+    index = (checked / "docs/box/findings.md").read_text(encoding="utf-8")
     assert "2 findings: 1 of class safety, 0 availability, 1 wording" in index
     assert (
         "VIOLATED, as expected: `ShutsOverDoor` falls in 1 step" in index
         and "no model can show a slip" in index
     )
-    table = (checked / "docs/deviations.md").read_text(encoding="utf-8")
+    table = (checked / "docs/box/deviations.md").read_text(encoding="utf-8")
     assert re.search(r"\| `EAGER` \| \[E-01\].* \| `ShutsOverDoor` \| 1 \| \d+\.\d \| arbitrary \|", table)
     assert "nothing: harmless within the bounds" in table
     assert "| none; without A-01 | [E-01]" in table and page.count("| 1 | `Close` | **Shut** |") == 2
@@ -74,7 +74,7 @@ def test_the_page_shows_trace_and_decided_behaviour_and_rendering_again_gives_th
 
 
 def test_each_kind_of_drift_is_found(checked: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    page = "docs/findings/E-01.md"
+    page = "docs/box/findings/E-01.md"
 
     change(checked, page, "It shuts only", "It never shuts")
     assert any("E-01.md: the page was changed by hand" in one for one in stamps(checked))
@@ -91,12 +91,12 @@ def test_each_kind_of_drift_is_found(checked: Path, capsys: pytest.CaptureFixtur
     change(checked, "spec/box/runs.toml", "trace_length = 3", "trace_length = 2")
     assert stamps(checked) == []
 
-    (checked / page).rename(checked / "docs/findings/E-03.md")
+    (checked / page).rename(checked / "docs/box/findings/E-03.md")
     found = stamps(checked)
     assert any("E-01.md: the page is missing" in one for one in found)
     assert any("E-03.md: no finding with evidence has this page" in one for one in found)
     assert main(["findings", "--render", "--quiet"]) == 0
-    assert not (checked / "docs/findings/E-03.md").exists()
+    assert not (checked / "docs/box/findings/E-03.md").exists()
     change(checked, page, "<!-- rendered", "<!-- written")
     assert any("E-01.md: the page has no stamp" in one for one in stamps(checked))
 

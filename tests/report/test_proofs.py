@@ -9,7 +9,7 @@ import pytest
 
 from modeproof.registers import proofs_page
 from modeproof.registers.load import load_document
-from modeproof.registers.proofs_page import PAGE, check_proofs_page, comparable, theorems_by_file
+from modeproof.registers.proofs_page import check_proofs_page, comparable, theorems_by_file
 from modeproof.registers.rows import Document
 from modeproof.report.proofs import render_proofs
 
@@ -65,11 +65,11 @@ def _evidence(document: Document, seconds: float = 1.5) -> dict[str, dict[str, A
         "note": "",
     }
     records["agreement"] = {"verdict": "EQUAL", "result": {"rows": [row, other], "problems": []}}
-    return {document.name: records}
+    return records
 
 
 def test_every_theorem_is_on_the_page_once_with_clauses_questions_and_versions(document: Document) -> None:
-    page = render_proofs([document], _evidence(document))
+    page = render_proofs(document, _evidence(document))
     theorems = [one for rows in theorems_by_file(document).values() for one in rows]
     assert len(theorems) > 40
     for one in theorems:
@@ -90,43 +90,47 @@ def test_every_theorem_is_on_the_page_once_with_clauses_questions_and_versions(d
 
 def test_a_theorem_without_evidence_is_no_page(document: Document) -> None:
     evidence = _evidence(document)
-    del evidence[document.name]["each_mode_has_its_own_acknowledgment_word"]
+    del evidence["each_mode_has_its_own_acknowledgment_word"]
     with pytest.raises(KeyError):
-        render_proofs([document], evidence)
+        render_proofs(document, evidence)
 
 
 def test_only_how_long_it_took_is_not_compared(document: Document) -> None:
-    one, other = (render_proofs([document], _evidence(document, seconds)) for seconds in (1.5, 1234.5))
+    one, other = (render_proofs(document, _evidence(document, seconds)) for seconds in (1.5, 1234.5))
     assert one != other
     assert comparable(one) == comparable(other)
     assert comparable(one.replace("4.99", "5.00")) != comparable(one)
     assert comparable(one.replace("1 claims", "2 claims", 1)) != comparable(one)
 
 
+def page(document: Document, root: Path) -> Path:
+    return root / proofs_page.proofs_page(document.name)
+
+
 @pytest.fixture
 def root(document: Document, tmp_path: Path) -> Path:
-    (tmp_path / "docs").mkdir()
-    (tmp_path / PAGE).write_text(render_proofs([document], _evidence(document)), encoding="utf-8")
+    page(document, tmp_path).parent.mkdir(parents=True)
+    page(document, tmp_path).write_text(render_proofs(document, _evidence(document)), encoding="utf-8")
     return tmp_path
 
 
 def _texts(root: Path, document: Document) -> list[str]:
-    return [problem.text.split(";")[0] for problem in check_proofs_page(root, [document])]
+    return [problem.text.split(";")[0] for problem in check_proofs_page(root, document)]
 
 
 def test_a_page_as_rendered_has_not_drifted_and_without_one_nothing_is_said(
     document: Document, root: Path
 ) -> None:
     assert _texts(root, document) == []
-    (root / PAGE).unlink()
+    page(document, root).unlink()
     assert _texts(root, document) == []
 
 
 def test_a_page_changed_by_hand_is_found(document: Document, root: Path) -> None:
-    text = (root / PAGE).read_text(encoding="utf-8")
-    (root / PAGE).write_text(text.replace("PROVED", "HOLDS", 1), encoding="utf-8")
+    text = page(document, root).read_text(encoding="utf-8")
+    page(document, root).write_text(text.replace("PROVED", "HOLDS", 1), encoding="utf-8")
     assert _texts(root, document) == ["the page was changed by hand"]
-    (root / PAGE).write_text(text.rsplit("<!--", 1)[0], encoding="utf-8")
+    page(document, root).write_text(text.rsplit("<!--", 1)[0], encoding="utf-8")
     assert _texts(root, document) == ["the page has no stamp"]
 
 

@@ -15,7 +15,7 @@ from modeproof.graph.implementation import Implementation as Implemented
 from modeproof.kit.vectors import open_suite
 from modeproof.places import root
 from modeproof.progress import Progress
-from modeproof.registers.adequacy_page import PAGE, check_adequacy_page
+from modeproof.registers.adequacy_page import adequacy_page, check_adequacy_page
 from modeproof.strength import replay
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors
 from modeproof.strength.adequacy_page import render
@@ -409,15 +409,16 @@ def test_the_page_is_of_all_mutants_and_drift_is_found(place: Path) -> None:
     assert render(adequacy, results, ()) == EXIT_NOT_AS_EXPECTED, "survivors are not explained"
 
     def drift() -> list[str]:
-        documents: Any = [type("Named", (), {"name": "toy"})()]
-        return [problem.text.split(";")[0] for problem in check_adequacy_page(place, documents)]
+        document: Any = SimpleNamespace(root=place, name="toy")
+        return [problem.text.split(";")[0] for problem in check_adequacy_page(document)]
 
+    page = place / adequacy_page("toy")
     assert drift() == []
-    text = (place / PAGE).read_text(encoding="utf-8")
+    text = page.read_text(encoding="utf-8")
     assert "**Not explained.**" in text and "| `short` | 2 |" in text
-    (place / PAGE).write_text(text.replace("survive", "thrive"), encoding="utf-8")
+    page.write_text(text.replace("survive", "thrive"), encoding="utf-8")
     assert drift() == ["the page was changed by hand"]
-    (place / PAGE).write_text(text, encoding="utf-8")
+    page.write_text(text, encoding="utf-8")
     register_path(place, "toy").write_text(
         '[[survivor]]\nids = ["x"]\nkind = "harmless"\nwhy = "y"\n', encoding="utf-8"
     )
@@ -425,11 +426,13 @@ def test_the_page_is_of_all_mutants_and_drift_is_found(place: Path) -> None:
     register_path(place, "toy").write_text("", encoding="utf-8")
     (place / "spec/toy/interface.toml").write_text("document = 'toy'\n", encoding="utf-8")
     assert drift() == ["the graphs changed since the page was rendered"]
-    (place / PAGE).unlink()
+    page.unlink()
     assert drift() == ["the page is missing"]
 
 
-@pytest.mark.skipif(not (root() / PAGE).is_file(), reason="the page is not rendered yet")
-def test_the_page_of_the_shipped_code_leaves_no_survivor_unexplained() -> None:
-    text = (root() / PAGE).read_text(encoding="utf-8")
+@pytest.mark.parametrize(
+    "page", sorted((root() / "docs").glob("*/adequacy.md")), ids=lambda page: page.parent.name
+)
+def test_a_page_of_shipped_code_leaves_no_survivor_unexplained(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
     assert "**Not explained.**" not in text and ", 0 of them unexplained" in text

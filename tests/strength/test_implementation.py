@@ -12,11 +12,11 @@ from typing import Any
 import pytest
 
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
-from modeproof.places import root
+from modeproof.places import documents, root
 from modeproof.progress import Progress
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.implementation import Implementation, judge_implementation, read_register
-from modeproof.strength.implementation_page import PAGE, page, render
+from modeproof.strength.implementation_page import page, page_path, render
 from modeproof.strength.page import stamp_of
 from modeproof.strength.results import Results, read_results
 
@@ -194,16 +194,19 @@ def test_a_page_is_of_all_mutants_and_one_edited_by_hand_is_found_out(place: Pat
     with pytest.raises(Unjudged, match="are not judged for this code"):
         render(code, read_results(place / "impl.jsonl"))
     _, results, _ = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED"}))
-    (place / "docs").mkdir()
     assert render(code, results) == EXIT_NOT_AS_EXPECTED
-    assert stamp_of(place, PAGE) == ({"base": code.base}, True)
-    text = (place / PAGE).read_text(encoding="utf-8")
+    path = page_path("toy")
+    assert stamp_of(place, path) == ({"base": code.base}, True)
+    text = (place / path).read_text(encoding="utf-8")
     assert "1 survive, 1 of them unexplained" in text
-    (place / PAGE).write_text(text.replace("1 survive", "0 survive"), encoding="utf-8")
-    assert stamp_of(place, PAGE)[1] is False
+    (place / path).write_text(text.replace("1 survive", "0 survive"), encoding="utf-8")
+    assert stamp_of(place, path)[1] is False
 
 
-@pytest.mark.skipif(not (root() / PAGE).is_file(), reason="the page is not rendered yet")
-def test_the_page_of_the_shipped_code_is_as_it_was_rendered() -> None:
-    assert stamp_of(root(), PAGE)[1], f"{PAGE} was edited by hand; run modeproof mutate impl --render"
-    assert "**Not explained.**" not in (root() / PAGE).read_text(encoding="utf-8")
+@pytest.mark.parametrize(
+    "document", [name for name in documents(root()) if (root() / page_path(name)).is_file()]
+)
+def test_the_page_of_shipped_code_is_as_it_was_rendered(document: str) -> None:
+    path = page_path(document)
+    assert stamp_of(root(), path)[1], f"{path} was edited by hand; run modeproof mutate impl --render"
+    assert "**Not explained.**" not in (root() / path).read_text(encoding="utf-8")

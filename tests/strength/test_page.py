@@ -9,12 +9,12 @@ import warnings
 import pytest
 
 from modeproof.errors import Unjudged
-from modeproof.places import root
+from modeproof.places import documents, root
 from modeproof.strength.campaign import Judged, all_mutants, inputs_now
 from modeproof.strength.command import summary
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
-from modeproof.strength.page import PAGE, page, render, stamp_of, table
+from modeproof.strength.page import page, page_path, render, stamp_of, table
 from modeproof.strength.register import load_strength
 from modeproof.strength.results import Results
 from modeproof.tlc.toolchain import find_toolchain
@@ -57,26 +57,29 @@ def test_a_page_is_not_rendered_from_results_that_are_not_there(
         render(bench, every, Results(bench.place / "none.jsonl"))
 
 
-def document_bench() -> Bench:
-    strength = load_strength(root(), "mode_selection")
-    return Bench(root(), strength, find_toolchain())
+RENDERED = [name for name in documents(root()) if (root() / page_path(name)).is_file()]
 
 
-@pytest.mark.skipif(not (root() / PAGE).is_file(), reason="the page is not rendered yet")
-def test_the_page_is_as_it_was_rendered_and_tells_what_it_holds_for() -> None:
-    inputs, untouched = stamp_of(root())
-    assert untouched, f"{PAGE} was edited by hand; run modeproof mutate spec --render"
-    now = inputs_now(document_bench())
+def document_bench(document: str) -> Bench:
+    return Bench(root(), load_strength(root(), document), find_toolchain())
+
+
+@pytest.mark.parametrize("document", RENDERED)
+def test_the_page_is_as_it_was_rendered_and_tells_what_it_holds_for(document: str) -> None:
+    path = page_path(document)
+    inputs, untouched = stamp_of(root(), path)
+    assert untouched, f"{path} was edited by hand; run modeproof mutate spec --render"
+    now = inputs_now(document_bench(document))
     assert set(inputs) == set(now)
     moved = sorted(module for module in now if now[module] != inputs[module])
     if moved:
-        warnings.warn(f"{PAGE} holds for an earlier specification of {', '.join(moved)}", stacklevel=1)
+        warnings.warn(f"{path} holds for an earlier specification of {', '.join(moved)}", stacklevel=1)
 
 
-@pytest.mark.skipif(not (root() / PAGE).is_file(), reason="the page is not rendered yet")
-def test_every_explained_survivor_is_a_mutant_and_on_the_page() -> None:
-    bench = document_bench()
-    text = (root() / PAGE).read_text(encoding="utf-8")
+@pytest.mark.parametrize("document", RENDERED)
+def test_every_explained_survivor_is_a_mutant_and_on_the_page(document: str) -> None:
+    bench = document_bench(document)
+    text = (root() / page_path(document)).read_text(encoding="utf-8")
     assert ("## Survivors\n\nNone.\n" in text) == (not bench.strength.explained)
     ids = {one.id for one in all_mutants(bench)} if bench.strength.explained else set()
     for explained in bench.strength.explained:

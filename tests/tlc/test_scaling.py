@@ -9,7 +9,10 @@ import pytest
 from modeproof import evidence
 from modeproof.cli import main
 from modeproof.errors import Unjudged
-from modeproof.tlc.scaling import cfg_text, load_scaling
+from modeproof.places import documents
+from modeproof.registers.pages import SCALING as PAGE
+from modeproof.registers.pages import page_of
+from modeproof.tlc.scaling import cfg_text, has_scaling, load_scaling
 from tests.toy_tree import toy_tree
 
 SCALING = """
@@ -45,8 +48,8 @@ def test_a_series_is_measured_and_rendered(root: Path, capsys: pytest.CaptureFix
     }
     assert record["result"]["cpu_seconds"] > 0
     assert main(["scale", "--render"]) == 0
-    assert "| 3 | 12 |" in (root / "docs/scaling.md").read_text()
-    assert (root / "docs/scaling.svg").read_text().count("<circle") == 4
+    assert "| 3 | 12 |" in (root / "docs/toy/scaling.md").read_text()
+    assert (root / "docs/toy/scaling.svg").read_text().count("<circle") == 4
 
 
 def test_one_point_alone_is_measured_again(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -67,7 +70,7 @@ def test_after_a_point_beyond_its_limit_the_larger_ones_are_not_tried(
     assert "floors 2: INCONCLUSIVE" in said and "time limit of 0.3 s reached" in said
     assert "floors 3: INCONCLUSIVE" in said and "not tried" in said
     assert main(["scale", "--render"]) == 0
-    assert "left out: not tried" in (root / "docs/scaling.md").read_text()
+    assert "left out: not tried" in (root / "docs/toy/scaling.md").read_text()
 
 
 def test_a_series_that_does_not_hold_is_not_judged_a_success(root: Path) -> None:
@@ -101,11 +104,15 @@ def test_a_register_that_is_not_understood_is_refused(root: Path, old: str, new:
         load_scaling(root, "toy")
 
 
-def test_the_page_of_each_document_has_every_point_that_its_register_declares() -> None:
-    place = Path(__file__).resolve().parents[2]
-    text = (place / "docs/scaling.md").read_text(encoding="utf-8")
+PLACE = Path(__file__).resolve().parents[2]
+
+
+@pytest.mark.parametrize("document", [name for name in documents(PLACE) if has_scaling(PLACE, name)])
+def test_the_page_of_each_document_has_every_point_that_its_register_declares(document: str) -> None:
+    place = PLACE
+    text = (place / page_of(document, PAGE)).read_text(encoding="utf-8")
     sections = {part.splitlines()[0]: part for part in text.split("\n## ")[1:]}
-    declared = load_scaling(place, "mode_selection")
+    declared = load_scaling(place, document)
     assert len(sections) == len(declared)
     for series in declared:
         section = sections[f"{series.title} (`{series.run.id}`)"]
