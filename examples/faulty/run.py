@@ -1,9 +1,13 @@
-"""Builds every faulty program of faults.toml and lets the kit judge it. Needs gcc and nothing else.
+"""Builds every faulty program of every pack and lets the kit judge it. Needs gcc and nothing else.
 
-    python examples/faulty/run.py                       all faults, each by its suite
+    python examples/faulty/run.py                       all faults of all programs, each by its suite
     python examples/faulty/run.py no-settle LA-edge     these
-    python examples/faulty/run.py --render              all, and README.md anew
-    python examples/faulty/run.py --renew FOLDER        all, with vectors anew from the suites there
+    python examples/faulty/run.py --program fplc        those of one program
+    python examples/faulty/run.py --render              all, and the pages anew
+    python examples/faulty/run.py --program fplc --renew FOLDER    with vectors anew from the suites there
+
+faults.toml, README.md and vectors/ are the pack of fplc.c. A function block SF of examples/c has SF.toml,
+SF.md and vectors/SF/ here, and needs no line in this file.
 
 Exit status: 0 all as expected, 1 not, 2 could not be judged.
 """
@@ -35,15 +39,44 @@ from modeproof.kit.vectors import Suite, case_id, open_suite, read_lines  # noqa
 
 HERE = Path(__file__).resolve().parent
 PACK, PAGE, VECTORS = HERE / "faults.toml", HERE / "README.md", HERE / "vectors"
-PROGRAM = "examples/c"
-SOURCES = ("fplc.c", "wire.c", "adapter.c")
-HEADERS = ("fplc.h", "wire.h")
+FOLDER = ROOT / "examples/c"
 SUITES = {"brief": False, "tour": False, "words": False, "wp": False, "times": False, "none": True}
 """For each suite whether its faults need a reason: why they pass all suites."""
 WHOLE, PARTS = "brief", ("tour", "words", "wp", "times")
 """The suite of which the pack holds all, and those of which it holds what catches a fault."""
 COMPILE = ("gcc", "-std=c99", "-O0", "-w")
 """Not optimized: most of the time goes into compiling. No warnings: mistakes are the point."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program of examples/c that has a pack of faults: what it is built from, and where its pack is."""
+
+    target: str
+    sources: tuple[str, ...]
+    pack: Path
+    page: Path
+    vectors: Path
+
+
+FPLC = Program("fplc", ("fplc.c", "wire.c", "adapter.c"), PACK, PAGE, VECTORS)
+
+
+def block(target: str) -> Program:
+    """A function block, whose files have its name."""
+    sources = (f"{target}.c", f"{target}_adapter.c", "wire.c", "adapter_block.c")
+    return Program(target, sources, HERE / f"{target}.toml", HERE / f"{target}.md", VECTORS / target)
+
+
+def programs() -> tuple[Program, ...]:
+    """The F-PLC, and every function block that has a pack."""
+    blocks = (block(path.stem.removesuffix("_adapter")) for path in sorted(FOLDER.glob("*_adapter.c")))
+    return (FPLC, *(one for one in blocks if one.pack.is_file()))
+
+
+def headers() -> tuple[str, ...]:
+    """Every header of examples/c."""
+    return tuple(sorted(path.name for path in FOLDER.glob("*.h")))
 
 
 @dataclass(frozen=True)
@@ -84,7 +117,9 @@ def load_faults(path: Path = PACK) -> tuple[Fault, ...]:
     return faults
 
 
-def build(folder: Path, fault: Fault | None = None, good: Path | None = None) -> Path:
+def build(
+    folder: Path, fault: Fault | None = None, good: Path | None = None, program: Program = FPLC
+) -> Path:
     """Compile the program into `folder`, with the fault if one is given; returns what to start.
 
     `good` is the folder of the program without fault: its objects are taken where the fault does not touch
@@ -92,17 +127,18 @@ def build(folder: Path, fault: Fault | None = None, good: Path | None = None) ->
     """
     folder.mkdir(parents=True, exist_ok=True)
     touched = () if fault is None else (Path(fault.file).name,)
-    for name in (*SOURCES, *HEADERS):
-        text = (ROOT / PROGRAM / name).read_text(encoding="utf-8")
+    for name in (*program.sources, *headers()):
+        text = (FOLDER / name).read_text(encoding="utf-8")
         if fault is not None and name in touched:
             text = text.replace(fault.old, fault.new)
         (folder / name).write_text(text, encoding="utf-8")
-    fresh = [name for name in SOURCES if good is None or name in touched or set(touched) & set(HEADERS)]
+    everywhere = bool(set(touched) & set(headers()))
+    fresh = [name for name in program.sources if good is None or name in touched or everywhere]
     for name in fresh:
         _call([*COMPILE, "-c", name], folder)
     objects = [
         str((folder if name in fresh or good is None else good) / name.replace(".c", ".o"))
-        for name in SOURCES
+        for name in program.sources
     ]
     _call(["gcc", "-o", "program", *objects], folder)
     return folder / "program"
@@ -117,24 +153,33 @@ def _call(command: Sequence[str], folder: Path) -> None:
         raise Unjudged(f"{folder.name}: {next(iter(done.stderr.splitlines()), 'the compiler failed')}")
 
 
-def build_all(folder: Path, faults: Iterable[Fault]) -> dict[str, Path]:
+def build_all(folder: Path, faults: Iterable[Fault], program: Program = FPLC) -> dict[str, Path]:
     """Every faulty program by the id of its fault, and the good one by the empty name."""
-    made = {"": build(folder / "good")}
+    made = {"": build(folder / "good", program=program)}
     chosen = list(faults)
     with ThreadPoolExecutor() as pool:
-        paths = pool.map(lambda fault: build(folder / fault.id, fault, folder / "good"), chosen)
+        paths = pool.map(lambda fault: build(folder / fault.id, fault, folder / "good", program), chosen)
         made |= {fault.id: path for fault, path in zip(chosen, paths, strict=True)}
     return made
 
 
-def vectors(suite: str) -> Path:
+def vectors(suite: str, program: Program = FPLC) -> Path:
     """The pack's own vectors of a suite."""
-    return VECTORS / f"{suite}.jsonl.gz"
+    return program.vectors / f"{suite}.jsonl.gz"
 
 
-def open_all() -> dict[str, Suite]:
-    """The suites of the pack. Raises Unjudged for one that is missing or damaged."""
-    return {name: open_suite(vectors(name)) for name in (WHOLE, *PARTS)}
+def open_all(program: Program = FPLC) -> dict[str, Suite]:
+    """The suites of the pack: `brief`, and those that a fault needs.
+
+    Raises Unjudged for one that is missing or damaged.
+    """
+    return {name: open_suite(vectors(name, program)) for name in used(load_faults(program.pack))}
+
+
+def used(faults: Iterable[Fault]) -> tuple[str, ...]:
+    """The suites of which a pack with these faults holds vectors."""
+    needed = {fault.suite for fault in faults}
+    return (WHOLE, *(name for name in PARTS if name in needed))
 
 
 def judge(program: Path, suite: Suite) -> Verdict:
@@ -160,26 +205,35 @@ def as_expected(fault: Fault, verdict: Verdict) -> bool:
     return verdict.word == ("CONFORMS" if fault.reason else "DIFFERS")
 
 
-def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict], suites: Mapping[str, Suite]) -> str:
-    """README.md: every fault with what caught it."""
+def as_page(
+    program: Program, faults: Sequence[Fault], verdicts: Mapping[str, Verdict], suites: Mapping[str, Suite]
+) -> str:
+    """The page of a pack: every fault with what caught it."""
     caught = [fault for fault in faults if not fault.reason]
-    by_suite = {name: sum(fault.suite == name for fault in caught) for name in (WHOLE, *PARTS)}
+    by_suite = {name: sum(fault.suite == name for fault in caught) for name in suites}
+    first = f"{by_suite[WHOLE]} by suite `{WHOLE}` ({suites[WHOLE].scan_count:,} scans)"
+    more = [f"{by_suite[name]} more by `{name}`" for name in suites if name != WHOLE]
+    only = f" --program {program.target}"
+    about = "../c/README.md" if program == FPLC else f"../c/{program.sources[0]}"
     lines = [
-        "# Programs that are wrong in one place",
+        "# Programs that are wrong in one place" + ("" if program == FPLC else f": {program.target}"),
         "",
         "Is a verdict CONFORMS worth anything? Only if wrong programs do not get it. Each fault here is one",
-        "edit of [the C program](../c/README.md), a mistake that a good programmer makes;",
-        "[`faults.toml`](faults.toml) has the edits.",
+        f"edit of [the C program]({about}), a mistake that a good programmer makes;",
+        f"[`{program.pack.name}`]({program.pack.name}) has the edits.",
         "",
         "```",
-        "python3 examples/faulty/run.py             # builds and judges all of them; needs gcc, nothing else",
-        "python3 examples/faulty/run.py LA-edge     # one of them, with the kit's report",
+        f"{f'python3 examples/faulty/run.py{only}':<50} # builds and judges all of them; needs gcc alone",
+        f"{f'python3 examples/faulty/run.py {caught[-1].id}':<50} # one of them, with the kit's report",
         "```",
         "",
-        f"{len(caught)} faults are rejected with relation `exact`: {by_suite['brief']} by suite `brief`",
-        f"({suites['brief'].scan_count:,} scans), {by_suite['tour']} more by `tour`,",
-        f"{by_suite['words']} more by `words`, {by_suite['wp']} by `wp` and {by_suite['times']} by `times`.",
-        f"{len(faults) - len(caught)} others stand at the end, with the reason why all suites let them pass.",
+        f"{len(caught)} faults are rejected with relation `exact`:",
+        f"{', '.join([first, *more])}.",
+    ]
+    passed = [fault for fault in faults if fault.reason]
+    if passed:
+        lines.append(f"{len(passed)} others stand at the end, with the reason why all suites let them pass.")
+    lines += [
         "The program without a fault conforms.",
         "",
         "*Scans* counts up to the first wrong output. *At* is the step that the specification took there,",
@@ -188,40 +242,38 @@ def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict], suites: Ma
         "",
         "| fault | the mistake | breaks | suite | scans | at |",
         "|---|---|---|---|---:|---|",
+        *(row(fault, verdicts[fault.id]) for fault in caught),
     ]
-    for fault in caught:
-        verdict = verdicts[fault.id]
-        step = verdict.difference.step if verdict.difference else ""
-        cells = [fault.id, fault.mistake, ", ".join(fault.breaks), fault.suite, f"{verdict.scans:,}", step]
-        lines.append(f"| {' | '.join(cells)} |")
-    lines += [
-        "",
-        "Not shown by any suite:",
-        "",
-        "| fault | the mistake | why not |",
-        "|---|---|---|",
-    ]
-    lines += [f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in faults if fault.reason]
+    if passed:
+        lines += ["", "Not shown by any suite:", "", "| fault | the mistake | why not |", "|---|---|---|"]
+        lines += [f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in passed]
     return "\n".join(lines) + "\n"
 
 
-def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path) -> None:
+def row(fault: Fault, verdict: Verdict) -> str:
+    """The line of the page for a fault that is caught."""
+    step = verdict.difference.step if verdict.difference else ""
+    cells = [fault.id, fault.mistake, ", ".join(fault.breaks), fault.suite, f"{verdict.scans:,}", step]
+    return f"| {' | '.join(cells)} |"
+
+
+def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path, program: Program = FPLC) -> None:
     """Take the pack's vectors from the suites in `source`: `brief` as it is, of the others what catches a
     fault.
 
     Raises Unjudged when a suite is not there.
     """
-    for name in (WHOLE, *PARTS):
+    chosen = used(faults)
+    for name in chosen:
         if not (source / f"{name}.jsonl.gz").is_file():
-            raise Unjudged(
-                f"{source}: no {name}.jsonl.gz; `modeproof conform fplc --suite {name} ..` makes it"
-            )
-    VECTORS.mkdir(exist_ok=True)
+            command = f"modeproof conform {program.target} --suite {name} .."
+            raise Unjudged(f"{source}: no {name}.jsonl.gz; `{command}` makes it")
+    program.vectors.mkdir(exist_ok=True)
     whole = "".join(line.decode() for line in read_lines(source / f"{WHOLE}.jsonl.gz"))
-    _write(vectors(WHOLE), whole.splitlines())
-    for name in PARTS:
-        chosen = [fault for fault in faults if fault.suite == name]
-        _write(vectors(name), _beginnings(source / f"{name}.jsonl.gz", chosen, made))
+    _write(vectors(WHOLE, program), whole.splitlines())
+    for name in chosen[1:]:
+        those = [fault for fault in faults if fault.suite == name]
+        _write(vectors(name, program), _beginnings(source / f"{name}.jsonl.gz", those, made))
 
 
 def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -> list[str]:
@@ -263,9 +315,10 @@ def main(argv: Sequence[str]) -> int:
     """The command; see the module's text."""
     parser = argparse.ArgumentParser(description="Judge the faulty programs.")
     parser.add_argument("ids", nargs="*", metavar="FAULT", help="only these")
-    parser.add_argument("--render", action="store_true", help="write README.md anew")
+    parser.add_argument("--program", metavar="TARGET", help="only those of one program")
+    parser.add_argument("--render", action="store_true", help="write the pages anew")
     parser.add_argument(
-        "--renew", type=Path, metavar="FOLDER", help="take the vectors anew from brief and tour there"
+        "--renew", type=Path, metavar="FOLDER", help="take the vectors anew from the suites there"
     )
     args = parser.parse_args(argv)
     try:
@@ -276,25 +329,38 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    every = load_faults()
-    unknown = set(args.ids) - {fault.id for fault in every}
-    if unknown or (args.ids and (args.render or args.renew)):
-        raise Unjudged(
-            f"no fault {', '.join(sorted(unknown))}" if unknown else "the page and the vectors are of all"
-        )
-    chosen = [fault for fault in every if not args.ids or fault.id in args.ids]
+    asked = [one for one in programs() if args.program in (None, one.target)]
+    every = {one.target: load_faults(one.pack) for one in asked}
+    unknown = set(args.ids) - {fault.id for faults in every.values() for fault in faults}
+    if not asked or unknown:
+        raise Unjudged(f"no fault {', '.join(sorted(unknown))}" if asked else f"no pack of {args.program}")
+    if args.ids and (args.render or args.renew):
+        raise Unjudged("the page and the vectors are of all")
+    if args.renew and args.program is None:
+        raise Unjudged("--renew needs --program: each has vectors of its own")
+    good = True
+    for program in asked:
+        chosen = [fault for fault in every[program.target] if not args.ids or fault.id in args.ids]
+        if chosen:
+            good &= _judge_pack(program, chosen, args)
+    return 0 if good else 1
+
+
+def _judge_pack(program: Program, chosen: Sequence[Fault], args: argparse.Namespace) -> bool:
+    """Build, judge and print the faults of one program; whether all is as expected."""
     good = True
     with tempfile.TemporaryDirectory() as folder:
-        made = build_all(Path(folder), chosen)
+        made = build_all(Path(folder), chosen, program)
         if args.renew:
-            renew(chosen, made, args.renew)
-        suites = open_all()
+            renew(chosen, made, args.renew, program)
+        suites = open_all(program)
         if not args.ids:
             for name, suite in suites.items():
                 verdict = judge(made[""], suite)
                 good &= verdict.word == "CONFORMS"
                 mark = "ok " if verdict.word == "CONFORMS" else "NOT"
-                print(f"{mark} without a fault: {verdict.word}, {name}, {verdict.scans:,} scans")
+                found = f"{verdict.word}, {name}, {verdict.scans:,} scans"
+                print(f"{mark} {program.target} without a fault: {found}")
         verdicts = judge_all(made, chosen, suites)
     for fault in chosen:
         verdict = verdicts[fault.id]
@@ -306,8 +372,8 @@ def _run(args: argparse.Namespace) -> int:
         if args.ids:
             print(as_text(verdict))
     if args.render and good:
-        PAGE.write_text(as_page(every, verdicts, suites), encoding="utf-8")
-    return 0 if good else 1
+        program.page.write_text(as_page(program, chosen, verdicts, suites), encoding="utf-8")
+    return good
 
 
 if __name__ == "__main__":

@@ -27,7 +27,8 @@ OUTPUTS = ("A", "B", "C", "D", "STR")
 def made(folder: Path, *options: str) -> Path:
     """The program behind its adapter, by its own Makefile and its own strict options."""
     environment = {name: value for name, value in os.environ.items() if name not in ("CC", "CFLAGS", "OUT")}
-    command = ["make", "--no-print-directory", "-C", str(SOURCE), f"OUT={folder}", *options]
+    targets = [str(folder / "fplc"), str(folder / "fplc_boxes")]
+    command = ["make", "--no-print-directory", "-C", str(SOURCE), f"OUT={folder}", *targets, *options]
     done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     for option in ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror"):

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 import tomllib
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from examples.faulty.run import (
+    FPLC,
     HERE,
-    PAGE,
-    PARTS,
     ROOT,
+    SUITES,
     Fault,
+    Program,
     build,
     build_all,
     judge,
@@ -22,80 +25,128 @@ from examples.faulty.run import (
     load_faults,
     main,
     open_all,
+    programs,
+    row,
 )
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Verdict
 from modeproof.kit.vectors import Suite
 
 FAULTS = load_faults()
-SPEC = ROOT / "spec/mode_selection"
+PACKS = {program.target: program for program in programs()}
+EVERY = [(target, fault) for target, program in PACKS.items() for fault in load_faults(program.pack)]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One pack: the built programs, its suites, and what the kit says of those that it must reject."""
+
+    programs: dict[str, Path]
+    suites: dict[str, Suite]
+    verdicts: dict[str, Verdict]
 
 
 @pytest.fixture(scope="module")
-def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """Every program of the pack, built once."""
-    return build_all(tmp_path_factory.mktemp("faulty"), FAULTS)
+def judged(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Judged]:
+    """Every pack by its target; each is built and judged once."""
+
+    @cache
+    def of(target: str) -> Judged:
+        program = PACKS[target]
+        faults = load_faults(program.pack)
+        made = build_all(tmp_path_factory.mktemp(target), faults, program)
+        suites = open_all(program)
+        return Judged(made, suites, judge_all(made, [one for one in faults if not one.reason], suites))
+
+    return of
 
 
-@pytest.fixture(scope="module")
-def suites() -> dict[str, Suite]:
-    return open_all()
+def lines_of(program: Program) -> list[str]:
+    return program.page.read_text(encoding="utf-8").splitlines()
 
 
-@pytest.fixture(scope="module")
-def verdicts(programs: dict[str, Path], suites: dict[str, Suite]) -> dict[str, Verdict]:
-    return judge_all(programs, [fault for fault in FAULTS if not fault.reason], suites)
-
-
-@pytest.mark.parametrize("fault", [one for one in FAULTS if not one.reason], ids=lambda one: one.id)
-def test_a_program_that_is_wrong_in_one_place_is_rejected(fault: Fault, verdicts: dict[str, Verdict]) -> None:
-    verdict = verdicts[fault.id]
+@pytest.mark.parametrize(
+    ("target", "fault"), [one for one in EVERY if not one[1].reason], ids=lambda one: getattr(one, "id", one)
+)
+def test_a_program_that_is_wrong_in_one_place_is_rejected(
+    target: str, fault: Fault, judged: Callable[[str], Judged]
+) -> None:
+    verdict = judged(target).verdicts[fault.id]
     assert (verdict.word, verdict.status, verdict.reason) == ("DIFFERS", 1, "")
     found = verdict.difference
     assert found is not None and found.expected != found.got
-    broken = ", ".join(fault.breaks)
-    cells = [fault.id, fault.mistake, broken, fault.suite, f"{verdict.scans:,}", found.step]
-    assert f"| {' | '.join(cells)} |" in PAGE.read_text(encoding="utf-8").splitlines(), (
-        "run examples/faulty/run.py --render"
-    )
+    assert row(fault, verdict) in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
 
 
-@pytest.mark.parametrize("fault", [one for one in FAULTS if one.reason], ids=lambda one: one.id)
+@pytest.mark.parametrize(
+    ("target", "fault"), [one for one in EVERY if one[1].reason], ids=lambda one: getattr(one, "id", one)
+)
 def test_what_the_pack_says_no_vector_of_it_shows_is_not_shown_by_those_that_show_others(
-    fault: Fault, programs: dict[str, Path], suites: dict[str, Suite]
+    target: str, fault: Fault, judged: Callable[[str], Judged]
 ) -> None:
     """By all of `brief` in run.py, which takes too long for each of them here."""
-    for name in PARTS:
-        assert judge(programs[fault.id], suites[name]).word == "CONFORMS"
-    row = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
-    assert row in PAGE.read_text(encoding="utf-8").splitlines(), "run examples/faulty/run.py --render"
+    pack = judged(target)
+    for name in list(pack.suites)[1:]:
+        assert judge(pack.programs[fault.id], pack.suites[name]).word == "CONFORMS"
+    line = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
+    assert line in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
 
 
-def test_the_page_lists_the_faults_of_the_pack_and_no_others() -> None:
-    rows = re.findall(r"^\| (\S+) \|", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert sorted(rows) == sorted(["fault", "fault", *(fault.id for fault in FAULTS)])
-    assert len([fault for fault in FAULTS if not fault.reason]) >= 40
+@pytest.mark.parametrize("target", PACKS)
+def test_the_program_without_a_fault_conforms_to_all_vectors_of_its_pack(
+    target: str, judged: Callable[[str], Judged]
+) -> None:
+    pack = judged(target)
+    chosen = list(pack.suites) if target != FPLC.target else list(pack.suites)[1:]  # test_c_program has brief
+    for name in chosen:
+        assert judge(pack.programs[""], pack.suites[name]).word == "CONFORMS"
 
 
-def test_what_a_fault_breaks_is_declared_in_the_registers() -> None:
-    findings = tomllib.loads((SPEC / "findings.toml").read_text(encoding="utf-8"))["finding"]
-    clauses = tomllib.loads((SPEC / "clauses.toml").read_text(encoding="utf-8"))["clause"]
-    known = {row["id"] for row in [*findings, *clauses]}
-    for fault in FAULTS:
-        assert set(fault.breaks) <= known, fault.id
-        assert any(one.startswith("EKS-") for one in fault.breaks), fault.id
+@pytest.mark.parametrize("program", PACKS.values(), ids=PACKS)
+def test_the_page_lists_the_faults_of_the_pack_and_no_others(program: Program) -> None:
+    faults = load_faults(program.pack)
+    rows = re.findall(r"^\| (\S+) \|", program.page.read_text(encoding="utf-8"), re.MULTILINE)
+    assert sorted({*rows} - {"fault"}) == sorted(fault.id for fault in faults)
+    assert len([fault for fault in faults if not fault.reason]) >= (40 if program == FPLC else 6)
 
 
-def test_every_decision_that_a_vector_may_depend_on_is_broken_by_a_fault(suites: dict[str, Suite]) -> None:
-    depended = {finding for step in suites["brief"].steps for finding in step.findings}
-    assert len(depended) > 40
-    assert depended - {one for fault in FAULTS if not fault.reason for one in fault.breaks} == set()
+@pytest.mark.parametrize("program", PACKS.values(), ids=PACKS)
+def test_what_a_fault_breaks_is_declared_in_the_registers(program: Program) -> None:
+    (spec,) = (
+        path.parent
+        for path in ROOT.glob("spec/*/interface.toml")
+        if program.target in tomllib.loads(path.read_text(encoding="utf-8"))["devices"]
+    )
+    findings = tomllib.loads((spec / "findings.toml").read_text(encoding="utf-8"))["finding"]
+    clauses = {
+        entry["id"] for entry in tomllib.loads((spec / "clauses.toml").read_text(encoding="utf-8"))["clause"]
+    }
+    for fault in load_faults(program.pack):
+        assert set(fault.breaks) <= clauses | {entry["id"] for entry in findings}, fault.id
+        assert set(fault.breaks) & clauses, fault.id
 
 
-def test_every_step_is_where_some_fault_is_seen_or_named_by_its_clauses(suites: dict[str, Suite]) -> None:
-    broken = {one for fault in FAULTS if not fault.reason for one in fault.breaks}
-    for step in suites["brief"].steps:
+@pytest.mark.parametrize("target", PACKS)
+def test_every_decision_that_a_vector_may_depend_on_is_broken_by_a_fault(
+    target: str, judged: Callable[[str], Judged]
+) -> None:
+    depended = {finding for step in judged(target).suites["brief"].steps for finding in step.findings}
+    assert len(depended) > (40 if target == FPLC.target else 2)
+    faults = [fault for fault in load_faults(PACKS[target].pack) if target != FPLC.target or not fault.reason]
+    assert depended - {one for fault in faults for one in fault.breaks} == set()
+
+
+@pytest.mark.parametrize("target", PACKS)
+def test_every_step_is_where_some_fault_is_seen_or_named_by_its_clauses(
+    target: str, judged: Callable[[str], Judged]
+) -> None:
+    broken = {one for fault in load_faults(PACKS[target].pack) if not fault.reason for one in fault.breaks}
+    for step in judged(target).suites["brief"].steps:
         assert broken & {*step.clauses, *step.findings}, step.name
+
+
+def test_a_suite_is_brief_or_a_part_or_none() -> None:
+    assert {fault.suite for _, fault in EVERY} <= set(SUITES)
 
 
 def written(folder: Path, *changes: tuple[str, str]) -> Path:
@@ -137,3 +188,6 @@ def test_the_command_tells_expected_from_not_and_from_unjudged(capsys: pytest.Ca
     assert "ok  word-mistyped: DIFFERS" in capsys.readouterr().out
     assert main(["no-such-fault"]) == 2
     assert "no-such-fault" in capsys.readouterr().err
+    assert main(["--program", "no-such-program"]) == 2
+    assert main(["--renew", "anywhere"]) == 2
+    assert "--program" in capsys.readouterr().err
