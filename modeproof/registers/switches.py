@@ -16,9 +16,10 @@ from modeproof.registers.models import Constant, constants_of, restored
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Problem, Run
 from modeproof.registers.schema import suggestion
-from modeproof.registers.tla import closure
+from modeproof.registers.tla import Definition, closure
 
 _TEXT = re.compile(r'"([^"\n]*)"')
+_NAME = re.compile(r"[A-Za-z_]\w*")
 _SPECIFICATION = re.compile(r"^[ \t]*(SPECIFICATION|INIT|NEXT|VIEW)\b\s*(\w+)", re.MULTILINE)
 
 
@@ -56,11 +57,15 @@ def check_switches(document: Document, sources: Sources) -> list[Problem]:
 
 def readings_of(traces: Traces, sources: Sources) -> tuple[str, ...]:
     """The names that the specification lists, in their order."""
-    for module in sources.modules.values():
-        for definition in module.definitions:
-            if definition.name == traces.readings:
-                return tuple(dict.fromkeys(_TEXT.findall(definition.body)))
-    return ()
+    return tuple(dict.fromkeys(name for one in _lists(traces, sources) for name in _TEXT.findall(one.body)))
+
+
+def _lists(traces: Traces, sources: Sources) -> list[Definition]:
+    """The definition that lists the readings, and before it those of shared modules that it names."""
+    every = [one for module in sources.modules.values() for one in module.definitions]
+    own = [one for one in every if one.name == traces.readings][:1]
+    named = set(_NAME.findall(_TEXT.sub("", own[0].body))) if own else set()
+    return [one for one in every if one.name in named and one not in own and _TEXT.search(one.body)] + own
 
 
 def models_of(document: Document, traces: Traces) -> tuple[Model, ...]:
@@ -129,12 +134,13 @@ def _readings(
 
 
 def _asked(traces: Traces, sources: Sources) -> set[str]:
-    """The texts that occur in a definition other than the list itself."""
+    """The texts that occur in a definition other than the lists themselves."""
+    lists = _lists(traces, sources)
     return {
         text
         for module in sources.modules.values()
         for definition in module.definitions
-        if definition.name != traces.readings
+        if definition not in lists
         for text in _TEXT.findall(definition.body)
     }
 

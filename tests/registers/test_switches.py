@@ -162,3 +162,17 @@ def test_constants_are_read_with_their_kind_and_without_comments() -> None:
         "F": ("[a |-> 1]", False),
     }
     assert restored(found, "B") == {"x", "y"} and restored(found, "G") == frozenset()
+
+
+def test_readings_that_a_shared_list_holds_count_as_listed_and_are_tried_too(switched: Any) -> None:
+    switched.edit(
+        SPEC + "Latch.tla",
+        'Readings == {\n    "SLAM",  \\* at once\n    "SLOW"\n}\n',
+        'SharedReadings == {"SLOW"}\nReadings == SharedReadings \\cup {"SLAM"}\n',
+    )
+    assert problems(switched) == []
+    switched.edit(SPEC + "Latch.tla", ' \\/ "SLOW" \\in LITERAL', "")
+    switched.edit(SPEC + "models/MC_Latch_slow.cfg", '{"SLOW"}', "{}")
+    found = problems(switched)
+    assert any("SLOW: the switch changes nothing: it is in Readings" in one for one in found), found
+    assert any("SLOW: no run restores this reading alone" in one for one in found), found
