@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +48,20 @@ class DeviceGraph:
     def name(self) -> str:
         """The run's name across documents."""
         return f"{self.document}/{self.run}"
+
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """The outputs whose values the document does not give."""
+        return tuple(name for name, of in self.device.outputs.items() if of.project)
+
+    @cached_property
+    def seen(self) -> tuple[tuple[tuple[str, Any], ...], ...]:
+        """For each state the outputs by which states may be told apart: those that every judge compares."""
+        outputs = self.device.outputs
+        return tuple(
+            tuple(sorted((name, value) for name, value in row.items() if not outputs[name].project))
+            for row in self.rows
+        )
 
     def expected(self, state: int, values: Mapping[str, Any]) -> dict[str, Any]:
         """All outputs (Python form) after a scan with input `values` that ended in `state`."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import attrgetter
 from typing import Any
 
 from modeproof.errors import Unjudged
@@ -52,7 +53,7 @@ class Comparison:
 
     `covered` counts for each step the transitions of the graph that were replayed, and how many there are.
     `classes` counts for each input class the members, all of which were tried. `problem` says
-    why the two are not EQUAL though no difference was seen.
+    why the two are not EQUAL though no difference was seen. `not_compared` names outputs that were left out.
     """
 
     run: str
@@ -69,6 +70,7 @@ class Comparison:
     difference_count: int
     differences: tuple[Difference, ...]
     problem: str = ""
+    not_compared: tuple[str, ...] = ()
 
     @property
     def equal(self) -> bool:
@@ -85,6 +87,8 @@ class Comparison:
         line = f"{self.states:,} states, {self.transitions:,} transitions, {self.verdict}"
         if self.difference_count:
             line += f": {self.difference_count:,} differences"
+        if self.not_compared:
+            line += f"; not compared (--codes compares them): {', '.join(self.not_compared)}"
         return f"{line}: {self.problem}" if self.problem else line
 
 
@@ -121,20 +125,32 @@ def compare(
     device: DeviceGraph,
     code: Implementation,
     on_progress: Callable[[int, int], None] | None = None,
+    *,
+    codes: bool = True,
 ) -> Comparison:
     """Compare the graph with the code. `on_progress` gets transitions replayed and the number there are.
+
+    Without `codes` the outputs are left out whose values the document does not give; `not_compared` of the
+    result names them.
 
     Raises Unjudged when the code refuses the parameters or an input of the alphabet, or when its states have
     no end.
     """
-    return _Walk(device, code, on_progress).run()
+    return _Walk(device, code, on_progress, () if codes else device.codes).run()
 
 
 class _Walk:
     def __init__(
-        self, device: DeviceGraph, code: Implementation, on_progress: Callable[[int, int], None] | None
+        self,
+        device: DeviceGraph,
+        code: Implementation,
+        on_progress: Callable[[int, int], None] | None,
+        left_out: Sequence[str],
     ) -> None:
         self.device, self.code, self.on_progress = device, code, on_progress
+        self.left_out = tuple(left_out)
+        kept = [of.python for name, of in device.device.outputs.items() if name not in self.left_out]
+        self.shown_of = attrgetter(*kept) if self.left_out and kept else None
         self.class_letters = [
             [n for n, values in enumerate(device.alphabet) if one.representative.items() <= values.items()]
             for one in device.classes
@@ -208,6 +224,7 @@ class _Walk:
             difference_count=self.count,
             differences=tuple(self.shown),
             problem=self._problem(),
+            not_compared=self.left_out,
         )
 
     def _visit(self, n: int, spec: int, state: Any) -> None:
@@ -225,7 +242,7 @@ class _Walk:
             except Exception as error:
                 self._differs("error", n, spec, letter, None, {"error": None}, {"error": repr(error)})
                 continue
-            if out != wanted:
+            if out != wanted and self._unlike(out, wanted):
                 self._outputs_differ("outputs", n, spec, letter, None, wanted, out)
                 continue
             known = of_spec.get(to)
@@ -272,15 +289,25 @@ class _Walk:
                     continue
                 if out == outs[letter] and after == afters[letter]:
                     continue
+                unlike = self._unlike(out, outs[letter])
+                if not unlike and after == afters[letter]:
+                    continue
                 values = {**device.alphabet[letter], **member}
-                if out != outs[letter]:
+                if unlike:
                     self._outputs_differ("class member", n, spec, letter, values, outs[letter], out)
                 else:
                     shown = {"state": repr(afters[letter])}, {"state": repr(after)}
                     self._differs("class member", n, spec, letter, values, *shown)
 
+    def _unlike(self, out: Any, wanted: Any) -> bool:
+        """Whether two answers differ in an output that is compared."""
+        if self.shown_of is None:
+            return bool(out != wanted)
+        return bool(self.shown_of(out) != self.shown_of(wanted))
+
     def _same_types(self, out: Any, wanted: Any) -> bool:
-        names = (of.python for of in self.device.device.outputs.values())
+        outputs = self.device.device.outputs
+        names = (of.python for name, of in outputs.items() if name not in self.left_out)
         return all(type(getattr(out, name, None)) is type(getattr(wanted, name)) for name in names)
 
     def _outputs_differ(
@@ -296,6 +323,8 @@ class _Walk:
         outputs, forms = self.device.device.outputs, self.device.forms
         expected, found = {}, {}
         for name, of in outputs.items():
+            if name in self.left_out:
+                continue
             should, is_ = getattr(wanted, of.python), getattr(got, of.python, None)
             if should != is_ or type(should) is not type(is_):
                 expected[name], found[name] = forms.to_wire(of, should), forms.to_wire(of, is_)

@@ -79,6 +79,9 @@ def add_parser(
         "--slow", type=_factor, default=1, metavar="K", help="make all times of the suite K times as long"
     )
     parser.add_argument(
+        "--codes", action="store_true", help="compare outputs too whose values the document does not give"
+    )
+    parser.add_argument(
         "--jobs", type=_factor, default=1, metavar="N", help="so many programs at once (default 1)"
     )
     parser.add_argument(
@@ -176,9 +179,11 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
 
 
 def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
-    resume = Resume(args.resume, suite, _program_words(args), args.relation) if args.resume else None
+    resume = None
+    if args.resume:
+        resume = Resume(args.resume, suite, _program_words(args), args.relation, args.codes)
     plan = Plan(
-        manner=Manner(args.relation, args.latency, args.hold, args.slow),
+        manner=Manner(args.relation, args.latency, args.hold, args.slow, args.codes),
         only=args.case,
         part=args.scans,
         jobs=args.jobs,
@@ -255,6 +260,8 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
     ):
         if value != usual:
             words.append(f"--{name} {value}")
+    if args.codes:
+        words.append("--codes")
     words.append(f"--case {found.case.id}")
     if found.confirmed and len(found.shortest.scans) < len(found.case.scans):
         words.append(f"--scans {found.part}")

@@ -81,7 +81,8 @@ class Verdict:
     """The result of a run; `covered` counts for each step the transitions seen and all there are.
 
     `differences` holds one for each case that came out wrong, up to the number asked for; `properties` in how
-    many scans each safety property was put to the program; `passed` the numbers of the cases that passed.
+    many scans each safety property was put to the program; `passed` the numbers of the cases that passed;
+    `not_compared` the outputs left out because the document does not give their values.
     """
 
     word: str
@@ -94,6 +95,7 @@ class Verdict:
     seconds: float = 0.0
     adapter: str = ""
     unobserved: tuple[str, ...] = ()
+    not_compared: tuple[str, ...] = ()
     latency: int = 0
     covered: dict[str, tuple[int, int]] = field(default_factory=dict)
     clauses: dict[str, tuple[int, int]] = field(default_factory=dict)
@@ -260,6 +262,7 @@ class _Run:
         with self.lock:
             verdict.adapter = f"{hello.name} {hello.version}".strip()
             verdict.unobserved = hello.unobserved
+            verdict.not_compared = session.not_compared
             verdict.latency = session.latency
             if session.watch is not None:
                 verdict.unjudged = session.watch.unjudged

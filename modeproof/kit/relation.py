@@ -47,12 +47,14 @@ class Manner:
 
     `latency` is the most scans that an input may need to have all its effects (None: as hello says);
     `hold_ms` the time of a scan in which inputs are held; `slow` a factor for all times that the suite gives.
+    With `codes` outputs are compared too whose values the document does not give.
     """
 
     relation: str = EXACT
     latency: int | None = None
     hold_ms: int = 0
     slow: int = 1
+    codes: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,15 +94,19 @@ class Session:
         self.latency = self.hello.latency if manner.latency is None else manner.latency
         if not 0 <= self.latency <= MOST_LATENCY:
             raise Unjudged(f"a latency of 0 to {MOST_LATENCY} scans expected, not {self.latency}")
-        self.compared = tuple(name for name in suite.outputs if name not in self.hello.unobserved)
+        left_out = () if manner.codes else suite.codes
+        hidden = (*self.hello.unobserved, *left_out)
+        self.not_compared = tuple(name for name in left_out if name not in self.hello.unobserved)
+        self.compared = tuple(name for name in suite.outputs if name not in hidden)
         if not self.compared:
-            raise Unjudged("every output is unobserved, so nothing can be compared")
+            why = ", or its values are ours alone (--codes compares those)" if left_out else ""
+            raise Unjudged(f"every output is unobserved{why}, so nothing can be compared")
         self.watch: Watch | None = None
         contract = suite.contract() if manner.relation != EXACT else None
         if contract is not None:
-            self.watch = Watch(contract, self.latency, self.hello.unobserved)
+            self.watch = Watch(contract, self.latency, hidden)
         if manner.relation == MONITOR and (self.watch is None or not self.watch.judged):
-            raise Unjudged("no safety property can be judged on the outputs that are observed")
+            raise Unjudged("no safety property can be judged on the outputs that are compared")
         self.scans = 0
         self._good: set[bytes] = set()
         self._kept: dict[int, Any] = {}

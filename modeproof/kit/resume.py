@@ -20,11 +20,11 @@ EVERY_S = 2.0
 class Resume:
     """The note in one file. `done` are the numbers of the cases that passed, `note` is told of one more.
 
-    Raises Unjudged where the file is of another run: other vectors, another program or relation. Remove it to
-    begin anew.
+    Raises Unjudged where the file is of another run: other vectors, another program, relation or choice of
+    outputs. Remove it to begin anew.
     """
 
-    def __init__(self, path: Path, suite: Suite, program: str, relation: str) -> None:
+    def __init__(self, path: Path, suite: Suite, program: str, relation: str, codes: bool = False) -> None:
         self.path = path
         self._about = {
             "kind": KIND,
@@ -33,6 +33,7 @@ class Resume:
             "vectors": hashlib.sha256(json.dumps(suite.header).encode()).hexdigest(),
             "program": program,
             "relation": relation,
+            "codes": codes,
         }
         self.done: set[int] = set()
         self._lock = threading.Lock()

@@ -17,7 +17,10 @@ TYPES = ("word", "bool", "mode", "modes", "text", "int", "ms")
 
 @dataclass(frozen=True)
 class Signal:
-    """One input or output: its type, and its range or values where the type leaves them open."""
+    """One input or output: its type, and its range or values where the type leaves them open.
+
+    The values of one that is `project` are a choice of the specification's authors, not of the document.
+    """
 
     name: str
     type: str
@@ -25,6 +28,7 @@ class Signal:
     maximum: int | None = None
     values: tuple[str, ...] = ()
     modes: tuple[int, ...] = ()
+    project: bool = False
 
     def fault(self, value: Any) -> str:
         """What is wrong with a wire value, or nothing. NaN, 1.0 for 1 and 1 for true are wrong."""
@@ -71,6 +75,7 @@ def read_signals(table: Any, place: str) -> dict[str, Signal]:
             maximum=row.get("max"),
             values=tuple(row.get("values", ())),
             modes=tuple(row.get("modes", ())),
+            project=row.get("project", False) is True,
         )
     return signals
 

@@ -47,17 +47,22 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None) -> st
 
 
 def verdict_word(verdict: Verdict) -> str:
-    """The word of the verdict, with relation and suite where it conforms."""
-    return (
-        f"{verdict.word}({verdict.relation}, {verdict.suite})" if verdict.word == CONFORMS else verdict.word
-    )
+    """The word of the verdict, with relation and suite where it conforms, and what was left out."""
+    if verdict.word != CONFORMS:
+        return verdict.word
+    return f"{CONFORMS}({verdict.relation}, {verdict.suite}{_left_out(verdict)})"
+
+
+def _left_out(verdict: Verdict) -> str:
+    return f"; not compared: {', '.join(verdict.not_compared)}" if verdict.not_compared else ""
 
 
 def together(verdicts: Sequence[Verdict]) -> str:
     """One line for several suites; UNJUDGED counts for more than DIFFERS."""
     word = joint_word(verdicts)
     if word == CONFORMS:
-        return f"{CONFORMS}({verdicts[0].relation}, {' '.join(one.suite for one in verdicts)})"
+        suites = " ".join(one.suite for one in verdicts)
+        return f"{CONFORMS}({verdicts[0].relation}, {suites}{_left_out(verdicts[0])})"
     return f"{word}: {', '.join(f'{one.suite} {one.word}' for one in verdicts)}"
 
 
@@ -92,9 +97,14 @@ def _coverage(verdict: Verdict) -> list[str]:
         if never:
             lines.append("never put to the program, so not judged: " + ", ".join(never))
     if verdict.unjudged:
-        lines.append("rest on outputs that are not observed, so not judged: " + ", ".join(verdict.unjudged))
+        lines.append("rest on outputs that are not compared, so not judged: " + ", ".join(verdict.unjudged))
     if verdict.unobserved:
         lines.append("not observed, so not judged: " + ", ".join(verdict.unobserved))
+    if verdict.not_compared:
+        names = ", ".join(verdict.not_compared)
+        lines.append(
+            f"not compared, for the document does not give the values (--codes does so by ours): {names}"
+        )
     return lines
 
 
@@ -171,6 +181,7 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         "scans": verdict.scans,
         "seconds": round(verdict.seconds, 3),
         "unobserved": list(verdict.unobserved),
+        "not_compared": list(verdict.not_compared),
         "latency_scans": verdict.latency,
         "covered": {name: list(pair) for name, pair in verdict.covered.items()},
         "clauses": {name: list(pair) for name, pair in verdict.clauses.items()},
@@ -218,6 +229,9 @@ def as_junit(verdicts: Sequence[Verdict]) -> str:
             f'<testsuite name={name} tests="{len(verdict.ids) + errors}" failures="{len(found)}" '
             f'errors="{errors}" time="{verdict.seconds:.3f}">'
         )
+        if verdict.not_compared:
+            names = quoteattr(", ".join(verdict.not_compared))
+            lines.append(f'<properties><property name="not compared" value={names}/></properties>')
         for id in verdict.ids:
             case = f"<testcase classname={quoteattr(verdict.target)} name={quoteattr(id)}"
             if id not in found:

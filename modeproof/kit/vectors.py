@@ -204,6 +204,11 @@ class Suite:
         place = f"{self.path.name}: contract"
         return read_contract(table, self.inputs, self.outputs, self.parameters, place)
 
+    @property
+    def codes(self) -> tuple[str, ...]:
+        """The outputs whose values the document does not give: they are compared only where that is asked."""
+        return tuple(name for name, of in self.outputs.items() if of.project)
+
     def has_ways(self, case: Case) -> bool:
         """Whether the header knows a shortest way to each state of the case's graph."""
         return "ways" in self.header["graphs"][case.graph] and self.header.get("shrink") != "prefix"

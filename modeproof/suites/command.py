@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof import evidence
+from modeproof.conformance import REFERENCE
 from modeproof.errors import Unjudged
 from modeproof.graph.device import compared_files, graph_file, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
@@ -115,7 +116,8 @@ def _builtin(args: argparse.Namespace) -> int:
     with only_one(place):
         make_graphs(place, runs, args.quiet)
         for one in runs:
-            found.append((one, _compare(place, one, code, args.builtin, progress)))
+            codes = args.codes or args.builtin == REFERENCE  # of our own code every output
+            found.append((one, _compare(place, one, code, args.builtin, progress, codes)))
     for one, result in found:
         print(_text(one, result))
     status = max(0 if result.equal else 1 for _, result in found)
@@ -125,7 +127,7 @@ def _builtin(args: argparse.Namespace) -> int:
     return status
 
 
-def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress) -> Comparison:
+def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress, codes: bool) -> Comparison:
     name = f"{builtin}_{run.id}"
     evidence.discard(place, run.document, name)
     started = time.time()
@@ -133,7 +135,10 @@ def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress)
     try:
         graph = load_device_graph(place, run)
         found = compare(
-            graph, code, lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions")
+            graph,
+            code,
+            lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions"),
+            codes=codes,
         )
     finally:
         progress.end(name)

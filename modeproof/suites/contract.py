@@ -91,6 +91,8 @@ def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[s
             row["values"] = list(signal.values)
         if signal.type in ("mode", "modes"):
             row["modes"] = list(modes)
+        if signal.project:
+            row["project"] = True
         table[name] = row
     return table
 

@@ -10,7 +10,7 @@ The cases are made while they are judged (modeproof.kit.rule); the file holds th
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from modeproof.graph.columns import Columns
@@ -26,8 +26,7 @@ MOST_SCANS = 3_000_000
 def rule(device: DeviceGraph, columns: Columns) -> dict[str, Any]:
     """The table and the rule of one graph, for its entry in the header."""
     graph = device.graph
-    rows: list[Hashable] = [tuple(sorted(row.items())) for row in device.rows]
-    seen = machine(columns, rows, graph.initial)
+    seen = machine(columns, device.seen, graph.initial)
     identify = harmonized(seen, separating_columns(seen))
     chosen = sub_alphabet(seen, identify)
     used = dict.fromkeys(
@@ -35,7 +34,7 @@ def rule(device: DeviceGraph, columns: Columns) -> dict[str, Any]:
     )
     at = {column: n for n, column in enumerate(used)}
     letters = [columns.members[column][0] for column in used]
-    wire = [device.wire_outputs(device.expected(s, device.alphabet[0])) for s in range(len(rows))]
+    wire = [device.wire_outputs(device.expected(s, device.alphabet[0])) for s in range(len(device.rows))]
     return {
         "sub": len(chosen),
         "letters": [

@@ -99,6 +99,7 @@ class _Tracks:
             for graph in suite.header.get("graphs", [])
         ]
         self._tracks: list[list[Track]] = [[] for _ in self._about]
+        self._codes = frozenset(suite.codes)
         self._numbers: dict[str, int] = {}
 
     def add(self, case: Case) -> None:
@@ -112,7 +113,8 @@ class _Tracks:
         for scan in case.scans:
             if scan.outputs != before:
                 before = scan.outputs
-                text = repr(sorted(scan.outputs.items()))
+                seen = [one for one in scan.outputs.items() if one[0] not in self._codes]
+                text = repr(sorted(seen))
                 number = self._numbers.setdefault(text, len(self._numbers))
             track.add(scan.column, number, number_of[scan.to])
         self._tracks[case.graph].append(track)

@@ -53,7 +53,7 @@ def _nearest(device: DeviceGraph) -> list[tuple[str, int, tuple[int, ...]]]:
 def _adapter(
     device: DeviceGraph, columns: Columns, nearest: list[tuple[str, int, tuple[int, ...]]]
 ) -> Iterator[Script]:
-    apart = Apart(columns, [tuple(sorted(row.items())) for row in device.rows])
+    apart = Apart(columns, device.seen)
     chances = []
     for control, state, way in nearest:
         for members, after in zip(columns.members, columns.next_of[state], strict=True):

@@ -52,14 +52,14 @@ def split(time_ms: int) -> list[list[int]]:
 class _Search:
     def __init__(self, device: DeviceGraph, columns: Columns) -> None:
         self.device, self.columns, self.graph = device, columns, device.graph
-        self.apart = Apart(columns, [tuple(sorted(row.items())) for row in device.rows])
+        self.apart = Apart(columns, device.seen)
         self.ways = ways_from_power_up(device)
         states = [state for state, way in enumerate(self.ways) if way is not None]
         self.states = sorted(states, key=lambda state: (len(self.ways[state] or ()), state))
         self.control = [control_state(device, state) for state in range(len(self.ways))]
         self.like: dict[tuple[object, ...], list[int]] = {}
         for state in self.states:
-            key = (self.control[state], *sorted(device.rows[state].items()))
+            key = (self.control[state], *device.seen[state])
             self.like.setdefault(key, []).append(state)
 
     def pieces(self, time_ms: int) -> Iterator[Script]:
@@ -118,7 +118,7 @@ class _Search:
 
     def _out(self, state: int) -> Iterator[tuple[int, int]]:
         """Where no other time in the control state can be told apart: two inputs that lead out of it."""
-        key = (self.control[state], *sorted(self.device.rows[state].items()))
+        key = (self.control[state], *self.device.seen[state])
         if len(self.like[key]) == 1:
             found: dict[int, int] = {}
             for letter, after in enumerate(self.graph.next_of[state]):
@@ -131,7 +131,7 @@ class _Search:
     ) -> Iterator[Script]:
         """The way to a state, the shots, and each sequence that tells the state after them from others."""
         way = self.ways[state] or ()
-        key = (self.control[after], *sorted(self.device.rows[after].items()))
+        key = (self.control[after], *self.device.seen[after])
         probes = {
             self.apart.sequence(after, other) or () for other in [*others, *self.like[key]] if other != after
         }

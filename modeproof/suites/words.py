@@ -56,8 +56,7 @@ def _wrong_words(
     classes = [one for one in device.classes if _of_words(device, one)]
     if not classes:
         return
-    rows = [tuple(sorted(row.items())) for row in device.rows]
-    apart = Apart(columns, rows)
+    apart = Apart(columns, device.seen)
     ways = ways_from_power_up(device)
     graph = device.graph
     for one in classes:

@@ -326,7 +326,7 @@ class _Writer:
         make: Callable[[Columns, int, Sequence[Hashable]], list[list[Move]]],
     ) -> tuple[list[list[Move]], dict[str, Any]]:
         """Walks, and for whom they leave no freedom; `number_of` numbers the states as outputs tell them."""
-        rows = [tuple(sorted(row.items())) for row in device.rows]
+        rows = device.seen
         seen = machine(columns, rows, device.graph.initial)
         complete = {
             "states": len(seen.next_of),

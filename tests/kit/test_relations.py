@@ -132,7 +132,7 @@ def test_properties_of_outputs_that_are_not_observed_are_named_and_not_judged(si
 
     verdict = judged(sic, Half, "settled")
     assert verdict.word == "CONFORMS" and verdict.unjudged == ("LightNeedsCode",)
-    assert "rest on outputs that are not observed" in as_text(verdict)
+    assert "rest on outputs that are not compared" in as_text(verdict)
     assert "no safety property can be judged" in judged(sic, Half, "monitor").reason
 
 
