@@ -118,7 +118,7 @@ def power_up(params: Params) -> State:
 
 
 def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
-    """One call: at most one change of state; the outputs are those of the state after it. ES-SEQ-0, ES-NOTE-1"""
+    """One call: at most one change of state, and the outputs of the state after it. ES-SEQ-0, ES-NOTE-1"""
     after = _next_state(state, inputs)
     return after, outputs(after)
 
@@ -200,7 +200,7 @@ def _at(s: State, i: Inputs, control: Step) -> State:
 def _next_state(s: State, i: Inputs) -> State:
     """First Activate, then the mode, then what the state waits for. ES-SEQ-0, ES-SEQ-1, ES-SEQ-2
 
-    Without the mode everything but an error ends; an error ends with it only if the parameter says so (ESF-08).
+    Without the mode everything but an error ends; an error does so only if the parameter says so (ESF-08).
     """
     if not i.Activate:
         return _at(s, i, Step.IDLE)  # StayIdle, Deactivate
@@ -261,7 +261,9 @@ def _safe_mode(s: State, i: Inputs) -> State:
 
 
 def _stage_0(s: State, i: Inputs) -> State:
-    """Released: stage 1 enables, anything that is no stage begins a change. ES-STAGE-0, ES-SEQ-5, ES-SEQ-6, ES-SEQ-9
+    """Released: stage 1 enables, anything that is no stage begins a change.
+
+    ES-STAGE-0, ES-SEQ-5, ES-SEQ-6, ES-SEQ-9
 
     All FALSE is stage 2, never a part of the change (ESF-03).
     """
