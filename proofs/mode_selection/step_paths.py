@@ -11,7 +11,7 @@ from proofs.theorem import Queries, theorem
     properties=["EveryScanIsAnswered"],
     slow=True,
 )
-def every_scan_of_the_fplc_takesexactly_one_path() -> Queries:
+def every_scan_of_the_fplc_takes_exactly_one_path() -> Queries:
     """In every control state of the F-PLC, with any memory, inputs, times and parameters in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
 
@@ -22,7 +22,7 @@ def every_scan_of_the_fplc_takesexactly_one_path() -> Queries:
 
 
 @theorem(clauses=["EKS-GP-2", "EKS-GP-3"], findings=["E-08"], properties=["EveryScanIsAnswered"])
-def every_scan_of_the_plc_takesexactly_one_path() -> Queries:
+def every_scan_of_the_plc_takes_exactly_one_path() -> Queries:
     """In every control state of the PLC, with any words, `step` has one path only: the copy that is due."""
     yield from exactly_one_path(PLC)
 
@@ -33,7 +33,7 @@ def every_scan_of_the_plc_takesexactly_one_path() -> Queries:
     properties=["EveryScanIsAnswered"],
     slow=True,
 )
-def every_scan_of_the_panel_takesexactly_one_path() -> Queries:
+def every_scan_of_the_panel_takes_exactly_one_path() -> Queries:
     """In every control state of the panel, with any memory, words, touch and permissions in their ranges,
     exactly one path of `step` applies, and it ends with a state and outputs.
     """
@@ -41,7 +41,7 @@ def every_scan_of_the_panel_takesexactly_one_path() -> Queries:
 
 
 @theorem(clauses=["EKS-GP-3", "EKS-KS-1", "EKS-KS-7"], findings=["E-41"], properties=["EveryScanIsAnswered"])
-def every_scan_of_the_eks_takesexactly_one_path() -> Queries:
+def every_scan_of_the_eks_takes_exactly_one_path() -> Queries:
     """In every control state of the EKS, with any key in memory and in the reader and any settings, exactly
     one path of `step` applies, and it ends with a state and outputs.
 
