@@ -20,12 +20,12 @@ from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
 from modeproof.kit.text import as_record, joint_word, write_json
-from modeproof.kit.vectors import EXACT, SETTLED
+from modeproof.kit.vectors import EXACT, SETTLED, Suite
 from modeproof.lock import only_one
 from modeproof.places import root
 from modeproof.progress import Progress
 from modeproof.suites.build import find_target, ready_suite
-from modeproof.suites.write import SUITES
+from modeproof.suites.write import SUITES, NoCases
 from modeproof.tlc.runs import Run
 
 
@@ -57,10 +57,7 @@ def _program(args: argparse.Namespace) -> int:
     else:
         with only_one(place):
             make_graphs(place, open_runs(place, document, args.target), args.quiet)
-            suites = [
-                ready_suite(place, document, args.target, name, _say)
-                for name in chosen_suites(args.suite, args.relation)
-            ]
+            suites = _suites(place, document, args)
     started = time.time()
     verdicts = kit_command.judge(args, suites)
     for suite, verdict in zip(suites, verdicts, strict=True):
@@ -84,6 +81,23 @@ def _program(args: argparse.Namespace) -> int:
         )
         evidence.write(place, record)
     return EXIT[joint_word(verdicts)]
+
+
+def _suites(place: Path, document: str, args: argparse.Namespace) -> list[Suite]:
+    """The suites asked for, made where they are missing. Raises Unjudged where there is none.
+
+    One that was not named itself is left out where the target has no cases of its kind.
+    """
+    found = []
+    for name in chosen_suites(args.suite, args.relation):
+        try:
+            found.append(ready_suite(place, document, args.target, name, _say))
+        except NoCases:
+            if name in (args.suite or ()):
+                raise
+    if not found:
+        raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
+    return found
 
 
 def chosen_suites(names: list[str] | None, relation: str) -> list[str]:

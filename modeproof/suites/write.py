@@ -121,6 +121,7 @@ SUITES = {
         ),
         does_not_show="each of the 65,536 words in each state; two wrong words at once",
         counted_by="next state",
+        always=False,
         plan=words.plan,
     ),
     "refusals": Kind(
