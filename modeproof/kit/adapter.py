@@ -15,7 +15,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
 from typing import IO, Any, Protocol
@@ -30,6 +29,8 @@ SAFE_WRITE = 4000
 """Bytes that surely fit into an empty pipe; a longer request is guarded by a timer."""
 GRACE_S = 0.2
 """How long an answer too many is waited for before a difference is believed."""
+CLOSING_S = 0.2
+"""How long an adapter that is no longer needed may take to end by itself."""
 ENDING_S = 1.0
 _TAIL = 2000
 _REMEMBERED = 20_000
@@ -256,7 +257,7 @@ class Adapter:
             self.process.wait(timeout=ENDING_S)
         status = self.process.poll()
         how = "the adapter closed its output" if status is None else f"the adapter ended with status {status}"
-        time.sleep(0.05)  # for the last words on standard error
+        self._listener.join(ENDING_S if status is not None else CLOSING_S)  # for the last words
         words = self._stderr.decode("utf-8", "replace").strip().splitlines()
         return f"{how}; it said: {words[-1][:200]}" if words else how
 
@@ -276,12 +277,12 @@ class Adapter:
         with contextlib.suppress(OSError):
             self._stdin.close()
         with contextlib.suppress(subprocess.TimeoutExpired):
-            self.process.wait(timeout=0.0 if self._hung else GRACE_S)
+            self.process.wait(timeout=0.0 if self._hung else CLOSING_S)
         self._kill()
         with contextlib.suppress(subprocess.TimeoutExpired):
             self.process.wait(timeout=ENDING_S)
         self._lines.close()
-        self._listener.join(GRACE_S)
+        self._listener.join(CLOSING_S)
         if not self._listener.is_alive():  # else a child that escaped still holds the pipe
             self._words.close()
 

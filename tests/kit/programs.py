@@ -5,8 +5,10 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import IO
 
 from modeproof.kit.adapter import Adapter
+from modeproof.kit.lines import Lines, lines_of
 
 SERVE = """
 import json, sys, time
@@ -50,16 +52,38 @@ def program(folder: Path, fault: str = "") -> list[str]:
     return [sys.executable, "-S", str(path)]
 
 
-def starter(folder: Path, fault: str = "", timeout_s: float = 5.0) -> Callable[[], Adapter]:
-    """What starts such an adapter, and keeps the processes it started in `starter.made`."""
+def starter(folder: Path, fault: str = "", hangs_at: int | None = None) -> Callable[[], Adapter]:
+    """What starts such an adapter, and keeps the processes it started in MADE.
+
+    `hangs_at` is the number of the request, from 1 for hello, that it never answers.
+    """
     command = program(folder, fault)
 
     def start() -> Adapter:
-        made = Adapter(command, timeout_s)
+        made = Adapter(command, PATIENT_S) if hangs_at is None else Hanging(command, hangs_at)
         MADE.append(made)
         return made
 
     return start
+
+
+PATIENT_S = 600.0
+"""Limit for an answer that comes, on the busiest machine."""
+IMPATIENT_S = 0.2
+"""Limit for an answer that never comes."""
+
+
+class Hanging(Adapter):
+    """Waits as long as it takes for every answer but that to request `at`, which never comes."""
+
+    def __init__(self, command: list[str], at: int, lines: Callable[[IO[bytes], int], Lines] = lines_of) -> None:
+        super().__init__(command, PATIENT_S, lines)
+        self.left = at
+
+    def ask_line(self, line: bytes) -> bytes:
+        self.left -= 1
+        self.timeout_s = PATIENT_S if self.left else IMPATIENT_S
+        return super().ask_line(line)
 
 
 MADE: list[Adapter] = []

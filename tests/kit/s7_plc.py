@@ -8,13 +8,12 @@ DB2 dt_ms, @scan, @done, @cycle, @reset.
 from __future__ import annotations
 
 import struct
-import threading
-import time
 from types import TracebackType
 
 from snap7 import Server, SrvArea
 
 from refimpl.mode_selection import fplc
+from tests.kit.clocks import Clock
 
 MAP = """symbol,address,type
 LA,I0.0,BOOL
@@ -52,7 +51,11 @@ WORDS = ">H"
 
 
 class Plc:
-    """One PLC on a free port of loopback; `most` scans, then it falls silent."""
+    """One PLC on a free port of loopback; `most` scans, then it falls silent.
+
+    With `cycle_ms` it runs freely, by a clock of its own: a scan at each telegram, and scan after scan while its
+    partner sleeps by that clock.
+    """
 
     def __init__(
         self, *, order: str = WORDS, most: int | None = None, cycle_ms: int = 0, dead: bool = False
@@ -72,15 +75,15 @@ class Plc:
         self.server.start_to("127.0.0.1", 0)
         assert self.server.server_socket is not None
         self.address = f"127.0.0.1:{self.server.server_socket.getsockname()[1]}"
-        self.ended = threading.Event()
-        if cycle_ms:
-            threading.Thread(target=self.run_freely, daemon=True).start()
+        self.clock = PlcClock(self)
 
     def look(self) -> None:
         """What a test harness in the PLC does when it is asked for power-up or a scan."""
         if self.control[10] & 1:
             self.power_up()
-        if not self.cycle_ms and self.control[4:6] != self.control[6:8]:
+        if self.cycle_ms:
+            self.cycle()
+        elif self.control[4:6] != self.control[6:8]:
             self.scan(int.from_bytes(self.control[0:4], "big"))
             self.control[6:8] = self.control[4:6]
 
@@ -119,13 +122,11 @@ class Plc:
         lamps = (out.MSO_0, out.MSO_1, out.MSO_2, out.MSO_3, out.MSO_4, out.ERROR)
         self.outputs[0] = sum(1 << n for n, on in enumerate(lamps) if on)
 
-    def run_freely(self) -> None:
-        before = time.monotonic()
-        while not self.ended.wait(self.cycle_ms / 1000):
-            passed = int((time.monotonic() - before) * 1000)
-            before += passed / 1000
-            self.scan(passed)
-            self.control[8:10] = ((int.from_bytes(self.control[8:10], "big") + 1) & 0xFFFF).to_bytes(2, "big")
+    def cycle(self) -> None:
+        """One cycle of a PLC that runs freely."""
+        self.clock.now_s += self.cycle_ms / 1000
+        self.scan(self.cycle_ms)
+        self.control[8:10] = ((int.from_bytes(self.control[8:10], "big") + 1) & 0xFFFF).to_bytes(2, "big")
 
     def stop(self) -> None:
         """The PLC is gone: no answer any more, from any connection."""
@@ -139,5 +140,18 @@ class Plc:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self.ended.set()
         self.server.stop()
+
+
+class PlcClock(Clock):
+    """The time of a PLC that runs freely: as many cycles as it made."""
+
+    def __init__(self, plc: Plc) -> None:
+        super().__init__()
+        self.plc = plc
+
+    def sleep(self, seconds: float) -> None:
+        """The PLC makes the cycles that fall into this time."""
+        end = self.now_s + seconds
+        while self.now_s < end:
+            self.plc.cycle()

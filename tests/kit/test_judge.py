@@ -5,12 +5,12 @@ from __future__ import annotations
 import ast
 import json
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 import modeproof.kit
+import modeproof.kit.adapter as adapter_of_the_kit
 from modeproof.kit.adapter import Adapter, split_command
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Verdict, run_suite
@@ -18,7 +18,7 @@ from modeproof.kit.text import as_record, as_text, write_json
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
-from tests.kit.programs import MADE, program, starter
+from tests.kit.programs import IMPATIENT_S, MADE, PATIENT_S, program, starter
 
 
 @pytest.fixture
@@ -28,8 +28,8 @@ def suite(tmp_path: Path) -> Suite:
     return open_suite(path)
 
 
-def judged(suite: Suite, folder: Path, fault: str = "", timeout_s: float = 5.0) -> Verdict:
-    verdict = run_suite(suite, starter(folder, fault, timeout_s))
+def judged(suite: Suite, folder: Path, fault: str = "", hangs_at: int | None = None) -> Verdict:
+    verdict = run_suite(suite, starter(folder, fault, hangs_at))
     assert MADE[-1].process.poll() is not None, "the adapter was not ended"
     return verdict
 
@@ -82,9 +82,19 @@ def test_unobserved_outputs_are_named_and_never_compared(suite: Suite, tmp_path:
 
 
 LATER = "def answer(m, out):\n    if scans < 3: return say({'out': out})\n    "
+THIRD_SCAN = 5
+"""The number of its request, after hello, reset and two scans."""
+
+
+@pytest.fixture
+def unhurried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An adapter has the time it needs to end, and to say one thing more."""
+    monkeypatch.setattr(adapter_of_the_kit, "ENDING_S", PATIENT_S)
+    monkeypatch.setattr(adapter_of_the_kit, "GRACE_S", PATIENT_S)
+
 
 MISBEHAVIOURS = {
-    "hangs": ("time.sleep(60)", "no answer within"),
+    "hangs": ("time.sleep(600)", "no answer within"),
     "dies": ("sys.exit(3)", "ended with status 3"),
     "dies with a word": ("sys.exit('battery is flat')", "battery is flat"),
     "says garbage": ("say('hello world\\n')", "not a line of JSON"),
@@ -94,7 +104,7 @@ MISBEHAVIOURS = {
     "answers a deep list": ("say('[' * 200000 + '\\n')", "not a line of JSON"),
     "answers a key twice": ('say(\'{"out":{},"out":{}}\\n\')', "a key twice"),
     "answers a line without end": ("[sys.stdout.write('x' * 1000000) for _ in range(100)]", "longer than"),
-    "closes its output": ("import os; os.close(1); time.sleep(60)", "closed its output"),
+    "closes its output": ("import os; os.close(1); time.sleep(600)", "closed its output"),
     "refuses": ("say({'error': 'no such word'})", 'refused: "no such word"'),
     "leaves an output out": ("say({'out': {'LAMP': False}})", "output MW is missing"),
     "adds an output": ("say({'out': {**out, 'X': 1}})", "'X' that the target does not have"),
@@ -110,17 +120,20 @@ MISBEHAVIOURS = {
 
 
 @pytest.mark.parametrize("name", MISBEHAVIOURS)
-def test_an_adapter_that(name: str, suite: Suite, tmp_path: Path) -> None:
+def test_an_adapter_that(
+    name: str, suite: Suite, tmp_path: Path, request: pytest.FixtureRequest
+) -> None:
     code, said = MISBEHAVIOURS[name]
-    began = time.monotonic()
-    verdict = judged(suite, tmp_path, LATER + code, timeout_s=3.0)
+    if name.startswith("dies"):
+        request.getfixturevalue("unhurried")
+    verdict = judged(suite, tmp_path, LATER + code, THIRD_SCAN if name == "hangs" else None)
     assert (verdict.word, verdict.status, verdict.difference) == ("UNJUDGED", 2, None)
     assert said in verdict.reason and "\n" not in verdict.reason
     assert "scan 3" in verdict.reason or "scan 4" in verdict.reason
     assert verdict.scans in (2, 3), "results so far are kept"
-    assert time.monotonic() - began < 30
 
 
+@pytest.mark.usefixtures("unhurried")
 def test_an_answer_too_many_is_no_difference(suite: Suite, tmp_path: Path) -> None:
     late = (
         "def answer(m, out):\n    say({'out': out})\n    if scans == 3: time.sleep(0.05); say({'out': out})"
@@ -129,16 +142,18 @@ def test_an_answer_too_many_is_no_difference(suite: Suite, tmp_path: Path) -> No
     assert verdict.word == "UNJUDGED" and verdict.difference is None
 
 
+@pytest.mark.usefixtures("unhurried")
 def test_an_adapter_that_always_answers_twice_is_unjudged(suite: Suite, tmp_path: Path) -> None:
     verdict = judged(suite, tmp_path, LATER + "say({'out': out}); say({'out': out})")
     assert verdict.word == "UNJUDGED" and verdict.difference is None
 
 
 def test_a_late_answer_is_unjudged(suite: Suite, tmp_path: Path) -> None:
-    late = LATER + "time.sleep(9); say({'out': out})"
-    assert "no answer within 3 s" in judged(suite, tmp_path, late, timeout_s=3.0).reason
+    late = LATER + "sys.stdin.readline(); say({'out': out})"
+    assert f"no answer within {IMPATIENT_S} s" in judged(suite, tmp_path, late, THIRD_SCAN).reason
 
 
+@pytest.mark.usefixtures("unhurried")
 def test_an_extra_line_after_the_end_is_unjudged(suite: Suite, tmp_path: Path) -> None:
     verdict = judged(suite, tmp_path, "import atexit\natexit.register(lambda: say('bye bye\\n'))")
     assert verdict.word == "UNJUDGED" and "bye: a line that nobody asked for" in verdict.reason
@@ -154,12 +169,16 @@ def test_an_extra_line_after_the_end_is_unjudged(suite: Suite, tmp_path: Path) -
         ('HELLO["max_latency_scans"] = 2', "allows no latency"),
         ('HELLO["scans"] = "yes"', "true or false"),
         ("def greet(): sys.exit(1)", "hello: the adapter ended with status 1"),
-        ("def greet(): time.sleep(60)", "hello: no answer within"),
+        ("def greet(): time.sleep(600)", "hello: no answer within"),
         ("def greet(): say('Welcome!\\n'); say(HELLO)", "not a line of JSON"),
     ],
 )
-def test_a_hello_that_does_not_fit_is_unjudged(suite: Suite, tmp_path: Path, hello: str, said: str) -> None:
-    verdict = judged(suite, tmp_path, hello, timeout_s=3.0)
+def test_a_hello_that_does_not_fit_is_unjudged(
+    suite: Suite, tmp_path: Path, hello: str, said: str, request: pytest.FixtureRequest
+) -> None:
+    if "exit" in hello:
+        request.getfixturevalue("unhurried")
+    verdict = judged(suite, tmp_path, hello, 1 if "sleep" in hello else None)
     assert verdict.word == "UNJUDGED" and said in verdict.reason and verdict.cases == 0
 
 
@@ -168,7 +187,7 @@ def test_a_flood_on_standard_error_does_no_harm(suite: Suite, tmp_path: Path) ->
 
 
 def test_an_adapter_that_does_not_read_is_unjudged(suite: Suite, tmp_path: Path) -> None:
-    adapter = Adapter([sys.executable, "-c", "import time; time.sleep(60)"], 0.5)
+    adapter = Adapter([sys.executable, "-c", "import time; time.sleep(600)"], IMPATIENT_S)
     with adapter, pytest.raises(Unjudged, match="was not read within"):
         adapter.ask({"op": "hello", "padding": "x" * 1_000_000})
     assert adapter.process.poll() is not None
@@ -176,7 +195,7 @@ def test_an_adapter_that_does_not_read_is_unjudged(suite: Suite, tmp_path: Path)
 
 def test_children_of_the_adapter_are_ended_too(tmp_path: Path) -> None:
     child = f"import subprocess, sys; subprocess.run([sys.executable, *{program(tmp_path)[1:]!r}])"
-    with Adapter([sys.executable, "-c", child], 5.0) as adapter:
+    with Adapter([sys.executable, "-c", child], PATIENT_S) as adapter:
         assert b'"ok"' in adapter.ask({"op": "hello"})
     assert adapter.process.poll() is not None
     assert not adapter._listener.is_alive(), "someone still holds the pipe"

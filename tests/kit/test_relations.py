@@ -13,11 +13,12 @@ from modeproof.kit.adapter import Adapter
 from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
 from modeproof.kit.relation import groups
 from modeproof.kit.text import as_record, as_text
-from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.vectors import Case, Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
+from tests.kit.clocks import Clock, set_clock
 from tests.kit.lamps import CONTRACT, Lamp, Late, Slow, SlowAndFlickering, SlowAndWrong, SlowerThanItSays
-from tests.kit.programs import program
+from tests.kit.programs import PATIENT_S, program
 
 
 def made(folder: Path, name: str, contract: Mapping[str, Any] | None = CONTRACT) -> Suite:
@@ -152,40 +153,59 @@ def test_inputs_are_held_within_a_group(sic: Suite) -> None:
 
 
 class RealTime(Slow):
-    """Time passes by itself: what is given as dt is slept."""
+    """Time passes by itself: what is given as dt is slept; each scan takes `lazy_s` more."""
 
     hello_says = {"time": "real"}  # noqa: RUF012
-    lazy_s = 0.0
+
+    def __init__(self, clock: Any, lazy_s: float) -> None:
+        self.clock, self.lazy_s = clock, lazy_s
+        super().__init__()
 
     def reset(self, params: Mapping[str, Any]) -> None:
         super().reset(params)
-        self.at = time.monotonic()
+        self.at = self.clock.monotonic()
 
     def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
-        time.sleep(max(0.0, self.at + dt_ms / 1000 - time.monotonic()) + self.lazy_s)
-        now = time.monotonic()
-        passed, self.at = int((now - self.at) * 1000), now
+        self.clock.sleep(max(0.0, self.at + dt_ms / 1000 - self.clock.monotonic()) + self.lazy_s)
+        now = self.clock.monotonic()
+        passed, self.at = round((now - self.at) * 1000), now
         return super().scan(passed, inputs)
 
 
-def short(suite: Suite) -> str:
-    return min(suite.cases(), key=lambda case: sum(scan.dt_ms for scan in case.scans)).id
+def timed(suite: Suite) -> Case:
+    """A case in which time passes, and not much of it."""
+    return next(one for one in suite.cases() if 0 < sum(scan.dt_ms for scan in one.scans) <= 500)
 
 
-def test_a_program_in_real_time_can_be_judged_once_it_settles(sic: Suite) -> None:
-    case = next(one for one in sic.cases() if 0 < sum(scan.dt_ms for scan in one.scans) <= 500)
-    plan = Plan(Manner("settled"), only=case.id)
-    assert run_suite(sic, RealTime, plan=plan).word == "CONFORMS"
-    exact = run_suite(sic, RealTime, plan=Plan(only=case.id))
+def test_a_program_in_real_time_can_be_judged_once_it_settles(
+    sic: Suite, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = Clock()
+    set_clock(monkeypatch, clock, "modeproof.kit.relation")
+    case = timed(sic)
+    verdict = run_suite(sic, lambda: RealTime(clock, 0.001), plan=Plan(Manner("settled"), only=case.id))
+    assert verdict.word == "CONFORMS" and clock.now_s > 0.5
+    exact = run_suite(sic, lambda: RealTime(clock, 0.001), plan=Plan(only=case.id))
     assert exact.word == "UNJUDGED" and "exact" in exact.reason
 
 
-def test_time_that_holding_takes_beside_that_of_the_case_is_unjudged(sic: Suite) -> None:
-    class Lazy(RealTime):
-        lazy_s = 0.06
+def test_holding_may_take_as_long_as_the_shortest_time_of_the_case_and_no_longer(
+    sic: Suite, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock, case = Clock(), timed(sic)
+    set_clock(monkeypatch, clock, "modeproof.kit.relation")
+    plan = Plan(Manner("settled"), only=case.id)
+    scans = run_suite(sic, lambda: RealTime(clock, 0.0), plan=plan).scans
+    enough = min(scan.dt_ms for scan in case.scans if scan.dt_ms) / 1000 / scans
+    assert run_suite(sic, lambda: RealTime(clock, enough * 0.9), plan=plan).word == "CONFORMS"
+    assert run_suite(sic, lambda: RealTime(clock, enough * 1.1), plan=plan).word == "UNJUDGED"
 
-    case = next(one for one in sic.cases() if 0 < sum(scan.dt_ms for scan in one.scans) <= 500)
-    verdict = run_suite(sic, Lazy, plan=Plan(Manner("settled"), only=case.id))
+
+def test_time_that_holding_takes_beside_that_of_the_case_is_unjudged(sic: Suite) -> None:
+    """By the clock on the wall; a busy machine only makes it worse."""
+    verdict = run_suite(
+        sic, lambda: RealTime(time, 0.06), plan=Plan(Manner("settled"), only=timed(sic).id)
+    )
     assert verdict.word == "UNJUDGED" and "--slow" in verdict.reason
 
 
@@ -222,4 +242,4 @@ def answer(m, out):
     ):
         command = program(tmp_path, code)
         plan = Plan(Manner(relation))
-        assert run_suite(sic, lambda command=command: Adapter(command), plan=plan).word == word, code
+        assert run_suite(sic, lambda command=command: Adapter(command, PATIENT_S), plan=plan).word == word, code

@@ -14,13 +14,13 @@ from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Difference, Plan, run_suite
-from modeproof.kit.lines import ThreadedLines
+from modeproof.kit.lines import ThreadedLines, lines_of
 from modeproof.kit.text import as_junit, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
 from tests.kit.lamps import Lamp
-from tests.kit.programs import program
+from tests.kit.programs import PATIENT_S, Hanging, program
 
 
 @pytest.fixture
@@ -178,28 +178,37 @@ def test_junit_has_each_case_and_is_xml_whatever_the_program_says(words: Suite, 
     odd = program(
         tmp_path, "def greet(): sys.exit('<&\\x00\\x1b]\\ud800'.encode('utf-8', 'replace').decode())"
     )
-    (suite,) = ElementTree.fromstring(as_junit([run_suite(words, lambda: Adapter(odd))]))
+    (suite,) = ElementTree.fromstring(as_junit([run_suite(words, lambda: Adapter(odd, PATIENT_S))]))
     assert suite.attrib["errors"] == "1" and suite.findall(".//error")
 
 
+HANGS = "def answer(m, out): time.sleep(600)"
+TWICE = "def answer(m, out): say({'out': out}); say({'out': out})"
 ODD = (
     "",
     "same = lambda word: True",
     "def answer(m, out): say('[' * 99 + '\\n')",
     "def answer(m, out): [sys.stdout.write('x' * 1000000) for _ in range(100)]",
     "def answer(m, out): sys.exit(3)",
-    "def answer(m, out): say({'out': out}); say({'out': out})",
-    "def answer(m, out): time.sleep(9)",
+    TWICE,
+    HANGS,
 )
 
 
 @pytest.mark.parametrize("fault", ODD)
-def test_the_way_for_systems_without_poll_judges_alike(words: Suite, tmp_path: Path, fault: str) -> None:
+def test_the_way_for_systems_without_poll_judges_alike(
+    words: Suite, tmp_path: Path, fault: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if fault != HANGS:
+        monkeypatch.setattr("modeproof.kit.adapter.ENDING_S", PATIENT_S)
+    if fault == TWICE:
+        monkeypatch.setattr("modeproof.kit.adapter.GRACE_S", PATIENT_S)
     command = program(tmp_path, fault)
     made: list[Adapter] = []
 
     def start(threads: bool) -> Adapter:
-        made.append(Adapter(command, 2.0, ThreadedLines) if threads else Adapter(command, 2.0))
+        lines = ThreadedLines if threads else lines_of
+        made.append(Hanging(command, 3, lines) if fault == HANGS else Adapter(command, PATIENT_S, lines))
         return made[-1]
 
     plain, threaded = (run_suite(words, lambda threads=threads: start(threads)) for threads in (False, True))

@@ -10,12 +10,12 @@ import socket
 import struct
 import subprocess
 import sys
-import time
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
+from snap7.connection import ISOTCPConnection
 
 from examples.faulty.run import vectors
 from modeproof.kit import s7
@@ -28,6 +28,7 @@ from modeproof.registers.load import load_interface
 from modeproof.suites.contract import declare_parameters
 from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import RE, SE, SW
+from tests.kit.clocks import Clock, set_clock
 from tests.kit.s7_plc import FREE, MAP, STEPPED, Plc
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -170,12 +171,16 @@ def test_outputs_without_an_address_are_unobserved(suite: Suite, plc: Plc) -> No
     assert (verdict.word, verdict.unobserved) == ("CONFORMS", ("ERROR",))
 
 
-def test_a_plc_that_runs_freely_conforms_by_settled_and_cannot_be_judged_by_exact(tmp_path: Path) -> None:
+def test_a_plc_that_runs_freely_conforms_by_settled_and_cannot_be_judged_by_exact(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     slow = {"T_ON_ms": 60_000, "T_SEQ_ms": 60_000, "T_REM_ms": 60_000, "T_DWELL_ms": 900}
     suite = suite_of(tmp_path, case_row(journey(6000)[:9], slow))
     with Plc(cycle_ms=1) as plc:
+        set_clock(monkeypatch, plc.clock, "modeproof.kit.s7", "modeproof.kit.relation")
         verdict = judged(suite, plc, FREE)
         assert (verdict.word, verdict.reason) == ("CONFORMS", "")
+        assert plc.scans > 6000, "it ran while it was waited for"
         exact = judged(suite, plc, FREE, EXACT)
     assert (exact.word, exact.status) == ("UNJUDGED", 2) and "exact" in exact.reason
 
@@ -196,40 +201,46 @@ def test_nobody_there_is_unjudged(suite: Suite, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("says", ["b'HTTP/1.1 400 Bad Request' + b' ' * 80", "b'\\3\\0\\0\\7'", "b''"])
 def test_somebody_who_speaks_something_else_or_nothing_is_unjudged(
-    says: str, suite: Suite, tmp_path: Path
+    says: str, suite: Suite, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr(ISOTCPConnection.connect, "__defaults__", (0.3,))  # else 5 s, whatever one asks for
     path = tmp_path / "map.csv"
     path.write_text(STEPPED, encoding="utf-8")
     code = "import socket, time; s = socket.create_server(('127.0.0.1', 0))\n"
-    code += f"print(s.getsockname()[1], flush=True)\nc, _ = s.accept(); c.sendall({says}); time.sleep(60)"
+    code += f"print(s.getsockname()[1], flush=True)\nc, _ = s.accept(); c.sendall({says}); time.sleep(600)"
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as other:
         assert other.stdout is not None
         address = f"127.0.0.1:{int(other.stdout.readline())}"
-        began = time.monotonic()
-        verdict = run_suite(suite, lambda: s7.connect(address, path, suite, 1.0))
-        other.kill()
-    assert verdict.word == "UNJUDGED" and address in verdict.reason and time.monotonic() - began < 60
+        try:
+            verdict = run_suite(suite, lambda: s7.connect(address, path, suite, 0.3))
+            assert other.poll() is None, "it was waited for until it ended"
+        finally:
+            other.kill()
+    assert verdict.word == "UNJUDGED" and address in verdict.reason
 
 
 @pytest.mark.parametrize("most", [0, 1, 20])
 def test_a_plc_that_dies_midway_is_unjudged_with_case_and_scan(most: int, suite: Suite) -> None:
     with Plc(most=most) as plc:
-        verdict = judged(suite, plc, STEPPED, EXACT, 2.0)
+        verdict = judged(suite, plc, STEPPED, EXACT)
     assert (verdict.word, verdict.status) == ("UNJUDGED", 2)
     assert "scan" in verdict.reason and "S7 server 127.0.0.1" in verdict.reason and "\n" not in verdict.reason
 
 
-def test_a_plc_without_a_harness_is_unjudged_within_the_time_limit(suite: Suite) -> None:
-    began = time.monotonic()
+def test_a_plc_without_a_harness_is_unjudged_within_the_time_limit(
+    suite: Suite, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = Clock(look_s=1.0)
+    set_clock(monkeypatch, clock, "modeproof.kit.s7")
     with Plc(dead=True) as plc:
-        verdict = judged(suite, plc, STEPPED, timeout_s=0.3)
-    assert verdict.word == "UNJUDGED" and "@reset was not cleared within 0.3 s" in verdict.reason
-    assert time.monotonic() - began < 60
+        verdict = judged(suite, plc, STEPPED, timeout_s=30.0)
+    assert verdict.word == "UNJUDGED" and "@reset was not cleared within 30 s" in verdict.reason
+    assert 30 < clock.now_s < 40
 
 
 def test_a_place_that_the_plc_does_not_have_is_unjudged(suite: Suite, plc: Plc) -> None:
     for old, new in (("MW03,MW3", "MW03,MW900"), ("T_ON_ms,DB1.DBD0", "T_ON_ms,DB7.DBD0"), ("Q0.5", "Q77.5")):
-        verdict = judged(suite, plc, STEPPED.replace(old, new), timeout_s=1.0)
+        verdict = judged(suite, plc, STEPPED.replace(old, new))
         assert verdict.word == "UNJUDGED" and "S7 server" in verdict.reason, new
 
 

@@ -12,6 +12,7 @@ from modeproof.graph.values import ValueForms
 from modeproof.kit.adapter import Adapter
 from modeproof.registers.rows import Device
 from tests.graph.printed import signal, write
+from tests.kit.programs import PATIENT_S
 
 WORDS = (0, 0x33CC, 1)
 CLASSES = """
@@ -90,4 +91,4 @@ def relay_starter(folder: Path, fault: str = "") -> Callable[[], Adapter]:
     """What starts the relay behind an adapter, with a line of code that spoils it."""
     path = folder / "relay_adapter.py"
     path.write_text(SERVE.replace("#FAULT", fault), encoding="utf-8")
-    return lambda: Adapter([sys.executable, "-S", str(path)], 5.0)
+    return lambda: Adapter([sys.executable, "-S", str(path)], PATIENT_S)
