@@ -86,7 +86,7 @@ def declaration(name: str, **changes: str | int) -> str:
         "strength": "a counter up to 4",
         "workers": 1,
         "heap_mb": 256,
-        "timeout_s": 60,
+        "timeout_s": 600,
         "cfg_sha256": sha256(CFGS[name]),
     }
     fields.update(changes)

@@ -7,6 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from modeproof.registers.files import read_text, shown
@@ -44,16 +45,17 @@ PROOFS_REACHED_FROM = ("modeproof/cli.py", "modeproof/cli/", "proofs/", "tests/"
 def check_imports(root: Path) -> list[Problem]:
     """Every import that crosses a wall."""
     problems: list[Problem] = []
+    imports = cache(lambda path: tuple(_imports(root, path)))
     for rule in RULES:
         for path in sorted((root / rule.folder).rglob("*.py")):
-            for line, name in _imports(root, path):
+            for line, name in imports(path):
                 if not _allowed(rule, name):
                     text = f"line {line}: imports {name}; {rule.folder} may import {_words(rule)}"
                     problems.append(Problem(shown(root, path), "", text))
     for path in sorted((root / "modeproof").rglob("*.py")):
         file = shown(root, path)
         if not file.startswith(PROOFS_REACHED_FROM):
-            for line, name in _imports(root, path):
+            for line, name in imports(path):
                 if name.split(".")[0] == "proofs":
                     problems.append(
                         Problem(file, "", f"line {line}: imports {name}; only modeproof.cli reaches proofs")

@@ -51,18 +51,21 @@ def _digest(value: Any) -> str:
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:12]
 
 
-def pins(document: Document) -> dict[str, list[Any]]:
+Pins = dict[str, list[Any]]
+
+
+def pins(document: Document) -> Pins:
     """Of every run the hash of its cfg and the length of its counterexample, as runs.toml pins them."""
     rows = read_toml(document.root, document.folder / "runs.toml")["run"]
     return {row["id"]: [row.get("cfg_sha256"), row.get("trace_length")] for row in rows}
 
 
-def sources_of(document: Document, finding: Finding | None) -> tuple[str, str]:
+def sources_of(document: Document, finding: Finding | None, known: Pins | None = None) -> tuple[str, str]:
     """The digests of the register rows and of the pins behind a page; None stands for the index and the
-    table.
+    table. `known`: the pins, where they were read before.
     """
     chosen = document.findings if finding is None else (finding,)
-    known = pins(document)
+    known = pins(document) if known is None else known
     names = [name for one in chosen for name in one.evidence if name in known]
     if finding is None:
         names = sorted(known)
@@ -100,7 +103,7 @@ def check_findings_pages(document: Document) -> list[Problem]:
 def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Problem]:
     """Pages that are missing, that no finding has, or whose stamp is not that of registers and text."""
     problems = []
-    root = document.root
+    root, known = document.root, pins(document)
     wanted: dict[str, Finding | None] = {page_name(document.name, one): one for one in expected}
     wanted |= {index_name(document.name): None, table_name(document.name): None}
     for name, finding in wanted.items():
@@ -108,7 +111,7 @@ def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Proble
         if not path.is_file():
             problems.append(Problem(name, "", f"the page is missing; {REMEDY}"))
             continue
-        for text in _faults(document, finding, read_text(root, path)):
+        for text in _faults(document, finding, read_text(root, path), known):
             problems.append(Problem(name, "", text))
     folder = folder_of(document.name)
     for path in sorted((root / folder).glob("*.md")):
@@ -118,12 +121,12 @@ def check_stamps(document: Document, expected: Iterable[Finding]) -> list[Proble
     return problems
 
 
-def _faults(document: Document, finding: Finding | None, text: str) -> Iterable[str]:
+def _faults(document: Document, finding: Finding | None, text: str, known: Pins) -> Iterable[str]:
     match = _STAMP.search(text)
     if match is None:
         yield f"the page has no stamp; {REMEDY}"
         return
-    registers, runs = sources_of(document, finding)
+    registers, runs = sources_of(document, finding, known)
     if match.group(1) != registers:
         yield f"the registers have changed since the page was rendered; {REMEDY}"
     if match.group(2) != runs:

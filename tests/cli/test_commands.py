@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from modeproof.cli import main
 from modeproof.lock import only_one
+from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
 
 
@@ -107,22 +107,17 @@ def test_ctrl_c_ends_tlc_too_and_is_one_line(toy: Path) -> None:
     command = [sys.executable, "-m", "modeproof", "check", "MC_big", "--quiet"]
     running = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     log = toy / "build/tlc/toy/MC_big.log"
-    for _ in range(400):
-        if log.is_file() and "2185" in log.read_text():
-            break
-        time.sleep(0.05)
-    else:
-        time.sleep(1)
+    until(lambda: log.is_file() and "2185" in log.read_text(), "TLC at work")
     running.terminate()
-    _, err = running.communicate(timeout=30)
+    _, err = running.communicate(timeout=PATIENCE_S)
     assert running.returncode == 2
     assert err == "modeproof: interrupted: no verdict; what was finished before is kept\n"
-    for _ in range(100):
+
+    def all_ended() -> bool:
         alive = subprocess.run(["ps", "-wweo", "args"], capture_output=True, text=True, check=True).stdout
-        if str(toy) not in alive:
-            break
-        time.sleep(0.05)
-    assert str(toy) not in alive
+        return str(toy) not in alive
+
+    until(all_ended, "the end of TLC")
     assert not (toy / "build/evidence/toy/MC_big.json").exists()
 
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from modeproof.lock import only_one
 with only_one(Path(sys.argv[1])):
     print("held", flush=True)
-    time.sleep(60)
+    time.sleep(600)
 """
 
 

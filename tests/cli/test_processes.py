@@ -6,9 +6,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from pathlib import Path
+
+from tests.any_machine import until
 
 PROGRAM = """
 import os, sys, time
@@ -50,12 +50,12 @@ def test_no_process_outlives_one_that_was_killed(tmp_path: Path) -> None:
     told = [tmp_path / "one", tmp_path / "two"]
     command = [sys.executable, _program(tmp_path), "yes", *map(str, told)]
     parent = subprocess.Popen(command, start_new_session=True)
-    _wait_for(lambda: all(one.is_file() and bool(one.read_text()) for one in told))
+    until(lambda: all(one.is_file() and bool(one.read_text()) for one in told), "the work of both")
     children = [int(one.read_text()) for one in told]
     assert all(_lives(one) for one in children)
     parent.send_signal(signal.SIGKILL)
     parent.wait()
-    _wait_for(lambda: not any(_lives(one) for one in children))
+    until(lambda: not any(_lives(one) for one in children), "the end of both")
 
 
 def _lives(process: int) -> bool:
@@ -65,10 +65,3 @@ def _lives(process: int) -> bool:
         return False
     stat = Path(f"/proc/{process}/stat")
     return not stat.is_file() or stat.read_text().rsplit(")", 1)[1].split()[0] != "Z"
-
-
-def _wait_for(true: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 20
-    while not true():
-        assert time.monotonic() < deadline
-        time.sleep(0.1)

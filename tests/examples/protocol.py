@@ -44,7 +44,7 @@ def talk(command: Sequence[str], lines: Sequence[Any], cwd: Path) -> list[dict[s
         input=text.encode("utf-8", "surrogateescape"),
         capture_output=True,
         cwd=cwd,
-        timeout=60,
+        timeout=600,
         check=True,
     )
     assert done.stderr == b""

@@ -214,7 +214,7 @@ def test_the_eks_needs_its_checksum_and_takes_a_word_for_it(tmp_path: Path) -> N
 def test_a_target_that_there_is_not_is_named_before_the_first_line() -> None:
     for arguments in (["hm"], [], ["hmi", "plc"]):
         done = subprocess.run(
-            [sys.executable, str(GENERIC), *arguments], capture_output=True, text=True, timeout=60
+            [sys.executable, str(GENERIC), *arguments], capture_output=True, text=True, timeout=600
         )
         assert done.returncode != 0
         assert done.stdout == ""

@@ -35,7 +35,7 @@ COMMAND = [sys.executable, str(ADAPTER), "fplc"]
 @pytest.fixture(scope="module")
 def adapter() -> Iterator[Adapter]:
     """One running F-PLC for the tests that need many cases; reset before each."""
-    with Adapter(COMMAND, timeout_s=60.0) as running:
+    with Adapter(COMMAND, timeout_s=600.0) as running:
         yield running
 
 
@@ -85,7 +85,7 @@ def test_a_program_that_cannot_run_is_one_line_and_no_verdict(
     assert text.count(old) == 1
     text = text.replace(old, new).replace("JU    STRT ", "JU    LOST ")
     program.write_text(text, encoding="utf-8")
-    verdict = judge(program, open_suite(vectors("words")), 5.0 if cause.startswith("no answer") else 60.0)
+    verdict = judge(program, open_suite(vectors("words")), 5.0 if cause.startswith("no answer") else 600.0)
     assert (verdict.word, verdict.status) == ("UNJUDGED", 2)
     assert cause in verdict.reason and "\n" not in verdict.reason
 
@@ -169,7 +169,7 @@ def test_the_longest_times_are_kept(adapter: Adapter) -> None:
 def test_the_plc_passes_on_any_words_one_a_scan() -> None:
     state = plc.power_up(plc.Params())
     names = ("MW01", "MW05", "SelectMSO", "SwitchMSO")
-    with Adapter([sys.executable, str(ADAPTER), "plc"], timeout_s=60.0) as running:
+    with Adapter([sys.executable, str(ADAPTER), "plc"], timeout_s=600.0) as running:
         assert parse_answer(running.ask(RESET)) == {"ok": True}
         for number in range(200):
             words = [(number * 40_503 + place * 9_973) % 65_536 for place in range(4)]
@@ -213,7 +213,7 @@ def test_what_no_suite_shows_is_shown_by_long_times_and_no_dwell_time(fault: Fau
     command = [sys.executable, str(ADAPTER), "fplc", str(write(tmp_path, fault))]
     chosen = LONG | {"T_ON_ms": 50_000}
     early = [scan(0, LA=True), scan(50_000, LA=True)]  # a key that was in at power-up
-    with Adapter(command, timeout_s=60.0) as running:
+    with Adapter(command, timeout_s=600.0) as running:
         late = [
             scan(0),
             scan(0, LA=True),

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from examples.faulty.run import build, load_faults, vectors
 from modeproof.kit.vectors import open_suite
 from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import RE, SE, SW
+from tests.any_machine import SHARED_FIXTURE
 from tests.examples.protocol import BYE, DARK, HELLO, REFUSED, RESET, scan, talk
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -123,7 +124,7 @@ PIECES = r"""{ } " : , [ ] \ 0 -1 1.5 true null NaN
 pieces = st.sampled_from([*PIECES.split(), " ", "\0", "\udcff", "x" * 60])
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=60, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(st.lists(st.lists(pieces, max_size=30).map("".join), min_size=1, max_size=40))
 @example(['{"op":"reset"'])
 def test_any_line_gets_one_answer_and_nothing_is_read_or_written_out_of_bounds(
@@ -188,7 +189,7 @@ def scans_of(way: list[tuple[str, int, int, int]]) -> list[dict[str, Any]]:
     return found
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=150, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(params, ways)
 def test_with_any_times_it_does_what_the_reference_does(
     program: Path, tmp_path: Path, chosen: dict[str, Any], way: list[tuple[str, int, int, int]]

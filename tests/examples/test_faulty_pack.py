@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -21,7 +21,6 @@ from examples.faulty.run import (
     build,
     build_all,
     judge,
-    judge_all,
     load_faults,
     main,
     open_all,
@@ -31,6 +30,8 @@ from examples.faulty.run import (
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Verdict
 from modeproof.kit.vectors import Suite
+from modeproof.processes import in_forks
+from tests.any_machine import PATIENCE_S
 
 FAULTS = load_faults()
 PACKS = {program.target: program for program in programs()}
@@ -46,6 +47,23 @@ class Judged:
     verdicts: dict[str, Verdict]
 
 
+def two_at_a_time(
+    made: Mapping[str, Path], faults: Sequence[Fault], suites: Mapping[str, Suite]
+) -> dict[str, Verdict]:
+    """As `judge_all`, in processes of their own: threads would wait for one another at each scan."""
+    work = partial(of_fault, made, suites)
+    found: dict[str, Verdict] = {}
+    for outcome in in_forks(work, faults, 2, PATIENCE_S):
+        if outcome is not None:
+            assert outcome.result is not None, outcome.why
+            found[faults[outcome.number].id] = outcome.result
+    return found
+
+
+def of_fault(made: Mapping[str, Path], suites: Mapping[str, Suite], fault: Fault) -> Verdict:
+    return judge(made[fault.id], suites[fault.suite])
+
+
 @pytest.fixture(scope="module")
 def judged(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Judged]:
     """Every pack by its target; each is built and judged once."""
@@ -56,7 +74,8 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Judged]:
         faults = load_faults(program.pack)
         made = build_all(tmp_path_factory.mktemp(target), faults, program)
         suites = open_all(program)
-        return Judged(made, suites, judge_all(made, [one for one in faults if not one.reason], suites))
+        wrong = [one for one in faults if not one.reason]
+        return Judged(made, suites, two_at_a_time(made, wrong, suites))
 
     return of
 

@@ -76,7 +76,9 @@ IMPATIENT_S = 0.2
 class Hanging(Adapter):
     """Waits as long as it takes for every answer but that to request `at`, which never comes."""
 
-    def __init__(self, command: list[str], at: int, lines: Callable[[IO[bytes], int], Lines] = lines_of) -> None:
+    def __init__(
+        self, command: list[str], at: int, lines: Callable[[IO[bytes], int], Lines] = lines_of
+    ) -> None:
         super().__init__(command, PATIENT_S, lines)
         self.left = at
 

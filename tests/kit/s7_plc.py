@@ -53,8 +53,8 @@ WORDS = ">H"
 class Plc:
     """One PLC on a free port of loopback; `most` scans, then it falls silent.
 
-    With `cycle_ms` it runs freely, by a clock of its own: a scan at each telegram, and scan after scan while its
-    partner sleeps by that clock.
+    With `cycle_ms` it runs freely, by a clock of its own: a scan at each telegram, and scan after scan while
+    its partner sleeps by that clock.
     """
 
     def __init__(

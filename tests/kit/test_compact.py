@@ -7,7 +7,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modeproof.kit.compact import compact, expand, same
@@ -15,6 +15,7 @@ from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import run_suite
 from modeproof.kit.vectors import open_suite, read_lines
 from modeproof.suites.write import SUITES, write_suite
+from tests.any_machine import SHARED_FIXTURE
 from tests.graph.printed import lamp_graph
 from tests.kit.lamps import Lamp, Late
 
@@ -73,7 +74,7 @@ def test_what_it_is_not_for_is_refused(tmp_path: Path) -> None:
         compact([before[0], *before[1:], json.dumps(row).encode()])
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=60)
+@settings(suppress_health_check=SHARED_FIXTURE, deadline=None, max_examples=60)
 @given(st.data())
 def test_damage_is_noticed_or_changes_nothing(tmp_path: Path, data: st.DataObject) -> None:
     before = lines(tmp_path, "brief")

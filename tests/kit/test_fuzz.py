@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from modeproof.kit.adapter import Adapter
@@ -71,7 +71,6 @@ def sic(tmp_path_factory: pytest.TempPathFactory) -> Suite:
     return open_suite(folder / "sic.jsonl")
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
 @given(at=st.integers(1, 8), odd=answers)
 def test_an_odd_answer_never_passes_and_never_breaks_the_kit(suite: Suite, at: int, odd: bytes) -> None:
     verdict = run_suite(suite, lambda: Scripted(suite, at, odd))
@@ -87,7 +86,6 @@ def test_an_odd_answer_never_passes_and_never_breaks_the_kit(suite: Suite, at: i
         assert type(json.loads(odd)["out"]["LAMP"]) is bool
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
 @given(
     at=st.integers(1, 12),
     odd=json_values | outs,
@@ -113,7 +111,6 @@ def test_nor_under_the_other_relations(at: int, odd: object, relation: str, jobs
     json.dumps(as_record(verdict), allow_nan=False)
 
 
-@settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
 @given(answer=json_values | st.lists(outs, max_size=4).map(lambda outs: {"list": outs}))
 def test_nor_does_an_odd_answer_to_a_list(suite: Suite, answer: object) -> None:
     class Listed(Scripted):

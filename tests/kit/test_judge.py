@@ -120,9 +120,7 @@ MISBEHAVIOURS = {
 
 
 @pytest.mark.parametrize("name", MISBEHAVIOURS)
-def test_an_adapter_that(
-    name: str, suite: Suite, tmp_path: Path, request: pytest.FixtureRequest
-) -> None:
+def test_an_adapter_that(name: str, suite: Suite, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     code, said = MISBEHAVIOURS[name]
     if name.startswith("dies"):
         request.getfixturevalue("unhurried")

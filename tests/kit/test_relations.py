@@ -203,9 +203,7 @@ def test_holding_may_take_as_long_as_the_shortest_time_of_the_case_and_no_longer
 
 def test_time_that_holding_takes_beside_that_of_the_case_is_unjudged(sic: Suite) -> None:
     """By the clock on the wall; a busy machine only makes it worse."""
-    verdict = run_suite(
-        sic, lambda: RealTime(time, 0.06), plan=Plan(Manner("settled"), only=timed(sic).id)
-    )
+    verdict = run_suite(sic, lambda: RealTime(time, 0.06), plan=Plan(Manner("settled"), only=timed(sic).id))
     assert verdict.word == "UNJUDGED" and "--slow" in verdict.reason
 
 
@@ -242,4 +240,6 @@ def answer(m, out):
     ):
         command = program(tmp_path, code)
         plan = Plan(Manner(relation))
-        assert run_suite(sic, lambda command=command: Adapter(command, PATIENT_S), plan=plan).word == word, code
+        assert run_suite(sic, lambda command=command: Adapter(command, PATIENT_S), plan=plan).word == word, (
+            code
+        )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modeproof.cli import main
@@ -13,6 +13,7 @@ from modeproof.kit.errors import Unjudged
 from modeproof.kit.s7 import blocks_of, number_at, split_address
 from modeproof.kit.s7_map import Place, decode, encode, parse_address, proposed_map, read_map
 from modeproof.kit.signals import Signal
+from tests.any_machine import SHARED_FIXTURE
 from tests.kit.s7_plc import FREE, STEPPED
 
 INPUTS = {"GO": Signal("GO", "bool"), "CODE": Signal("CODE", "word")}
@@ -93,7 +94,7 @@ pieces = st.sampled_from(
 )
 
 
-@settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=200, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(st.lists(pieces, max_size=40).map("".join))
 def test_any_text_is_a_map_that_fits_or_is_refused_in_one_line(tmp_path: Path, text: str) -> None:
     path = tmp_path / "plc.csv"

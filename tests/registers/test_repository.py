@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from modeproof.registers import documents, judge, judge_tree, load_document
+from modeproof.registers.judge import Judgement
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = sorted(path.parent.name for path in ROOT.glob("spec/*/interface.toml"))
@@ -17,9 +19,15 @@ def test_there_is_a_document() -> None:
     assert FOLDERS
 
 
+@cache
+def judged(name: str) -> Judgement:
+    """Each document is judged once."""
+    return judge(load_document(ROOT, name))
+
+
 @pytest.mark.parametrize("name", FOLDERS)
 def test_every_register_is_as_expected(name: str) -> None:
-    judgement = judge(load_document(ROOT, name))
+    judgement = judged(name)
     assert [str(problem) for problem in judgement.problems] == []
     assert judgement.unresolved == 0
     assert len(judgement.rows) > 3
@@ -27,7 +35,7 @@ def test_every_register_is_as_expected(name: str) -> None:
 
 @pytest.mark.parametrize("name", FOLDERS)
 def test_every_column_of_the_matrix_is_filled_somewhere(name: str) -> None:
-    rows = judge(load_document(ROOT, name)).rows
+    rows = judged(name).rows
     for column in ("action", "definition", "step", "property", "theorem", "vector", "finding", "assumption"):
         assert any(getattr(row, column) for row in rows), column
 

@@ -65,7 +65,7 @@ environment = "arbitrary"
 strength = "{strength}"
 workers = 1
 heap_mb = 256
-timeout_s = 60
+timeout_s = 600
 properties = ["ShutsOverDoor"]
 cfg_sha256 = "{hash}"
 {pins}

@@ -77,7 +77,7 @@ def campaign(
     complete: bool = False,
     names: tuple[str, ...] = ("long", "short"),
     definitions: tuple[str, ...] = ("WORDS", "word"),
-    limit_s: float = 30.0,
+    limit_s: float = 600.0,
     watcher: Watcher = WATCHER,
 ) -> tuple[Adequacy, Results, list[Judged]]:
     adequacy = adequacy_of(place, names, watcher)

@@ -61,7 +61,7 @@ class Reader:
         assert bench == "bench"
         verdict = next((word for text, word in self.verdicts.items() if text in change["text"]), "KILLED")
         if verdict == "SLEEPS":
-            time.sleep(60)
+            time.sleep(600)
         if verdict == "DIES":
             os._exit(1)
         if verdict == "RAISES":
@@ -93,7 +93,9 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def campaign(place: Path, reader: Reader, limit_s: float = 30.0) -> tuple[Implementation, Results, list[Any]]:
+def campaign(
+    place: Path, reader: Reader, limit_s: float = 600.0
+) -> tuple[Implementation, Results, list[Any]]:
     code = Implementation(place, "toy", reader)
     results = read_results(place / "impl.jsonl")
     judged = judge_implementation(code, code.every, results, Progress(quiet=True), 2, limit_s=limit_s)
@@ -132,7 +134,7 @@ def test_what_is_known_is_not_judged_again_and_an_interrupted_campaign_goes_on(p
 )
 def test_what_cannot_be_judged_is_unmeasured_and_never_killed(place: Path, verdict: str, why: str) -> None:
     _, _, judged = campaign(
-        place, Reader(place, {"False": verdict}), limit_s=1.0 if verdict == "SLEEPS" else 30.0
+        place, Reader(place, {"False": verdict}), limit_s=1.0 if verdict == "SLEEPS" else 600.0
     )
     (one,) = [one for one in judged if one.mutant.new == "False"]
     assert one.word == "UNMEASURED"

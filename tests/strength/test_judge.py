@@ -41,7 +41,7 @@ def test_a_mutant_meets_its_fate(
 
 def test_what_never_ends_is_unmeasured(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Two guards stop the count; in this text only one, and without it TLC counts for ever."""
-    endless = lamp(tmp_path_factory.mktemp("endless"), STRENGTH.replace("timeout_s = 5", "timeout_s = 3"))
+    endless = lamp(tmp_path_factory.mktemp("endless"), STRENGTH.replace("timeout_s = 500", "timeout_s = 3"))
     path = endless.folder / "Lamp.tla"
     path.write_text(path.read_text().replace(" /\\ count # 3", ""))
     verdict = judge(endless, the(all_mutants(endless), "Up", "conjunct dropped", "count < 3"))
@@ -50,7 +50,7 @@ def test_what_never_ends_is_unmeasured(tmp_path_factory: pytest.TempPathFactory)
 
 
 def test_beyond_a_broken_type_nothing_is_explored(tmp_path_factory: pytest.TempPathFactory) -> None:
-    typed = STRENGTH.replace("timeout_s = 5", 'timeout_s = 30\ntypes = ["TypeOK"]')
+    typed = STRENGTH.replace("timeout_s = 500", 'timeout_s = 500\ntypes = ["TypeOK"]')
     bounded = lamp(tmp_path_factory.mktemp("bounded"), typed)
     path = bounded.folder / "Lamp.tla"
     path.write_text(path.read_text().replace(" /\\ count # 3", ""))

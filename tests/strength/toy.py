@@ -70,7 +70,7 @@ kind = "OPEN"
 lanes = ["smoke"]
 workers = 1
 heap_mb = 256
-timeout_s = 60
+timeout_s = 600
 properties = ["PrintState", "StartsDark", "LitOnlyWhenFull", "OffAtOnce"]
 cfg_sha256 = "{sha}"
 [run.graph]
@@ -92,7 +92,7 @@ modules = ["Lamp"]
 run = "OPEN_Lamp"
 asks = "properties"
 constants = { PRINT = "FALSE" }
-timeout_s = 5
+timeout_s = 500
 heap_mb = 256
 
 [[tier]]
@@ -101,7 +101,7 @@ modules = ["Lamp"]
 run = "OPEN_Lamp"
 asks = "graph"
 when = "left"
-timeout_s = 20
+timeout_s = 600
 heap_mb = 256
 """
 

@@ -6,7 +6,6 @@ import os
 import re
 import signal
 import threading
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +18,7 @@ from modeproof.tlc import children, process
 from modeproof.tlc.check import Checked, check_all, check_one, select
 from modeproof.tlc.repin import moves
 from modeproof.tlc.toolchain import find_toolchain
+from tests.any_machine import until
 from tests.toy_tree import CFGS, declaration, sha256, toy_tree
 
 ALL = [name for name in CFGS if name != "MC_big"]
@@ -177,12 +177,8 @@ def test_a_tlc_killed_halfway_is_unjudged(tmp_path: Path) -> None:
 
     def kill() -> None:
         log = root / "build/tlc/toy/MC_big.log"
-        for _ in range(600):
-            if children.running() and log.is_file():
-                time.sleep(0.5)
-                os.killpg(children.running()[0], signal.SIGKILL)
-                return
-            time.sleep(0.05)
+        until(lambda: log.is_file() and "2185" in log.read_text(), "TLC at work")
+        os.killpg(children.running()[0], signal.SIGKILL)
 
     killer = threading.Thread(target=kill)
     killer.start()

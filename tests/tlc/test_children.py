@@ -6,26 +6,18 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from modeproof.tlc import children
+from tests.any_machine import until
 from tests.toy_tree import toy_tree
 
-SLEEPER = [sys.executable, "-c", "import time; time.sleep(60)"]
+SLEEPER = [sys.executable, "-c", "import time; time.sleep(600)"]
 
 
 def alive(group: int) -> bool:
     listed = subprocess.run(["ps", "-eo", "pgid,stat"], capture_output=True, text=True, check=True).stdout
     return any(int(row.split()[0]) == group and "Z" not in row.split()[1] for row in listed.splitlines()[1:])
-
-
-def soon(there: bool, group: int) -> bool:
-    for _ in range(100):
-        if alive(group) == there:
-            return True
-        time.sleep(0.05)
-    return False
 
 
 def test_what_was_ended_is_forgotten(tmp_path: Path) -> None:
@@ -55,20 +47,21 @@ def test_tlc_ends_when_modeproof_is_killed_by_sigkill(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_big")
     command = [sys.executable, "-m", "modeproof", "check", "MC_big", "--quiet"]
     running = subprocess.Popen(command, env={**os.environ, "MODEPROOF_ROOT": str(root)})
-    group = 0
-    for _ in range(200):
+    groups: list[int] = []
+
+    def begun() -> bool:
         listed = subprocess.run(
             ["ps", "-wweo", "pgid,args"], capture_output=True, text=True, check=True
         ).stdout
         rows = [row for row in listed.splitlines() if str(root) in row and "tlc2.TLC" in row]
-        if rows:
-            group = int(rows[0].split()[0])
-            break
-        time.sleep(0.05)
-    assert group and soon(True, group)
+        groups.extend(int(row.split()[0]) for row in rows)
+        return bool(groups)
+
+    until(begun, "TLC at work")
+    assert alive(groups[0])
     running.kill()
     running.wait()
-    assert soon(False, group), "TLC lives on"
+    until(lambda: not alive(groups[0]), "the end of TLC")
     left = list((root / "build/tlc/toy").glob("MC_big.*"))
     assert [path.suffix for path in left if path.is_file()] == [".log"]
     assert not (root / "build/evidence/toy/MC_big.json").exists()

@@ -23,7 +23,9 @@ from modeproof.progress import Progress
 from modeproof.tlc import children, distributed
 from modeproof.tlc.check import Checked, check_one, select
 from modeproof.tlc.distributed import WORKER, Where
+from modeproof.tlc.messages import SUCCESS, WORKER_REGISTERED
 from modeproof.tlc.toolchain import find_toolchain
+from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import sha256
 
 GRID = r"""
@@ -101,7 +103,7 @@ def root(tmp_path_factory: pytest.TempPathFactory) -> Path:
         lines += [
             f'[[run]]\nid = "{name}"\nmodule = "Grid"\ncfg = "models/{name}.cfg"',
             f'kind = "{name.split("_")[0]}"',
-            'lanes = ["exhaustive"]\nworkers = 1\nheap_mb = 256\ntimeout_s = 60\nenvironment = "honest"',
+            'lanes = ["exhaustive"]\nworkers = 1\nheap_mb = 256\ntimeout_s = 600\nenvironment = "honest"',
             f'strength = "a grid"\nproperties = {names!r}\ncfg_sha256 = "{sha256(cfg)}"'.replace("'", '"'),
         ]
         if name == "LIVE_always":
@@ -131,16 +133,33 @@ def command_of(pid: int) -> str:
     return path.read_bytes().replace(b"\0", b" ").decode() if path.exists() else ""
 
 
-def at_work(root: Path, name: str) -> list[int]:
-    """The processes of this name, when both workers have registered and have been at work for a moment."""
+def killed(root: Path, name: str, most: int) -> Checked:
+    """A run of which the first processes of this name, up to `most`, are killed while both workers work.
+
+    Where the run was over before they were, nothing was planted, and it is tried again.
+    """
     log = root / "build/tlc/toy/MC_slow.log"
-    log.unlink(missing_ok=True)
-    for _ in range(600):
-        if log.is_file() and log.read_text().count("ENDMSG 7001") == 2:
+
+    def said(message: int) -> int:
+        return log.read_text().count(f"ENDMSG {message} ") if log.is_file() else 0
+
+    for _ in range(20):
+        log.unlink(missing_ok=True)
+        struck: list[int] = []
+
+        def strike(struck: list[int] = struck) -> None:
+            until(lambda: said(WORKER_REGISTERED) == 2 or said(SUCCESS) > 0, "two workers")
             time.sleep(0.3)
-            return [pid for pid in children.running() if name in command_of(pid)]
-        time.sleep(0.05)
-    raise AssertionError(f"{name} was not started")
+            found = [pid for pid in children.running() if name in command_of(pid)][:most]
+            for pid in found:
+                os.kill(pid, signal.SIGKILL)
+            if not said(SUCCESS):
+                struck += found
+
+        one = spread(root, "MC_slow", Where(2), strike)
+        if struck:
+            return one
+    raise AssertionError("the run was always over before its processes could be killed")
 
 
 @pytest.fixture(scope="module")
@@ -166,7 +185,7 @@ def test_verdict_and_counts_are_those_of_the_local_run_with_workers_from_elsewhe
     with (tmp_path / "log").open("wb") as log, subprocess.Popen(other, stdout=log, stderr=log) as elsewhere:
         try:
             one = spread(root, "MC_grid", Where(1, port=port, wait_for=2), **pins)
-            assert elsewhere.wait(timeout=20) == 0, "the server sends its workers home"
+            assert elsewhere.wait(timeout=PATIENCE_S) == 0, "the server sends its workers home"
         finally:
             elsewhere.kill()
     assert (one.judgement.verdict, one.judgement.reason) == ("HOLDS", "")
@@ -207,27 +226,21 @@ def test_an_assumption_that_is_false_is_not_overlooked(root: Path) -> None:
 
 
 def test_a_killed_worker_does_not_end_the_run_and_does_not_make_it_green(root: Path) -> None:
-    one = spread(root, "MC_slow", Where(2), lambda: os.kill(at_work(root, WORKER)[0], signal.SIGKILL))
+    one = killed(root, WORKER, 1)
     assert one.judgement.verdict == "HOLDS" and one.status == 1
     assert "1 of 2 workers lost on the way" in one.judgement.reason
     assert one.record["result"]["distinct"] == SLOW_DISTINCT
 
 
 def test_without_any_worker_the_run_is_inconclusive(root: Path) -> None:
-    def kill_all() -> None:
-        for pid in at_work(root, WORKER):
-            os.kill(pid, signal.SIGKILL)
-
-    one = spread(root, "MC_slow", Where(2), kill_all)
+    one = killed(root, WORKER, 2)
     assert (one.judgement.verdict, one.status) == ("INCONCLUSIVE", 2)
     assert one.judgement.reason == "all workers are gone (2 registered)"
     assert children.running() == ()
 
 
 def test_a_killed_server_is_unjudged_and_takes_its_workers_along(root: Path) -> None:
-    one = spread(
-        root, "MC_slow", Where(2), lambda: os.kill(at_work(root, f"{distributed.SERVER} ")[0], signal.SIGKILL)
-    )
+    one = killed(root, f"{distributed.SERVER} ", 1)
     assert (one.judgement.verdict, one.judgement.reason) == ("UNJUDGED", "TLC was killed by signal 9")
     assert children.running() == ()
 
@@ -266,20 +279,12 @@ def test_no_java_is_left_when_modeproof_is_ended(root: Path) -> None:
         listed = subprocess.run(["ps", "-wweo", "args"], capture_output=True, text=True, check=True).stdout
         return [line for line in listed.splitlines() if str(root) in line and "java" in line]
 
-    for _ in range(400):
-        if any(WORKER in line for line in alive()):
-            break
-        time.sleep(0.05)
-    assert any(WORKER in line for line in alive())
+    until(lambda: any(WORKER in line for line in alive()), "a worker")
     running.terminate()
-    _, said = running.communicate(timeout=30)
+    _, said = running.communicate(timeout=PATIENCE_S)
     expected = "modeproof: interrupted: no verdict; what was finished before is kept\n"
     assert (running.returncode, said) == (2, expected)
-    for _ in range(100):
-        if not alive():
-            break
-        time.sleep(0.05)
-    assert alive() == []
+    until(lambda: not alive(), "the end of all")
 
 
 @pytest.mark.parametrize(

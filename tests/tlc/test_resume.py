@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -21,6 +20,7 @@ from modeproof.tlc.check import check_all, kept, select
 from modeproof.tlc.resume import why_again
 from modeproof.tlc.schedule import ORDINARY_MB, memory_mb
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
+from tests.any_machine import until
 from tests.toy_tree import toy_tree
 
 NAMES = ("MC_toy", "NEG_small", "OPEN_toy")
@@ -123,10 +123,7 @@ def test_a_lane_that_was_killed_goes_on_where_it_was(
     log = tmp_path / "out"
     with log.open("wb") as out:
         running = subprocess.Popen(command, env=os.environ.copy(), stdout=out, stderr=out)
-    for _ in range(600):
-        if evidence.evidence_path(root, "toy", "MC_toy").is_file():
-            break
-        time.sleep(0.05)
+    until(evidence.evidence_path(root, "toy", "MC_toy").is_file, "evidence of the first run")
     running.kill()
     running.wait()
     path = root / "spec/toy/models/MC_big.cfg"

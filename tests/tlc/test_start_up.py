@@ -39,7 +39,7 @@ def said_at_start(tools: Toolchain, cache: Path) -> str:
         "tlc2.TLC",
         "-h",
     ]
-    return subprocess.run(java, capture_output=True, text=True, timeout=60, check=False).stdout
+    return subprocess.run(java, capture_output=True, text=True, timeout=600, check=False).stdout
 
 
 def test_a_whole_cache_is_used(tools: Toolchain, cache: Path) -> None:

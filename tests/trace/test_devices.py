@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modeproof.errors import Unjudged
@@ -22,6 +22,7 @@ from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.judge import Graphs, Judgement, check
 from modeproof.trace.log import Log, Row
 from modeproof.trace.targets import Target, find_target
+from tests.any_machine import SHARED_FIXTURE
 from tests.trace.judging import judge, log_of
 
 RUN = {"fplc": "OPEN_Fplc", "plc": "OPEN_Plc", "hmi": "OPEN_Hmi", "eks": "OPEN_Eks6"}
@@ -192,7 +193,7 @@ def test_judges_that_contradict_each_other_are_no_verdict(batches: dict[str, Bat
         check(replace(less, followed=replace(one.followed, accepted=1, open=("the time",))))
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=25, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(device=st.sampled_from(("plc", "hmi", "eks")), seed=st.integers(0, 2**32), data=st.data())
 def test_the_graph_accepts_any_walk_and_any_part_of_what_it_shows(
     device: str, seed: int, data: st.DataObject, alphabets: dict[str, Alphabet], tmp_path: Path

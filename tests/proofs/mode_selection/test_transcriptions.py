@@ -28,7 +28,7 @@ def _tables_by_tlc(text: str, folder: Path) -> dict[str, tuple[int, ...]]:
         cwd=folder,
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
         check=False,
     )
     found = re.findall(r'^<<"(\w+)", (\d), (\d+)>>$', done.stdout, flags=re.M)

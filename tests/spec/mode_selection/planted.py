@@ -121,9 +121,10 @@ def change(text: str, edits: tuple[Edit, ...], where: str) -> str:
 
 
 def copy(place: Path) -> None:
-    """Copy the document's specification below `place`, and the modules of these tests."""
+    """Copy the specification below `place`, what all documents share, and the modules of these tests."""
     folder = place / "spec" / DOCUMENT
     shutil.copytree(SPEC, folder)
+    shutil.copytree(SPEC.parent / "common", place / "spec/common")
     for module in Path(__file__).parent.glob("*.tla"):
         shutil.copy(module, folder)
 
@@ -141,7 +142,7 @@ def run_copy(place: Path, run: Run, cfg_text: str) -> Finding:
     """
     (place / "spec" / DOCUMENT / run.cfg).write_text(cfg_text)
     digest = hashlib.sha256(cfg_text.encode()).hexdigest()
-    run = replace(run, workers=1, heap_mb=1024, timeout_s=180.0, cfg_sha256=digest)
+    run = replace(run, workers=1, heap_mb=1024, timeout_s=1800.0, cfg_sha256=digest)
     outcome = run_tlc(place, run, find_toolchain())
     cfg = parse_cfg(cfg_text, run.cfg)
     found = judge(run, cfg, digest, outcome)
