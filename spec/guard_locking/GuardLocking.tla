@@ -1,0 +1,346 @@
+-------------------------- MODULE GuardLocking -----------------------------
+(***************************************************************************)
+(* The block SF_GuardLocking V1.0: a guard that is closed, locked, and     *)
+(* unlocked on request.  Clauses GL-IN, GL-OUT, GL-SEQ.  (A module cannot  *)
+(* have the block's own name: TLA+ reads SF_ as fairness.)                 *)
+(* One step is one call.  i = [Activate, S_GuardMonitoring,                *)
+(* S_SafetyActive, S_GuardLock, UnlockRequest, S_StartReset, S_AutoReset,  *)
+(* Reset] as the call reads them.                                          *)
+(* The document prints outputs and one diagram, and neither states nor     *)
+(* codes: both are the family's of V1.0 as the project's reference notes   *)
+(* have them (GLF-01), changed where the document's own words ask for it   *)
+(* (UNLOCK_ON, ZONE_LOST and START_UP_INHIBIT).                            *)
+(* Leaves out: door, bolt, machine and person (GuardLockingZone), and   *)
+(* time: the block has no timer.                                           *)
+(***************************************************************************)
+EXTENDS CyclicBlock
+
+CONSTANTS
+    UNLOCK_ON,         \* what unlocks a locked guard: "edge", "latched" or "level" of UnlockRequest (GLF-02)
+    ZONE_LOST,         \* S_SafetyActive FALSE while the guard is closed but unlocked: "error" or "tolerated" (GLF-04)
+    START_UP_INHIBIT   \* lasts "until_reset", or "until_opened": a guard that is not locked at start-up ends it (GLF-08)
+
+ASSUME UNLOCK_ON \in {"edge", "latched", "level"}
+ASSUME ZONE_LOST \in {"error", "tolerated"}
+ASSUME START_UP_INHIBIT \in {"until_reset", "until_opened"}
+
+Readings == FamilyReadings \cup {
+    \* Of the family
+    "RESET_SEEN_ONLY_WHILE_ACTIVE",
+    "RESET_BY_LEVEL",
+    \* Of this block
+    "UNLOCKS_WITHOUT_SAFE_ZONE",
+    "UNLOCKED_ONLY_WHILE_REQUESTED",
+    "OPEN_GUARD_NEEDS_NO_SAFE_ZONE",
+    "ZONE_MUST_STAY_SAFE",
+    "LOSS_IS_NO_ERROR",
+    "REQUEST_BEFORE_LOSS",
+    "RESET_BEFORE_LOSS",
+    "AUTO_RESET_ENDS_ERROR",
+    "STATIC_RESET_UNNOTICED",
+    "ERROR_UNTIL_RESET",
+    "CAUSE_IS_THE_GUARD_TOO"
+}
+ASSUME LITERAL \subseteq Readings
+
+VARIABLES
+    unlockRequestBefore,   \* UnlockRequest as the call before this one read it
+    requestPending,        \* with UNLOCK_ON = "latched": the edge came while the guard is locked, and the request stands since
+    startUpInhibit         \* the guard was not locked at start-up, and the start-up inhibit is still to be removed
+
+guardLocking == <<state, resetBefore, unlockRequestBefore, requestPending, startUpInhibit>>
+
+ResetErrors == {"ResetError1", "ResetError2", "ResetError3"}
+GuardLockingErrors == ResetErrors \cup {"SafetyLost"}
+Unlocked == {"GuardOpenAndUnlocked", "GuardClosedButUnlocked"}
+GuardLockingStates ==
+    {"Idle", "Init", "GuardClosedAndLocked", "WaitForReset", "WaitForOperator", "SafetyReturn"} \cup Unlocked \cup GuardLockingErrors
+
+GuardLockingTypeOK ==
+    /\ state \in GuardLockingStates
+    /\ {resetBefore, unlockRequestBefore, requestPending, startUpInhibit} \subseteq BOOLEAN
+
+\* GL-OUT-READY, GL-SEQ-0: before the first call nothing is active and nothing is remembered
+GuardLockingInit ==
+    /\ state = "Idle" /\ resetBefore = FALSE
+    /\ unlockRequestBefore = FALSE /\ requestPending = FALSE /\ startUpInhibit = FALSE
+
+----------------------------------------------------------------------------
+(* Outputs: the row of the state.                                          *)
+
+\* GL-OUT-READY
+Ready == state # "Idle"
+\* GL-OUT-GUARDLOCKED
+S_GuardLocked == state = "GuardClosedAndLocked"
+\* GL-OUT-UNLOCKGUARD, GLF-03
+S_UnlockGuard == state \in Unlocked
+\* GL-OUT-ERROR, GLF-06
+Error == state \in GuardLockingErrors \/ (Literal("ERROR_UNTIL_RESET") /\ state = "SafetyReturn")
+\* GL-OUT-DIAGCODE, GLF-01: codes of the project
+DiagCode ==
+    CASE state = "Idle" -> \h0000
+      [] state = "GuardClosedAndLocked" -> \h8000
+      [] state = "Init" -> \h8001
+      [] state = "WaitForReset" -> \h8003
+      [] state = "WaitForOperator" -> \h8011
+      [] state = "GuardOpenAndUnlocked" -> \h8012
+      [] state = "GuardClosedButUnlocked" -> \h8013
+      [] state = "SafetyReturn" -> \h8014
+      [] state = "ResetError1" -> \hC001
+      [] state = "ResetError2" -> \hC002
+      [] state = "ResetError3" -> \hC003
+      [] state = "SafetyLost" -> \hC004
+\* The outputs by their names
+GuardLockingOutputs ==
+    [Ready |-> Ready, S_GuardLocked |-> S_GuardLocked, S_UnlockGuard |-> S_UnlockGuard, Error |-> Error, DiagCode |-> DiagCode]
+
+----------------------------------------------------------------------------
+(* What a call sees.                                                       *)
+
+\* GL-IN-GUARDMONITORING, GL-IN-GUARDLOCK
+LOCAL Secured(i) == i.S_GuardMonitoring /\ i.S_GuardLock
+\* GL-IN-SAFETYACTIVE, GL-SEQ-3
+LOCAL ZoneAllows(i) == i.S_SafetyActive \/ Literal("UNLOCKS_WITHOUT_SAFE_ZONE")
+\* GLF-07: where it is waited for, a Reset that does not move is an error
+LOCAL Static(i) == ResetStatic(i) /\ ~Literal("STATIC_RESET_UNNOTICED")
+\* GL-IN-UNLOCKREQUEST, GLF-02
+LOCAL RequestRises(i) == Rises(i.UnlockRequest, unlockRequestBefore)
+LOCAL Requested(i) ==
+    CASE UNLOCK_ON = "edge" -> RequestRises(i)
+      [] UNLOCK_ON = "latched" -> i.UnlockRequest /\ (RequestRises(i) \/ requestPending)
+      [] UNLOCK_ON = "level" -> i.UnlockRequest
+LOCAL UnlocksNow(i) == Requested(i) /\ ZoneAllows(i)
+\* GL-OUT-ERROR, GLF-05: the guard or its lock is lost although nobody asked for it; one reading wants a safe zone besides
+LOCAL LockLost(i) == ~(Secured(i) /\ (Literal("ZONE_MUST_STAY_SAFE") => i.S_SafetyActive))
+\* GL-IN-AUTORESET, GL-IN-STARTRESET, GLF-08
+LOCAL RestartsAlone(i) == i.S_AutoReset /\ ~startUpInhibit
+
+----------------------------------------------------------------------------
+(* Not active.                                                             *)
+
+\* GL-IN-ACTIVATE, GL-OUT-READY, GL-SEQ-0: first of all, in every state
+Deactivate(i) == state # "Idle" /\ ~i.Activate /\ GoTo("Idle") /\ Did("Deactivate")
+\* GL-IN-ACTIVATE, GL-SEQ-0
+StayInactive(i) == state = "Idle" /\ ~i.Activate /\ GoTo("Idle") /\ Did("StayInactive")
+\* GL-IN-ACTIVATE, GL-SEQ-1
+StartUp(i) == At("Idle", i) /\ GoTo("Init") /\ Did("StartUp")
+
+----------------------------------------------------------------------------
+(* Start-up.                                                               *)
+
+LOCAL StaticAtStartUp(i) == Static(i) /\ ~i.S_StartReset
+\* GL-IN-RESET, GLF-07
+FindStaticResetAtStartUp(i) ==
+    At("Init", i) /\ StaticAtStartUp(i) /\ GoTo("ResetError1") /\ Did("FindStaticResetAtStartUp")
+\* GL-OUT-GUARDLOCKED, GLF-08
+FindGuardNotLocked(i) ==
+    /\ At("Init", i) /\ ~StaticAtStartUp(i) /\ ~Secured(i)
+    /\ GoTo("WaitForOperator")
+    /\ Did("FindGuardNotLocked")
+\* GL-IN-STARTRESET, GL-IN-RESET, GL-SEQ-2
+RemoveStartUpInhibit(i) ==
+    /\ At("Init", i) /\ Secured(i) /\ ~i.S_StartReset /\ ResetRises(i)
+    /\ GoTo("GuardClosedAndLocked")
+    /\ Did("RemoveStartUpInhibit")
+\* GL-IN-STARTRESET
+StartWithoutInhibit(i) ==
+    At("Init", i) /\ Secured(i) /\ i.S_StartReset /\ GoTo("GuardClosedAndLocked") /\ Did("StartWithoutInhibit")
+\* GL-IN-STARTRESET, GL-SEQ-1
+AwaitStartReset(i) ==
+    /\ At("Init", i) /\ ~StaticAtStartUp(i) /\ Secured(i) /\ ~i.S_StartReset /\ ~ResetRises(i)
+    /\ GoTo("Init")
+    /\ Did("AwaitStartReset")
+
+----------------------------------------------------------------------------
+(* Closed and locked: the one state that enables.                          *)
+
+LOCAL RequestFirst(i) == Literal("REQUEST_BEFORE_LOSS") /\ UnlocksNow(i)
+\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05
+LoseGuard(i) ==
+    /\ At("GuardClosedAndLocked", i) /\ LockLost(i) /\ ~RequestFirst(i)
+    /\ GoTo(IF Literal("LOSS_IS_NO_ERROR") THEN "WaitForOperator" ELSE "SafetyLost")
+    /\ Did("LoseGuard")
+\* GL-IN-UNLOCKREQUEST, GL-IN-SAFETYACTIVE, GL-SEQ-3, GLF-02
+Unlock(i) ==
+    /\ At("GuardClosedAndLocked", i) /\ UnlocksNow(i) /\ (LockLost(i) => RequestFirst(i))
+    /\ GoTo("GuardClosedButUnlocked")
+    /\ Did("Unlock")
+\* GL-OUT-GUARDLOCKED, GL-SEQ-2: whatever the zone does
+StayLocked(i) ==
+    At("GuardClosedAndLocked", i) /\ ~LockLost(i) /\ ~UnlocksNow(i) /\ GoTo("GuardClosedAndLocked") /\ Did("StayLocked")
+
+----------------------------------------------------------------------------
+(* Unlocked.                                                               *)
+
+LOCAL ZoneIsLost(i) == ZONE_LOST = "error" /\ ~i.S_SafetyActive
+\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-04: the guard can be opened, so the zone must stay safe
+LoseZoneWhileClosed(i) ==
+    At("GuardClosedButUnlocked", i) /\ ZoneIsLost(i) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileClosed")
+\* GL-IN-GUARDMONITORING, GL-SEQ-4
+OpenGuard(i) ==
+    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ ~i.S_GuardMonitoring
+    /\ GoTo("GuardOpenAndUnlocked")
+    /\ Did("OpenGuard")
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-5
+WithdrawRequest(i) ==
+    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ i.S_GuardMonitoring /\ ~i.UnlockRequest
+    /\ GoTo("WaitForOperator")
+    /\ Did("WithdrawRequest")
+\* GL-IN-UNLOCKREQUEST, GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4
+StayUnlocked(i) ==
+    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ i.S_GuardMonitoring /\ i.UnlockRequest
+    /\ GoTo("GuardClosedButUnlocked")
+    /\ Did("StayUnlocked")
+
+\* GLF-04: the guard was open in the call before; where a closed guard need not have a safe zone, one that closes now has none to lose
+LOCAL ZoneIsLostInOpen(i) == ~(i.S_SafetyActive \/ (ZONE_LOST = "tolerated" /\ i.S_GuardMonitoring))
+\* GLF-03: one reading ends the output with the request, also while the guard is open
+LOCAL EndsWithRequest(i) == Literal("UNLOCKED_ONLY_WHILE_REQUESTED") /\ ~i.UnlockRequest
+\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
+LoseZoneWhileOpen(i) ==
+    At("GuardOpenAndUnlocked", i) /\ ZoneIsLostInOpen(i) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileOpen")
+\* GL-IN-GUARDMONITORING, GL-SEQ-4
+CloseGuard(i) ==
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ i.S_GuardMonitoring
+    /\ GoTo("GuardClosedButUnlocked")
+    /\ Did("CloseGuard")
+\* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03
+StayOpen(i) ==
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring
+    /\ GoTo(IF EndsWithRequest(i) THEN "WaitForOperator" ELSE "GuardOpenAndUnlocked")
+    /\ Did("StayOpen")
+
+----------------------------------------------------------------------------
+(* Not unlocked by us, and not locked: the operator has to open or close.  *)
+
+\* GLF-10: one reading lets an open guard through before it looks at the zone
+LOCAL OpenFirst(i) == Literal("OPEN_GUARD_NEEDS_NO_SAFE_ZONE") /\ ~i.S_GuardMonitoring
+LOCAL ZoneOpenToIt(i) == ~i.S_SafetyActive /\ ~Secured(i) /\ ~OpenFirst(i)
+\* GLF-03: an open guard is unlocked without a request
+LOCAL GoesOpen(i) == ~(i.S_GuardMonitoring \/ EndsWithRequest(i))
+LOCAL GoesOnRequest(i) == i.S_GuardMonitoring /\ i.UnlockRequest /\ i.S_SafetyActive
+\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-10: the zone is not safe and the guard does not keep anybody out
+FindZoneUnprotected(i) ==
+    At("WaitForOperator", i) /\ ZoneOpenToIt(i) /\ GoTo("SafetyLost") /\ Did("FindZoneUnprotected")
+\* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03
+FollowOpenGuard(i) ==
+    At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ GoesOpen(i) /\ GoTo("GuardOpenAndUnlocked") /\ Did("FollowOpenGuard")
+\* GL-IN-UNLOCKREQUEST, GL-IN-SAFETYACTIVE, GLF-11
+UnlockOnRequest(i) ==
+    At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ GoesOnRequest(i) /\ GoTo("GuardOpenAndUnlocked") /\ Did("UnlockOnRequest")
+\* GL-IN-AUTORESET, GL-IN-GUARDLOCK
+SeeGuardLocked(i) ==
+    At("WaitForOperator", i) /\ ~GoesOnRequest(i) /\ Secured(i) /\ GoTo("WaitForReset") /\ Did("SeeGuardLocked")
+\* GL-OUT-GUARDLOCKED, GL-SEQ-5
+AwaitOperator(i) ==
+    /\ At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ ~GoesOpen(i) /\ ~GoesOnRequest(i) /\ ~Secured(i)
+    /\ GoTo("WaitForOperator")
+    /\ Did("AwaitOperator")
+
+----------------------------------------------------------------------------
+(* Restart.                                                                *)
+
+LOCAL StaticAtRestart(i) == Static(i) /\ ~RestartsAlone(i)
+LOCAL ResetFirst(i) == Literal("RESET_BEFORE_LOSS") /\ ResetRises(i)
+\* GL-IN-RESET, GLF-07
+FindStaticResetAtRestart(i) ==
+    At("WaitForReset", i) /\ StaticAtRestart(i) /\ GoTo("ResetError3") /\ Did("FindStaticResetAtRestart")
+\* GL-OUT-GUARDLOCKED, GLF-12
+LoseGuardAgain(i) ==
+    /\ At("WaitForReset", i) /\ ~StaticAtRestart(i) /\ ~Secured(i) /\ ~ResetFirst(i)
+    /\ GoTo("WaitForOperator")
+    /\ Did("LoseGuardAgain")
+\* GL-IN-AUTORESET, GL-IN-RESET, GL-OUT-GUARDLOCKED
+RemoveRestartInhibit(i) ==
+    /\ At("WaitForReset", i) /\ (~Secured(i) => ResetFirst(i)) /\ ~RestartsAlone(i) /\ ResetRises(i)
+    /\ GoTo("GuardClosedAndLocked")
+    /\ Did("RemoveRestartInhibit")
+\* GL-IN-AUTORESET
+RestartWithoutInhibit(i) ==
+    /\ At("WaitForReset", i) /\ (~Secured(i) => ResetFirst(i)) /\ RestartsAlone(i)
+    /\ GoTo("GuardClosedAndLocked")
+    /\ Did("RestartWithoutInhibit")
+\* GL-IN-AUTORESET, GL-OUT-GUARDLOCKED
+AwaitReset(i) ==
+    /\ At("WaitForReset", i) /\ ~StaticAtRestart(i) /\ Secured(i) /\ ~RestartsAlone(i) /\ ~ResetRises(i)
+    /\ GoTo("WaitForReset")
+    /\ Did("AwaitReset")
+
+----------------------------------------------------------------------------
+(* Errors.                                                                 *)
+
+\* GL-IN-SAFETYACTIVE, GLF-06
+SeeZoneSafe(i) == At("SafetyLost", i) /\ i.S_SafetyActive /\ GoTo("SafetyReturn") /\ Did("SeeZoneSafe")
+\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
+StaySafetyLost(i) == At("SafetyLost", i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("StaySafetyLost")
+
+\* GL-IN-AUTORESET, GLF-13: one reading needs no edge where the restart inhibit is off
+LOCAL Acknowledged(i) ==
+    /\ IF Literal("AUTO_RESET_ENDS_ERROR") /\ i.S_AutoReset THEN TRUE ELSE ResetRises(i)
+    /\ Literal("CAUSE_IS_THE_GUARD_TOO") => Secured(i)
+\* GL-IN-RESET, GLF-07
+FindStaticResetAfterError(i) ==
+    At("SafetyReturn", i) /\ Static(i) /\ GoTo("ResetError2") /\ Did("FindStaticResetAfterError")
+\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR
+LoseZoneAgain(i) ==
+    At("SafetyReturn", i) /\ ~Static(i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("LoseZoneAgain")
+\* GL-IN-RESET, GLF-06, GLF-13
+AcknowledgeError(i) ==
+    /\ At("SafetyReturn", i) /\ ~Static(i) /\ i.S_SafetyActive /\ Acknowledged(i)
+    /\ GoTo("WaitForOperator")
+    /\ Did("AcknowledgeError")
+\* GL-IN-RESET, GL-OUT-GUARDLOCKED
+AwaitAcknowledgment(i) ==
+    /\ At("SafetyReturn", i) /\ ~Static(i) /\ i.S_SafetyActive /\ ~Acknowledged(i)
+    /\ GoTo("SafetyReturn")
+    /\ Did("AwaitAcknowledgment")
+
+LOCAL ReturnsTo == CASE state = "ResetError1" -> "Init" [] state = "ResetError2" -> "SafetyReturn" [] OTHER -> "WaitForReset"
+\* GL-IN-RESET, GLF-07: nothing is reset; a new edge is needed
+ReleaseReset(i) == state \in ResetErrors /\ i.Activate /\ ~i.Reset /\ GoTo(ReturnsTo) /\ Did("ReleaseReset")
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-07
+StayInResetError(i) == state \in ResetErrors /\ i.Activate /\ i.Reset /\ GoTo(state) /\ Did("StayInResetError")
+
+----------------------------------------------------------------------------
+\* GL-IN-RESET, GL-IN-UNLOCKREQUEST, GLF-02, GLF-08: what the call leaves for the next one
+Remembers(i) ==
+    /\ RemembersReset(i)
+    /\ unlockRequestBefore' = i.UnlockRequest
+    /\ requestPending' = (UNLOCK_ON = "latched" /\ state' = "GuardClosedAndLocked" /\ i.UnlockRequest /\ (RequestRises(i) \/ requestPending))
+    /\ startUpInhibit' = (CASE state' \in {"Idle", "GuardClosedAndLocked"} -> FALSE
+                            [] state = "Init" /\ state' = "WaitForOperator" -> ~i.S_StartReset /\ START_UP_INHIBIT = "until_reset"
+                            [] OTHER -> startUpInhibit)
+
+\* GL-SEQ-NOTE: one transition a call; grouped by the states in which the steps can fire
+GuardLockingStep(i) ==
+    \/ Deactivate(i)
+    \/ state = "Idle" /\ (StayInactive(i) \/ StartUp(i))
+    \/ state = "Init" /\ (FindStaticResetAtStartUp(i) \/ FindGuardNotLocked(i) \/ RemoveStartUpInhibit(i) \/ StartWithoutInhibit(i) \/ AwaitStartReset(i))
+    \/ state = "GuardClosedAndLocked" /\ (LoseGuard(i) \/ Unlock(i) \/ StayLocked(i))
+    \/ state = "GuardClosedButUnlocked" /\ (LoseZoneWhileClosed(i) \/ OpenGuard(i) \/ WithdrawRequest(i) \/ StayUnlocked(i))
+    \/ state = "GuardOpenAndUnlocked" /\ (LoseZoneWhileOpen(i) \/ CloseGuard(i) \/ StayOpen(i))
+    \/ state = "WaitForOperator" /\ (FindZoneUnprotected(i) \/ FollowOpenGuard(i) \/ UnlockOnRequest(i) \/ SeeGuardLocked(i) \/ AwaitOperator(i))
+    \/ state = "WaitForReset" /\ (FindStaticResetAtRestart(i) \/ LoseGuardAgain(i) \/ RemoveRestartInhibit(i) \/ RestartWithoutInhibit(i) \/ AwaitReset(i))
+    \/ state = "SafetyLost" /\ (SeeZoneSafe(i) \/ StaySafetyLost(i))
+    \/ state = "SafetyReturn" /\ (FindStaticResetAfterError(i) \/ LoseZoneAgain(i) \/ AcknowledgeError(i) \/ AwaitAcknowledgment(i))
+    \/ ReleaseReset(i) \/ StayInResetError(i)
+
+\* One call of the block
+GuardLockingCall(i) == GuardLockingStep(i) /\ Remembers(i)
+
+----------------------------------------------------------------------------
+(* What the block promises in every state.                                 *)
+
+\* GL-OUT-GUARDLOCKED, GL-OUT-UNLOCKGUARD: enable and unlock signal exclude each other
+NeverEnabledAndUnlocked == ~(S_GuardLocked /\ S_UnlockGuard)
+\* GL-OUT-READY, GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GL-SEQ-0: nothing is enabled or unlocked while inactive or in error
+NothingWhileInactiveOrInError == (~Ready \/ Error) => ~S_GuardLocked /\ ~S_UnlockGuard
+\* GL-OUT-READY, GL-OUT-ERROR: not active is not an error
+InactiveIsNoError == ~Ready => ~Error /\ DiagCode = 0
+\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GL-OUT-DIAGCODE, GLF-01: the code tells the row
+RowOfDiagCode ==
+    /\ Ready = (DiagCode # 0)
+    /\ S_GuardLocked = (DiagCode = \h8000)
+    /\ S_UnlockGuard = (DiagCode \in {\h8012, \h8013})
+    /\ Error = (DiagCode >= \hC000)
+=============================================================================
