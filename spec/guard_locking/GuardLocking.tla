@@ -1,8 +1,9 @@
 -------------------------- MODULE GuardLocking -----------------------------
 (***************************************************************************)
 (* The block SF_GuardLocking V1.0: a guard that is closed, locked, and     *)
-(* unlocked on request.  Clauses GL-IN, GL-OUT, GL-SEQ.  (A module cannot  *)
-(* have the block's own name: TLA+ reads SF_ as fairness.)                 *)
+(* unlocked on request; tables of inputs and outputs, steps 0 to 5 of the  *)
+(* signal sequence.  (A module cannot have the block's own name: TLA+      *)
+(* reads SF_ as fairness.)                                                 *)
 (* One step is one call.  i = [Activate, S_GuardMonitoring,                *)
 (* S_SafetyActive, S_GuardLock, UnlockRequest, S_StartReset, S_AutoReset,  *)
 (* Reset] as the call reads them.                                          *)
@@ -25,10 +26,6 @@ ASSUME ZONE_LOST \in {"error", "tolerated"}
 ASSUME START_UP_INHIBIT \in {"until_reset", "until_opened"}
 
 Readings == FamilyReadings \cup {
-    \* Of the family
-    "RESET_SEEN_ONLY_WHILE_ACTIVE",
-    "RESET_BY_LEVEL",
-    \* Of this block
     "UNLOCKS_WITHOUT_SAFE_ZONE",
     "UNLOCKED_ONLY_WHILE_REQUESTED",
     "OPEN_GUARD_NEEDS_NO_SAFE_ZONE",
@@ -60,7 +57,7 @@ GuardLockingTypeOK ==
     /\ state \in GuardLockingStates
     /\ {resetBefore, unlockRequestBefore, requestPending, startUpInhibit} \subseteq BOOLEAN
 
-\* GL-OUT-READY, GL-SEQ-0: before the first call nothing is active and nothing is remembered
+\* GL-OUT-READY, GL-IN-DEFAULT, GL-SEQ-0: before the first call nothing is active and nothing is remembered
 GuardLockingInit ==
     /\ state = "Idle" /\ resetBefore = FALSE
     /\ unlockRequestBefore = FALSE /\ requestPending = FALSE /\ startUpInhibit = FALSE

@@ -3,7 +3,7 @@
 (* SF_GuardLocking alone, with any of its 256 inputs in every call: the    *)
 (* environment `arbitrary`, S_StartReset and S_AutoReset included, and the *)
 (* graph that implementations of target sf_guard_locking are compared      *)
-(* with.  Models clauses GL-IN, GL-OUT and GL-SEQ.                         *)
+(* with.                                                                   *)
 (* Leaves out door, bolt, machine and person (GuardLockingZone).        *)
 (***************************************************************************)
 EXTENDS Sequences, TLC, GuardLocking
