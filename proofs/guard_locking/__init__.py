@@ -1,0 +1,1 @@
+"""Theorems about seed 001, SF_GuardLocking."""

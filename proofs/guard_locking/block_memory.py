@@ -1,0 +1,91 @@
+"""What a call leaves for the next one."""
+
+from __future__ import annotations
+
+import z3
+
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
+from proofs.guard_locking.devices import chosen
+from proofs.guard_locking.invariant import JUDGE, LOCKED
+from proofs.guard_locking.observer import SEEN, request_edge, sees
+from proofs.sentences import Said
+from proofs.theorem import Queries, theorem
+
+
+def remembers_the_wires(one: Scanned) -> Said:
+    i, after = one.inputs, one.after
+    return TRUE, z3.And(after.reset_before == i.Reset, after.unlock_request_before == i.UnlockRequest)
+
+
+@theorem(clauses=["GL-IN-RESET", "GL-IN-UNLOCKREQUEST"], findings=["GLF-07"])
+def every_call_remembers_reset_and_request() -> Queries:
+    """Every call, active or not, leaves Reset and UnlockRequest as it read them."""
+    yield from JUDGE.in_every_scan(remembers_the_wires)
+
+    def never(one: Scanned) -> Said:
+        return TRUE, z3.Not(one.after.reset_before)
+
+    yield JUDGE.too_strong("nothing is remembered", never, "Idle")
+
+
+def pending(one: Scanned) -> Said:
+    latched = chosen(one.params, "UNLOCK_ON", "latched")
+    stands = z3.And(one.inputs.UnlockRequest, z3.Or(request_edge(one), one.before.request_pending))
+    there = TRUE if one.becomes(LOCKED) else FALSE
+    return TRUE, one.after.request_pending == z3.And(latched, there, stands)
+
+
+@theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"])
+def a_request_is_pending_only_where_it_is_latched() -> Queries:
+    """After every call a request is pending exactly if UNLOCK_ON = latched, the guard is enabled, and
+    UnlockRequest is TRUE and rose in this call or was pending before it.
+    """
+    yield from JUDGE.in_every_scan(pending)
+
+    def never(one: Scanned) -> Said:
+        return TRUE, z3.Not(one.after.request_pending)
+
+    yield JUDGE.too_strong("never", never, LOCKED)
+
+
+def inhibit(one: Scanned) -> Said:
+    wanted = chosen(one.params, "START_UP_INHIBIT", "until_reset")
+    if one.was("Init") and one.becomes("WaitForOperator"):
+        carried = z3.And(wanted, z3.Not(one.inputs.S_StartReset))
+    elif one.becomes("Idle", LOCKED):
+        carried = FALSE
+    else:
+        carried = one.before.start_up_inhibit
+    return TRUE, one.after.start_up_inhibit == carried
+
+
+@theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08", "GLF-21"])
+def a_start_up_inhibit_is_carried_to_the_first_enable() -> Queries:
+    """A start-up that finds the guard not locked leaves its inhibit, if S_StartReset specifies one and
+    START_UP_INHIBIT = until_reset, to every call up to the one that enables, or to the end of Activate.
+    """
+    yield from JUDGE.in_every_scan(inhibit)
+
+    def never(one: Scanned) -> Said:
+        return TRUE, z3.Not(one.after.start_up_inhibit)
+
+    yield JUDGE.too_strong("never", never, "Init")
+
+
+def no_inhibit_without_start_up(one: Scanned) -> Said:
+    kept = z3.Or(SEEN.starting, z3.Not(one.before.start_up_inhibit))
+    return TRUE, z3.Implies(z3.And(kept, one.after.start_up_inhibit), sees(one).starting)
+
+
+@theorem(clauses=["GL-IN-STARTRESET", "GL-IN-AUTORESET"], findings=["GLF-08"])
+def a_start_up_inhibit_belongs_to_this_start_up() -> Queries:
+    """If what is carried before a call belongs to a start-up that has not enabled yet, so does what is carried
+    after it.
+    """
+    yield from JUDGE.in_every_scan(no_inhibit_without_start_up)
+
+    def for_ever(one: Scanned) -> Said:
+        return one.before.start_up_inhibit, one.after.start_up_inhibit
+
+    yield JUDGE.too_strong("for ever", for_ever, "WaitForReset")

@@ -1,0 +1,152 @@
+"""How soon the block does what its inputs ask for: at once where it waits, and within five calls from anywhere."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import z3
+
+from proofs.explorer.device import LOGIC
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
+from proofs.guard_locking.block_safety import secure
+from proofs.guard_locking.devices import BLOCK
+from proofs.guard_locking.invariant import JUDGE, LOCKED
+from proofs.guard_locking.observer import request_edge
+from proofs.sentences import Judge, Said
+from proofs.theorem import Queries, claim, theorem
+
+FROM_ANYWHERE: Final = Judge(BLOCK, ())
+"""No invariant: from any memory."""
+
+CALLS: Final = {
+    "GuardClosedAndLocked": (0, 0),
+    "WaitForReset": (1, 2),
+    "WaitForOperator": (3, 2),
+    "GuardClosedButUnlocked": (3, 4),
+    "GuardOpenAndUnlocked": (5, 4),
+    "Init": (1, 2),
+    "Idle": (3, 2),
+    "ResetError1": (3, 2),
+    "ResetError2": (5, 4),
+    "ResetError3": (3, 2),
+    "SafetyReturn": (3, 4),
+    "SafetyLost": (5, 4),
+}
+"""How many quiet calls lead to the enable, when Reset was FALSE and when it was TRUE in the call before."""
+
+
+def answers_at_once(one: Scanned) -> Said:
+    """A call that stays has not seen what its state waits for."""
+    i = one.inputs
+    guard, zone, request, reset = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest, i.Reset
+    due = z3.And(i.S_AutoReset, z3.Not(one.before.start_up_inhibit))
+    waits = {
+        "Init": z3.And(secure(one), z3.Not(i.S_StartReset), z3.Not(reset)),
+        LOCKED: z3.And(secure(one), z3.Not(z3.And(request_edge(one), zone))),
+        "GuardClosedButUnlocked": z3.And(guard, request),
+        "GuardOpenAndUnlocked": z3.And(z3.Not(guard), zone),
+        "WaitForOperator": z3.And(guard, z3.Not(i.S_GuardLock), zone, z3.Not(request)),
+        "WaitForReset": z3.And(secure(one), z3.Not(reset), z3.Not(due)),
+        "SafetyReturn": z3.And(z3.Not(reset), zone),
+        "SafetyLost": z3.Not(zone),
+        "ResetError1": reset,
+        "ResetError2": reset,
+        "ResetError3": reset,
+        "Idle": FALSE,
+    }
+    state = control(BLOCK, one.before)
+    return i.Activate, waits[state] if one.becomes(state) else TRUE
+
+
+@theorem(
+    clauses=["GL-IN-RESET", "GL-IN-AUTORESET", "GL-IN-STARTRESET", "GL-WARN-2", "GL-SEQ-2"],
+    findings=["GLF-15"],
+    properties=["AnswersAtOnce"],
+)
+def a_call_that_stays_has_not_seen_what_it_waits_for() -> Queries:
+    """An active call that ends in the state in which it began has not seen anything that this state waits for:
+    so an edge of Reset enables at once where it may.
+    """
+    yield from JUDGE.in_every_scan(answers_at_once)
+
+    def leaves(one: Scanned) -> Said:
+        return one.inputs.Activate, FALSE if one.becomes("WaitForReset") else TRUE
+
+    yield JUDGE.too_strong("it never stays", leaves, "WaitForReset")
+
+
+def calls_left(one: Scanned, before: bool) -> z3.ArithRef:
+    """The number of CALLS for the memory before or after the call."""
+    memory = one.before if before else one.after
+    released, pressed = CALLS[control(BLOCK, memory)]
+    return z3.If(memory.reset_before, z3.IntVal(pressed), z3.IntVal(released))
+
+
+def quiet(one: Scanned) -> z3.BoolRef:
+    """Active, closed, locked, safe, no request; and Reset is not what it was in the call before."""
+    i = one.inputs
+    calm = z3.And(i.Activate, secure(one), i.S_SafetyActive, z3.Not(i.UnlockRequest))
+    return z3.And(calm, i.Reset != one.before.reset_before)
+
+
+def comes_closer(one: Scanned) -> Said:
+    if one.was(LOCKED):
+        return quiet(one), TRUE if one.becomes(LOCKED) else FALSE
+    return quiet(one), calls_left(one, before=False) < calls_left(one, before=True)
+
+
+@theorem(
+    clauses=["GL-IN-RESET", "GL-IN-STARTRESET", "GL-IN-AUTORESET", "GL-SEQ-2"],
+    findings=["GLF-07", "GLF-13"],
+    properties=["EnablesAgain"],
+)
+def the_block_enables_again_within_five_calls() -> Queries:
+    """From any state and memory: while the guard is closed and locked, the zone safe and nobody asks, and
+    Reset changes in every call, each call lowers a number that is five at most and zero only where the block
+    enables, and there it stays. S_StartReset and S_AutoReset may be anything.
+    """
+    yield from FROM_ANYWHERE.in_every_scan(comes_closer)
+    for scans in FROM_ANYWHERE.scans():
+        one = next(iter(scans.read.values()))
+        left = calls_left(one, before=True)
+        ends = left == 0 if scans.control == LOCKED else z3.And(left >= 1, left <= 5)
+        yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
+
+    def faster(one: Scanned) -> Said:
+        return quiet(one), TRUE if one.becomes(LOCKED) else FALSE
+
+    yield FROM_ANYWHERE.too_strong("one call is enough", faster, "SafetyReturn")
+
+    def held(one: Scanned) -> Said:
+        said = comes_closer(one)
+        i = one.inputs
+        calm = z3.And(i.Activate, secure(one), i.S_SafetyActive, z3.Not(i.UnlockRequest))
+        return None if said is None else (calm, said[1])
+
+    yield FROM_ANYWHERE.too_strong("with a Reset that is held", held, "SafetyReturn")
+
+
+def lets_in(one: Scanned) -> Said:
+    if not one.was("WaitForOperator"):
+        return None
+    i = one.inputs
+    return z3.And(i.Activate, i.S_SafetyActive, i.UnlockRequest), one.sends.S_UnlockGuard
+
+
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-OUT-UNLOCKGUARD"],
+    findings=["GLF-09", "GLF-11"],
+    properties=["EntryIsGranted"],
+)
+def who_asks_where_nothing_is_enabled_gets_in_at_once() -> Queries:
+    """Where the block waits for its operator, an active call with the zone safe and a request unlocks, wherever
+    the guard is; where it is enabled, a request that rises does
+    (a_request_that_rises_with_the_zone_safe_unlocks_in_that_call).
+    """
+    yield from JUDGE.in_every_scan(lets_in)
+
+    def unasked(one: Scanned) -> Said:
+        return z3.And(one.inputs.Activate, one.inputs.S_SafetyActive), one.sends.S_UnlockGuard
+
+    yield JUDGE.too_strong("without a request", unasked, "WaitForOperator")

@@ -1,0 +1,404 @@
+"""When the block enables, and what an error does: its outputs, the inhibits, Reset, losses.
+
+Each theorem proves the property of properties.toml that it names, written like its TLA+ in GuardLocking and
+GuardLockingOpen.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import z3
+
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
+from proofs.guard_locking.devices import chosen
+from proofs.guard_locking.invariant import JUDGE
+from proofs.guard_locking.observer import SEEN, reset_edge, sees
+from proofs.sentences import Said, Sentence
+from proofs.theorem import Queries, theorem
+
+ROWS: Final = {
+    "Idle": (False, False, False, False, 0x0000),
+    "Init": (True, False, False, False, 0x8001),
+    "GuardClosedAndLocked": (True, True, False, False, 0x8000),
+    "WaitForReset": (True, False, False, False, 0x8003),
+    "WaitForOperator": (True, False, False, False, 0x8011),
+    "GuardOpenAndUnlocked": (True, False, True, False, 0x8012),
+    "GuardClosedButUnlocked": (True, False, True, False, 0x8013),
+    "SafetyReturn": (True, False, False, False, 0x8014),
+    "ResetError1": (True, False, False, True, 0xC001),
+    "ResetError2": (True, False, False, True, 0xC002),
+    "ResetError3": (True, False, False, True, 0xC003),
+    "SafetyLost": (True, False, False, True, 0xC004),
+}
+"""Ready, S_GuardLocked, S_UnlockGuard, Error and DiagCode of each state."""
+
+
+def secure(one: Scanned) -> z3.BoolRef:
+    """The guard is closed and locked in this call."""
+    return z3.And(one.inputs.S_GuardMonitoring, one.inputs.S_GuardLock)
+
+
+def enables(one: Scanned) -> z3.BoolRef:
+    """S_GuardLocked rises."""
+    return z3.And(z3.Not(one.sent.S_GuardLocked), one.sends.S_GuardLocked)
+
+
+def static(one: Scanned) -> z3.BoolRef:
+    """Reset is TRUE, and was in the call before."""
+    return z3.And(one.inputs.Reset, SEEN.reset)
+
+
+def allowed(one: Scanned) -> z3.BoolRef:
+    """The input of the inhibit that is due says that there is none."""
+    at_start_up = one.sent.DiagCode == 0x8001
+    return z3.If(at_start_up, one.inputs.S_StartReset, one.inputs.S_AutoReset)
+
+
+def nothing(outputs: Any) -> z3.BoolRef:
+    """Every output is FALSE, and the code zero."""
+    flags = (outputs.Ready, outputs.S_GuardLocked, outputs.S_UnlockGuard, outputs.Error)
+    return z3.And(*[z3.Not(one) for one in flags], outputs.DiagCode == 0)
+
+
+def row(one: Scanned, seen: Any) -> z3.BoolRef:
+    state = next(name for name in ROWS if one.becomes(name))
+    ready, locked, unlock, error, code = ROWS[state]
+    o = one.sends
+    flags = ((o.Ready, ready), (o.S_GuardLocked, locked), (o.S_UnlockGuard, unlock), (o.Error, error))
+    return z3.And(*[flag == z3.BoolVal(value) for flag, value in flags], o.DiagCode == code)
+
+
+@theorem(
+    clauses=["GL-OUT-READY", "GL-OUT-GUARDLOCKED", "GL-OUT-UNLOCKGUARD", "GL-OUT-ERROR", "GL-OUT-DIAGCODE"],
+    findings=["GLF-01"],
+    properties=["RowOfDiagCode"],
+)
+def every_state_has_its_row_of_outputs() -> Queries:
+    """At power-up and after every call the five outputs are those of the row of the state, and no two states
+    have the same code.
+    """
+    yield from JUDGE.after_every_scan(row)
+    codes = [one[4] for one in ROWS.values()]
+    if len(set(codes)) != len(codes):
+        raise ValueError("two states have the same code")
+    never: Sentence = lambda one: (TRUE, z3.Not(one.sends.S_GuardLocked))  # noqa: E731
+    yield JUDGE.too_strong("no row enables", never, "WaitForReset")
+
+
+def nothing_while_inactive(one: Scanned, seen: Any) -> z3.BoolRef:
+    o = one.sends
+    off = z3.Or(z3.Not(o.Ready), o.Error)
+    quiet = z3.And(z3.Not(o.S_GuardLocked), z3.Not(o.S_UnlockGuard))
+    return z3.And(z3.Implies(off, quiet), z3.Implies(z3.Not(o.Ready), nothing(o)))
+
+
+@theorem(
+    clauses=["GL-OUT-READY", "GL-OUT-ERROR", "GL-OUT-GUARDLOCKED", "GL-SEQ-0"],
+    findings=["GLF-09", "GLF-17"],
+    properties=["NothingWhileInactiveOrInError", "InactiveIsNoError"],
+)
+def nothing_is_enabled_or_unlocked_while_inactive_or_in_error() -> Queries:
+    """At power-up and after every call: while the block is not ready or shows an error it neither enables nor
+    unlocks; and while it is not ready it shows no error and no code.
+    """
+    yield from JUDGE.after_every_scan(nothing_while_inactive)
+    calm: Sentence = lambda one: (TRUE, z3.Not(one.sends.Error))  # noqa: E731
+    yield JUDGE.too_strong("there is no error", calm, "GuardOpenAndUnlocked")
+
+
+def never_both(one: Scanned, seen: Any) -> z3.BoolRef:
+    return z3.Not(z3.And(one.sends.S_GuardLocked, one.sends.S_UnlockGuard))
+
+
+@theorem(
+    clauses=["GL-OUT-GUARDLOCKED", "GL-OUT-UNLOCKGUARD"], findings=[], properties=["NeverEnabledAndUnlocked"]
+)
+def the_block_never_enables_and_unlocks_together() -> Queries:
+    """At power-up and after every call S_GuardLocked and S_UnlockGuard are not both TRUE."""
+    yield from JUDGE.after_every_scan(never_both)
+    neither: Sentence = lambda one: (TRUE, z3.Not(one.sends.S_UnlockGuard))  # noqa: E731
+    yield JUDGE.too_strong("it never unlocks", neither, "GuardClosedAndLocked")
+
+
+def safe_at_power_up(one: Scanned, seen: Any) -> z3.BoolRef:
+    return nothing(one.sends) if one.becomes("Idle") else FALSE
+
+
+@theorem(clauses=["GL-OUT-READY", "GL-SEQ-0", "GL-IN-DEFAULT"], findings=[], properties=["PowerUpIsSafe"])
+def before_the_first_call_every_output_is_false() -> Queries:
+    """After power-up and before the first call, with any parameters, the block is idle and every output is
+    FALSE.
+    """
+    yield from JUDGE.at_power_up(safe_at_power_up)
+    always = JUDGE.after_a_scan(safe_at_power_up)
+    yield JUDGE.too_strong("and after every call", always, "Idle")
+
+
+def inactive_at_once(one: Scanned) -> Said:
+    idle = z3.And(nothing(one.sends), TRUE if one.becomes("Idle") else FALSE)
+    return TRUE, z3.And(one.sends.Ready == one.inputs.Activate, z3.Implies(z3.Not(one.inputs.Activate), idle))
+
+
+@theorem(
+    clauses=["GL-IN-ACTIVATE", "GL-OUT-READY", "GL-SEQ-0", "GL-SEQ-1"],
+    findings=["GLF-17", "GLF-21"],
+    properties=["InactiveAtOnce"],
+)
+def without_activate_every_output_is_false_in_that_call() -> Queries:
+    """A call without Activate ends idle with every output FALSE, from every state and before everything else;
+    and the block is ready after every call with Activate.
+    """
+    yield from JUDGE.in_every_scan(inactive_at_once)
+    idle: Sentence = lambda one: (TRUE, nothing(one.sends))  # noqa: E731
+    yield JUDGE.too_strong("in every call", idle, "SafetyLost")
+
+
+def enable_needs_secured_guard(one: Scanned) -> Said:
+    if not one.becomes("GuardClosedAndLocked"):
+        return TRUE, z3.Not(one.sends.S_GuardLocked)
+    return TRUE, z3.And(one.sends.S_GuardLocked, one.inputs.Activate, secure(one))
+
+
+@theorem(
+    clauses=["GL-DOC-2", "GL-OUT-GUARDLOCKED", "GL-SEQ-4"],
+    findings=["GLF-12"],
+    properties=["EnableNeedsSecuredGuard"],
+)
+def no_enable_without_a_closed_and_locked_guard_in_that_call() -> Queries:
+    """After every call with S_GuardLocked TRUE, that very call found Activate, S_GuardMonitoring and
+    S_GuardLock TRUE.
+    """
+    yield from JUDGE.in_every_scan(enable_needs_secured_guard)
+    safe: Sentence = lambda one: (one.sends.S_GuardLocked, one.inputs.S_SafetyActive)  # noqa: E731
+    yield JUDGE.too_strong("and the zone is safe", safe, "WaitForReset")
+
+
+# ---------------------------------------------------------------- inhibits and Reset
+
+
+def no_automatic_restart(one: Scanned) -> Said:
+    return TRUE, z3.Implies(enables(one), z3.Or(reset_edge(one), allowed(one)))
+
+
+@theorem(
+    clauses=["GL-IN-STARTRESET", "GL-IN-AUTORESET", "GL-SEQ-INHIBITS", "GL-SEQ-1", "GL-SEQ-2"],
+    findings=["GLF-07"],
+    properties=["NoAutomaticRestart"],
+)
+def nothing_is_enabled_without_an_edge_of_reset_unless_an_input_allows_it() -> Queries:
+    """A call in which S_GuardLocked rises found a rising edge of Reset, or S_StartReset TRUE at start-up, or
+    S_AutoReset TRUE after the guard was closed and locked again.
+    """
+    yield from JUDGE.in_every_scan(no_automatic_restart)
+    edge: Sentence = lambda one: (enables(one), reset_edge(one))  # noqa: E731
+    yield JUDGE.too_strong("always by an edge", edge, "WaitForReset")
+    yield JUDGE.without(no_automatic_restart, "Init", "WiresAreRemembered")
+
+
+def start_up_inhibit_needs_reset(one: Scanned) -> Said:
+    free = z3.And(one.sent.DiagCode == 0x8001, one.inputs.S_StartReset)
+    given = z3.And(enables(one), SEEN.starting, chosen(one.params, "START_UP_INHIBIT", "until_reset"))
+    return TRUE, z3.Implies(given, z3.Or(reset_edge(one), free))
+
+
+@theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08"], properties=["StartUpInhibitNeedsReset"])
+def a_start_up_inhibit_ends_by_an_edge_of_reset() -> Queries:
+    """With START_UP_INHIBIT = until_reset, the first enable after a start-up with inhibit comes in a call with
+    a rising edge of Reset, whatever S_AutoReset says and wherever the guard was at start-up.
+    """
+    yield from JUDGE.in_every_scan(start_up_inhibit_needs_reset)
+    yield JUDGE.without(start_up_inhibit_needs_reset, "WaitForReset", "InhibitIsCarried")
+
+    def anyway(one: Scanned) -> Said:
+        return z3.And(enables(one), SEEN.starting), reset_edge(one)
+
+    yield JUDGE.too_strong("with until_opened too", anyway, "WaitForReset")
+
+
+def loss_needs_reset(one: Scanned) -> Said:
+    return TRUE, z3.Implies(one.sends.S_GuardLocked, z3.Not(sees(one).lost))
+
+
+@theorem(clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-13"], properties=["LossNeedsReset"])
+def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
+    """After the guard, its lock or the zone was lost, S_GuardLocked is FALSE after every call until an edge of
+    Reset has come with the zone safe, whatever S_AutoReset says (or Activate has ended).
+    """
+    yield from JUDGE.in_every_scan(loss_needs_reset)
+    yield JUDGE.without(loss_needs_reset, "WaitForReset", "LossIsWaitedOut")
+
+
+def static_reset_resets_nothing(one: Scanned) -> Said:
+    waits = z3.Or(*[one.sent.DiagCode == code for code in (0x8014, 0xC001, 0xC002, 0xC003)])
+    there = z3.Or(
+        one.sends.DiagCode == one.sent.DiagCode,
+        *[one.sends.DiagCode == code for code in (0xC002, 0xC004, 0x0000)],
+    )
+    kept = z3.And(z3.Implies(enables(one), allowed(one)), z3.Implies(waits, there))
+    return static(one), kept
+
+
+@theorem(
+    clauses=["GL-IN-RESET", "GL-IN-EDGE"],
+    findings=["GLF-07", "GLF-15"],
+    properties=["StaticResetNeverResets"],
+)
+def a_reset_that_does_not_move_resets_nothing() -> Queries:
+    """A call with a Reset that was TRUE in the call before removes no inhibit that is specified, and leads
+    out of no error but with Activate.
+    """
+    yield from JUDGE.in_every_scan(static_reset_resets_nothing)
+    yield JUDGE.without(static_reset_resets_nothing, "SafetyReturn", "WiresAreRemembered")
+
+    def pressed(one: Scanned) -> Said:
+        return one.inputs.Reset, z3.Not(enables(one))
+
+    yield JUDGE.too_strong("nor does one that is pressed", pressed, "WaitForReset")
+
+
+def static_reset_is_found(one: Scanned) -> Said:
+    found = one.sends.DiagCode
+    wanted = {
+        "Init": z3.Implies(z3.Not(one.inputs.S_StartReset), found == 0xC001),
+        "SafetyReturn": found == 0xC002,
+        "WaitForReset": z3.Implies(z3.Not(one.inputs.S_AutoReset), found == 0xC003),
+    }
+    where = [one_state for one_state in wanted if one.was(one_state)]
+    if not where:
+        return None
+    return z3.And(one.inputs.Activate, static(one)), wanted[where[0]]
+
+
+@theorem(clauses=["GL-IN-RESET"], findings=["GLF-07"], properties=["StaticResetIsFound"])
+def a_reset_that_does_not_move_is_found() -> Queries:
+    """Where an edge of Reset is waited for (at start-up and at restart only with their inhibits), an active
+    call with a Reset that was TRUE in the call before ends in the reset error of that state.
+    """
+    yield from JUDGE.in_every_scan(static_reset_is_found)
+
+    def pressed(one: Scanned) -> Said:
+        said = static_reset_is_found(one)
+        return None if said is None else (z3.And(one.inputs.Activate, one.inputs.Reset), said[1])
+
+    yield JUDGE.too_strong("every Reset is an error", pressed, "SafetyReturn")
+
+
+# ---------------------------------------------------------------- losses and errors
+
+
+def loss_is_an_error(one: Scanned) -> Said:
+    if not one.was("GuardClosedAndLocked"):
+        return None
+    o = one.sends
+    error = z3.And(o.Error, z3.Not(o.S_GuardLocked), z3.Not(o.S_UnlockGuard), o.DiagCode == 0xC004)
+    return z3.And(one.inputs.Activate, z3.Not(secure(one))), error
+
+
+@theorem(
+    clauses=["GL-OUT-GUARDLOCKED", "GL-OUT-ERROR"],
+    findings=["GLF-05", "GLF-12"],
+    properties=["LossIsAnError"],
+)
+def the_loss_of_a_locked_guard_is_an_error_in_that_call() -> Queries:
+    """An active call that finds an enabled guard open or not locked shows the error and neither enables nor
+    unlocks, whatever is requested and whatever the zone does.
+    """
+    yield from JUDGE.in_every_scan(loss_is_an_error)
+
+    def any_call(one: Scanned) -> Said:
+        return one.inputs.Activate, one.sends.Error
+
+    yield JUDGE.too_strong("every call", any_call, "GuardClosedAndLocked")
+
+
+def error_needs_cause(one: Scanned) -> Said:
+    lost = z3.Not(secure(one)) if one.was("GuardClosedAndLocked") else z3.Not(one.inputs.S_SafetyActive)
+    waited = TRUE if one.was("Init", "WaitForReset", "SafetyReturn") else FALSE
+    cause = z3.If(one.sends.DiagCode == 0xC004, lost, z3.And(static(one), waited))
+    return TRUE, z3.Implies(z3.And(z3.Not(one.sent.Error), one.sends.Error), cause)
+
+
+@theorem(
+    clauses=["GL-OUT-ERROR", "GL-IN-SAFETYACTIVE"],
+    findings=["GLF-05", "GLF-07", "GLF-10"],
+    properties=["ErrorNeedsCause"],
+)
+def an_error_has_a_cause_in_that_call() -> Queries:
+    """A call that begins to show an error found a static Reset where an edge is waited for, an enabled guard
+    open or not locked, or a zone that is not safe.
+    """
+    yield from JUDGE.in_every_scan(error_needs_cause)
+
+    def zone(one: Scanned) -> Said:
+        return one.sends.Error, z3.Not(one.inputs.S_SafetyActive)
+
+    yield JUDGE.too_strong("always the zone", zone, "GuardClosedAndLocked")
+
+
+RETURNS: Final = {"ResetError1": "Init", "ResetError2": "SafetyReturn", "ResetError3": "WaitForReset"}
+"""Where a reset error was found, and leads back to."""
+
+
+def error_ends_with_cause(one: Scanned) -> Said:
+    if not one.was("SafetyLost", *RETURNS):
+        return None
+    i = one.inputs
+    if one.was("SafetyLost"):
+        ends = z3.And(i.S_SafetyActive, TRUE if one.becomes("SafetyReturn") else FALSE)
+    else:
+        back = any(one.was(error) and one.becomes(state) for error, state in RETURNS.items())
+        ends = z3.And(z3.Not(i.Reset), TRUE if back else FALSE)
+    gone = z3.And(i.Activate, z3.Not(one.sends.Error))
+    return TRUE, z3.Implies(gone, ends)
+
+
+@theorem(
+    clauses=["GL-IN-RESET", "GL-OUT-ERROR"],
+    findings=["GLF-06", "GLF-07"],
+    properties=["ErrorEndsWithCause"],
+)
+def an_error_ends_with_its_cause() -> Queries:
+    """While Activate stays, a loss is shown until the zone is safe, and a reset error until Reset is released;
+    the reset error leads back to the state in which it was found.
+    """
+    yield from JUDGE.in_every_scan(error_ends_with_cause)
+
+    def for_ever(one: Scanned) -> Said:
+        return one.inputs.Activate, one.sends.Error
+
+    yield JUDGE.too_strong("it never ends", for_ever, "ResetError2")
+
+
+TRANSITIONS: Final = {
+    "Idle": ("Init",),
+    "Init": ("ResetError1", "WaitForOperator", "GuardClosedAndLocked"),
+    "GuardClosedAndLocked": ("SafetyLost", "GuardClosedButUnlocked"),
+    "GuardClosedButUnlocked": ("SafetyLost", "GuardOpenAndUnlocked", "WaitForOperator"),
+    "GuardOpenAndUnlocked": ("SafetyLost", "GuardClosedButUnlocked"),
+    "WaitForOperator": ("SafetyLost", "GuardOpenAndUnlocked", "WaitForReset"),
+    "WaitForReset": ("ResetError3", "WaitForOperator", "GuardClosedAndLocked"),
+    "SafetyLost": ("SafetyReturn",),
+    "SafetyReturn": ("ResetError2", "SafetyLost", "WaitForOperator"),
+    "ResetError1": ("Init",),
+    "ResetError2": ("SafetyReturn",),
+    "ResetError3": ("WaitForReset",),
+}
+"""The table of transitions; besides, every state stays, or goes to Idle without Activate."""
+
+
+def in_the_table(one: Scanned) -> Said:
+    before = next(name for name in TRANSITIONS if one.was(name))
+    return TRUE, TRUE if one.becomes("Idle", before, *TRANSITIONS[before]) else FALSE
+
+
+@theorem(clauses=["GL-SEQ-NOTE"], findings=["GLF-01"], properties=["OneTransitionACall"])
+def a_call_takes_one_transition_of_the_table() -> Queries:
+    """Every call stays in its state, ends in Idle, or takes one transition of the table."""
+    yield from JUDGE.in_every_scan(in_the_table)
+
+    def stays(one: Scanned) -> Said:
+        return TRUE, TRUE if one.becomes("Idle", "Init") else FALSE
+
+    yield JUDGE.too_strong("it always stays", stays, "Init")

@@ -1,0 +1,26 @@
+"""Which theorems judge the mutants of the block, in the order in which they are asked: all but the
+invariant's first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, invariant
+from proofs.guard_locking.devices import BLOCK
+from proofs.theorem import Theorem
+
+_MODULES: Final = (block_safety, block_locks, block_memory, block_response, invariant)
+
+JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
+    {
+        BLOCK.name: tuple(
+            one
+            for module in _MODULES
+            for one in vars(module).values()
+            if isinstance(one, Theorem) and one.build.__module__ == module.__name__
+        )
+    }
+)
