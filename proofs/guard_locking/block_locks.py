@@ -101,7 +101,7 @@ def request_now(one: Scanned) -> Said:
 
 @theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"], properties=["UnlockNeedsRequestNow"])
 def with_the_edge_the_request_comes_in_the_call_that_unlocks() -> Queries:
-    """With UNLOCK_ON = edge, a call that unlocks an enabled guard is the call in which UnlockRequest rises."""
+    """With UNLOCK_ON = edge, a call that unlocks an enabled guard is the one in which it rises."""
     yield from JUDGE.in_every_scan(request_now)
     anyway: Sentence = lambda one: (one.sends.S_UnlockGuard, request_edge(one))  # noqa: E731
     yield JUDGE.too_strong("whatever unlocks", anyway, LOCKED)
@@ -181,7 +181,7 @@ def stays_unlocked_while_requested(one: Scanned) -> Said:
     properties=["StaysUnlockedWhileRequested"],
 )
 def as_long_as_it_is_requested_the_guard_stays_unlocked() -> Queries:
-    """An active call with S_UnlockGuard TRUE before it, UnlockRequest TRUE and the zone safe leaves it TRUE."""
+    """An active call with the guard unlocked before it, a request and the zone safe leaves it so."""
     yield from JUDGE.in_every_scan(stays_unlocked_while_requested)
     active: Sentence = lambda one: (one.inputs.Activate, one.sends.S_UnlockGuard)  # noqa: E731
     yield JUDGE.too_strong("as long as it is active", active, "GuardClosedButUnlocked")

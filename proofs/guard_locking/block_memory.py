@@ -8,7 +8,7 @@ from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned
 from proofs.guard_locking.devices import chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
-from proofs.guard_locking.observer import SEEN, request_edge, sees
+from proofs.guard_locking.observer import request_edge
 from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
@@ -71,21 +71,3 @@ def a_start_up_inhibit_is_carried_to_the_first_enable() -> Queries:
         return TRUE, z3.Not(one.after.start_up_inhibit)
 
     yield JUDGE.too_strong("never", never, "Init")
-
-
-def no_inhibit_without_start_up(one: Scanned) -> Said:
-    kept = z3.Or(SEEN.starting, z3.Not(one.before.start_up_inhibit))
-    return TRUE, z3.Implies(z3.And(kept, one.after.start_up_inhibit), sees(one).starting)
-
-
-@theorem(clauses=["GL-IN-STARTRESET", "GL-IN-AUTORESET"], findings=["GLF-08"])
-def a_start_up_inhibit_belongs_to_this_start_up() -> Queries:
-    """If what is carried before a call belongs to a start-up that has not enabled yet, so does what is carried
-    after it.
-    """
-    yield from JUDGE.in_every_scan(no_inhibit_without_start_up)
-
-    def for_ever(one: Scanned) -> Said:
-        return one.before.start_up_inhibit, one.after.start_up_inhibit
-
-    yield JUDGE.too_strong("for ever", for_ever, "WaitForReset")

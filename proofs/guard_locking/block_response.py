@@ -1,4 +1,4 @@
-"""How soon the block does what its inputs ask for: at once where it waits, and within five calls from anywhere."""
+"""How soon the block does what its inputs ask for: at once where it waits, else within five calls."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def answers_at_once(one: Scanned) -> Said:
     properties=["AnswersAtOnce"],
 )
 def a_call_that_stays_has_not_seen_what_it_waits_for() -> Queries:
-    """An active call that ends in the state in which it began has not seen anything that this state waits for:
+    """An active call that ends in the state in which it began has seen nothing that this state waits for:
     so an edge of Reset enables at once where it may.
     """
     yield from JUDGE.in_every_scan(answers_at_once)
@@ -140,8 +140,8 @@ def lets_in(one: Scanned) -> Said:
     properties=["EntryIsGranted"],
 )
 def who_asks_where_nothing_is_enabled_gets_in_at_once() -> Queries:
-    """Where the block waits for its operator, an active call with the zone safe and a request unlocks, wherever
-    the guard is; where it is enabled, a request that rises does
+    """Where the block waits for its operator, an active call with the zone safe and a request unlocks,
+    wherever the guard is; where it is enabled, a request that rises does
     (a_request_that_rises_with_the_zone_safe_unlocks_in_that_call).
     """
     yield from JUDGE.in_every_scan(lets_in)

@@ -205,8 +205,8 @@ def start_up_inhibit_needs_reset(one: Scanned) -> Said:
 
 @theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08"], properties=["StartUpInhibitNeedsReset"])
 def a_start_up_inhibit_ends_by_an_edge_of_reset() -> Queries:
-    """With START_UP_INHIBIT = until_reset, the first enable after a start-up with inhibit comes in a call with
-    a rising edge of Reset, whatever S_AutoReset says and wherever the guard was at start-up.
+    """With START_UP_INHIBIT = until_reset, the first enable after a start-up with inhibit comes in a call
+    with a rising edge of Reset, whatever S_AutoReset says and wherever the guard was at start-up.
     """
     yield from JUDGE.in_every_scan(start_up_inhibit_needs_reset)
     yield JUDGE.without(start_up_inhibit_needs_reset, "WaitForReset", "InhibitIsCarried")
@@ -223,8 +223,8 @@ def loss_needs_reset(one: Scanned) -> Said:
 
 @theorem(clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-13"], properties=["LossNeedsReset"])
 def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
-    """After the guard, its lock or the zone was lost, S_GuardLocked is FALSE after every call until an edge of
-    Reset has come with the zone safe, whatever S_AutoReset says (or Activate has ended).
+    """After the guard, its lock or the zone was lost, S_GuardLocked is FALSE after every call until an edge
+    of Reset has come with the zone safe, whatever S_AutoReset says (or Activate has ended).
     """
     yield from JUDGE.in_every_scan(loss_needs_reset)
     yield JUDGE.without(loss_needs_reset, "WaitForReset", "LossIsWaitedOut")
@@ -360,8 +360,8 @@ def error_ends_with_cause(one: Scanned) -> Said:
     properties=["ErrorEndsWithCause"],
 )
 def an_error_ends_with_its_cause() -> Queries:
-    """While Activate stays, a loss is shown until the zone is safe, and a reset error until Reset is released;
-    the reset error leads back to the state in which it was found.
+    """While Activate stays, a loss is shown until the zone is safe, and a reset error until Reset is
+    released; the reset error leads back to the state in which it was found.
     """
     yield from JUDGE.in_every_scan(error_ends_with_cause)
 

@@ -208,7 +208,9 @@ def _idle() -> Step:
 
 
 def _init(s: State, i: Inputs) -> Step:
-    """Start-up: with a start-up inhibit the enable needs an edge of Reset. GL-IN-STARTRESET, GL-SEQ-1, GL-SEQ-2
+    """Start-up: with a start-up inhibit the enable needs an edge of Reset.
+
+    GL-IN-STARTRESET, GL-SEQ-1, GL-SEQ-2
 
     A Reset that does not move is an error where an edge is waited for (GLF-07).
     """
