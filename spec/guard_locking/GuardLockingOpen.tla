@@ -23,6 +23,8 @@ VARIABLES
 observer == <<resetSeen, requestSeen, asked, starting, lost>>
 View == guardLocking
 ObservedView == <<View, observer>>
+\* GLF-06: a reading that changes outputs alone is told apart by them
+ViewWithOutputs == <<ObservedView, GuardLockingOutputs>>
 \* GLF-07: where Reset is not remembered while inactive, what it was then is asked by nobody: an enable is two calls away
 ViewWithoutResetSeen == <<View, requestSeen, asked, starting, lost>>
 
