@@ -1,0 +1,1 @@
+"""Reference implementation of the document testable_safety_sensor."""
