@@ -285,7 +285,10 @@ def _test_time_fits(s: State) -> bool:
 
 
 def _restarts_by_itself(s: State, i: Inputs) -> bool:
-    """The restart inhibit is switched off, and no start-up inhibit is left. TSS-IN-AUTORESET, TSS-FN-2, TSSF-19"""
+    """The restart inhibit is switched off, and no start-up inhibit is left.
+
+    TSS-IN-AUTORESET, TSS-FN-2, TSSF-19
+    """
     return i.S_AutoReset and not s.start_inhibit
 
 
@@ -364,7 +367,7 @@ def _wait_for_reset2(s: State, i: Inputs) -> State:
 
 
 def _espe_free_no_test(s: State, i: Inputs) -> State:
-    """TSS-8010, TSS-FN-1, TSS-TEST-1, TSSF-22"""
+    """TSS-8010, TSS-FN-1, TSS-IN-OSSD, TSS-TEST-1, TSS-NOTE-4, TSSF-22"""
     if not i.S_OSSD_In:
         return _to(s, i, Step.ESPE_INTERRUPTED_1)  # Interrupt1
     if _test_is_asked_for(s, i):
@@ -373,7 +376,7 @@ def _espe_free_no_test(s: State, i: Inputs) -> State:
 
 
 def _espe_free_test_ok(s: State, i: Inputs) -> State:
-    """TSS-8000, TSS-FN-1, TSS-TEST-1, TSSF-22"""
+    """TSS-8000, TSS-FN-1, TSS-IN-OSSD, TSS-TEST-1, TSS-NOTE-4, TSSF-22"""
     if not i.S_OSSD_In:
         return _to(s, i, Step.ESPE_INTERRUPTED_2)  # Interrupt2
     if _test_is_asked_for(s, i):

@@ -26,8 +26,6 @@ block == <<state, resetBefore, startTestBefore, sensorBefore, startInhibit, elap
 
 \* The literal readings of the document, those of the family included; {} is our reading
 Readings == FamilyReadings \cup {
-    "RESET_SEEN_ONLY_WHILE_ACTIVE",
-    "RESET_BY_LEVEL",
     "C031_IN_8406",
     "TEST_OUT_FALSE_IN_IDLE",
     "ONE_MEASUREMENT",

@@ -110,6 +110,8 @@ NoRestartByItself ==
            \/ Scanned.S_StartReset /\ state = "Init"
            \/ Scanned.S_AutoReset /\ state \in {"ESPEInterrupted1", "WaitForReset1", "ESPEInterrupted2", "WaitForReset2"}
            \/ Scanned.S_AutoReset /\ AUTO_RESET_ERRORS /\ state \in TestErrors \cup Manual)]_beat
+\* TSS-EB-2, TSS-EB-3, TSS-IN-NOEXT-FALSE, TSSF-15: after a failed test only a reset enables, S_AutoReset or not; not so with AUTO_RESET_ERRORS
+FailedTestNeedsReset == [][Rise("S_OSSD_Out") => Edge \/ (state \notin TestErrors \cup Manual)]_beat
 \* TSS-FN-3, TSS-EB-5, TSSF-19: the start-up inhibit outlives an interruption
 StartInhibitHolds ==
     [][Rise("S_OSSD_Out") /\ starting => Edge \/ (Scanned.S_StartReset /\ state = "Init")]_beat
