@@ -1,0 +1,1 @@
+"""Theorems about seed 002, SF_TestableSafetySensor."""
