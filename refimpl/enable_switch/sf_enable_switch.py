@@ -11,7 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from refimpl.cyclic_block import counted, held, rises
+from refimpl.cyclic_block import held, rises
 from refimpl.errors import ParameterError, StateError, check_bool, check_int
 
 DISCREPANCY_TIME_MAX_MS = 3_600_000
@@ -166,7 +166,9 @@ def outputs(s: State) -> Outputs:
 
 def sees_stage_0(i: Inputs) -> bool:
     """Released: channel 2 alone is TRUE. ES-STAGE-0"""
-    return not i.S_EnableSwitchCh1 and i.S_EnableSwitchCh2 and not i.S_EnableSwitchCh3
+    if i.S_EnableSwitchCh1 or i.S_EnableSwitchCh3:
+        return False
+    return i.S_EnableSwitchCh2
 
 
 def sees_stage_1(i: Inputs) -> bool:
@@ -299,10 +301,10 @@ def _stage_1(s: State, i: Inputs) -> State:
         return _at(s, i, Step.BASIC_MODE)  # LoseSafetyActive
     if sees_stage_1(i):
         return _at(s, i, Step.STAGE_1)  # StayEnabled
-    if sees_stage_2(i):
-        return _at(s, i, Step.STAGE_2)  # ReachStage2
     if sees_stage_0(i):
         return _at(s, i, Step.STAGE_0)  # ReachStage0
+    if sees_stage_2(i):
+        return _at(s, i, Step.STAGE_2)  # ReachStage2
     return _at(s, i, Step.CHANGE_TO_STAGE_0)  # BeginReturn
 
 
@@ -328,19 +330,21 @@ def _stage_2(s: State, i: Inputs) -> State:
     """Pressed through: only stage 0 may follow. ES-STAGE-2, ES-SEQ-8, ES-ORDER-2, ESF-02"""
     if not i.S_SafetyActive:
         return _at(s, i, Step.BASIC_MODE)  # LoseSafetyActive
-    if sees_stage_2(i):
-        return _at(s, i, Step.STAGE_2)  # StayAtStage2
     if sees_stage_0(i):
         return _at(s, i, Step.STAGE_0)  # ReachStage0
+    if sees_stage_2(i):
+        return _at(s, i, Step.STAGE_2)  # StayAtStage2
     if sees_stage_1(i):
         return _at(s, i, Step.PLAUSIBILITY_ERROR)  # RefuseStage1
     return _at(s, i, Step.CHANGE_TO_STAGE_0)  # BeginReturn
 
 
 def _time_goes_on(s: State, i: Inputs) -> State:
-    """The same change goes on, whichever pattern it shows. ES-SEQ-3, ESF-04, ESF-05"""
-    limit = s.params.DiscrepancyTimeCh1_Ch3_ms
-    return State(s.params, s.state, i.Reset, counted(s.elapsed_ms, i.dt_ms, limit))  # AwaitChange
+    """The same change goes on, whichever pattern it shows, and its time is not over.
+
+    ES-SEQ-3, ESF-04, ESF-05
+    """
+    return State(s.params, s.state, i.Reset, s.elapsed_ms + i.dt_ms)  # AwaitChange
 
 
 def _too_late(s: State, i: Inputs) -> State:

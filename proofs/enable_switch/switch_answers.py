@@ -1,0 +1,259 @@
+"""What the block answers to each pattern of the channels in each state, and that it enables again.
+
+The table is PatternTable of EnableSwitchOpen.tla, written a second time from the findings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+import z3
+
+from proofs.enable_switch.devices import SWITCH
+from proofs.enable_switch.vocabulary import (
+    ERRORS,
+    FAULTY,
+    PATTERNS,
+    RELEASED,
+    RESET_ERRORS,
+    STAGE_0,
+    STAGE_1,
+    STAGE_2,
+    TIMED,
+    Pattern,
+    in_the_mode,
+    shows,
+)
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
+from proofs.sentences import Judge, Said
+from proofs.theorem import Queries, theorem
+
+ANYWHERE: Final = Judge(SWITCH, ())
+"""No invariant: from any memory in its ranges."""
+
+
+def _row(otherwise: str, **stages: str) -> dict[Pattern, str]:
+    named = {"released": STAGE_0, "enabled": STAGE_1, "pressed": STAGE_2}
+    return dict.fromkeys(PATTERNS, otherwise) | {named[name]: state for name, state in stages.items()}
+
+
+def _table() -> Mapping[str, Mapping[Pattern, str]]:
+    forward, back = TIMED
+    error = "PlausibilityError"
+    rows = {
+        "Idle": _row("BasicMode"),
+        "BasicMode": _row("SafeMode"),
+        "SafeMode": _row("OperationError", released="Stage0"),
+        "Stage0": _row(forward, released="Stage0", enabled="Stage1", pressed="Stage2"),
+        forward: _row(forward, released="Stage0", enabled="Stage1", pressed="Stage2"),
+        "Stage1": _row(back, released="Stage0", enabled="Stage1", pressed="Stage2"),
+        back: _row(back, released="Stage0", enabled=error, pressed="Stage2"),
+        "Stage2": _row(back, released="Stage0", enabled=error, pressed="Stage2"),
+    }
+    for cause, waits, static in zip(FAULTY, RELEASED, RESET_ERRORS, strict=True):
+        rows |= {cause: _row(cause, released=waits), waits: _row(cause, released=waits), static: _row(waits)}
+    return MappingProxyType(rows)
+
+
+TABLE: Final = _table()
+
+
+def in_time(one: Scanned) -> z3.BoolRef:
+    """No change is too late in this call."""
+    if not one.was(*TIMED):
+        return TRUE
+    spent: z3.ArithRef = one.before.elapsed_ms + one.inputs.dt_ms
+    return spent < one.params.DiscrepancyTimeCh1_Ch3_ms
+
+
+def _plain(one: Scanned) -> z3.BoolRef:
+    i = one.inputs
+    return z3.And(in_the_mode(one), in_time(one), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
+
+
+def patterns_decide(one: Scanned) -> Said:
+    row, after = TABLE[control(one.device, one.before)], control(one.device, one.after)
+    if after not in row.values():
+        return TRUE, z3.Not(_plain(one))
+    return _plain(one), z3.Or(*[shows(one.inputs, one_of) for one_of in PATTERNS if row[one_of] == after])
+
+
+@theorem(
+    clauses=["ES-STAGE-0", "ES-STAGE-1", "ES-STAGE-2", "ES-SEQ-6", "ES-SEQ-7", "ES-SEQ-8", "ES-ORDER-2"],
+    findings=["ESF-02", "ESF-03", "ESF-04", "ESF-05", "ESF-06"],
+    properties=["PatternsDecide"],
+)
+def each_pattern_in_each_state_has_its_answer() -> Queries:
+    """From any memory: where the block is active in the mode, the time of a change is not over, and Reset and
+    S_AutoReset are FALSE, each of the eight patterns leads from each of the 17 states to the one state that
+    the table has for it.
+    """
+    yield from ANYWHERE.in_every_scan(patterns_decide)
+
+    def whatever_the_time(one: Scanned) -> Said:
+        return in_the_mode(one), TRUE if one.becomes(*TABLE["ChangeToStage1"].values()) else FALSE
+
+    yield ANYWHERE.too_strong("whatever the time is", whatever_the_time, "ChangeToStage1")
+
+
+def resets_lead_back(one: Scanned) -> Said:
+    """What a reset leads to, by state."""
+    i = one.inputs
+    held = z3.And(i.Reset, one.before.reset_before)
+    edge = z3.And(i.Reset, z3.Not(one.before.reset_before))
+    resets = z3.And(i.Activate, shows(i, STAGE_0), z3.Or(edge, i.S_AutoReset))
+    kept = z3.And(resets, z3.Implies(one.params.MODE_ENDS_ERROR, i.S_SafetyActive))
+    if not one.was(*RELEASED):
+        return None
+    if one.becomes("Stage0"):
+        return TRUE, z3.And(resets, i.S_SafetyActive)
+    if one.becomes("BasicMode"):
+        return kept, z3.Not(i.S_SafetyActive)
+    static = RESET_ERRORS[RELEASED.index(control(one.device, one.before))]
+    if one.becomes(static):
+        return TRUE, z3.And(held, z3.Not(i.S_AutoReset), shows(i, STAGE_0))
+    return i.Activate, z3.Not(z3.And(kept))
+
+
+@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06", "ESF-08", "ESF-10"])
+def a_reset_at_stage_0_ends_the_error_in_that_call() -> Queries:
+    """From any memory: where a reset is waited for, a call that sees stage 0 with a rising edge of Reset, or
+    with S_AutoReset, leads to Stage0 in the mode and to BasicMode without it; and to a reset error, which is
+    that of its own error, leads only a Reset that is held.
+    """
+    yield from ANYWHERE.in_every_scan(resets_lead_back)
+
+    def without_stage_0(one: Scanned) -> Said:
+        return z3.And(in_the_mode(one), one.inputs.S_AutoReset), TRUE if one.becomes("Stage0") else FALSE
+
+    yield ANYWHERE.too_strong("at any stage", without_stage_0, "PlausibilityErrorAtStage0")
+
+
+# ---------------------------------------------------------------- it enables again
+
+RANK: Final = {"Idle": 3, "BasicMode": 2, "SafeMode": 1, "Stage0": 0}
+"""How many calls with a released switch it takes to Stage0, or to where a reset is waited for."""
+
+
+def rank(c: str) -> int:
+    """At most this many calls; 2 from a change that may be too late, 1 from everywhere else."""
+    return 0 if c in RELEASED else RANK.get(c, 2 if c in TIMED else 1)
+
+
+def released(one: Scanned) -> z3.BoolRef:
+    """The block is active in the mode, the switch is released and Reset is FALSE."""
+    i = one.inputs
+    return z3.And(in_the_mode(one), shows(i, STAGE_0), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
+
+
+def comes_closer(one: Scanned) -> Said:
+    before, after = rank(control(one.device, one.before)), rank(control(one.device, one.after))
+    remembered = z3.Not(one.after.reset_before)
+    return released(one), z3.And(remembered, TRUE if after < before or after == before == 0 else FALSE)
+
+
+def the_edge_resets(one: Scanned) -> Said:
+    if not one.was(*RELEASED):
+        return None
+    i = one.inputs
+    given = z3.And(in_the_mode(one), shows(i, STAGE_0), i.Reset, z3.Not(one.before.reset_before))
+    return given, TRUE if one.becomes("Stage0") else FALSE
+
+
+def stage_1_enables(one: Scanned) -> Said:
+    if not one.was("Stage0", "ChangeToStage1"):
+        return None
+    given = z3.And(in_the_mode(one), in_time(one), shows(one.inputs, STAGE_1))
+    return given, one.sends.S_EnableSwitchOut
+
+
+@theorem(clauses=["ES-SEQ-2", "ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-10"])
+def a_released_switch_leads_to_stage_0_or_to_the_wait_for_a_reset() -> Queries:
+    """From any memory, each call in the mode that sees stage 0 with Reset FALSE brings the block one state
+    closer to Stage0, or to an error that waits for its reset: there after three calls at most, and it stays.
+    """
+    yield from ANYWHERE.in_every_scan(comes_closer)
+
+    def one_call(one: Scanned) -> Said:
+        return released(one), TRUE if rank(control(one.device, one.after)) == 0 else FALSE
+
+    yield ANYWHERE.too_strong("one call is enough", one_call, "ChangeToStage0")
+
+
+@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06"])
+def then_the_edge_of_reset_leads_to_stage_0() -> Queries:
+    """From any memory: where a reset is waited for, the next call in the mode that sees stage 0 with Reset
+    TRUE, which was FALSE before, leads to Stage0.
+    """
+    yield from ANYWHERE.in_every_scan(the_edge_resets)
+
+    def any_reset(one: Scanned) -> Said:
+        said = the_edge_resets(one)
+        return None if said is None else (z3.And(in_the_mode(one), one.inputs.Reset), said[1])
+
+    yield ANYWHERE.too_strong("any Reset", any_reset, "OperationErrorAtStage0")
+
+
+@theorem(clauses=["ES-SEQ-6", "ES-SEQ-9", "ES-STAGE-1"], findings=["ESF-02"], properties=["EnablesAgain"])
+def then_stage_1_enables() -> Queries:
+    """From any memory: out of Stage0, or out of a change from there that is not too late, a call in the mode
+    that sees stage 1 enables.
+
+    With the two theorems before it: from any state, at most three calls with the switch released, one with
+    Reset where it is asked for, and one with stage 1.
+    """
+    yield from ANYWHERE.in_every_scan(stage_1_enables)
+
+    def too_late_as_well(one: Scanned) -> Said:
+        return z3.And(in_the_mode(one), shows(one.inputs, STAGE_1)), one.sends.S_EnableSwitchOut
+
+    yield ANYWHERE.too_strong("too late as well", too_late_as_well, "ChangeToStage1")
+
+
+def kept_in_error(one: Scanned) -> Said:
+    """An error without its parameter keeps to its own states."""
+    if not one.was(*ERRORS):
+        return None
+    number = {name: n for group in (FAULTY, RELEASED, RESET_ERRORS) for n, name in enumerate(group)}
+    before, after = control(one.device, one.before), control(one.device, one.after)
+    if after in number:
+        return TRUE, TRUE if number[before] == number[after] else FALSE
+    kept = z3.And(one.inputs.Activate, z3.Not(one.params.MODE_ENDS_ERROR))
+    return kept, TRUE if before in RELEASED and one.becomes("Stage0", "BasicMode") else FALSE
+
+
+@theorem(clauses=["ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-08"])
+def an_error_stays_the_error_that_it_is() -> Queries:
+    """From any memory: an error never turns into one of another kind, and, unless MODE_ENDS_ERROR is set, an
+    active block leaves it for Stage0 or BasicMode, from where the reset is waited for.
+    """
+    yield from ANYWHERE.in_every_scan(kept_in_error)
+
+    def whatever_the_parameter(one: Scanned) -> Said:
+        return one.inputs.Activate, TRUE if one.becomes(*ERRORS, "Stage0") else FALSE
+
+    yield ANYWHERE.too_strong("whatever the parameter is", whatever_the_parameter, "ResetError3")
+
+
+def parameter_ends_errors(one: Scanned) -> Said:
+    if not one.was(*ERRORS):
+        return None
+    off = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive), one.params.MODE_ENDS_ERROR)
+    return off, TRUE if one.becomes("BasicMode") else FALSE
+
+
+@theorem(clauses=["ES-RESTART"], findings=["ESF-08"])
+def the_parameter_lets_the_end_of_the_mode_end_every_error() -> Queries:
+    """From any memory: with MODE_ENDS_ERROR set, a call of an active block without the mode leads from every
+    error to BasicMode.
+    """
+    yield from ANYWHERE.in_every_scan(parameter_ends_errors)
+
+    def without_it(one: Scanned) -> Said:
+        off = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive))
+        return off, TRUE if one.becomes("BasicMode") else FALSE
+
+    yield ANYWHERE.too_strong("also where it is not set", without_it, "ResetError1")
