@@ -25,7 +25,7 @@ VARIABLES
     bolted,   \* the bolt is thrown
     inside,   \* a person is in the zone
     moving,   \* the machine moves
-    read      \* what the last call read; hidden by VIEW
+    told      \* what the last call was told; hidden by VIEW
 
 zone == <<open, bolted, inside, moving>>
 ZoneView == <<guardLocking, zone>>
@@ -33,7 +33,7 @@ ZoneView == <<guardLocking, zone>>
 ZoneInit ==
     /\ GuardLockingInit /\ step = ""
     /\ open = FALSE /\ bolted = TRUE /\ inside = FALSE /\ moving = FALSE
-    /\ read = [Activate |-> FALSE, S_GuardMonitoring |-> TRUE, S_SafetyActive |-> TRUE, S_GuardLock |-> TRUE, UnlockRequest |-> FALSE,
+    /\ told = [Activate |-> FALSE, S_GuardMonitoring |-> TRUE, S_SafetyActive |-> TRUE, S_GuardLock |-> TRUE, UnlockRequest |-> FALSE,
                S_StartReset |-> START, S_AutoReset |-> AUTO, Reset |-> FALSE]
 
 \* GL-EX-3: a standstill monitor that fails says FALSE; told wrong, it says anything
@@ -45,12 +45,12 @@ ResetButton == IF inside /\ "RESET_WITH_SOMEBODY_INSIDE" \notin BROKEN THEN {FAL
 
 BlockRuns ==
     \E on, request \in BOOLEAN : \E safe \in Standstill : \E reset \in ResetButton :
-        /\ read' = [Activate |-> on, S_GuardMonitoring |-> ~open, S_SafetyActive |-> safe, S_GuardLock |-> LockFeedback,
+        /\ told' = [Activate |-> on, S_GuardMonitoring |-> ~open, S_SafetyActive |-> safe, S_GuardLock |-> LockFeedback,
                     UnlockRequest |-> request, S_StartReset |-> START, S_AutoReset |-> AUTO, Reset |-> reset]
-        /\ GuardLockingCall(read')
+        /\ GuardLockingCall(told')
         /\ UNCHANGED zone
 
-Between == UNCHANGED <<guardLocking, read>>
+Between == UNCHANGED <<guardLocking, told>>
 \* GL-OUT-UNLOCKGUARD, GL-EX-1: the coil
 DrawBolt == S_UnlockGuard /\ bolted /\ bolted' = FALSE /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("DrawBolt")
 ThrowBolt == ~S_UnlockGuard /\ ~open /\ ~bolted /\ bolted' = TRUE /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("ThrowBolt")
@@ -65,11 +65,11 @@ Start == S_GuardLocked /\ ~moving /\ moving' = TRUE /\ UNCHANGED <<open, bolted,
 Stop == moving /\ moving' = FALSE /\ UNCHANGED <<open, bolted, inside>> /\ Between /\ Did("Stop")
 
 ZoneNext == BlockRuns \/ DrawBolt \/ ThrowBolt \/ OpenDoor \/ CloseDoor \/ Enter \/ Leave \/ Escape \/ Start \/ Stop
-ZoneSpec == ZoneInit /\ [][ZoneNext]_<<ZoneView, step, read>>
+ZoneSpec == ZoneInit /\ [][ZoneNext]_<<ZoneView, step, told>>
 
 \* For a reader of a trace
-ZoneWires == read @@ [dt |-> 0] @@ GuardLockingOutputs @@ [open |-> open, bolted |-> bolted, inside |-> inside, moving |-> moving]
-BlockRead == read'
+ZoneWires == told @@ [dt |-> 0] @@ GuardLockingOutputs @@ [open |-> open, bolted |-> bolted, inside |-> inside, moving |-> moving]
+BlockRead == told'
 
 ----------------------------------------------------------------------------
 \* GL-DOC-2, GL-WARN-2, GL-WARN-3, GL-SEQ-3: nobody is in the zone while the machine moves
