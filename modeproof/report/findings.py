@@ -63,6 +63,26 @@ class Material:
             return ()
         return tuple(sorted(restored(self.constants[run.id], self.traces.literal)))
 
+    def chosen(self, run: Run) -> tuple[str, ...]:
+        """The parameters that a run's cfg sets to another text than their default, each with its value."""
+        given = self.constants[run.id]
+        return tuple(
+            f"{name} = {given[name].text.strip(chr(34))}"
+            for device in self.document.interface.devices.values()
+            for name, signal in device.parameters.items()
+            if signal.type == "text" and name in given and given[name].text != f'"{signal.default}"'
+        )
+
+    def as_decided(self, run: Run) -> bool:
+        """Another run must hold at the very bounds and in the environment of this one."""
+        return any(
+            other.kind == "MC"
+            and (other.module, other.environment) == (run.module, run.environment)
+            and self.constants[other.id] == self.constants[run.id]
+            for other in self.document.runs
+            if other.id in self.constants
+        )
+
     def falls(self, run: Run) -> Property | None:
         """The property that a run must violate; the row of the run's module comes first where there are
         several.
@@ -149,13 +169,29 @@ def _steps(record: Mapping[str, Any]) -> int:
     return int(record["result"]["trace_length"]) - 1
 
 
-def _cause(readings: Sequence[str], broken: Sequence[str]) -> str:
+def _cause(material: Material, run: Run, readings: Sequence[str], broken: Sequence[str]) -> str:
     """What a run changes, in a few words."""
     if len(readings) > MANY:
         return f"{len(readings)} readings restored at once"
     if readings:
         return f"`{'`, `'.join(readings)}` restored"
-    return f"Without {', '.join(broken)}" if broken else "With a fault"
+    if broken:
+        return f"Without {', '.join(broken)}"
+    if chosen := material.chosen(run):
+        return f"With {', '.join(chosen)}"
+    return "As decided" if material.as_decided(run) else "With a fault"
+
+
+def _nothing_restored(material: Material, run: Run) -> str:
+    """What a run is that restores no reading and breaks no assumption."""
+    if material.chosen(run):
+        return "This run restores no reading; it sets a parameter to another value than its default."
+    if material.as_decided(run):
+        return (
+            "This run restores no reading: the decided behaviour does not have this property, and here is "
+            "what that means."
+        )
+    return f"This run restores no reading; in its environment, {run.environment}, devices or words fail."
 
 
 def _in_steps(record: Mapping[str, Any]) -> str:
@@ -171,7 +207,7 @@ def _run_section(material: Material, run: Run) -> list[str]:
     falls = material.falls(run)
     readings = material.readings(run)
     broken = [one for one in material.document.assumptions if run.id in one.breaks]
-    cause = _cause(readings, [one.id for one in broken])
+    cause = _cause(material, run, readings, [one.id for one in broken])
     lines = [f"## {cause}: `{run.property}` falls {_in_steps(record)}", ""]
     if falls is not None:
         lines += [f"The property: {_sentence(falls.sentence)}", f"Otherwise: {_sentence(falls.hazard)}", ""]
@@ -181,10 +217,7 @@ def _run_section(material: Material, run: Run) -> list[str]:
         named = "; ".join(f"{one.id}, {one.title}" for one in broken)
         lines += [f"It lets go of what the decided behaviour rests on: {named}.", ""]
     elif not readings:
-        lines += [
-            f"This run restores no reading; in its environment, {run.environment}, devices or words fail.",
-            "",
-        ]
+        lines += [_nothing_restored(material, run), ""]
     lines += [
         f"Verdict: {_verdict(record)}. Environment: {run.environment}; bounds: {_bounds(material, run)}. "
         + ("" if record["result"].get("loop") else "No shorter counterexample exists within them."),
@@ -325,7 +358,7 @@ def _holds_section(material: Material, run: Run, record: Mapping[str, Any]) -> l
     if record["verdict"] == "REACHED":
         reached = ", ".join(f"`{one}`" for one in record["result"]["reached"])
         return [
-            f"## {_cause(readings, [])}: what still happens",
+            f"## {_cause(material, run, readings, [])}: what still happens",
             "",
             *(
                 [f"Restored: {', '.join(f'`{one}`' for one in readings)}.", ""]

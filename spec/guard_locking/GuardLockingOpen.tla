@@ -70,7 +70,7 @@ OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in, beat>>
 (* Action properties, judged in every call; Scanned is that call's input.  *)
 Scanned == Alphabet[in']
 \* For a reader of a trace: what a call found on the wires and what stands on them after it
-Wires == Wire(Alphabet[in]) @@ GuardLockingOutputs
+Wires == Alphabet[in] @@ GuardLockingOutputs
 Secure == Scanned.S_GuardMonitoring /\ Scanned.S_GuardLock
 Enables == ~S_GuardLocked /\ S_GuardLocked'
 Unlocks == ~S_UnlockGuard /\ S_UnlockGuard'

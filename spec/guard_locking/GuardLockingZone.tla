@@ -68,7 +68,7 @@ ZoneNext == BlockRuns \/ DrawBolt \/ ThrowBolt \/ OpenDoor \/ CloseDoor \/ Enter
 ZoneSpec == ZoneInit /\ [][ZoneNext]_<<ZoneView, step, told>>
 
 \* For a reader of a trace
-ZoneWires == told @@ [dt |-> 0] @@ GuardLockingOutputs @@ [open |-> open, bolted |-> bolted, inside |-> inside, moving |-> moving]
+ZoneWires == told @@ GuardLockingOutputs @@ [open |-> open, bolted |-> bolted, inside |-> inside, moving |-> moving]
 BlockRead == told'
 
 ----------------------------------------------------------------------------
