@@ -383,10 +383,10 @@ def _prove(args: argparse.Namespace) -> int:
         return _coverage(args, place, names, progress)
     if args.render:
         return _render_proofs(args, place, names)
-    records: list[dict[str, Any]] = []
     with only_one(place):
-        for name in names:
-            records += prove_document(place, name, progress, tuple(args.theorems), args.limit)
+        records, troubles = prove_documents(place, names, progress, tuple(args.theorems), args.limit)
+    if troubles and (not args.theorems or len(troubles) == len(names)):
+        raise Unjudged("; ".join(troubles.values()))  # a name need not be one of every document
     status = max(status_of(record) for record in records)
     proofs = [record for record in records if record["kind"] == "proof"]
     for name in never_needed(proofs) if not args.theorems else ():
@@ -407,7 +407,8 @@ def _work_line(records: Sequence[dict[str, Any]]) -> str:
     z3, cvc5, cores = (sum(float(part[n]) for part in parts) for n in range(3))
     whole = sum(float(record["result"]["work"]) for record in records)
     rest = whole - z3 - cvc5 - cores
-    shared = max(float(record["result"]["shared"]) for record in records)
+    once = {record["document"]: float(record["result"]["shared"]) for record in records}
+    shared = sum(once.values())
     return (
         f"{'processor':<12} exploring, once for all, {shared:.1f} s; "
         f"building and writing {rest:.1f} s, z3 {z3:.1f} s, cvc5 {cvc5:.1f} s, cores {cores:.1f} s"
@@ -418,24 +419,62 @@ def _has_proofs(place: Path, document: str) -> bool:
     return (place / "proofs" / document / "__init__.py").is_file()
 
 
-def prove_document(
+def prove_documents(
     place: Path,
-    document: str,
+    names: Sequence[str],
     progress: Any,
     patterns: tuple[str, ...] = (),
     limit_ms: int = 20_000,
     lane: str = "full",
-) -> list[dict[str, Any]]:
-    """Prove the theorems of a document and write one piece of evidence for each, and for all together one on
-    their agreement with the model checker.
+) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """Prove the theorems of documents and write one piece of evidence for each, and for all theorems of one
+    document together one on their agreement with the model checker. Those of all documents are one queue.
 
-    The lane smoke leaves out the slow ones, and so does not compare. Raises Unjudged when there is none, or
-    when the proofs cannot be imported.
+    The lane smoke leaves out the slow ones, and so does not compare. By document comes why nothing was
+    proved: there is no theorem, or the proofs cannot be imported.
     """
+    from modeproof import agreement
+    from modeproof.processes import Task, in_processes
+
+    whole = not patterns and lane != "smoke"
+    troubles: dict[str, str] = {}
+    tasks: list[tuple[bool, Task[dict[str, Any]]]] = []
+    inputs: dict[str, dict[str, str]] = {}
+
+    def done(record: dict[str, Any]) -> None:
+        progress.say(
+            f"{'ok ' if record['as_expected'] else 'NOT'} {record['document']}/{record['id']}: "
+            f"{record['verdict']}; {record['seconds']:.1f} s"
+            + (f"; {record['reason']}" if record["reason"] else "")
+        )
+
+    with contextlib.ExitStack() as stack:
+        for document in names:
+            try:
+                theorems, inputs[document] = _theorems_to_prove(place, document, patterns, lane)
+            except Unjudged as error:
+                troubles[document] = error.message
+                continue
+            shared_s = stack.enter_context(_prepared(document)) if whole else 0.0
+            given = (inputs[document], limit_ms, shared_s)
+            tasks += [(one.slow, (prove_theorem, (place, document, one.name, *given))) for one in theorems]
+        tasks.sort(key=lambda task: not task[0])
+        records = in_processes("proofs", [task for _, task in tasks], progress, done, knowing=whole)
+    for document in names:
+        if whole and document not in troubles and _has_agreement(place, document):
+            module = importlib.import_module(f"proofs.{document}.agreement")
+            verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
+            records.append(agreement.compare(place, document, module, verdicts, inputs[document], _solvers()))
+    return records, troubles
+
+
+def _theorems_to_prove(
+    place: Path, document: str, patterns: Sequence[str], lane: str
+) -> tuple[list[Any], dict[str, str]]:
+    """The theorems that are asked for, and the hashes of what they rest on. Raises Unjudged for none."""
     import fnmatch
 
-    from modeproof import agreement, evidence
-    from modeproof.processes import Task, in_processes
+    from modeproof import evidence
 
     theorems = [
         one
@@ -449,26 +488,7 @@ def prove_document(
     sources += [*(place / "proofs" / "explorer").glob("*.py")]
     sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
     sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
-    inputs = evidence.hashes(place, sources)
-    theorems.sort(key=lambda one: not one.slow)
-
-    def done(record: dict[str, Any]) -> None:
-        progress.say(
-            f"{'ok ' if record['as_expected'] else 'NOT'} {document}/{record['id']}: {record['verdict']}; "
-            f"{record['seconds']:.1f} s" + (f"; {record['reason']}" if record["reason"] else "")
-        )
-
-    whole = not patterns and lane != "smoke"
-    with _prepared(document) if whole else contextlib.nullcontext(0.0) as shared_s:
-        tasks: list[Task[dict[str, Any]]] = [
-            (prove_theorem, (place, document, one.name, inputs, limit_ms, shared_s)) for one in theorems
-        ]
-        records = in_processes("proofs", tasks, progress, done, knowing=whole)
-    if whole and _has_agreement(place, document):
-        module = importlib.import_module(f"proofs.{document}.agreement")
-        verdicts = {str(record["id"]): str(record["verdict"]) for record in records}
-        records.append(agreement.compare(place, document, module, verdicts, inputs, _solvers()))
-    return records
+    return theorems, evidence.hashes(place, sources)
 
 
 @contextlib.contextmanager
@@ -793,8 +813,10 @@ def _verify(args: argparse.Namespace) -> int:
     place = root()
     progress = Progress(quiet=args.quiet)
 
-    def prove(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
-        return prove_document(place, document, progress, lane=lane)
+    def prove(
+        place: Path, names: Sequence[str], lane: str, progress: Progress
+    ) -> tuple[list[dict[str, Any]], dict[str, str]]:
+        return prove_documents(place, names, progress, lane=lane)
 
     stages: list[tuple[str, Stage]] = [
         ("registers", check_registers),

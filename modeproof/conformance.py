@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -26,21 +27,41 @@ SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
 ANSWER_SECONDS = 30.0
 
 
-def compare_reference(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
+def compare_reference(
+    place: Path, names: Sequence[str], lane: str, progress: Progress
+) -> tuple[list[Record], dict[str, str]]:
     """Evidence for each OPEN run of the lane, and for each published target all of whose graphs are in the
-    lane.
+    lane; by document, why there is none.
 
-    A graph that is missing or incomplete, or an implementation that cannot be loaded, is UNJUDGED. Raises
-    Unjudged when the lane has no graph at all.
+    A graph that is missing or incomplete, or an implementation that cannot be loaded, is UNJUDGED, and so is
+    a document that has no graph in the lane.
     """
-    runs = [run for run in load_runs(place, document) if run.graph is not None and lane in run.lanes]
-    if not runs:
-        raise Unjudged(f"{document}: the lane {lane} has no OPEN run, so nothing is compared")
-    targets = _targets(place, document, lane)
-    # What takes longest comes first: a suite over the protocol.
-    tasks: list[Task[Record]] = [(_over_protocol, (place, document, one, SUITES[lane])) for one in targets]
-    tasks += [(_one, (place, run, lane)) for run in runs]
-    return in_processes("conformance", tasks, progress, lambda record: _say(record, progress))
+    troubles: dict[str, str] = {}
+    tasks: list[tuple[int, Task[Record]]] = []
+    for document in names:
+        try:
+            runs = [run for run in load_runs(place, document) if run.graph is not None and lane in run.lanes]
+            if not runs:
+                raise Unjudged(f"the lane {lane} has no OPEN run, so nothing is compared")
+            targets = _targets(place, document, lane)
+        except Unjudged as error:
+            troubles[document] = error.message
+            continue
+        for one in targets:
+            task: Task[Record] = (_over_protocol, (place, document, one, SUITES[lane]))
+            tasks.append((max(_edges(run) for run in runs if _is_of(run, one)), task))
+        tasks += [(_edges(run), (_one, (place, run, lane))) for run in runs]
+    tasks.sort(key=lambda task: -task[0])  # what takes longest comes first
+    work = [task for _, task in tasks]
+    return in_processes("conformance", work, progress, lambda record: _say(record, progress)), troubles
+
+
+def _edges(run: Run) -> int:
+    return (run.graph.edges or 0) if run.graph is not None else 0
+
+
+def _is_of(run: Run, device: str) -> bool:
+    return run.graph is not None and run.graph.device == device
 
 
 def _say(record: Record, progress: Progress) -> None:

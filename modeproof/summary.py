@@ -12,6 +12,12 @@ from modeproof.agreement import line as agreement_line
 Record = Mapping[str, Any]
 
 ASIDE = "not in this lane"
+GROUPS = (
+    ("NEG", "negatives", "VIOLATED, as expected, by the named property"),
+    ("WIT", "witnesses", "REACHED"),
+    ("OPEN", "graphs", "complete"),
+)
+"""Kinds of runs that have one line together."""
 
 
 @dataclass(frozen=True)
@@ -135,11 +141,7 @@ def render(document: str, lines: Sequence[Line], records: Sequence[Record], widt
         names = ", ".join(f"{line.property} ({line.environment})" for line in aside)
         out.append(_fit(f"{len(aside)} more {ASIDE}: {names}", columns))
     tlc = [r for r in records if r["kind"] == "tlc"]
-    for kind, label, words in (
-        ("NEG", "negatives", "VIOLATED, as expected, by the named property"),
-        ("WIT", "witnesses", "REACHED"),
-        ("OPEN", "graphs", "complete"),
-    ):
+    for kind, label, words in GROUPS:
         group = [r for r in tlc if r["result"].get("run") == kind]
         if group:
             out.append(counted(label, group, words))
@@ -159,6 +161,29 @@ def render(document: str, lines: Sequence[Line], records: Sequence[Record], widt
     registers = [r for r in records if r["kind"] == "registers"]
     if registers:
         out.append(counted("registers", registers, "consistent"))
+    return "\n".join(out)
+
+
+def total(count: int, lines: Sequence[Line], records: Sequence[Record], seconds: float) -> str:
+    """All documents together, in the words of their screens; `seconds` by the clock."""
+    shown = [line for line in lines if line.verdict != ASIDE]
+    good = sum(1 for line in shown if not line.status)
+    tlc = [record for record in records if record["kind"] == "tlc"]
+    out = [f"== {count} documents", f"{'properties':<12} {good} of {len(shown)} hold, by environment"]
+    groups = [
+        (label, [record for record in tlc if record["result"].get("run") == kind], words)
+        for kind, label, words in GROUPS
+    ]
+    groups += [
+        (kind + ending, [record for record in records if record["kind"] == kind], words)
+        for kind, ending, words in (
+            ("conformance", "", "EQUAL or CONFORMS"),
+            ("proof", "s", "PROVED by Z3, re-checked by cvc5"),
+            ("registers", "", "consistent"),
+        )
+    ]
+    out += [counted(label, group, words) for label, group, words in groups if group]
+    out.append(f"{'time':<12} {seconds:,.0f} s")
     return "\n".join(out)
 
 

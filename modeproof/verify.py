@@ -9,24 +9,37 @@ from typing import Any
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
+from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
-from modeproof.summary import PropertyRow, failures, property_lines, render, status_of
+from modeproof.summary import Line, PropertyRow, failures, property_lines, render, status_of, total
 from modeproof.tlc.check import Checked, check_all, register_problems, select
-from modeproof.tlc.runs import load_runs
+from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
 
 Records = list[dict[str, Any]]
-Stage = Callable[[Path, str, str, Progress], Records]
-"""(root, document, lane, progress) -> evidence; may raise Unjudged."""
+Troubles = dict[str, str]
+"""By document, why a stage could not be judged."""
+Stage = Callable[[Path, Sequence[str], str, Progress], tuple[Records, Troubles]]
+"""(root, documents, lane, progress) -> evidence of all documents, and what could not be judged."""
 
 REGISTERS = "registers"
 
 
-def check_registers(place: Path, document: str, lane: str, progress: Progress) -> Records:
-    """Load all registers of a document and compare them with one another and with the tree.
+def check_registers(
+    place: Path, names: Sequence[str], lane: str, progress: Progress
+) -> tuple[Records, Troubles]:
+    """Load all registers of each document and compare them with one another and with the tree.
 
-    The verdict is EQUAL or DIFFERS; a register that cannot be read is UNJUDGED.
+    The verdict is EQUAL or DIFFERS; a register that cannot be read is UNJUDGED. What concerns no single
+    document is judged once, with the first.
     """
+    tasks: list[Task[dict[str, Any]]] = [
+        (_registers_of, (place, name, lane, number == 0)) for number, name in enumerate(names)
+    ]
+    return in_processes(REGISTERS, tasks, progress, lambda record: None, knowing=True), {}
+
+
+def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dict[str, Any]:
     from modeproof import registers
 
     evidence.discard(place, document, REGISTERS)
@@ -37,7 +50,8 @@ def check_registers(place: Path, document: str, lane: str, progress: Progress) -
     try:
         problems += register_problems(place, document)
         judgement = registers.judge(registers.load_document(place, document))
-        problems += [str(problem) for problem in (*judgement.problems, *registers.judge_tree(place))]
+        tree = registers.judge_tree(place) if with_tree else []
+        problems += [str(problem) for problem in (*judgement.problems, *tree)]
         if not judgement.rows:
             problems.append("the matrix has no row")
         result = {
@@ -67,20 +81,30 @@ def check_registers(place: Path, document: str, lane: str, progress: Progress) -
         reason=reason,
     )
     evidence.write(place, record)
-    return [record]
+    return record
 
 
-def check_lane(place: Path, document: str, lane: str, progress: Progress) -> Records:
-    """Every TLC run of the lane. Raises Unjudged when the lane has none, or Java or the jar is missing."""
-    runs = select(place, lane=lane, document=document)
-    declared = {run.id for run in load_runs(place, document)}
-    evidence.discard_undeclared(place, document, "tlc", declared)
-    tools = find_toolchain()
-    done = check_all(place, runs, tools, progress, lambda checked: progress.say(line_of(checked)))
-    missing = {run.id for run in runs} - {one.run.id for one in done}
-    if missing:
-        raise Unjudged(f"{document}: runs were not executed: {', '.join(sorted(missing))}")
-    return [one.record for one in done]
+def check_lane(place: Path, names: Sequence[str], lane: str, progress: Progress) -> tuple[Records, Troubles]:
+    """Every TLC run of the lane, those of all documents in one queue, the longest first.
+
+    A document without a run in the lane is not judged. Raises Unjudged when Java or the jar is missing.
+    """
+    troubles: Troubles = {}
+    runs: list[Run] = []
+    for document in names:
+        try:
+            runs += select(place, lane=lane, document=document)
+            declared = {run.id for run in load_runs(place, document)}
+            evidence.discard_undeclared(place, document, "tlc", declared)
+        except Unjudged as error:
+            troubles[document] = error.message
+    if not runs:
+        return [], troubles
+    done = check_all(place, runs, find_toolchain(), progress, lambda checked: progress.say(line_of(checked)))
+    for name in sorted({run.name for run in runs} - {one.run.name for one in done}):
+        document, _, id = name.partition("/")
+        troubles[document] = f"runs were not executed: {id}"
+    return [one.record for one in done], troubles
 
 
 def line_of(checked: Checked) -> str:
@@ -125,30 +149,34 @@ def declared_pairs(place: Path, document: str) -> dict[str, set[tuple[str, str]]
 def verify(
     place: Path, names: Sequence[str], lane: str, stages: Sequence[tuple[str, Stage]], progress: Progress
 ) -> tuple[int, Records]:
-    """Run all stages for each document and print the summary; the status is the worst of all.
+    """Run all stages, each for all documents, and print the summary; the status is the worst of all.
 
     A stage that cannot be judged is reported and does not keep the others from running.
     """
     status = 0
     everything: Records = []
-    screens: list[str] = []
     bad: list[str] = []
     if not names:
         raise Unjudged("spec/ holds no document; there is nothing to verify")
+    began = time.monotonic()
+    for title, stage in stages:
+        progress.say(f"-- {title}")
+        try:
+            made, troubles = stage(place, names, lane, progress)
+        except Unjudged as error:
+            made, troubles = [], dict.fromkeys(names, error.message)
+        done = {str(record["document"]) for record in made}
+        for document in names:
+            if document not in done:
+                troubles.setdefault(document, "nothing was done")
+        for document, why in troubles.items():
+            bad.append(f"{document}, {title}: UNJUDGED: {why}")
+            status = 2
+        everything += made
+    progress.say("")
+    every_line: list[Line] = []
     for document in names:
-        records: Records = []
-        for title, stage in stages:
-            progress.say(f"-- {document}: {title}")
-            try:
-                made = stage(place, document, lane, progress)
-            except Unjudged as error:
-                bad.append(f"{document}, {title}: UNJUDGED: {error.message}")
-                status = 2
-                continue
-            if not made:
-                bad.append(f"{document}, {title}: UNJUDGED: nothing was done")
-                status = 2
-            records += made
+        records = [record for record in everything if record["document"] == document]
         try:
             lines = property_lines(property_rows(place, document), records, declared_pairs(place, document))
         except Unjudged as error:
@@ -156,12 +184,11 @@ def verify(
             bad.append(f"{document}, summary of properties: UNJUDGED: {error.message}")
             status = 2
         status = max([status, *map(status_of, records), *(line.status for line in lines)])
-        screens.append(render(document, lines, records))
+        progress.say(render(document, lines, records))
         bad += failures(records, lines)
-        everything += records
-    progress.say("")
-    for screen in screens:
-        progress.say(screen)
+        every_line += lines
+    if len(names) > 1:
+        progress.say(total(len(names), every_line, everything, time.monotonic() - began))
     for line in dict.fromkeys(bad):
         progress.say(f"NOT AS EXPECTED  {line}")
     progress.say(f"{'evidence':<12} build/evidence/ ({len(everything)} files)")

@@ -76,9 +76,9 @@ def sources_of(document: Document, finding: Finding | None, known: Pins | None =
     return _digest(rows), _digest([[name, *known[name]] for name in names])
 
 
-def stamped(document: Document, finding: Finding | None, text: str) -> str:
-    """The page with its stamp."""
-    registers, runs = sources_of(document, finding)
+def stamped(document: Document, finding: Finding | None, text: str, known: Pins | None = None) -> str:
+    """The page with its stamp; `known` as of `sources_of`."""
+    registers, runs = sources_of(document, finding, known)
     line = (
         f"<!-- rendered by modeproof findings: registers {registers}, runs {runs}, text {_digest(text)} -->"
     )

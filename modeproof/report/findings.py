@@ -16,7 +16,7 @@ from modeproof.registers.citations import Sources, ids_of
 from modeproof.registers.models import Constant, restored
 from modeproof.registers.replay import Traces
 from modeproof.registers.rows import Document, Finding, Property, Run
-from modeproof.registers.stamps import has_page, index_name, page_name, stamped, table_name
+from modeproof.registers.stamps import has_page, index_name, page_name, pins, stamped, table_name
 from modeproof.report.cells import Cells
 from modeproof.report.scan_table import Comparison, compare, markdown, scan_table, who
 
@@ -96,8 +96,9 @@ def render(material: Material) -> dict[str, str]:
     """All pages by their path: one for each finding that has evidence, the index, and the table of
     deviations.
     """
+    known = pins(material.document)
     pages = {
-        material.page(one): stamped(material.document, one, _page(material, one))
+        material.page(one): stamped(material.document, one, _page(material, one), known)
         for one in material.document.findings
         if has_page(one)
     }

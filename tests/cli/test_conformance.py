@@ -39,7 +39,10 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def compare(root: Path, lane: str = "smoke") -> dict[str, Any]:
-    (record,) = conformance.compare_reference(root, "toy", lane, Progress(quiet=True))
+    records, troubles = conformance.compare_reference(root, ["toy"], lane, Progress(quiet=True))
+    if troubles:
+        raise Unjudged(troubles["toy"])
+    (record,) = records
     written = evidence.read(evidence.evidence_path(root, "toy", record["id"]))
     assert written["verdict"] == record["verdict"] and written["reason"] == record["reason"]
     return record

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,8 @@ from modeproof.summary import PropertyRow
 from modeproof.verify import Stage, check_lane, check_registers, verify
 from tests.toy_tree import toy_tree
 
+Made = tuple[list[dict[str, Any]], dict[str, str]]
+
 
 @pytest.fixture
 def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -24,7 +28,7 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def stage(verdict: str, as_expected: bool = True) -> Stage:
-    def run(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
+    def run(place: Path, names: Sequence[str], lane: str, progress: Progress) -> Made:
         return [
             evidence.make(
                 kind="proof",
@@ -38,17 +42,23 @@ def stage(verdict: str, as_expected: bool = True) -> Stage:
                 seconds=0.5,
                 reason="" if as_expected else "planted",
             )
-        ]
+            for document in names
+        ], {}
 
     return run
 
 
-def unable(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
+def unable(place: Path, names: Sequence[str], lane: str, progress: Progress) -> Made:
     raise Unjudged("planted: no solver")
 
 
-def idle(place: Path, document: str, lane: str, progress: Progress) -> list[dict[str, Any]]:
-    return []
+def idle(place: Path, names: Sequence[str], lane: str, progress: Progress) -> Made:
+    return [], {}
+
+
+def half(place: Path, names: Sequence[str], lane: str, progress: Progress) -> Made:
+    made, _ = stage("PROVED")(place, names[:1], lane, progress)
+    return made, {names[1]: "planted: no graph"}
 
 
 def run(place: Path, *stages: Stage) -> tuple[int, list[dict[str, Any]]]:
@@ -94,13 +104,31 @@ def test_a_property_that_no_run_checks_spoils_the_result(
     assert "property Forgotten (honest): UNJUDGED: no run checks it" in capsys.readouterr().out
 
 
+def test_documents_have_a_screen_each_and_a_total_and_one_that_fails_is_named(
+    toy: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(toy / "spec/toy", toy / "spec/twin")
+    stages = [("TLC", check_lane), ("proofs", stage("PROVED"))]
+    status, records = verify(toy, ["toy", "twin"], "smoke", stages, Progress(quiet=True))
+    out = capsys.readouterr().out
+    assert status == 0 and len(records) == 4
+    assert out.index("== toy") < out.index("== twin") < out.index("== 2 documents")
+    for line in ("properties   2 of 2 hold, by environment", "proofs       2 of 2 PROVED", "time         "):
+        assert line in out.split("== 2 documents")[1]
+
+    status, _ = verify(toy, ["toy", "twin"], "smoke", [("proofs", half), stages[0]], Progress(quiet=True))
+    out = capsys.readouterr().out
+    assert status == 2 and "NOT AS EXPECTED  twin, proofs: UNJUDGED: planted: no graph" in out
+    assert "toy, proofs" not in out
+
+
 def test_no_document_at_all_is_refused(toy: Path) -> None:
     with pytest.raises(Unjudged, match="nothing to verify"):
         verify(toy, [], "full", [("stage", idle)], Progress(quiet=True))
 
 
 def test_registers_that_cannot_be_read_are_unjudged_with_evidence(toy: Path) -> None:
-    (record,) = check_registers(toy, "toy", "full", Progress(quiet=True))
+    (record,), _ = check_registers(toy, ["toy"], "full", Progress(quiet=True))
     assert (record["verdict"], record["as_expected"]) == ("UNJUDGED", False)
     assert "spec/toy/document.toml" in record["reason"]
     assert evidence.read(evidence.evidence_path(toy, "toy", "registers")) == record
