@@ -1,0 +1,42 @@
+----------------------------- MODULE EDMWitness -----------------------------
+(***************************************************************************)
+(* What must be reachable, so that no property holds for want of a case:   *)
+(* every step, every state, every DiagCode, and some situations.  A step   *)
+(* is a witness by its name, which only the step itself sets.              *)
+(***************************************************************************)
+EXTENDS Sequences, EDMOpen
+
+Report(name) == IF name \in TLCGet(1) THEN TRUE ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))
+
+Digits == <<"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "A", "B", "C", "D", "E", "F">>
+Digit(n, place) == Digits[((n \div place) % 16) + 1]
+Hex(n) == Digit(n, 4096) \o Digit(n, 256) \o Digit(n, 16) \o Digit(n, 1)
+
+\* What is seen when a step is taken, asked only in that step
+Situation ==
+    CASE step' = "StayDisabled" ->
+            \* EDM-SEQ-2, EDM-SEQ-6
+            /\ (~OnTime => Report("ExpiresWithoutResult"))
+            \* EDMF-04
+            /\ (Scanned.S_OutControl /\ BothAre(TRUE) => Report("RequestHeldOverReset"))
+            /\ (~BothAre(TRUE) => Report("DropsOutInTime"))
+         \* EDM-SEQ-3
+      [] step' = "StayEnabled" ->
+            /\ (~BothAre(FALSE) => Report("PicksUpInTime"))
+            /\ (~OnTime => Report("StaysPickedUp"))
+      [] step' = "MissPickUp" ->
+            \* EDMF-08
+            /\ (unchanged = MONITORING_TIME => Report("DropsOutLater"))
+            \* EDMF-06
+            /\ (~Scanned.S_OutControl => Report("StopWithTimeout"))
+      [] step' = "MissDropOut" -> (unchanged = MONITORING_TIME => Report("PicksUpLater"))
+         \* EDMF-07
+      [] step' = "StayInError" -> (ResetEdge => Report("ResetOverWrongFeedback"))
+         \* EDMF-04
+      [] step' = "EnableOutput" -> (controlWas => Report("RequestWasThere"))
+      [] OTHER -> TRUE
+
+Mark == Report(step') /\ Report("at " \o state') /\ Report("code " \o Hex(DiagCode')) /\ Situation
+
+ASSUME TLCSet(1, {})
+=============================================================================
