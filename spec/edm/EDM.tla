@@ -94,7 +94,7 @@ EDMOutputs == [Ready |-> Ready, S_EDM_Out |-> S_EDM_Out, SafetyDemand |-> Safety
 ----------------------------------------------------------------------------
 (* What a call sees.                                                       *)
 
-\* EDM-IN-TIME-1, EDMF-08: the contactors have had their time; from there on their feedback counts in every call
+\* EDM-IN-TIME-1, EDM-IN-TIME-2, EDMF-08, EDMF-09: the contactors have had their time; from there on their feedback counts in every call
 LOCAL Expired(i) ==
     /\ IF Literal("EXPIRES_AFTER") THEN elapsed + i.dt > MONITORING_TIME ELSE elapsed + i.dt >= MONITORING_TIME
     /\ Literal("CHECKED_ONCE") => elapsed < MONITORING_TIME
