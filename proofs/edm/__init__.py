@@ -1,0 +1,1 @@
+"""Theorems about seed 004, SF_EDM."""

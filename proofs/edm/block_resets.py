@@ -1,0 +1,244 @@
+"""What ends the start-up inhibit and an error, and what does not; which errors come, and with which code.
+
+Each theorem proves the property of properties.toml that it names, written like its TLA+ in EDMOpen.
+"""
+
+from __future__ import annotations
+
+import z3
+
+from proofs.edm.block_safety import both_are, on_time
+from proofs.edm.invariant import JUDGE
+from proofs.edm.observer import SEEN, reset_edge
+from proofs.explorer.ends import TRUE
+from proofs.explorer.scanned import Scanned
+from proofs.sentences import Said
+from proofs.theorem import Queries, theorem
+
+
+def asked(one: Scanned, error: bool) -> z3.BoolRef:
+    """ResetRequest shows, with an error or for the inhibit."""
+    return z3.And(one.sent.ResetRequest, one.sent.Error if error else z3.Not(one.sent.Error))
+
+
+def ends_well(one: Scanned) -> z3.BoolRef:
+    """The block is active, and shows neither an error nor a request for a reset."""
+    o = one.sends
+    return z3.And(o.Ready, z3.Not(o.ResetRequest), z3.Not(o.Error))
+
+
+def held(one: Scanned) -> z3.BoolRef:
+    """Reset is TRUE, and was in the call before."""
+    return z3.And(one.inputs.Reset, SEEN.reset)
+
+
+def control_rises(one: Scanned) -> z3.BoolRef:
+    """S_OutControl rises on the wires."""
+    return z3.And(one.inputs.S_OutControl, z3.Not(SEEN.control))
+
+
+def reset_error(one: Scanned) -> z3.BoolRef:
+    """The call ends in an error about Reset."""
+    return z3.And(one.sends.Error, z3.Not(one.sends.ResetRequest))
+
+
+def reset_needs_edge(one: Scanned) -> Said:
+    free = z3.And(z3.Not(one.sent.Error), one.inputs.S_StartReset)
+    gone = z3.And(one.sent.ResetRequest, ends_well(one))
+    return TRUE, z3.Implies(gone, z3.Or(reset_edge(one), free))
+
+
+@theorem(
+    clauses=[
+        "EDM-IN-START-1",
+        "EDM-IN-START-2",
+        "EDM-IN-RESET-1",
+        "EDM-IN-RESET-2",
+        "EDM-IN-RESET-3",
+        "EDM-SEQ-2",
+    ],
+    findings=["EDMF-10"],
+    properties=["ResetNeedsEdge"],
+)
+def neither_inhibit_nor_error_goes_without_an_edge() -> Queries:
+    """The inhibit goes only in a call with a rising edge of Reset, or with S_StartReset TRUE; an error is
+    reset only in a call with such an edge.
+    """
+    yield from JUDGE.in_every_scan(reset_needs_edge)
+    yield JUDGE.without(reset_needs_edge, "EDMError22", "WiresAreRemembered")
+
+
+def cause_is_gone(one: Scanned) -> Said:
+    return TRUE, z3.Implies(z3.And(asked(one, True), ends_well(one)), both_are(one, True))
+
+
+@theorem(
+    clauses=["EDM-IN-RESET-1", "EDM-SEQ-6", "EDM-FB-1"], findings=["EDMF-07"], properties=["CauseIsGone"]
+)
+def no_error_is_reset_over_its_cause() -> Queries:
+    """An error is reset only in a call with both feedbacks TRUE."""
+    yield from JUDGE.in_every_scan(cause_is_gone)
+
+    def never(one: Scanned) -> Said:
+        return TRUE, z3.Not(ends_well(one))
+
+    yield JUDGE.too_strong("never", never, "EDMError33")
+
+
+def errors_are_left(one: Scanned) -> Said:
+    left = z3.And(one.sent.Error, one.sends.Ready, z3.Not(one.sends.Error))
+    back = z3.And(one.sends.ResetRequest, z3.Not(one.inputs.Reset))
+    return TRUE, z3.Implies(left, z3.If(one.sent.ResetRequest, one.sends.SafetyDemand, back))
+
+
+@theorem(
+    clauses=["EDM-OUT-ERROR", "EDM-IN-RESET-1", "EDM-SEQ-6"],
+    findings=["EDMF-10", "EDMF-11"],
+    properties=["ErrorsAreLeftAsDocumented"],
+)
+def an_error_has_one_way_out() -> Queries:
+    """An active block leaves an error by its reset, to the state with the output off on request, or one about
+    Reset in Init when Reset is let go, back to the inhibit.
+    """
+    yield from JUDGE.in_every_scan(errors_are_left)
+
+    def stays(one: Scanned) -> Said:
+        return one.inputs.Activate, one.sends.Error
+
+    yield JUDGE.too_strong("no error is left", stays, "InitError")
+
+
+def held_reset(one: Scanned) -> Said:
+    waits = z3.And(one.sent.ResetRequest, z3.Or(one.sent.Error, z3.Not(one.inputs.S_StartReset)))
+    return TRUE, z3.Implies(z3.And(waits, one.inputs.Activate, held(one)), reset_error(one))
+
+
+@theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["HeldResetIsAnError"])
+def a_held_reset_is_an_error_where_its_edge_is_waited_for() -> Queries:
+    """An active call with Reset held ends in an error about Reset, from the inhibit and from each error."""
+    yield from JUDGE.in_every_scan(held_reset)
+    yield JUDGE.without(held_reset, "Init", "WiresAreRemembered")
+
+
+def two_edges(one: Scanned) -> Said:
+    both = z3.And(reset_edge(one), control_rises(one), z3.Not(one.inputs.S_StartReset))
+    return TRUE, z3.Implies(z3.And(asked(one, False), one.inputs.Activate, both), reset_error(one))
+
+
+@theorem(
+    clauses=["EDM-IN-START-2", "EDM-IN-RESET-4"], findings=["EDMF-11"], properties=["TwoEdgesAreAnError"]
+)
+def reset_and_request_that_rise_together_are_an_error() -> Queries:
+    """From the inhibit an active call in which Reset and S_OutControl rise ends in an error about Reset."""
+    yield from JUDGE.in_every_scan(two_edges)
+    yield JUDGE.without(two_edges, "Init", "WiresAreRemembered")
+
+
+def starts_by_itself(one: Scanned) -> Said:
+    free = z3.And(asked(one, False), one.inputs.Activate, one.inputs.S_StartReset)
+    return TRUE, z3.Implies(free, one.sends.SafetyDemand)
+
+
+@theorem(clauses=["EDM-IN-START-1", "EDM-IN-START-3"], findings=["EDMF-11"], properties=["StartsByItself"])
+def without_inhibit_nothing_is_waited_for() -> Queries:
+    """From Init an active call with S_StartReset TRUE ends in the state with the output off on request."""
+    yield from JUDGE.in_every_scan(starts_by_itself)
+
+    def with_inhibit_too(one: Scanned) -> Said:
+        return one.inputs.Activate, one.sends.SafetyDemand
+
+    yield JUDGE.too_strong("with inhibit too", with_inhibit_too, "Init")
+
+
+def removes_inhibit(one: Scanned) -> Said:
+    edge = z3.And(reset_edge(one), z3.Not(control_rises(one)))
+    return TRUE, z3.Implies(z3.And(asked(one, False), one.inputs.Activate, edge), one.sends.SafetyDemand)
+
+
+def resets_at_once(one: Scanned) -> Said:
+    edge = z3.And(reset_edge(one), both_are(one, True))
+    return TRUE, z3.Implies(z3.And(asked(one, True), one.inputs.Activate, edge), one.sends.SafetyDemand)
+
+
+@theorem(
+    clauses=["EDM-IN-START-2", "EDM-IN-RESET-2", "EDM-SEQ-2"],
+    findings=["EDMF-11"],
+    properties=["RemovesInhibitAtOnce"],
+)
+def the_edge_removes_the_inhibit_in_its_call() -> Queries:
+    """From Init an active call with an edge of Reset, and none of S_OutControl, removes the inhibit."""
+    yield from JUDGE.in_every_scan(removes_inhibit)
+    yield JUDGE.without(removes_inhibit, "Init", "WiresAreRemembered")
+
+
+@theorem(
+    clauses=["EDM-IN-RESET-1", "EDM-SEQ-6"], findings=["EDMF-07", "EDMF-11"], properties=["ResetsAtOnce"]
+)
+def the_edge_resets_an_error_whose_cause_is_gone_in_its_call() -> Queries:
+    """From each of the nine errors an active call with an edge of Reset and both feedbacks TRUE resets it."""
+    yield from JUDGE.in_every_scan(resets_at_once)
+    yield JUDGE.without(resets_at_once, "EDMError11", "WiresAreRemembered")
+
+
+def error_needs_cause(one: Scanned) -> Said:
+    found = z3.And(z3.Not(one.sent.Error), one.sends.Error)
+    on = z3.And(z3.Not(on_time(one)), z3.Not(both_are(one, False)))
+    requested = z3.And(one.inputs.S_OutControl, z3.Or(SEEN.released, one.before.stop_seen))
+    off = z3.And(z3.Not(both_are(one, True)), z3.Or(z3.Not(on_time(one)), requested))
+    together = z3.And(one.inputs.Reset, z3.Or(SEEN.reset, control_rises(one)))
+    inhibit = z3.And(z3.Not(one.inputs.S_StartReset), together)
+    cause = z3.If(one.sent.S_EDM_Out, on, z3.If(one.sent.SafetyDemand, off, inhibit))
+    return TRUE, z3.Implies(found, cause)
+
+
+@theorem(
+    clauses=["EDM-OUT-ERROR", "EDM-SEQ-2", "EDM-SEQ-3", "EDM-SEQ-6"],
+    findings=["EDMF-05"],
+    properties=["ErrorNeedsCause"],
+)
+def no_error_comes_for_nothing() -> Queries:
+    """An error comes only over a wrong feedback with MonitoringTime over, or with a request that counts; or
+    over a held Reset, or two edges, at the inhibit: MonitoringTime over the right feedback does nothing.
+    """
+    yield from JUDGE.in_every_scan(error_needs_cause)
+    yield JUDGE.without(error_needs_cause, "OutputEnable", "TimeIsThatOnTheWires")
+
+
+def code_names_the_cause(one: Scanned) -> Said:
+    i, on = one.inputs, one.sent.S_EDM_Out
+    first, second = on == i.S_EDM1, on == i.S_EDM2  # wrong: TRUE with the output on, FALSE with it off
+    which = z3.If(z3.Not(second), 1, z3.If(z3.Not(first), 2, 3))
+    group = z3.If(on, 6, z3.If(on_time(one), 0, 3))
+    found = z3.And(one.sends.Error, z3.Or(on, one.sent.SafetyDemand))
+    code = z3.BV2Int(one.sends.DiagCode)
+    return TRUE, z3.Implies(found, code == 0xC000 + 16 * (group + which))
+
+
+@theorem(
+    clauses=["EDM-OUT-DIAG", "EDM-OUT-ERROR", "EDM-IN-EDM-1"],
+    findings=["EDMF-01", "EDMF-06"],
+    properties=["CodeNamesTheCause"],
+)
+def the_code_names_the_contactors_that_were_wrong() -> Queries:
+    """The DiagCode of an error that a feedback causes says which of the two was wrong in that call, and
+    whether at the request, after the time to drop out, or after the time to pick up.
+    """
+    yield from JUDGE.in_every_scan(code_names_the_cause)
+    yield JUDGE.without(code_names_the_cause, "OutputDisable", "TimeIsThatOnTheWires")
+
+
+def keeps_the_code(one: Scanned) -> Said:
+    before, after = one.sent.DiagCode, one.sends.DiagCode
+    numbered = z3.And(one.sent.Error, before != 0xC001, before != 0xC100, one.sends.Error)
+    same = (before & 0xFFF0) == (after & 0xFFF0)
+    digit = z3.And(one.inputs.Reset, z3.Or(SEEN.reset, z3.Not(one.sent.ResetRequest)))
+    return TRUE, z3.Implies(numbered, z3.And(same, ((after & 0x000F) == 1) == digit))
+
+
+@theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["ResetErrorKeepsTheCode"])
+def a_held_reset_does_not_hide_the_error() -> Queries:
+    """From an error about contactors a held Reset leads to the error about Reset with the same number, which
+    leads back to it.
+    """
+    yield from JUDGE.in_every_scan(keeps_the_code)
+    yield JUDGE.without(keeps_the_code, "EDMError31", "WiresAreRemembered")

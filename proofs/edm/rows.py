@@ -1,0 +1,92 @@
+"""The row of every state, whatever the memory; and that what is on has everything it needs."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import z3
+
+from proofs.edm.devices import BLOCK
+from proofs.explorer.ends import TRUE
+from proofs.explorer.scanned import Scanned, control
+from proofs.sentences import Judge, Said
+from proofs.theorem import Queries, theorem
+
+FROM_ANYWHERE: Final = Judge(BLOCK, ())
+"""No invariant: from any memory."""
+NAMES: Final = ("Ready", "S_EDM_Out", "SafetyDemand", "ResetRequest", "Error")
+NUMBERS: Final = ("11", "12", "13", "21", "22", "23", "31", "32", "33")
+TRUE_IN: Final = {
+    "Idle": (0x0000, ()),
+    "Init": (0x8401, ("Ready", "ResetRequest")),
+    "OutputDisable": (0x8810, ("Ready", "SafetyDemand")),
+    "OutputEnable": (0x8000, ("Ready", "S_EDM_Out")),
+    "ResetError1": (0xC001, ("Ready", "Error")),
+    "InitError": (0xC100, ("Ready", "Error")),
+    **{
+        f"EDMError{of}": (0xC000 + 0x10 * n, ("Ready", "ResetRequest", "Error"))
+        for n, of in enumerate(NUMBERS, 1)
+    },
+    **{f"ResetError{of}": (0xC001 + 0x10 * n, ("Ready", "Error")) for n, of in enumerate(NUMBERS, 1)},
+}
+"""The code of each state, and which of its outputs are TRUE."""
+
+
+def row_of_the_state(one: Scanned, seen: Any) -> z3.BoolRef:
+    code, true = TRUE_IN[control(BLOCK, one.after)]
+    said = [getattr(one.sends, name) if name in true else z3.Not(getattr(one.sends, name)) for name in NAMES]
+    return z3.And(one.sends.DiagCode == code, *said)
+
+
+@theorem(
+    clauses=[
+        "EDM-OUT-READY-1",
+        "EDM-OUT-READY-2",
+        "EDM-OUT-EDM-1",
+        "EDM-OUT-EDM-2",
+        "EDM-OUT-DEMAND",
+        "EDM-OUT-REQUEST",
+        "EDM-OUT-ERROR",
+        "EDM-OUT-DIAG",
+        "EDM-SEQ-0",
+    ],
+    findings=["EDMF-01", "EDMF-02", "EDMF-03"],
+    properties=["OutputNeedsAll", "IdleShowsNothing", "PowerUpIsSafe"],
+)
+def every_state_has_its_row() -> Queries:
+    """At power-up, which is inactive, and after every call, from any memory, the outputs are the row of the
+    state: S_EDM_Out is TRUE in one state alone, which shows neither error, nor inhibit, nor demand.
+    """
+    yield from FROM_ANYWHERE.after_every_scan(row_of_the_state)
+
+    def never_on(one: Scanned) -> Said:
+        return TRUE, z3.Not(one.sends.S_EDM_Out)
+
+    yield FROM_ANYWHERE.too_strong("the output is never on", never_on, "OutputDisable")
+
+
+def code_tells_the_row(one: Scanned, seen: Any) -> z3.BoolRef:
+    o, code = one.sends, one.sends.DiagCode
+    active, error = code & 0x8000 != 0, code & 0xC000 == 0xC000
+    same = [active == o.Ready, error == o.Error, (code & 0x0800 != 0) == o.SafetyDemand]
+    asks = z3.If(o.Error, z3.And(code & 0x000F == 0, code != 0xC100), code & 0x0400 != 0)
+    return z3.And(*same, o.S_EDM_Out == (code == 0x8000), o.ResetRequest == asks)
+
+
+@theorem(
+    clauses=["EDM-OUT-DIAG", "EDM-OUT-ERROR", "EDM-OUT-DEMAND", "EDM-OUT-REQUEST"],
+    findings=["EDMF-01", "EDMF-02"],
+    properties=["CodeTellsTheRow"],
+)
+def the_code_tells_the_row() -> Queries:
+    """At power-up and after every call bits of DiagCode say what the outputs say, but for ResetRequest in
+    errors, which their last digit says.
+    """
+    yield from FROM_ANYWHERE.after_every_scan(code_tells_the_row)
+
+    def by_the_bit_everywhere(one: Scanned) -> Said:
+        return TRUE, one.sends.ResetRequest == (one.sends.DiagCode & 0x0400 != 0)
+
+    yield FROM_ANYWHERE.too_strong(
+        "ResetRequest is its bit in errors too", by_the_bit_everywhere, "EDMError11"
+    )
