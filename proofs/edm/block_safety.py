@@ -80,7 +80,8 @@ def ready_is_activate_of_the_same_call() -> Queries:
 def starts_with_inhibit(one: Scanned) -> Said:
     if not one.was("Idle"):  # every_state_has_its_row: the one state without Ready
         return None
-    return one.sends.Ready, z3.And(one.sends.ResetRequest, z3.Not(one.sends.Error), z3.Not(one.sends.S_EDM_Out))
+    o = one.sends
+    return o.Ready, z3.And(o.ResetRequest, z3.Not(o.Error), z3.Not(o.S_EDM_Out))
 
 
 @theorem(

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from refimpl.cyclic_block import counted, held, rises
+from refimpl.cyclic_block import counted, rises
 from refimpl.errors import ParameterError, StateError, check_bool, check_int, check_text
 
 MONITORING_TIME_MAX_MS = 3_600_000
@@ -261,10 +261,10 @@ def _init(s: State, i: Inputs) -> State:
     """
     if i.S_StartReset:
         return _disable(s, i, True)  # StartWithoutInhibit
-    if held(i.Reset, s.reset_before):
-        return _enter(s, i, Step.RESET_ERROR_1)  # FindStaticReset
-    if not rises(i.Reset, s.reset_before):
+    if not i.Reset:
         return _stay(s, i)  # AwaitReset
+    if s.reset_before:
+        return _enter(s, i, Step.RESET_ERROR_1)  # FindStaticReset
     if rises(i.S_OutControl, s.out_control_before):
         return _enter(s, i, Step.INIT_ERROR)  # FindTwoEdges
     return _disable_by_hand(s, i)  # RemoveInhibit
@@ -351,11 +351,13 @@ def _edm_error(s: State, i: Inputs, reset_error: Step) -> State:
 
     EDM-IN-RESET-1, EDM-IN-RESET-3, EDM-IN-RESET-4, EDM-SEQ-5, EDM-SEQ-6, EDMF-07, EDMF-10
     """
-    if held(i.Reset, s.reset_before):
+    if not i.Reset:
+        return _stay(s, i)  # StayInError
+    if s.reset_before:
         return _enter(s, i, reset_error)  # FindStaticResetInError
-    if rises(i.Reset, s.reset_before) and _both_dropped_out(i):
-        return _disable_by_hand(s, i)  # ResetError
-    return _stay(s, i)  # StayInError
+    if not _both_dropped_out(i):
+        return _stay(s, i)  # StayInError
+    return _disable_by_hand(s, i)  # ResetError
 
 
 def _reset_error(s: State, i: Inputs, error: Step) -> State:
