@@ -23,7 +23,7 @@ if __name__ == "__main__":
 from examples.faulty.run import HERE, Fault, load_faults, vectors  # noqa: E402
 from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
-from modeproof.kit.judge import Verdict, run_suite  # noqa: E402
+from modeproof.kit.judge import Plan, Verdict, run_suite  # noqa: E402
 from modeproof.kit.text import as_text  # noqa: E402
 from modeproof.kit.vectors import Suite, open_suite  # noqa: E402
 
@@ -56,17 +56,19 @@ def suite_of(fault: Fault) -> Suite:
     return open_suite(vectors("plc-brief" if target_of(fault) == "plc" else suite))
 
 
-def judge(program: Path, suite: Suite, timeout_s: float = TIMEOUT_S) -> Verdict:
+def judge(program: Path, suite: Suite, timeout_s: float = TIMEOUT_S, plan: Plan | None = None) -> Verdict:
     """What the kit says about a program."""
     command = [sys.executable, str(ADAPTER), suite.target, str(program)]
-    return run_suite(suite, lambda: Adapter(command, timeout_s))
+    return run_suite(suite, lambda: Adapter(command, timeout_s), plan=plan)
 
 
-def judge_all(folder: Path, faults: Sequence[Fault]) -> dict[str, Verdict]:
+def judge_all(
+    folder: Path, faults: Sequence[Fault], timeout_s: float = TIMEOUT_S, plan: Plan | None = None
+) -> dict[str, Verdict]:
     """What the kit says about each fault, two at a time."""
     with ThreadPoolExecutor(2) as pool:
         verdicts = pool.map(
-            lambda fault: judge(write(folder / fault.id, fault), suite_of(fault)),
+            lambda fault: judge(write(folder / fault.id, fault), suite_of(fault), timeout_s, plan),
             faults,
         )
         return {fault.id: verdict for fault, verdict in zip(faults, verdicts, strict=True)}

@@ -20,7 +20,7 @@ from hypothesis import given, settings
 from examples.faulty.awl import ADAPTER, AWL, PACK, PAGE, judge, judge_all, main, row, suite_of, write
 from examples.faulty.run import Fault, load_faults, vectors
 from modeproof.kit.adapter import Adapter, parse_answer
-from modeproof.kit.judge import Verdict
+from modeproof.kit.judge import Plan, Verdict
 from modeproof.kit.vectors import open_suite
 from refimpl.mode_selection import fplc, plc
 from tests.examples.protocol import BYE, DARK, HELLO, REFUSED, RESET, scan, talk
@@ -74,7 +74,7 @@ def test_one_bad_scan_of_a_list_is_refused_with_all_of_it(tmp_path: Path) -> Non
     [
         ("      JL    LOST", "      JX    LOST", "JX"),
         ('L     "EKS_outputs"', 'L     "EKS_output"', "EKS_output"),
-        ("LOST: JU    FAIL", "LOST: JU    LOST", "no answer within 5 s"),
+        ("LOST: JU    FAIL", "LOST: JU    LOST", "no answer within 2 s"),
     ],
 )
 def test_a_program_that_cannot_run_is_one_line_and_no_verdict(
@@ -85,7 +85,7 @@ def test_a_program_that_cannot_run_is_one_line_and_no_verdict(
     assert text.count(old) == 1
     text = text.replace(old, new).replace("JU    STRT ", "JU    LOST ")
     program.write_text(text, encoding="utf-8")
-    verdict = judge(program, open_suite(vectors("words")), 5.0 if cause.startswith("no answer") else 600.0)
+    verdict = judge(program, open_suite(vectors("words")), 2.0 if cause.startswith("no answer") else 600.0)
     assert (verdict.word, verdict.status) == ("UNJUDGED", 2)
     assert cause in verdict.reason and "\n" not in verdict.reason
 
@@ -195,7 +195,8 @@ def test_the_flag_words_lie_where_the_note_has_them_and_share_no_byte() -> None:
 
 @pytest.fixture(scope="module")
 def verdicts(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Verdict]:
-    return judge_all(tmp_path_factory.mktemp("awl"), CAUGHT)
+    """Of each fault, without a search for a shorter way to it."""
+    return judge_all(tmp_path_factory.mktemp("awl"), CAUGHT, 600.0, Plan(effort=0))
 
 
 @pytest.mark.parametrize("fault", CAUGHT, ids=lambda one: one.id)

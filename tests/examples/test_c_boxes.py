@@ -41,8 +41,8 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made(tmp_path_factory.mktemp("boxes"))
 
 
-def judged(program: Path, suite: Suite, relation: str) -> Verdict:
-    return run_suite(suite, lambda: Adapter([str(program)]), plan=Plan(Manner(relation)))
+def judged(program: Path, suite: Suite, relation: str, effort: int = 0) -> Verdict:
+    return run_suite(suite, lambda: Adapter([str(program)]), plan=Plan(Manner(relation), effort=effort))
 
 
 @pytest.mark.parametrize("relation", ["settled", "monitor"])
@@ -89,7 +89,7 @@ UNSAFE = {
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_found_once_all_has_settled(name: str, suite: Suite, tmp_path: Path) -> None:
-    verdict = judged(made(tmp_path, *FAULTS[name]), suite, "settled")
+    verdict = judged(made(tmp_path, *FAULTS[name]), suite, "settled", effort=1)
     assert verdict.word == "DIFFERS", verdict.reason
     assert verdict.difference is not None and verdict.difference.confirmed
 

@@ -5,10 +5,12 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import pytest
 import z3
 
 from proofs.explorer.device import Device, Scan, explored_from
@@ -17,8 +19,27 @@ from proofs.explorer.records import evaluated, filled
 from proofs.explorer.scanned import Scans
 from proofs.mode_selection.devices import CHECKSUM_AGREES
 from proofs.sentences import Judge, Sentence, demanded
+from proofs.theorem import Query, Theorem
 
 _NUMBER = itertools.count()
+Example = tuple[Query, Scans, Sentence]
+"""A question that must have an example, the scans that it is asked of, and the sentence that it breaks."""
+
+
+@cache
+def built(item: Theorem) -> tuple[tuple[Query, ...], tuple[Example, ...]]:
+    """The questions of a theorem, built once for all tests, and its examples."""
+    kept: list[Example] = []
+    shipped = Judge._broken
+
+    def remembered(self: Judge, what: str, scans: Scans, given: Any, sentence: Sentence) -> Query:
+        query = shipped(self, what, scans, given, sentence)
+        kept.append((query, scans, sentence))
+        return query
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Judge, "_broken", remembered)
+        return item.queries(), tuple(kept)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ import z3
 
 from modeproof.registers import load_document
 from proofs.explorer.errors import ConcretizationError
-from proofs.explorer.scanned import Scanned, Scans
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection import (
     eks_prompt,
     eks_safety,
@@ -25,9 +25,9 @@ from proofs.mode_selection.devices import ROOT
 from proofs.runner import prove_all
 from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
-from proofs.theorem import Query, Theorem, TheoremError, theorems_of
+from proofs.theorem import Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
-from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
+from tests.proofs.mode_selection.planted_steps import begun_in, breaks, built, planted, refuted
 
 MODULES: list[Any] = [panel_safety, panel_prompt, plc_safety, eks_safety, eks_prompt, fplc_response]
 
@@ -47,26 +47,14 @@ def test_every_theorem_of_panel_plc_and_eks_is_proved_by_both_solvers(item: Theo
 
 @pytest.mark.parametrize("item", _theorems(fplc_response), ids=lambda item: item.name)
 def test_every_theorem_of_the_response_holds(item: Theorem) -> None:
-    queries = item.queries()
+    queries, _ = built(item)
     assert [query for query in queries if query.name.startswith("control")]
     assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__.rsplit(".", 1)[-1])
-def test_the_examples_of_all_controls_happen_in_the_real_step(
-    module: ModuleType, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    kept: list[tuple[Query, Scans, Sentence]] = []
-    shipped = Judge._broken
-
-    def remembered(self: Judge, what: str, scans: Scans, given: Any, sentence: Sentence) -> Query:
-        query = shipped(self, what, scans, given, sentence)
-        kept.append((query, scans, sentence))
-        return query
-
-    monkeypatch.setattr(Judge, "_broken", remembered)
-    for item in _theorems(module):
-        item.queries()
+def test_the_examples_of_all_controls_happen_in_the_real_step(module: ModuleType) -> None:
+    kept = [example for item in _theorems(module) for example in built(item)[1]]
     assert kept
     for query, scans, sentence in kept:
         solver = z3.SimpleSolver()

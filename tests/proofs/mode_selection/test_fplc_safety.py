@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import z3
 
-from proofs.explorer.scanned import Scanned, Scans
+from proofs.explorer.scanned import Scanned
 from proofs.mode_selection import every_device, fplc_invariant, fplc_order, fplc_prompt, fplc_safety
 from proofs.mode_selection.devices import DEVICES, FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
@@ -15,8 +15,8 @@ from proofs.mode_selection.invariants import FPLC_INVARIANT
 from proofs.runner import prove_all
 from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
-from proofs.theorem import Query, Theorem
-from tests.proofs.mode_selection.planted_steps import begun_in, breaks, planted, refuted
+from proofs.theorem import Theorem
+from tests.proofs.mode_selection.planted_steps import begun_in, breaks, built, planted, refuted
 
 SAFETY = [
     one
@@ -38,7 +38,7 @@ def test_what_is_said_of_power_up_is_proved_by_both_solvers(item: Theorem, tmp_p
 
 @pytest.mark.parametrize("item", SAFETY, ids=lambda item: item.name)
 def test_every_claim_holds_and_every_control_has_an_example(item: Theorem) -> None:
-    queries = item.queries()
+    queries, _ = built(item)
     assert item.properties
     assert {query.name for query in queries if query.name.startswith("control")}
     assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
@@ -49,18 +49,8 @@ def test_every_scan_keeps_the_invariant() -> None:
     assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
 
 
-def test_the_examples_of_all_controls_happen_in_the_real_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    kept: list[tuple[Query, Scans, Sentence]] = []
-    shipped = Judge._broken
-
-    def remembered(self: Judge, what: str, scans: Scans, given: Any, sentence: Sentence) -> Query:
-        query = shipped(self, what, scans, given, sentence)
-        kept.append((query, scans, sentence))
-        return query
-
-    monkeypatch.setattr(Judge, "_broken", remembered)
-    for item in SAFETY:
-        item.queries()
+def test_the_examples_of_all_controls_happen_in_the_real_step() -> None:
+    kept = [example for item in SAFETY for example in built(item)[1]]
     assert len(kept) >= len(SAFETY)
     for query, scans, sentence in kept:
         solver = z3.SimpleSolver()
@@ -74,7 +64,7 @@ def test_every_conjunct_of_the_invariant_is_needed_by_some_theorem() -> None:
     dropped = {
         name.name
         for item in SAFETY
-        for query in item.queries()
+        for query in built(item)[0]
         if query.name.startswith("control: without")
         for name in FPLC_INVARIANT
         if name.name in query.name

@@ -21,8 +21,16 @@ TEXT_ORDER = Base(
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
-ANSWERS = Base("MC_Fplc_answers")
-ORDER = Base("MC_Fplc_order")
+ANSWERS = Base(
+    "MC_Fplc_answers",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcPromptSmall",
+)
+ORDER = Base(
+    "MC_Fplc_order",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
+    module="FplcOrderSmall",
+)
 HMI_PROMPT = Base("MC_Hmi_prompt")
 EKS_PROMPT = Base("MC_Eks6_prompt")
 FPLC_SMOKE = Base(
@@ -30,7 +38,11 @@ FPLC_SMOKE = Base(
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
     module="FplcSmall",
 )
-DEADLINES = Base("MC_Fplc_deadlines", module="FplcSmall")
+DEADLINES = Base(
+    "MC_Fplc_deadlines",
+    (('VECTORS = "one"', 'VECTORS = "one"  InputsToTry <- OneLevelInputs'),),
+    module="FplcSmall",
+)
 NO_MODE = Base(
     "MC_Fplc_on_error_none",
     (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
@@ -40,14 +52,28 @@ EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 EARNEST = Base("MC_KeyFlows_earnest")
-GOAL = Base("LIVE_KeyFlows_goal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}")))
-REMOVAL = Base(
-    "LIVE_KeyFlows_removal", (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
+LEAST = (
+    ("BAD_KEY = TRUE", "BAD_KEY = FALSE"),
+    ("LEVELS = {1}", "LEVELS = {0}"),
 )
+GOAL = Base("LIVE_KeyFlows_goal", LEAST)
+REMOVAL = Base("LIVE_KeyFlows_removal", LEAST)
 RECOVERY = Base("LIVE_KeyFlows_recovery")
 AFTER_FAULT = Base("LIVE_KeyFlows_after_fault")
-CORRUPTING = Base("MC_KeyFlows_corrupting", (("LEVELS = {0, 1, 2}", "LEVELS = {0}"),))
-FAULTY_EKS = Base("MC_KeyFlows_faulty_eks", (("LEVELS = {1}", "LEVELS = {0}"),))
+CORRUPTING = Base(
+    "MC_KeyFlows_corrupting",
+    (
+        ("LEVELS = {0, 1, 2}", "LEVELS = {0}"),
+        ("FAULT_CLASSES <- AllWordClasses", 'FAULT_CLASSES = {"corruption", "loss", "masquerade"}'),
+    ),
+)
+FAULTY_EKS = Base(
+    "MC_KeyFlows_faulty_eks",
+    (
+        ("LEVELS = {1}", "LEVELS = {0}"),
+        ("FAULT_CLASSES <- AllButCrossedWires", 'FAULT_CLASSES = {"output stuck at 1", "LA stuck at 1"}'),
+    ),
+)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,4 @@
+-------------------------- MODULE FplcOrderSmall --------------------------
+(* FplcOrder where only the inputs of FplcSmall are tried.  For planted faults. *)
+EXTENDS FplcSmall, FplcOrder
+=============================================================================
