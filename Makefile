@@ -15,8 +15,9 @@ verify: $(STAMP)
 smoke: $(STAMP)
 	@$(PY) -m modeproof verify --lane smoke
 
+# Two processes; tests that share what is made once are in one of them (tests/groups.py)
 test: $(STAMP) $(AWLSIM)
-	@$(PY) -m pytest
+	@$(PY) -m pytest -n 2 --dist loadgroup
 
 bench: $(STAMP) $(AWLSIM)
 	@$(PY) -m tests.bench

@@ -3,12 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
 from tests.any_machine import PATIENCE_S, no_hurry
+from tests.groups import group_of
 
 no_hurry()
+HERE = Path(__file__).resolve().parent
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Say which tests share a process when several run at once (`make test`)."""
+    for item in items:
+        item.add_marker(pytest.mark.xdist_group(group_of(item.path.relative_to(HERE))))
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -1,0 +1,18 @@
+"""Which tests share a process when several run at once: those that share what is made once."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePath
+
+ROOT = Path(__file__).resolve().parents[1]
+SHARING = frozenset({"proofs", "report", "spec", "trace"})
+"""Rooms whose tests share explored devices, runs of TLC or graphs, each document its own."""
+DOCUMENTS = frozenset(path.parent.name for path in ROOT.glob("spec/*/interface.toml"))
+
+
+def group_of(file: PurePath, documents: frozenset[str] = DOCUMENTS) -> str:
+    """The group of a test file, given below tests/: its room, or room and document, or the file alone."""
+    room, *rest = file.parts
+    if room not in SHARING or not rest:
+        return file.as_posix()
+    return f"{room}/{rest[0]}" if rest[0] in documents else room
