@@ -235,6 +235,7 @@ def as_page(
         lines.append(f"{len(passed)} others stand at the end, with the reason why all suites let them pass.")
     lines += [
         "The program without a fault conforms.",
+        *(["Each function block has a page of its own beside this one."] if program == FPLC else []),
         "",
         "*Scans* counts up to the first wrong output. *At* is the step that the specification took there,",
         "which may come later than the mistake. Of all suites but `brief` the pack holds the beginnings of",

@@ -27,8 +27,9 @@ from examples.faulty.run import (
     programs,
     row,
 )
+from modeproof.kit.adapter import Adapter
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Verdict
+from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
 from modeproof.processes import in_forks
 from tests.any_machine import PATIENCE_S
@@ -109,6 +110,21 @@ def test_what_the_pack_says_no_vector_of_it_shows_is_not_shown_by_those_that_sho
         assert judge(pack.programs[fault.id], pack.suites[name]).word == "CONFORMS"
     line = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
     assert line in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
+
+
+@pytest.mark.parametrize(
+    ("target", "fault"),
+    [one for one in EVERY if "--codes" in one[1].reason],
+    ids=lambda one: getattr(one, "id", one),
+)
+def test_what_only_our_own_codes_show_is_rejected_with_them(
+    target: str, fault: Fault, judged: Callable[[str], Judged]
+) -> None:
+    pack = judged(target)
+    verdict = run_suite(
+        pack.suites["brief"], lambda: Adapter([str(pack.programs[fault.id])]), plan=Plan(Manner(codes=True))
+    )
+    assert (verdict.word, verdict.reason) == ("DIFFERS", "")
 
 
 @pytest.mark.parametrize("target", PACKS)
