@@ -157,10 +157,11 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
     if args.resume is not None and (args.case is not None or len(suites) > 1):
         raise Unjudged("--resume is for one suite at a time, and all its cases")
     verdicts = []
-    for suite in suites:
+    for number, suite in enumerate(suites, 1):
         verdict = _judge(args, suite)
         verdicts.append(verdict)
-        print(as_text(verdict, again(args, suite, verdict), suite), flush=True)
+        last = number == len(suites)
+        print(as_text(verdict, again(args, suite, verdict), suite, last), flush=True)
     if len(verdicts) > 1:
         print(together(verdicts))
     if args.json is not None:

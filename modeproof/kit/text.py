@@ -19,10 +19,11 @@ MOST_CAUSES = 10
 MOST_MISSED = 12
 
 
-def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None) -> str:
+def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last: bool = True) -> str:
     """What is printed at the end; `again` is the command that runs the shortest case again.
 
-    With the suite, clauses and decisions are told in words.
+    With the suite, clauses and decisions are told in words. What holds for all suites of a run is said with
+    the last one.
     """
     lines = []
     causes = verdict.causes()
@@ -41,7 +42,7 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None) -> st
             if len(causes) > MOST_CAUSES:
                 lines.append(f"  and {len(causes) - MOST_CAUSES} other causes")
         lines.append("")
-    lines += _coverage(verdict)
+    lines += _coverage(verdict, last)
     lines.append(f"{verdict_word(verdict)}: {verdict.reason}" if verdict.reason else verdict_word(verdict))
     return "\n".join(lines)
 
@@ -72,7 +73,7 @@ def joint_word(verdicts: Sequence[Verdict]) -> str:
     return next(word for word in (UNJUDGED, DIFFERS, CONFORMS) if word in words)
 
 
-def _coverage(verdict: Verdict) -> list[str]:
+def _coverage(verdict: Verdict, last: bool) -> list[str]:
     seen = sum(have for have, _ in verdict.covered.values())
     total = sum(all_ for _, all_ in verdict.covered.values())
     rate = f", {verdict.scans / verdict.seconds:,.0f} scans a second" if verdict.seconds > 0.05 else ""
@@ -100,7 +101,7 @@ def _coverage(verdict: Verdict) -> list[str]:
         lines.append("rest on outputs that are not compared, so not judged: " + ", ".join(verdict.unjudged))
     if verdict.unobserved:
         lines.append("not observed, so not judged: " + ", ".join(verdict.unobserved))
-    if verdict.not_compared:
+    if verdict.not_compared and last:
         names = ", ".join(verdict.not_compared)
         lines.append(
             f"not compared, for the document does not give the values (--codes does so by ours): {names}"

@@ -10,13 +10,16 @@ The graph has a few lengths of time only. Two kinds of cases go beyond them:
   32,768 ms and for about 65,536 ms. A program whose timer overflows begins anew.
 
 After each come inputs by which outputs tell the right state from those of the same control state at another
-time. That times add up is taken for granted: lengths that a program compares time with are multiples of the
-graph's.
+time. That times add up is taken for granted. A time comes in pieces where nothing can happen before it is
+over: it is the measure of all times of the graph, and lengths that a program compares time with are multiples
+of it; or a time of the graph is one millisecond shorter, and nothing happens in that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import gcd
 
 from modeproof.graph.columns import Columns
 from modeproof.graph.device import DeviceGraph
@@ -34,7 +37,7 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
     """The cases for one graph; none for a device without time."""
     times = sorted({letter["dt_ms"] for letter in device.alphabet})
     search = _Search(device, columns)
-    pieces = list(search.pieces(times[1])) if times[0] == 0 and len(times) > 1 else []
+    pieces = list(search.pieces(times)) if times[0] == 0 and len(times) > 1 else []
     waits = list(search.waits(times[-1])) if len(times) > 1 else []
     return Scripts([*pieces, *waits], {"pieces": len(pieces), "long_waits": len(waits)})
 
@@ -62,8 +65,17 @@ class _Search:
             key = (self.control[state], *device.seen[state])
             self.like.setdefault(key, []).append(state)
 
-    def pieces(self, time_ms: int) -> Iterator[Script]:
+    def pieces(self, times: Sequence[int]) -> Iterator[Script]:
         """Cases in which a time of the graph comes in pieces."""
+        if gcd(*times) == times[1] > 1:
+            yield from self._pieces(times[1], 0)
+        else:
+            for before, time_ms in pairwise(times):
+                if before + 1 == time_ms > 1:
+                    yield from self._pieces(time_ms, before)
+
+    def _pieces(self, time_ms: int, before_ms: int) -> Iterator[Script]:
+        """Cases for one time; nothing may happen in `before_ms` (0: nothing can)."""
         alphabet = Alphabet(self.device)
         pairs = [
             (n, later)
@@ -77,6 +89,8 @@ class _Search:
                 after, step = self.graph.next_of[state][later], self.graph.step_of[state][later]
                 key = (self.control[state], self.graph.steps[step])
                 if self.graph.next_of[state][n] != state or after == state or step in seen:
+                    continue
+                if before_ms and not self._quiet(state, alphabet.changed(n, dt_ms=before_ms)):
                     continue
                 if done.get(key, 0) == 2 * STATES:
                     continue
@@ -93,6 +107,14 @@ class _Search:
                         after,
                         others=[state],
                     )
+
+    def _quiet(self, state: int, letter: int | None) -> bool:
+        """Whether a scan leaves control state and outputs as they are."""
+        if letter is None:
+            return False
+        after = self.graph.next_of[state][letter]
+        same = self.device.seen[after] == self.device.seen[state]
+        return same and self.control[after] == self.control[state]
 
     def waits(self, longest: int) -> Iterator[Script]:
         """Cases in which nothing happens for long."""

@@ -392,8 +392,8 @@ class _Writer:
         clauses, findings = self._cited(cited)
         params = dict(device.params) if script.reset else {}
         id = id_of_text(device.device.id, params, ",".join(going_in))
-        if id in self.ids:
-            return
+        if id in self.ids or (not script.reset and self.cases):
+            return  # before any reset is only the first case of all
         self.ids.add(id)
         case = {
             "id": id,

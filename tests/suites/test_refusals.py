@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -52,6 +53,18 @@ sys.stdin = lines(sys.stdin)
 def suite(tmp_path: Path) -> Suite:
     write_suite(tmp_path / "refusals.jsonl", "refusals", [lamp_graph(tmp_path)])
     return open_suite(tmp_path / "refusals.jsonl")
+
+
+def test_before_any_reset_is_the_first_case_alone_however_many_graphs_there_are(
+    tmp_path: Path,
+) -> None:
+    first = lamp_graph(tmp_path)
+    longer = tuple({**letter, "dt_ms": 2 * letter["dt_ms"] + 7} for letter in first.alphabet)
+    other = replace(first, run="OPEN_Other", params={"T_ms": 1014}, alphabet=longer)
+    write_suite(tmp_path / "two.jsonl", "refusals", [first, other])
+    cases = list(open_suite(tmp_path / "two.jsonl").cases())
+    assert {case.graph for case in cases} == {0, 1}
+    assert [number for number, case in enumerate(cases) if not case.reset] == [0]
 
 
 def test_an_adapter_that_refuses_all_of_it_passes(suite: Suite, tmp_path: Path) -> None:

@@ -9,11 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modeproof.graph.columns import merge_columns
+from modeproof.graph.device import DeviceGraph
 from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.times import plan, split
 from modeproof.suites.write import NoCases, write_suite
-from tests.graph.printed import lamp_graph, lines
+from tests.graph import printed
+from tests.graph.printed import CODE, OTHER, lamp_graph, lines
 from tests.kit.programs import starter
 from tests.suites.relay import relay_graph
 
@@ -58,6 +60,28 @@ def test_a_program_whose_timer_overflows_passes_the_tour_but_not_this(tmp_path: 
         write_suite(tmp_path / name, name, [graph])
         fault = OVERFLOW.replace("BITS", str(bits))
         assert run_suite(open_suite(tmp_path / name), starter(tmp_path, fault)).word == word
+
+
+def uneven_lamp(folder: Path, monkeypatch: pytest.MonkeyPatch) -> DeviceGraph:
+    """The lamp for 10 ms, with times in its graph of which none measures the others."""
+    letters = [
+        (press, word, dt) for press in (False, True) for word in (0, CODE, OTHER) for dt in (0, 5, 9, 10)
+    ]
+    for name, value in (("LETTERS", tuple(letters)), ("LIMIT", 10), ("TICK_MS", 1)):
+        monkeypatch.setattr(printed, name, value)
+    return lamp_graph(folder)
+
+
+def test_a_time_comes_in_pieces_only_where_nothing_can_happen_before_it_is_over(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After 9 ms another 5 would end in the middle: 5 ms are no pieces of anything; 10 are, of 9 and 1."""
+    write_suite(tmp_path / "t", "times", [uneven_lamp(tmp_path, monkeypatch)])
+    suite = open_suite(tmp_path / "t")
+    assert suite.header["graphs"][0]["pieces"] > 0
+    assert run_suite(suite, starter(tmp_path, "LIMIT = 10")).word == CONFORMS
+    rounded = "LIMIT = 10\n" + ROUNDED.replace("UNIT", "2")
+    assert run_suite(suite, starter(tmp_path, rounded)).word == DIFFERS
 
 
 @given(st.integers(2, 5000))
