@@ -313,21 +313,44 @@ def the_loss_of_a_locked_guard_is_an_error_in_that_call() -> Queries:
     yield JUDGE.too_strong("every call", any_call, "GuardClosedAndLocked")
 
 
+def loss_seen(one: Scanned) -> z3.BoolRef:
+    """What is a loss in each state."""
+    i, unsafe = one.inputs, z3.Not(one.inputs.S_SafetyActive)
+    strict = chosen(one.params, "ZONE_LOST", "error")
+    found = {
+        "GuardClosedAndLocked": z3.Not(secure(one)),
+        "GuardClosedButUnlocked": z3.And(unsafe, strict),
+        "GuardOpenAndUnlocked": z3.And(unsafe, z3.Or(strict, z3.Not(i.S_GuardMonitoring))),
+        "WaitForOperator": z3.And(unsafe, z3.Not(secure(one))),
+        "SafetyReturn": unsafe,
+    }
+    return next((cause for state, cause in found.items() if one.was(state)), FALSE)
+
+
+def edge_awaited(one: Scanned) -> z3.BoolRef:
+    """An edge of Reset is waited for."""
+    if one.was("Init"):
+        return z3.Not(one.inputs.S_StartReset)
+    if one.was("WaitForReset"):
+        return z3.Or(z3.Not(one.inputs.S_AutoReset), one.before.start_up_inhibit)
+    return TRUE if one.was("SafetyReturn") else FALSE
+
+
 def error_needs_cause(one: Scanned) -> Said:
-    lost = z3.Not(secure(one)) if one.was("GuardClosedAndLocked") else z3.Not(one.inputs.S_SafetyActive)
-    waited = TRUE if one.was("Init", "WaitForReset", "SafetyReturn") else FALSE
-    cause = z3.If(one.sends.DiagCode == 0xC004, lost, z3.And(static(one), waited))
+    found = z3.And(static(one), edge_awaited(one))
+    cause = z3.If(one.sends.DiagCode == 0xC004, loss_seen(one), found)
     return TRUE, z3.Implies(z3.And(z3.Not(one.sent.Error), one.sends.Error), cause)
 
 
 @theorem(
     clauses=["GL-OUT-ERROR", "GL-IN-SAFETYACTIVE"],
-    findings=["GLF-05", "GLF-07", "GLF-10"],
+    findings=["GLF-04", "GLF-05", "GLF-07", "GLF-10"],
     properties=["ErrorNeedsCause"],
 )
 def an_error_has_a_cause_in_that_call() -> Queries:
     """A call that begins to show an error found a static Reset where an edge is waited for, an enabled guard
-    open or not locked, or a zone that is not safe.
+    open or not locked, or a zone that is not safe where it must be: while the guard is open, while it is not
+    locked and not asked to unlock, and with ZONE_LOST = error while it is unlocked.
     """
     yield from JUDGE.in_every_scan(error_needs_cause)
 
@@ -402,3 +425,29 @@ def a_call_takes_one_transition_of_the_table() -> Queries:
         return TRUE, TRUE if one.becomes("Idle", "Init") else FALSE
 
     yield JUDGE.too_strong("it always stays", stays, "Init")
+
+
+def code_tells_the_guard(one: Scanned) -> Said:
+    closed = one.inputs.S_GuardMonitoring
+    by_request = TRUE if one.was("WaitForOperator") else FALSE
+    return TRUE, z3.And(
+        z3.Implies(one.sends.DiagCode == 0x8013, closed),
+        z3.Implies(one.sends.DiagCode == 0x8012, z3.Or(z3.Not(closed), by_request)),
+    )
+
+
+@theorem(
+    clauses=["GL-OUT-DIAGCODE", "GL-IN-GUARDMONITORING"],
+    findings=["GLF-11"],
+    properties=["CodeTellsTheGuard"],
+)
+def the_code_of_an_unlocked_guard_tells_whether_it_is_open() -> Queries:
+    """After every call with the code of a guard that is closed but unlocked, that call found it closed; with
+    the code of an open one it found it open, or came from where a request unlocks a closed one.
+    """
+    yield from JUDGE.in_every_scan(code_tells_the_guard)
+
+    def open_is_open(one: Scanned) -> Said:
+        return one.sends.DiagCode == 0x8012, z3.Not(one.inputs.S_GuardMonitoring)
+
+    yield JUDGE.too_strong("also on the way from a request", open_is_open, "WaitForOperator")

@@ -50,11 +50,15 @@ class Copy:
 
 
 def copied(package: str, change: Change | None = None) -> Copy:
-    """A copy of every loaded module of the package, with the change made. Raises CopyError."""
+    """A copy of every loaded module of the package, and of a changed one beside it, with the change made.
+
+    Raises CopyError.
+    """
+    changed = None if change is None else change.module
     shipped = {
         name: module
         for name, module in sys.modules.items()
-        if name == package or name.startswith(f"{package}.")
+        if name in (package, changed) or name.startswith(f"{package}.")
     }
     copies = {name: ModuleType(name, module.__doc__) for name, module in shipped.items()}
     if change is not None and change.module not in shipped:

@@ -154,12 +154,23 @@ StaysLocked == [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.Unlock
 LossIsAnError ==
     [][S_GuardLocked /\ Scanned.Activate /\ ~Secure => Error' /\ ~S_GuardLocked' /\ ~S_UnlockGuard']_beat
 
+\* GL-OUT-ERROR, GL-IN-SAFETYACTIVE, GLF-04, GLF-05, GLF-10: what is a loss in each state
+LossSeen ==
+    CASE DiagCode = \h8000 -> ~Secure
+      [] DiagCode = \h8013 -> ~Scanned.S_SafetyActive /\ ZONE_LOST = "error"
+      [] DiagCode = \h8012 -> ~Scanned.S_SafetyActive /\ (ZONE_LOST = "error" \/ ~Scanned.S_GuardMonitoring)
+      [] DiagCode = \h8011 -> ~Scanned.S_SafetyActive /\ ~Secure
+      [] DiagCode = \h8014 -> ~Scanned.S_SafetyActive
+      [] OTHER -> FALSE
+\* GL-IN-RESET, GL-IN-STARTRESET, GL-IN-AUTORESET, GLF-07, GLF-08: where an edge of Reset is waited for
+EdgeAwaited ==
+    CASE DiagCode = \h8001 -> ~Scanned.S_StartReset
+      [] DiagCode = \h8003 -> ~Scanned.S_AutoReset \/ startUpInhibit
+      [] OTHER -> DiagCode = \h8014
 \* GL-OUT-ERROR, GL-IN-SAFETYACTIVE, GLF-07, GLF-09, GLF-10: an error has a cause in that very call
 ErrorNeedsCause ==
     [][~Error /\ Error' =>
-        IF DiagCode' = \hC004
-        THEN IF S_GuardLocked THEN ~Secure ELSE ~Scanned.S_SafetyActive
-        ELSE Scanned.Reset /\ resetSeen /\ DiagCode \in {\h8001, \h8003, \h8014}]_beat
+        IF DiagCode' = \hC004 THEN LossSeen ELSE Scanned.Reset /\ resetSeen /\ EdgeAwaited]_beat
 
 \* GL-IN-RESET, GL-OUT-ERROR, GLF-06, GLF-07: an error ends with its cause, and leads back to where it was found
 ErrorEndsWithCause ==
@@ -175,6 +186,11 @@ MessageUntilReset ==
 \* GL-IN-RESET, GLF-14: after a loss only a guard that is closed and locked again lets the error be reset
 ResetNeedsGuardBack ==
     [][DiagCode = \h8014 /\ DiagCode' = \h8011 => Secure]_beat
+
+\* GL-OUT-DIAGCODE, GL-IN-GUARDMONITORING, GLF-11: the code of an unlocked guard tells whether it is open
+CodeTellsTheGuard ==
+    [][/\ DiagCode' = \h8013 => Scanned.S_GuardMonitoring
+       /\ DiagCode' = \h8012 => ~Scanned.S_GuardMonitoring \/ DiagCode = \h8011]_beat
 
 \* GL-SEQ-NOTE, GLF-01: one transition a call, and only these
 Transitions == {

@@ -139,6 +139,13 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
         block_safety.in_the_table,
         [("return Step.INIT  # StartUp", "return Step.WAIT_FOR_RESET")],
     ),
+    (
+        "CodeTellsTheGuard",
+        JUDGE,
+        "GuardOpenAndUnlocked",
+        block_safety.code_tells_the_guard,
+        [("return Step.GUARD_OPEN_AND_UNLOCKED  # StayOpen", "return Step.GUARD_CLOSED_BUT_UNLOCKED")],
+    ),
     ("UnlockNeedsSafeZone", JUDGE, LOCKED, block_locks.unlock_needs_safe_zone, [UNASKED]),
     (
         "UnlockedOnlyWhileSafe",

@@ -69,6 +69,10 @@ FAULTS = {
         'GoTo("ResetError2")\n    /\\ Did("AcknowledgeError")',
     ),
     "ErrorEndsWithCause": ('[] OTHER -> "WaitForReset"', '[] OTHER -> "GuardClosedAndLocked"'),
+    "CodeTellsTheGuard": (
+        '"WaitForOperator" ELSE "GuardOpenAndUnlocked")',
+        '"WaitForOperator" ELSE "GuardClosedButUnlocked")',
+    ),
     "OneTransitionACall": (
         'At("Idle", i) /\\ GoTo("Init") /\\ Did("StartUp")',
         'At("Idle", i) /\\ GoTo("WaitForOperator") /\\ Did("StartUp")',
