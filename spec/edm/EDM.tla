@@ -37,6 +37,7 @@ Readings == FamilyReadings \cup {
     "INIT_ERROR_WITHOUT_INHIBIT",   \* they may not even where Reset is not waited for
     "TWO_EDGES_IN_ERRORS",          \* nor where Reset is to reset an error
     "REQUEST_BEFORE_TIMEOUT",       \* a request at the timeout is what the error is named after
+    "REQUEST_COUNTS_AT_ONCE",       \* a request that stands when Reset is pressed counts: AFTER_RESET = "at_once"
     "REQUEST_WAITS",                \* a request waits for the feedback as long as MonitoringTime lasts
     "STATIC_RESET_IGNORED"          \* Reset that is held is no error
 }
@@ -135,6 +136,8 @@ LOCAL Remembers(i) == RemembersReset(i) /\ outControlBefore' = i.S_OutControl
 LOCAL To(s) == GoTo(s) /\ stopSeen' = FALSE /\ elapsed' = 0
 LOCAL Stay == UNCHANGED <<state, stopSeen, elapsed>>
 LOCAL Waits(i) == GoTo(state) /\ elapsed' = Counted(elapsed, i.dt, MONITORING_TIME)
+\* EDM-IN-RESET-4, EDMF-04: after a reset by hand a request that stands there does not count
+LOCAL CountsAfterReset(i) == ~i.S_OutControl \/ AFTER_RESET = "at_once" \/ Literal("REQUEST_COUNTS_AT_ONCE")
 \* The timer starts with 0 in the call that enters
 LOCAL Disable(counts) == GoTo("OutputDisable") /\ stopSeen' = counts /\ elapsed' = 0
 
@@ -162,7 +165,7 @@ StartWithoutInhibit(i) == NoErrorInInit(i) /\ i.S_StartReset /\ Disable(TRUE) /\
 \* EDM-IN-START-2, EDM-IN-RESET-2, EDM-IN-RESET-3, EDM-IN-TIME-1, EDM-SEQ-2, EDMF-04
 RemoveInhibit(i) ==
     /\ NoErrorInInit(i) /\ ~i.S_StartReset /\ ResetRises(i)
-    /\ Disable(~i.S_OutControl \/ AFTER_RESET = "at_once")
+    /\ Disable(CountsAfterReset(i))
     /\ Did("RemoveInhibit")
 \* EDM-IN-START-1, EDM-IN-START-2, EDM-SEQ-1
 AwaitReset(i) == NoErrorInInit(i) /\ ~i.S_StartReset /\ ~ResetRises(i) /\ Stay /\ Did("AwaitReset")
@@ -226,7 +229,7 @@ LOCAL NoResetError(i) == InError(i) /\ ~Static(i) /\ ~TogetherInError(i)
 \* EDM-IN-RESET-1, EDM-IN-RESET-3, EDM-IN-RESET-4, EDM-IN-TIME-1, EDM-SEQ-6, EDMF-04, EDMF-07
 ResetError(i) ==
     /\ NoResetError(i) /\ Resettable(i)
-    /\ Disable(~i.S_OutControl \/ AFTER_RESET = "at_once")
+    /\ Disable(CountsAfterReset(i))
     /\ Did("ResetError")
 \* EDM-OUT-ERROR, EDM-OUT-EDM-1, EDM-IN-RESET-1, EDM-SEQ-5, EDMF-07
 StayInError(i) == NoResetError(i) /\ ~Resettable(i) /\ Stay /\ Did("StayInError")
