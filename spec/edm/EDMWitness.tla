@@ -1,8 +1,8 @@
 ----------------------------- MODULE EDMWitness -----------------------------
 (***************************************************************************)
 (* What must be reachable, so that no property holds for want of a case:   *)
-(* every step, every state, every DiagCode, and some situations.  A step   *)
-(* is a witness by its name, which only the step itself sets.              *)
+(* every step, state, transition between states, DiagCode, and some        *)
+(* situations.  A step is a witness by its name, which only it sets.       *)
 (***************************************************************************)
 EXTENDS Sequences, EDMOpen
 
@@ -36,7 +36,10 @@ Situation ==
       [] step' = "EnableOutput" -> (controlWas => Report("RequestWasThere"))
       [] OTHER -> TRUE
 
-Mark == Report(step') /\ Report("at " \o state') /\ Report("code " \o Hex(DiagCode')) /\ Situation
+Mark ==
+    /\ Report(step') /\ Report("at " \o state') /\ Report("code " \o Hex(DiagCode'))
+    /\ (state' # state => Report(state \o " to " \o state'))
+    /\ Situation
 
 ASSUME TLCSet(1, {})
 =============================================================================
