@@ -6,7 +6,7 @@ import argparse
 import hashlib
 import json
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,9 @@ from modeproof.suites.pack import NAME, pack
 from modeproof.suites.write import SUITES, NoCases
 
 WITHIN = 1.05
-"""How much a tour may cost, as a multiple of its lower bound, and one reset more: the bound may need none."""
+"""How much a tour may cost, as a multiple of its lower bound."""
+SPARE = 20_000
+"""So many scans more than that are some seconds, and no reason to look for a shorter tour."""
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -172,18 +174,28 @@ def _stats(place: Path, args: argparse.Namespace) -> int:
             cost = suite.scan_count + suite.case_count
             row |= {"lower_bound": bound, "cost": cost}
             line += f"; scans and resets {cost:,}, at least {bound:,}: {100 * (cost / bound - 1):.1f} % above"
-            if cost > WITHIN * bound + 1:
+            if cost > WITHIN * bound + SPARE:
                 status = EXIT_NOT_AS_EXPECTED
-                line += f", more than {100 * (WITHIN - 1):.0f} %"
+                line += f", more than {100 * (WITHIN - 1):.0f} % and {SPARE:,}"
         print(line)
         for graph in header["graphs"]:
-            notes = {key: value for key, value in graph.items() if key in ("not_so", "moves", "moves_not_so")}
-            for name, values in sorted(notes.get("not_so", {}).items()):
-                print(f"    {graph['run']}, not by single changes: {name}: {values}")
+            if "not_so" in graph:
+                print(f"    {graph['run']}: {_not_so(graph['not_so'])}")
         rows.append(row)
     if args.json is not None:
         write_json(args.json, {"command": "vectors stats", "status": status, "files": rows})
     return status
+
+
+def _not_so(steps: Mapping[str, str]) -> str:
+    """What single changes do not reach, in one line; the header of the file has it step by step."""
+    if not steps:
+        return "every transition by single changes of inputs"
+    counts = [[int(part) for part in text.split(" of ")] for text in steps.values()]
+    missed, of_all = (sum(one[n] for one in counts) for n in (0, 1))
+    return (
+        f"{missed:,} of {of_all:,} transitions of {len(counts)} steps not reached by single changes of inputs"
+    )
 
 
 def _show(place: Path, args: argparse.Namespace) -> int:

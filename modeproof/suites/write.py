@@ -525,7 +525,7 @@ class _Writer:
             "shrink": "graph" if kind.plan is None and kind.rule is None else "prefix",
             "guarantees": kind.guarantees,
             "hypothesis": kind.hypothesis,
-            "does_not_show": kind.does_not_show,
+            "does_not_show": kind.does_not_show + _codes(self.device.codes),
             "generator": generator,
             "sources": dict(sorted(sources.items())),
             "cases": len(self.cases) + self.made,
@@ -621,6 +621,13 @@ class _Letters:
             self._wire[letter] = _pieces(device.wire_inputs(values))
         self.used.add(letter)
         return values, self._wire[letter]
+
+
+def _codes(names: Sequence[str]) -> str:
+    """What is not shown of outputs whose values the document does not give."""
+    return (
+        f"; unless they are compared: {', '.join(names)}, for states are told apart without" if names else ""
+    )
 
 
 def _pieces(values: Mapping[str, Any]) -> Pieces:
