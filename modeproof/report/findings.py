@@ -22,6 +22,8 @@ from modeproof.report.scan_table import Comparison, compare, markdown, scan_tabl
 
 COMMAND = ".venv/bin/modeproof"
 WORDING = "wording"
+LITTLE = 40
+"""A sentence of fewer characters does not say by itself what was decided."""
 MANY = 3
 """More readings than this are counted in a heading, not listed."""
 
@@ -434,9 +436,12 @@ def _index(material: Material) -> str:
         "Where the text contradicts itself or is silent, how it can be read, and what "
         f"was decided. {len(findings)} findings: {count['safety']} of class safety, "
         f"{count['availability']} availability, "
-        f"{count[WORDING]} wording. {shown} have a page with evidence; for {open_ones} of class safety or "
-        "availability "
-        "the last column says why no model shows them.",
+        f"{count[WORDING]} wording. {shown} have a page with evidence"
+        + (
+            f"; for {open_ones} of class safety or availability the last column says why no model shows them."
+            if open_ones
+            else "."
+        ),
         "",
         f"[What each deviation does]({_link(material.index, material.table)}) puts them side by "
         "side: restored alone, which property falls, in "
@@ -467,8 +472,10 @@ def _index(material: Material) -> str:
 
 
 def _short(text: str) -> str:
-    """The first sentence."""
+    """The first sentence, and the next ones while that says little."""
     end = text.find(". ")
+    while 0 <= end < LITTLE:
+        end = text.find(". ", end + 1)
     return text if end < 0 else text[: end + 1]
 
 
