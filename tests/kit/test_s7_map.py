@@ -13,6 +13,8 @@ from modeproof.kit.errors import Unjudged
 from modeproof.kit.s7 import blocks_of, number_at, split_address
 from modeproof.kit.s7_map import Place, decode, encode, parse_address, proposed_map, read_map
 from modeproof.kit.signals import Signal
+from modeproof.places import documents, root
+from modeproof.registers.load import load_interface
 from tests.any_machine import SHARED_FIXTURE
 from tests.kit.s7_plc import FREE, STEPPED
 
@@ -185,3 +187,26 @@ def test_addresses_are_read_as_step_7_writes_them() -> None:
     for wrong in ("", ":102", "plc:", "plc:x", "plc:0", "plc:70000"):
         with pytest.raises(Unjudged, match="HOST"):
             split_address(wrong)
+
+
+PUBLISHED = [
+    (document, name)
+    for document in documents(root())
+    for name, device in load_interface(root(), document).devices.items()
+    if device.published
+]
+
+
+@pytest.mark.parametrize(("document", "target"), PUBLISHED, ids=[target for _, target in PUBLISHED])
+def test_the_map_to_start_from_can_be_used_for_every_published_target(
+    document: str, target: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(tmp_path / "map.csv")
+    assert main(["map", target, "--document", document, "--out", path]) == 0
+    assert main(["map", target, "--document", document, "--check", path]) == 0
+    device = load_interface(root(), document).devices[target]
+    chosen = [one for one in device.parameters.values() if one.type != "function"]
+    symbols = (
+        len(device.inputs) + len(device.outputs) + len(chosen) + len(("@dt_ms", "@scan", "@done", "@reset"))
+    )
+    assert f"{symbols} symbols of {target}; unobserved: none" in capsys.readouterr().out
