@@ -1,0 +1,280 @@
+"""Each theorem that proves a property of the enable switch falls to a fault planted in a copy of its code."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import ModuleType
+from typing import Any
+
+import pytest
+import z3
+
+from modeproof.places import root
+from modeproof.registers import load_document
+from proofs.enable_switch import invariants, step_paths, switch_answers, switch_outputs, switch_safety
+from proofs.enable_switch.devices import SWITCH
+from proofs.sentences import Judge, Sentence
+from proofs.solvers import ask_z3
+from proofs.theorem import Theorem
+from tests.proofs.mode_selection.planted_steps import begun_in, planted, refuted
+
+JUDGE, ANYWHERE = invariants.JUDGE, switch_answers.ANYWHERE
+Edit = tuple[str, str]
+
+
+def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
+    return JUDGE.after_a_scan(always)
+
+
+LATE = ("if time_is_over(s, i):", "if time_is_over(s, i) and not sees_stage_1(i):")
+RESET = ("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.Reset or i.S_AutoReset:")
+STATIC = ("if held(i.Reset, s.reset_before) and not i.S_AutoReset:", "if False:")
+REMEMBERED = ("return State(s.params, control, i.Reset, 0)", "return State(s.params, control, False, 0)")
+NEVER_OVER = (
+    "return s.elapsed_ms + i.dt_ms >= s.params.DiscrepancyTimeCh1_Ch3_ms",
+    "return s.elapsed_ms + i.dt_ms > s.params.DiscrepancyTimeCh1_Ch3_ms",
+)
+FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
+    (
+        "EnableNeedsItsConditions",
+        JUDGE,
+        "Stage0",
+        switch_safety.enable_needs_its_conditions,
+        [
+            (
+                "return i.S_EnableSwitchCh1 and not i.S_EnableSwitchCh2 and i.S_EnableSwitchCh3",
+                "return i.S_EnableSwitchCh1",
+            )
+        ],
+    ),
+    (
+        "EnableNeedsStage0",
+        JUDGE,
+        "Stage2",
+        switch_safety.enable_needs_stage_0,
+        [("return _at(s, i, Step.PLAUSIBILITY_ERROR)  # RefuseStage1", "return _at(s, i, Step.STAGE_1)")],
+    ),
+    (
+        "EnableStandsAlone",
+        JUDGE,
+        "Stage0",
+        _state(switch_outputs.enable_stands_alone),
+        [
+            (
+                "Outputs(True, True, False, False, False, 0x8000)",
+                "Outputs(True, True, True, False, False, 0x8000)",
+            )
+        ],
+    ),
+    (
+        "IdleIsSilent",
+        JUDGE,
+        "Stage1",
+        _state(switch_outputs.idle_is_silent),
+        [
+            (
+                "Outputs(False, False, False, False, False, 0x0000)",
+                "Outputs(False, True, False, False, False, 0x0000)",
+            )
+        ],
+    ),
+    (
+        "ActivateGoesFirst",
+        JUDGE,
+        "Stage1",
+        switch_safety.activate_goes_first,
+        [("if not i.Activate:", "if not i.Activate and s.state != Step.STAGE_1:")],
+    ),
+    (
+        "ModeEndsOperation",
+        JUDGE,
+        "Stage1",
+        switch_safety.mode_ends_operation,
+        [("return _at(s, i, Step.BASIC_MODE)  # LoseSafetyActive", "return _at(s, i, Step.STAGE_0)")],
+    ),
+    ("ErrorNeedsReset", JUDGE, "OperationErrorAtStage0", switch_safety.error_needs_reset, [RESET, STATIC]),
+    (
+        "ErrorNeedsReset",
+        JUDGE,
+        "EquivalenceError",
+        switch_safety.error_needs_reset,
+        [("if s.params.MODE_ENDS_ERROR and not i.S_SafetyActive:", "if not i.S_SafetyActive:")],
+    ),
+    (
+        "ErrorNeedsResetInTheMode",
+        JUDGE,
+        "PlausibilityError",
+        switch_safety.error_needs_reset_in_the_mode,
+        [("if s.params.MODE_ENDS_ERROR and not i.S_SafetyActive:", "if s.params.MODE_ENDS_ERROR:")],
+    ),
+    (
+        "HeldResetNeverResets",
+        JUDGE,
+        "EquivalenceErrorAtStage0",
+        switch_safety.held_reset_never_resets,
+        [RESET, STATIC],
+    ),
+    (
+        "HeldResetIsAnError",
+        JUDGE,
+        "EquivalenceErrorAtStage0",
+        switch_safety.held_reset_is_an_error,
+        [STATIC],
+    ),
+    (
+        "DisagreementEndsInError",
+        JUDGE,
+        "ChangeToStage0",
+        switch_safety.disagreement_ends_in_error,
+        [NEVER_OVER],
+    ),
+    (
+        "ContradictionEndsInError",
+        JUDGE,
+        "ChangeToStage1",
+        switch_safety.contradiction_ends_in_error,
+        [NEVER_OVER],
+    ),
+    ("EnableComesInTime", JUDGE, "ChangeToStage1", switch_safety.enable_comes_in_time, [LATE]),
+    (
+        "PatternsDecide",
+        ANYWHERE,
+        "Stage1",
+        switch_answers.patterns_decide,
+        [("return _at(s, i, Step.CHANGE_TO_STAGE_0)  # BeginReturn", "return _at(s, i, Step.STAGE_1)")],
+    ),
+    (
+        "OutputsFollowTheCode",
+        JUDGE,
+        "EquivalenceError",
+        _state(switch_outputs.outputs_follow_the_code),
+        [
+            (
+                "Outputs(True, False, False, True, True, 0xC450)",
+                "Outputs(True, False, False, False, True, 0xC450)",
+            )
+        ],
+    ),
+    (
+        "PowerUpIsSilent",
+        JUDGE,
+        "Stage1",
+        _state(switch_outputs.idle_is_silent),
+        [
+            (
+                "Outputs(False, False, False, False, False, 0x0000)",
+                "Outputs(True, False, False, False, False, 0x0000)",
+            )
+        ],
+    ),
+    (
+        "EnablesAgain",
+        ANYWHERE,
+        "Stage0",
+        switch_answers.stage_1_enables,
+        [("return _at(s, i, Step.STAGE_1)  # Enable", "return _at(s, i, Step.STAGE_2)")],
+    ),
+    (
+        "EnablesAgain",
+        ANYWHERE,
+        "ResetError2",
+        switch_answers.comes_closer,
+        [
+            (
+                "if i.Reset:\n        return _at(s, i, s.state)",
+                "if not i.Activate or not i.Reset:\n        return _at(s, i, s.state)",
+            )
+        ],
+    ),
+    (
+        "the invariant",
+        JUDGE,
+        "Stage0",
+        lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
+        [REMEMBERED],
+    ),
+    (
+        "the row",
+        JUDGE,
+        "Stage2",
+        _state(switch_outputs.row_of_the_state),
+        [("0x8832", "0x8812")],
+    ),
+    (
+        "the time",
+        JUDGE,
+        "ChangeToStage1",
+        switch_safety.timer_counts,
+        [("s.elapsed_ms + i.dt_ms)  # AwaitChange", "i.dt_ms)")],
+    ),
+    (
+        "the cause",
+        JUDGE,
+        "ChangeToStage0",
+        switch_safety.ends_by_its_cause,
+        [("if all_true(i):", "if i.S_EnableSwitchCh2:")],
+    ),
+    (
+        "the reset",
+        ANYWHERE,
+        "PlausibilityErrorAtStage0",
+        switch_answers.resets_lead_back,
+        [("        if i.S_SafetyActive:\n            return _at(s, i, Step.STAGE_0)  # LeaveError\n", "")],
+    ),
+    (
+        "the edge",
+        ANYWHERE,
+        "OperationErrorAtStage0",
+        switch_answers.the_edge_resets,
+        [("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.S_AutoReset:")],
+    ),
+    (
+        "the kind of error",
+        ANYWHERE,
+        "ResetError3",
+        switch_answers.kept_in_error,
+        [
+            (
+                "return _reset_error(s, i, Step.EQUIVALENCE_ERROR_AT_STAGE_0)",
+                "return _reset_error(s, i, Step.OPERATION_ERROR_AT_STAGE_0)",
+            )
+        ],
+    ),
+    (
+        "the parameter",
+        ANYWHERE,
+        "EquivalenceError",
+        switch_answers.parameter_ends_errors,
+        [("if s.params.MODE_ENDS_ERROR and not i.S_SafetyActive:", "if False:")],
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "judge", "control", "sentence", "edits"), FAULTS, ids=[f"{one[0]}-{one[2]}" for one in FAULTS]
+)
+def test_a_planted_fault_is_refuted_with_an_example_that_happens(
+    name: str, judge: Judge, control: str, sentence: Sentence, edits: list[Edit]
+) -> None:
+    with planted(judge.device, *edits) as device:
+        scan = begun_in(device, control)
+        assert refuted(replace(judge, device=device, explored=(scan,)), sentence, control)
+    assert not refuted(judge, sentence, control)
+
+
+def _theorems(*modules: ModuleType) -> list[Theorem]:
+    return [one for module in modules for one in vars(module).values() if isinstance(one, Theorem)]
+
+
+def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
+    found: list[Any] = _theorems(switch_answers, switch_outputs, switch_safety, step_paths)
+    named = {name for item in found for name in item.properties}
+    assert {one[0] for one in FAULTS} >= named - {"EveryCallIsAnswered"}
+    assert {one.id for one in load_document(root(), "enable_switch").properties} == named
+
+
+def test_the_theorem_of_the_paths_is_true() -> None:
+    queries = step_paths.every_call_of_the_switch_takes_exactly_one_path.queries()
+    assert len(queries) >= 2 * len(SWITCH.register.states)
+    assert not [one.name for one in queries[:8] if ask_z3(one, "", 20_000).answer != one.expected]
