@@ -61,8 +61,8 @@ def reset_needs_edge(one: Scanned) -> Said:
     properties=["ResetNeedsEdge"],
 )
 def neither_inhibit_nor_error_goes_without_an_edge() -> Queries:
-    """The inhibit goes only in a call with a rising edge of Reset, or with S_StartReset TRUE; an error is
-    reset only in a call with such an edge.
+    """While the block stays active, the inhibit goes only in a call with a rising edge of Reset, or with
+    S_StartReset TRUE, and an error is reset only in a call with such an edge.
     """
     yield from JUDGE.in_every_scan(reset_needs_edge)
     yield JUDGE.without(reset_needs_edge, "EDMError22", "WiresAreRemembered")

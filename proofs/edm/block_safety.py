@@ -5,13 +5,16 @@ Each theorem proves the property of properties.toml that it names, written like 
 
 from __future__ import annotations
 
+from typing import Final
+
 import z3
 
-from proofs.edm.devices import stop_first
+from proofs.edm.devices import BLOCK, stop_first
 from proofs.edm.invariant import JUDGE
 from proofs.edm.observer import SEEN
-from proofs.explorer.ends import TRUE
-from proofs.explorer.scanned import Scanned
+from proofs.edm.rows import FROM_ANYWHERE, NUMBERS
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, control
 from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
@@ -75,6 +78,39 @@ def ready_is_activate_of_the_same_call() -> Queries:
         return one.inputs.Activate, one.sends.S_EDM_Out
 
     yield JUDGE.too_strong("and the output with it", and_on, "Idle")
+
+
+FOLLOWS: Final = {
+    "Idle": ("Init",),
+    "Init": ("OutputDisable", "ResetError1", "InitError"),
+    "ResetError1": ("Init",),
+    "InitError": ("Init",),
+    "OutputDisable": ("OutputEnable", *(f"EDMError{of}" for of in NUMBERS[:6])),
+    "OutputEnable": ("OutputDisable", *(f"EDMError{of}" for of in NUMBERS[6:])),
+    **{f"EDMError{of}": ("OutputDisable", f"ResetError{of}") for of in NUMBERS},
+    **{f"ResetError{of}": (f"EDMError{of}",) for of in NUMBERS},
+}
+"""Where one transition leads from each state, besides to Idle."""
+
+
+def one_transition(one: Scanned) -> Said:
+    state = control(BLOCK, one.before)
+    return TRUE, TRUE if one.becomes(state, "Idle", *FOLLOWS[state]) else FALSE
+
+
+@theorem(
+    clauses=["EDM-INST-1", "EDM-IN-ACTIVATE"],
+    findings=["EDMF-12"],
+    properties=["OneTransitionACall"],
+)
+def a_call_takes_one_transition_at_most() -> Queries:
+    """From any memory a call stays in its state, ends in Idle, or takes one of its state's transitions."""
+    yield from FROM_ANYWHERE.in_every_scan(one_transition)
+
+    def stays(one: Scanned) -> Said:
+        return TRUE, TRUE if one.becomes(control(BLOCK, one.before), "Idle") else FALSE
+
+    yield FROM_ANYWHERE.too_strong("it takes none but to Idle", stays, "OutputDisable")
 
 
 def starts_with_inhibit(one: Scanned) -> Said:

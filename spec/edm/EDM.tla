@@ -30,6 +30,7 @@ ASSUME MONITORING_TIME \in Nat /\ AFTER_RESET \in {"stop_first", "at_once"}
 Readings == FamilyReadings \cup {
     "STOP_BEFORE_TIMEOUT",          \* a stop that comes with the timeout hides it
     "CHECKED_ONCE",                 \* the feedback is looked at when the time expires, and not again
+    "NO_TIME_WITHOUT_INHIBIT",      \* the start without inhibit starts no time
     "EXPIRES_AFTER",                \* the time has expired when more than MonitoringTime has passed
     "ZERO_TIME_IS_OFF",             \* a MonitoringTime of 0 switches the monitoring off
     "RESET_DESPITE_FEEDBACK",       \* an error is reset while a contactor still shows what it must not
@@ -71,7 +72,8 @@ EDMInit == state = "Idle" /\ resetBefore = FALSE /\ outControlBefore = FALSE /\ 
 Ready == state # "Idle"
 \* EDM-OUT-EDM-1, EDM-OUT-EDM-2
 S_EDM_Out == state = "OutputEnable"
-\* EDM-OUT-DEMAND, EDMF-03: the output is off because the safety function is requested, and for no other reason
+\* EDM-OUT-DEMAND, EDMF-03, EDMF-04: the output is off, and neither an inhibit nor an error is the reason; with a request that
+\* was there before a reset by hand it shows too, though nobody asks for the stop
 SafetyDemand == state = "OutputDisable"
 \* EDM-OUT-REQUEST, EDMF-02: exactly where an edge of Reset is waited for
 ResetRequest == state = "Init" \/ InEDMError
@@ -88,6 +90,8 @@ DiagCode ==
       [] state = "ResetError11" -> \hC011 [] state = "ResetError12" -> \hC021 [] state = "ResetError13" -> \hC031
       [] state = "ResetError21" -> \hC041 [] state = "ResetError22" -> \hC051 [] state = "ResetError23" -> \hC061
       [] state = "ResetError31" -> \hC071 [] state = "ResetError32" -> \hC081 [] state = "ResetError33" -> \hC091
+\* For one reading alone: a timer that does not run
+NotStarted == -1
 \* The outputs by their names
 EDMOutputs == [Ready |-> Ready, S_EDM_Out |-> S_EDM_Out, SafetyDemand |-> SafetyDemand, ResetRequest |-> ResetRequest,
                Error |-> Error, DiagCode |-> DiagCode]
@@ -100,6 +104,7 @@ LOCAL Expired(i) ==
     /\ IF Literal("EXPIRES_AFTER") THEN elapsed + i.dt > MONITORING_TIME ELSE elapsed + i.dt >= MONITORING_TIME
     /\ Literal("CHECKED_ONCE") => elapsed < MONITORING_TIME
     /\ Literal("ZERO_TIME_IS_OFF") => MONITORING_TIME # 0
+    /\ Literal("NO_TIME_WITHOUT_INHIBIT") => elapsed # NotStarted
 \* EDM-IN-EDM-1: TRUE is dropped out, FALSE is picked up
 LOCAL Feedback(i, dropped) == i.S_EDM1 = dropped /\ i.S_EDM2 = dropped
 \* EDMF-01: which of the two is wrong
@@ -135,7 +140,8 @@ LOCAL Number(s, names) == CHOOSE n \in 1..9 : names[n] = s
 LOCAL Remembers(i) == RemembersReset(i) /\ outControlBefore' = i.S_OutControl
 LOCAL To(s) == GoTo(s) /\ stopSeen' = FALSE /\ elapsed' = 0
 LOCAL Stay == UNCHANGED <<state, stopSeen, elapsed>>
-LOCAL Waits(i) == GoTo(state) /\ elapsed' = Counted(elapsed, i.dt, MONITORING_TIME)
+LOCAL Waits(i) ==
+    GoTo(state) /\ elapsed' = IF elapsed = NotStarted THEN NotStarted ELSE Counted(elapsed, i.dt, MONITORING_TIME)
 \* EDM-IN-RESET-4, EDMF-04: after a reset by hand a request that stands there does not count
 LOCAL CountsAfterReset(i) == ~i.S_OutControl \/ AFTER_RESET = "at_once" \/ Literal("REQUEST_COUNTS_AT_ONCE")
 \* The timer starts with 0 in the call that enters
@@ -160,8 +166,12 @@ FindStaticReset(i) == At("Init", i) /\ StaticInInit(i) /\ To("ResetError1") /\ D
 \* EDM-IN-START-2, EDM-IN-RESET-4, EDMF-11
 FindTwoEdges(i) == At("Init", i) /\ ~StaticInInit(i) /\ TogetherInInit(i) /\ To("InitError") /\ Did("FindTwoEdges")
 LOCAL NoErrorInInit(i) == At("Init", i) /\ ~StaticInInit(i) /\ ~TogetherInInit(i)
-\* EDM-IN-START-1, EDM-IN-START-3: no inhibit; S_OutControl counts as it stands
-StartWithoutInhibit(i) == NoErrorInInit(i) /\ i.S_StartReset /\ Disable(TRUE) /\ Did("StartWithoutInhibit")
+\* EDM-IN-START-1, EDM-IN-START-3, EDMF-14: no inhibit; S_OutControl counts as it stands, and the time starts
+StartWithoutInhibit(i) ==
+    /\ NoErrorInInit(i) /\ i.S_StartReset
+    /\ GoTo("OutputDisable") /\ stopSeen' = TRUE
+    /\ elapsed' = IF Literal("NO_TIME_WITHOUT_INHIBIT") THEN NotStarted ELSE 0
+    /\ Did("StartWithoutInhibit")
 \* EDM-IN-START-2, EDM-IN-RESET-2, EDM-IN-RESET-3, EDM-IN-TIME-1, EDM-SEQ-2, EDMF-04
 RemoveInhibit(i) ==
     /\ NoErrorInInit(i) /\ ~i.S_StartReset /\ ResetRises(i)

@@ -93,6 +93,17 @@ TwoEdgesAreAnError ==
         => Error' /\ ~ResetRequest']_beat
 \* EDM-INST-1, EDM-SEQ-1: from inactive comes the inhibit, for one call at least
 StartsWithInhibit == [][~Ready /\ Ready' => ResetRequest' /\ ~Error']_beat
+\* Where one transition leads from each state, besides to Idle
+Follows ==
+    CASE state = "Idle" -> {"Init"}
+      [] state = "Init" -> {"OutputDisable", "ResetError1", "InitError"}
+      [] state \in {"ResetError1", "InitError"} -> {"Init"}
+      [] state = "OutputDisable" -> {"OutputEnable"} \cup {EDMErrors[n] : n \in 1..6}
+      [] state = "OutputEnable" -> {"OutputDisable"} \cup {EDMErrors[n] : n \in 7..9}
+      [] InEDMError -> {"OutputDisable"} \cup {ResetErrors[n] : n \in {m \in 1..9 : EDMErrors[m] = state}}
+      [] InResetError -> {EDMErrors[n] : n \in {m \in 1..9 : ResetErrors[m] = state}}
+\* EDM-INST-1, EDM-IN-ACTIVATE, EDMF-12
+OneTransitionACall == [][state' \in {state, "Idle"} \cup Follows]_beat
 \* EDM-IN-CONTROL-3, EDM-OUT-EDM-2, EDM-SEQ-3: what may switch on does so in that call
 SwitchesOnAtOnce ==
     [][SafetyDemand /\ Scanned.Activate /\ BothAre(TRUE) /\ Scanned.S_OutControl /\ released => S_EDM_Out']_beat
