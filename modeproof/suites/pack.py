@@ -48,7 +48,9 @@ def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = Fals
         for name, about in SUITES.items():
             file = suite_file(place, document, target, name)
             if not (about.fast or every):
-                outside[name] = f"it is too large; `modeproof vectors build {target} --suite {name}` makes it"
+                outside[name] = (
+                    f"it is none of the fast ones; `modeproof vectors build {target} --suite {name}` makes it"
+                )
                 continue
             if not file.is_file():
                 if about.always:

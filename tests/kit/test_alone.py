@@ -142,7 +142,7 @@ def alone(folder: Path, kit: Path, *words: str) -> subprocess.CompletedProcess[s
 def kit(toy: Path, capsys: pytest.CaptureFixture[str]) -> Path:
     assert main(["vectors", "pack"]) == 0
     said = capsys.readouterr().out
-    assert "lamp: brief " in said and "without tour: it is too large" in said
+    assert "lamp: brief " in said and "without tour: it is none of the fast ones" in said
     return toy / "build" / packing.NAME
 
 
@@ -177,7 +177,10 @@ def test_the_packed_kit_judges_alone(kit: Path, toy: Path) -> None:
 
 def test_the_packed_kit_says_what_is_not_inside(kit: Path, toy: Path) -> None:
     for words, said in (
-        (["lamp", "--adapter", "x", "--suite", "tour"], "suite tour is not inside: it is too large"),
+        (
+            ["lamp", "--adapter", "x", "--suite", "tour"],
+            "suite tour is not inside: it is none of the fast ones",
+        ),
         (["lamp", "--adapter", "x", "--suite", "none"], "there are: brief"),
         (["lump", "--adapter", "x"], "no target 'lump' inside; there are: lamp"),
         (["lamp", "--adapter", "no_such_program"], "cannot be started"),
@@ -229,6 +232,6 @@ def test_a_kit_that_would_be_too_large_is_not_written(
     with pytest.raises(Unjudged, match="more than 1,000"):
         packing.pack(toy, {"lamp": "toy"}, toy / "x.pyz")
     assert not list(toy.glob("*.pyz")) and not list(toy.glob(".x.pyz*"))
-    (toy / "build/vectors/toy/lamp/words.jsonl.gz").unlink()
-    with pytest.raises(Unjudged, match="suite words is not built"):
+    (toy / "build/vectors/toy/lamp/brief.jsonl.gz").unlink()
+    with pytest.raises(Unjudged, match="suite brief is not built"):
         packing.pack(toy, {"lamp": "toy"}, toy / "x.pyz")
