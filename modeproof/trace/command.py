@@ -21,7 +21,7 @@ from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not
 from modeproof.trace.lines import read_lines
-from modeproof.trace.log import Log
+from modeproof.trace.log import Log, without_codes
 from modeproof.trace.table import TableForm, read_table, wire_param
 from modeproof.trace.targets import Target, find_target
 from modeproof.trace.text import as_json, as_record, as_text
@@ -67,6 +67,9 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument("--decimal-words", action="store_true", help="words of a table are decimal")
     parser.add_argument("--time", default="", metavar="COLUMN", help="of a table: ms since any moment")
     parser.add_argument("--ignore", action="append", default=[], metavar="COLUMN", help="of a table")
+    parser.add_argument(
+        "--codes", action="store_true", help="compare outputs too whose values the document does not give"
+    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
@@ -78,6 +81,8 @@ def run(args: argparse.Namespace) -> int:
     place = root()
     target = find_target(place, args.target, args.document)
     log = read_log(args, target)
+    if not args.codes:
+        log = without_codes(log, target)
     tools = find_toolchain()
     id = f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
     with only_one(place):
@@ -155,6 +160,7 @@ def _write(
     options = [f"--param {quoted(one)}" for one in args.param]
     options += ["--from anywhere"] if args.begins == "anywhere" else []
     options += ["--samples"] if args.samples else []
+    options += ["--codes"] if args.codes else []
     record = evidence.make(
         kind="trace",
         id=id,

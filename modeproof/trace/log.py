@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,18 +33,38 @@ class Row:
 
 @dataclass(frozen=True)
 class Log:
-    """All rows, and the parameters by device (wire values; those that are not given are defaults)."""
+    """All rows, and the parameters by device (wire values; those that are not given are defaults).
+
+    `not_compared` names outputs that the log had and that are left out.
+    """
 
     name: str
     rows: tuple[Row, ...]
     params: Mapping[str, Mapping[str, Any]]
     notes: tuple[str, ...] = field(default=())
+    not_compared: tuple[str, ...] = ()
 
     def observed(self, device: str) -> frozenset[str]:
         """The signals of a device that at least one row shows."""
         return frozenset(
             name for row in self.rows if row.device == device for name in (*row.inputs, *row.outputs)
         )
+
+
+def without_codes(log: Log, target: Target) -> Log:
+    """The log without the outputs whose values the document does not give, which it names."""
+    own = {
+        name: {output for output, of in part.device.outputs.items() if of.project}
+        for name, part in target.parts.items()
+    }
+    names = tuple(dict.fromkeys(name for row in log.rows for name in row.outputs if name in own[row.device]))
+    if not names:
+        return log
+    rows = tuple(
+        replace(row, outputs={k: v for k, v in row.outputs.items() if k not in own[row.device]})
+        for row in log.rows
+    )
+    return replace(log, rows=rows, not_compared=names)
 
 
 class Builder:

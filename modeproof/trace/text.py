@@ -36,9 +36,14 @@ def _observed(target: Target, found: Judgement) -> list[str]:
     for name, part in target.parts.items():
         signals = [*part.device.inputs, *part.device.outputs]
         seen = found.log.observed(name)
-        blind = [signal for signal in signals if signal not in seen]
+        blind = [one for one in signals if one not in seen and one not in found.log.not_compared]
         if blind:
             lines.append(f"not observed of {name}: {', '.join(blind)}")
+    if found.log.not_compared:
+        names = ", ".join(found.log.not_compared)
+        lines.append(
+            f"not compared, for the document does not give the values (--codes does so by ours): {names}"
+        )
     return lines or ["every signal was observed"]
 
 
@@ -147,6 +152,7 @@ def as_record(target: Target, found: Judgement, why: Why | None = None) -> dict[
             ]
             for name, part in target.parts.items()
         },
+        "not_compared": list(found.log.not_compared),
         "params": {device: dict(values) for device, values in found.log.params.items()},
         "graph": {"not_followed": one.reason}
         if isinstance(one, NotFollowed)

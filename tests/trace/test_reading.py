@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import pytest
 from modeproof.errors import Unjudged
 from modeproof.places import root
 from modeproof.trace.lines import read_lines
-from modeproof.trace.log import LONGEST_MS
+from modeproof.trace.log import LONGEST_MS, without_codes
 from modeproof.trace.table import TableForm, read_table
 from modeproof.trace.targets import find_target
 from tests.trace.judging import LOGS, example, record
@@ -220,3 +221,14 @@ def test_the_recorder_writes_what_the_devices_read_and_wrote() -> None:
     assert len(recorder.lines) == 364 and len(recorder.of("fplc")) == 52
     assert {line["device"] for line in recorder.lines} == {"eks", "fplc", "plc", "hmi"}
     assert any(line["out"]["MSO_1"] for line in recorder.of("fplc"))
+
+
+def test_an_output_whose_values_the_document_does_not_give_is_left_out_and_named(tmp_path: Path) -> None:
+    log = lines(tmp_path, '{"target":"fplc"}', SCAN)
+    assert without_codes(log, FPLC) is log
+    part = FPLC.parts["fplc"]
+    outputs = {**part.device.outputs, "MW01": replace(part.device.outputs["MW01"], project=True)}
+    target = replace(FPLC, parts={"fplc": replace(part, device=replace(part.device, outputs=outputs))})
+    left = without_codes(log, target)
+    assert left.not_compared == ("MW01",) and [dict(row.outputs) for row in left.rows] == [{"ERROR": True}]
+    assert "MW01" in log.observed("fplc") and "MW01" not in left.observed("fplc")
