@@ -99,6 +99,46 @@ def each_pattern_in_each_state_has_its_answer() -> Queries:
     yield ANYWHERE.too_strong("whatever the time is", whatever_the_time, "ChangeToStage1")
 
 
+def ways_out(before: str, ends_errors: bool) -> set[str]:
+    """The states to which a call may lead from this one; `ends_errors`: the parameter is set."""
+    rows = {before, "Idle"} | set(TABLE[before].values())
+    if before in TIMED:
+        rows |= {"EquivalenceError", "PlausibilityError"}
+    if before in RELEASED:
+        rows |= {RESET_ERRORS[RELEASED.index(before)], "Stage0", "BasicMode"}
+    in_operation = before not in ("Idle", *ERRORS)
+    return rows | ({"BasicMode"} if in_operation or (ends_errors and before in ERRORS) else set())
+
+
+def one_transition(one: Scanned) -> Said:
+    before, after = control(one.device, one.before), control(one.device, one.after)
+    ends_errors = one.params.MODE_ENDS_ERROR
+    ways = [
+        ends_errors if chosen else z3.Not(ends_errors)
+        for chosen in (False, True)
+        if after in ways_out(before, chosen)
+    ]
+    return TRUE, z3.Or(*ways)
+
+
+@theorem(
+    clauses=["ES-NOTE-1", "ES-ORDER-2", "ES-SEQ-2", "ES-SEQ-5"],
+    findings=["ESF-02", "ESF-06", "ESF-08"],
+    properties=["OneTransitionACall"],
+)
+def a_call_leads_to_a_neighbour_or_stays() -> Queries:
+    """From any memory and with any inputs, times and parameters, a call leads to one of the ways out that its
+    state has: Idle, BasicMode, where the table of patterns leads, the error of a change that is too late, and
+    out of a wait for a reset also the reset error or Stage0.
+    """
+    yield from ANYWHERE.in_every_scan(one_transition)
+
+    def never_to_basic_mode(one: Scanned) -> Said:
+        return TRUE, FALSE if one.becomes("BasicMode") else TRUE
+
+    yield ANYWHERE.too_strong("an error is never left that way", never_to_basic_mode, "ResetError1")
+
+
 def resets_lead_back(one: Scanned) -> Said:
     """What a reset leads to, by state."""
     i = one.inputs

@@ -185,16 +185,18 @@ def in_the_mode_an_error_ends_by_a_reset_whatever_the_parameter_is() -> Queries:
 
 
 def held_reset_never_resets(one: Scanned) -> Said:
-    ends = z3.And(_ends(one), z3.Not(one.inputs.S_AutoReset), one.inputs.S_SafetyActive)
-    if one.was(*RELEASED) and one.becomes("Stage0"):
+    counts = z3.Implies(one.params.MODE_ENDS_ERROR, one.inputs.S_SafetyActive)
+    ends = z3.And(_ends(one), z3.Not(one.inputs.S_AutoReset), counts)
+    if one.was(*RELEASED) and one.becomes("Stage0", "BasicMode"):
         return ends, z3.And(one.inputs.Reset, z3.Not(SEEN.last_reset))
     return TRUE, z3.Not(ends)
 
 
 @theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-10"], properties=["HeldResetNeverResets"])
 def a_reset_that_is_held_never_resets() -> Queries:
-    """Without S_AutoReset an error ends in the mode only in a call with Reset TRUE, and an observer of the
-    wires saw Reset FALSE in the call before, whether or not the block was active in it.
+    """Without S_AutoReset an error of an active block ends only in a call with Reset TRUE, and an observer of
+    the wires saw Reset FALSE in the call before, whether or not the block was active in it; where
+    MODE_ENDS_ERROR is set, in the mode.
     """
     yield from JUDGE.in_every_scan(held_reset_never_resets)
     yield JUDGE.without(held_reset_never_resets, "PlausibilityErrorAtStage0", "ResetIsRemembered")

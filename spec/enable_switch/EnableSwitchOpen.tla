@@ -86,6 +86,37 @@ HeldResetIsAnError ==
         /\ (state \in ResetErrors /\ Called.Reset) => (state' = state \/ (MODE_ENDS_ERROR /\ ~Called.S_SafetyActive))]_beat
 
 ----------------------------------------------------------------------------
+(* One transition a call, whatever the inputs are: the pairs of states     *)
+(* that a call may join.                                                   *)
+
+LOCAL Stages == {"Stage0", "Stage1", "Stage2"}
+\* ES-SEQ-0, ES-SEQ-1, ES-SEQ-2, ES-SEQ-5, ES-ORDER-2, ESF-02, ESF-06, ESF-08: the ways out of each state
+WaysOut ==
+    [s \in States |->
+        {s, "Idle"} \cup
+        (IF s \in Operating \/ (MODE_ENDS_ERROR /\ s \in Errors) THEN {"BasicMode"} ELSE {}) \cup
+        (CASE s = "Idle" -> {"BasicMode"}
+           [] s = "BasicMode" -> {"SafeMode"}
+           [] s = "SafeMode" -> {"Stage0", "OperationError"}
+           [] s = "Stage0" -> {"ChangeToStage1", "Stage1", "Stage2"}
+           [] s = "ChangeToStage1" -> Stages \cup {"EquivalenceError", "PlausibilityError"}
+           [] s = "Stage1" -> {"ChangeToStage0", "Stage0", "Stage2"}
+           [] s = "ChangeToStage0" -> {"Stage0", "Stage2", "EquivalenceError", "PlausibilityError"}
+           [] s = "Stage2" -> {"ChangeToStage0", "Stage0", "PlausibilityError"}
+           [] s = "OperationError" -> {"OperationErrorAtStage0"}
+           [] s = "PlausibilityError" -> {"PlausibilityErrorAtStage0"}
+           [] s = "EquivalenceError" -> {"EquivalenceErrorAtStage0"}
+           [] s = "OperationErrorAtStage0" -> {"OperationError", "ResetError1", "Stage0", "BasicMode"}
+           [] s = "PlausibilityErrorAtStage0" -> {"PlausibilityError", "ResetError2", "Stage0", "BasicMode"}
+           [] s = "EquivalenceErrorAtStage0" -> {"EquivalenceError", "ResetError3", "Stage0", "BasicMode"}
+           [] s = "ResetError1" -> {"OperationErrorAtStage0"}
+           [] s = "ResetError2" -> {"PlausibilityErrorAtStage0"}
+           [] s = "ResetError3" -> {"EquivalenceErrorAtStage0"}
+           [] OTHER -> {})]
+\* ES-NOTE-1, ES-ORDER-2: a call joins two states that are neighbours, and no others
+OneTransitionACall == [][state' \in WaysOut[state]]_beat
+
+----------------------------------------------------------------------------
 (* The 8 patterns of the channels in every state, where nothing else       *)
 (* decides: the block is active, the mode is on, the time of a change is   *)
 (* not over, Reset and S_AutoReset are FALSE.                              *)

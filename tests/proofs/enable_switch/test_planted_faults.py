@@ -145,6 +145,25 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
         [("return _at(s, i, Step.CHANGE_TO_STAGE_0)  # BeginReturn", "return _at(s, i, Step.STAGE_1)")],
     ),
     (
+        "OneTransitionACall",
+        ANYWHERE,
+        "PlausibilityErrorAtStage0",
+        switch_answers.one_transition,
+        [("return _at(s, i, Step.STAGE_0)  # LeaveError", "return _at(s, i, Step.SAFE_MODE)")],
+    ),
+    (
+        "HeldResetNeverResets",
+        JUDGE,
+        "OperationErrorAtStage0",
+        switch_safety.held_reset_never_resets,
+        [
+            (
+                "if rises(i.Reset, s.reset_before) or i.S_AutoReset:",
+                "if rises(i.Reset, s.reset_before) or i.S_AutoReset or not i.S_SafetyActive:",
+            )
+        ],
+    ),
+    (
         "OutputsFollowTheCode",
         JUDGE,
         "EquivalenceError",

@@ -42,6 +42,10 @@ FAULTS = {
         "~(ResetStatic(i) /\\ ~i.S_AutoReset)",
     ),
     "HeldResetIsAnError": ("/\\ Held(ResetErrors, i) /\\ ~i.Reset\n", "/\\ Held(ResetErrors, i)\n"),
+    "OneTransitionACall": (
+        '/\\ To(IF i.S_SafetyActive THEN "Stage0" ELSE "BasicMode", i)',
+        '/\\ To(IF i.S_SafetyActive THEN "Stage1" ELSE "BasicMode", i)',
+    ),
     "PatternsDecide": (
         '/\\ SeesStage0(i)\n    /\\ To("Stage0", i)',
         '/\\ SeesStage0(i)\n    /\\ To("SafeMode", i)',
