@@ -114,44 +114,44 @@ def valid(p: Any) -> z3.BoolRef:
 
 def _edges_are_remembered(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     return z3.And(
-        s.resetBefore == seen.reset, s.startTestBefore == seen.start_test, s.sensorBefore == seen.sensor
+        s.reset_before == seen.reset, s.start_test_before == seen.start_test, s.sensor_before == seen.sensor
     )
 
 
 def _time_is_that_of_the_phase(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c not in TESTING:
-        return z3.And(s.elapsed == 0, seen.phase == 0)
-    in_time = z3.Or(s.elapsed < p.TestTime_ms, s.elapsed == 0)
-    return z3.And(s.elapsed >= 0, s.elapsed == seen.phase, in_time)
+        return z3.And(s.elapsed_ms == 0, seen.phase == 0)
+    in_time = z3.Or(s.elapsed_ms < p.TestTime_ms, s.elapsed_ms == 0)
+    return z3.And(s.elapsed_ms >= 0, s.elapsed_ms == seen.phase, in_time)
 
 
 def _tested_within_both(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c == "TestRequest":
-        return seen.tested == s.elapsed
+        return seen.tested == s.elapsed_ms
     if c == "TestActive":
-        return z3.And(seen.tested >= s.elapsed, seen.tested < s.elapsed + p.TestTime_ms)
+        return z3.And(seen.tested >= s.elapsed_ms, seen.tested < s.elapsed_ms + p.TestTime_ms)
     return seen.tested == -1
 
 
 def _dark_in_the_second_phase(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c == "TestActive":
-        return z3.And(seen.dark == s.elapsed, p.TestTime_ms > 0)
+        return z3.And(seen.dark == s.elapsed_ms, p.TestTime_ms > 0)
     return seen.dark == -1
 
 
 def _start_inhibit_pending(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c in INHIBITED:
-        return z3.Implies(seen.starting, s.startInhibit)
+        return z3.Implies(seen.starting, s.start_inhibit)
     return TRUE if c in ("Init", "ResetError1", *PARAMETER_ERRORS) else z3.Not(seen.starting)
 
 
 def _start_inhibit_nowhere_else(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
-    return TRUE if c in INHIBITED else z3.Not(s.startInhibit)
+    return TRUE if c in INHIBITED else z3.Not(s.start_inhibit)
 
 
 def _cycle_of_the_manual_test(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c == "ExternalFunctionTest":
-        fits = z3.If(s.sensorBefore, seen.cycle == 1, seen.cycle == 0)
+        fits = z3.If(s.sensor_before, seen.cycle == 1, seen.cycle == 0)
         return fits
     if c == "ESPEInterruptedExternalTest":
         return z3.Or(seen.cycle == 2, seen.cycle == 3)

@@ -94,10 +94,9 @@ def every_state_has_its_row_of_the_table() -> Queries:
 
 def code_tells_its_outputs(one: Scanned, seen: Any) -> z3.BoolRef:
     o = one.sends
-    bit = lambda mask: o.DiagCode & mask != 0  # noqa: E731
-    error = z3.And(bit(0x8000), bit(0x4000))
-    same = [bit(0x8000) == o.Ready, bit(0x0800) == o.SafetyDemand, bit(0x0400) == o.ResetRequest]
-    return z3.And(error == o.Error, *same)
+    active, error, demand, request = (o.DiagCode & mask != 0 for mask in (0x8000, 0x4000, 0x0800, 0x0400))
+    same = [active == o.Ready, demand == o.SafetyDemand, request == o.ResetRequest]
+    return z3.And(z3.And(active, error) == o.Error, *same)
 
 
 @theorem(

@@ -1,0 +1,32 @@
+"""Which theorems judge the mutants of the block, in the order in which they are asked; invariants last."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType, ModuleType
+from typing import Final
+
+from proofs.testable_safety_sensor import (
+    rows,
+    sensor_errors,
+    sensor_response,
+    sensor_safety,
+    sensor_test,
+)
+from proofs.testable_safety_sensor.devices import SENSOR
+from proofs.theorem import Theorem
+
+
+def _theorems(*modules: ModuleType) -> tuple[Theorem, ...]:
+    found = [
+        one
+        for module in modules
+        for one in vars(module).values()
+        if isinstance(one, Theorem) and one.build.__module__ == module.__name__
+    ]
+    return tuple(sorted(found, key=lambda one: "invariant" in one.name))
+
+
+JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
+    {SENSOR.name: _theorems(rows, sensor_safety, sensor_test, sensor_errors, sensor_response)}
+)

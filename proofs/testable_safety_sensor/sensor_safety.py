@@ -1,0 +1,351 @@
+"""The invariant of the block, and when its enable output may be TRUE, or become so.
+
+Each theorem proves the property of properties.toml that it names, written like its TLA+ in
+TestableSafetySensorOpen.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import z3
+
+from proofs.explorer.device import LOGIC
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned
+from proofs.sentences import Judge, Said, Sentence
+from proofs.testable_safety_sensor.devices import SENSOR
+from proofs.testable_safety_sensor.invariants import (
+    MANUAL,
+    NOTHING,
+    SEEN,
+    SENSOR_INVARIANT,
+    TEST_ERRORS,
+    sees,
+)
+from proofs.theorem import Queries, claim, theorem
+from proofs.theorem import control as control_query
+
+JUDGE: Final = Judge(SENSOR, SENSOR_INVARIANT, SEEN, sees, NOTHING)
+
+
+@theorem(
+    clauses=["TSS-IN-RESET", "TSS-IN-STARTTEST", "TSS-TEST-0", "TSS-FN-3", "TSS-8002", "TSS-C000"],
+    findings=["TSSF-19", "TSSF-16"],
+)
+def every_call_of_the_block_keeps_its_invariant() -> Queries:
+    """The invariant of the block is true at power-up, and every call keeps it, with any inputs, times and
+    TestTime.
+    """
+    yield from JUDGE.initiation()
+    yield from JUDGE.consecution()
+
+
+@theorem(
+    clauses=["TSS-IN-RESET", "TSS-IN-STARTTEST"], findings=["TSSF-25"], properties=["EdgesAreRemembered"]
+)
+def the_block_remembers_the_inputs_of_every_call() -> Queries:
+    """After every call, active or not, what the block remembers of Reset, StartTest and S_OSSD_In is what
+    stood there in that call.
+    """
+
+    def remembered(one: Scanned) -> Said:
+        s, i = one.after, one.inputs
+        kept = (s.reset_before == i.Reset, s.start_test_before == i.StartTest, s.sensor_before == i.S_OSSD_In)
+        return TRUE, z3.And(*kept)
+
+    yield from JUDGE.in_every_scan(remembered)
+
+    def only_while_active(one: Scanned) -> Said:
+        return TRUE, one.after.reset_before == z3.And(one.inputs.Reset, one.inputs.Activate)
+
+    yield JUDGE.too_strong("only while active", only_while_active, "Idle")
+
+
+# ---------------------------------------------------------------- TRUE
+
+
+def enable_needs_free_sensor(one: Scanned) -> Said:
+    dark = z3.And(one.sends.S_OSSD_Out, z3.Not(one.inputs.S_OSSD_In))
+    return TRUE, TRUE if one.becomes("TestActive") else z3.Not(dark)
+
+
+@theorem(
+    clauses=["TSS-IN-OSSD", "TSS-FN-1", "TSS-FN-5", "TSS-OUT-OSSD"],
+    findings=["TSSF-09", "TSSF-21", "TSSF-22"],
+    properties=["EnableNeedsFreeSensor"],
+)
+def the_block_enables_over_a_dark_sensor_in_the_second_phase_of_a_test_only() -> Queries:
+    """After every call that finds the sensor dark S_OSSD_Out is FALSE, unless it leads to, or stays in, the
+    second phase of a test.
+    """
+    yield from JUDGE.in_every_scan(enable_needs_free_sensor)
+
+    def nor_there(one: Scanned) -> Said:
+        return TRUE, z3.Not(z3.And(one.sends.S_OSSD_Out, z3.Not(one.inputs.S_OSSD_In)))
+
+    yield JUDGE.too_strong("nor there", nor_there, "TestRequest")
+
+
+def masked_time_is_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
+    p = one.params
+    dark = z3.Or(seen.dark < 0, seen.dark < p.TestTime_ms)
+    tested = z3.Or(seen.tested <= 0, seen.tested < 2 * p.TestTime_ms)
+    return z3.And(dark, tested)
+
+
+@theorem(
+    clauses=["TSS-TEST-0", "TSS-FN-7"],
+    findings=["TSSF-06", "TSSF-08", "TSSF-09"],
+    properties=["MaskedTimeIsBounded"],
+)
+def a_test_masks_the_sensor_for_less_than_test_time() -> Queries:
+    """For any TestTime and any times between calls: S_OSSD_Out stays TRUE over a dark sensor for less than
+    TestTime, counted from the call that first saw it dark; and a test as a whole lasts less than twice
+    TestTime.
+    """
+    yield from JUDGE.after_every_scan(masked_time_is_bounded)
+    sentence = JUDGE.after_a_scan(masked_time_is_bounded)
+    yield JUDGE.without(sentence, "TestActive", "DarkInTheSecondPhase")
+    yield JUDGE.without(sentence, "TestActive", "TestedWithinBoth")
+
+    def half(one: Scanned) -> Said:
+        seen = JUDGE.sees(one)
+        return TRUE, z3.Or(seen.dark < 0, 2 * seen.dark <= one.params.TestTime_ms)
+
+    yield JUDGE.too_strong("for half of it", half, "TestActive")
+
+    def once(one: Scanned) -> Said:
+        return TRUE, z3.Or(JUDGE.sees(one).tested <= 0, JUDGE.sees(one).tested <= one.params.TestTime_ms)
+
+    yield JUDGE.too_strong("a test lasts TestTime at most", once, "TestActive")
+
+
+def latency(one: Scanned) -> Said:
+    """A call over a dark sensor that ends the output, and how long ago the sensor was first seen dark."""
+    if not one.was("ESPEFreeNoTest", "ESPEFreeTestOk", "TestRequest", "TestActive"):
+        return None
+    falls = z3.And(one.sent.S_OSSD_Out, z3.Not(one.sends.S_OSSD_Out), one.inputs.Activate)
+    since = z3.If(SEEN.dark < 0, 0, SEEN.dark + one.inputs.dt_ms)
+    bound = z3.If(SEEN.dark < 0, since == 0, since < one.params.TestTime_ms + one.inputs.dt_ms)
+    return z3.And(falls, z3.Not(one.inputs.S_OSSD_In)), bound
+
+
+@theorem(clauses=["TSS-NOTE-1", "TSS-FN-7", "TSS-OUT-OSSD"], findings=["TSSF-09"])
+def a_person_in_the_field_is_answered_within_test_time_and_one_call() -> Queries:
+    """Who makes the sensor dark and stays: outside a test S_OSSD_Out falls in the first call that sees it;
+    in a test it falls less than TestTime, and the time of one call, after the call that first saw it.
+
+    From the field to that first call another cycle can pass. So the longest delay is below TestTime and two
+    cycles, and it is the sensor that is dark in the second phase that has it.
+    """
+    yield from JUDGE.in_every_scan(latency)
+
+    def within_test_time(one: Scanned) -> Said:
+        said = latency(one)
+        return None if said is None else (said[0], SEEN.dark + one.inputs.dt_ms < one.params.TestTime_ms)
+
+    yield JUDGE.too_strong("within TestTime", within_test_time, "TestActive")
+
+    def stays_dark(one: Scanned) -> Said:
+        """The sensor is still dark TestTime after it was first seen so."""
+        late = z3.And(SEEN.dark >= 0, SEEN.dark + one.inputs.dt_ms >= one.params.TestTime_ms)
+        return z3.And(late, z3.Not(one.inputs.S_OSSD_In)), z3.Not(one.sends.S_OSSD_Out)
+
+    for scans in JUDGE.scans():
+        if scans.control == "TestActive":
+            spoken = {"it is spoken of": scans.some(lambda one: (stays_dark(one) or (FALSE, TRUE))[0])}
+            then = scans.always(lambda one: z3.Implies(*(stays_dark(one) or (FALSE, TRUE))))
+            yield from claim("still dark at TestTime", {**JUDGE.premises(scans), **spoken}, then, LOGIC)
+
+
+def a_short_demand(one: Scanned) -> z3.BoolRef:
+    """Somebody leaves the field in this call, and the output has been TRUE all the time."""
+    return z3.And(SEEN.dark > 0, one.inputs.S_OSSD_In, one.sends.S_OSSD_Out, one.sends.TestExecuted)
+
+
+@theorem(clauses=["TSS-FN-1", "TSS-TEST-3", "TSS-OUT-EXECUTED"], findings=["TSSF-09"])
+def a_demand_that_begins_and_ends_in_a_test_is_only_seen_as_the_test() -> Queries:
+    """A sensor that became dark in a test, by the test or by a person, and is free again within TestTime
+    leaves S_OSSD_Out TRUE and TestExecuted TRUE: no output shows which it was.
+    """
+
+    def passes(one: Scanned) -> Said:
+        if not one.was("TestActive"):
+            return None
+        in_time = SEEN.dark + one.inputs.dt_ms < one.params.TestTime_ms
+        given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In, in_time)
+        return given, z3.And(one.sends.S_OSSD_Out, one.sends.TestExecuted, z3.Not(one.sends.SafetyDemand))
+
+    yield from JUDGE.in_every_scan(passes)
+    scans = JUDGE.begin("TestActive")
+    example = {**JUDGE.premises(scans), "somebody was there": scans.some(a_short_demand)}
+    yield control_query("control: it happens", example, LOGIC)
+
+
+def inactive_at_once(one: Scanned) -> Said:
+    off = z3.Not(one.sends.S_OSSD_Out) if one.becomes("Idle") else FALSE
+    return z3.Not(one.inputs.Activate), off
+
+
+@theorem(clauses=["TSS-IN-ACTIVATE", "TSS-0000"], findings=[], properties=["InactiveAtOnce"])
+def without_activate_the_call_ends_in_idle() -> Queries:
+    """Every call without Activate, from any state, ends in Idle, with S_OSSD_Out FALSE."""
+    yield from JUDGE.in_every_scan(inactive_at_once)
+
+    def always(one: Scanned) -> Said:
+        return TRUE, TRUE if one.becomes("Idle") else FALSE
+
+    yield JUDGE.too_strong("and every other", always, "Idle")
+
+
+# ---------------------------------------------------------------- becoming TRUE
+
+
+def edge(one: Scanned) -> z3.BoolRef:
+    """Reset rises, as an observer of the wires sees it."""
+    return z3.And(one.inputs.Reset, z3.Not(SEEN.reset))
+
+
+def rises(one: Scanned, name: str) -> z3.BoolRef:
+    """This output becomes TRUE in the call."""
+    return z3.And(z3.Not(getattr(one.sent, name)), getattr(one.sends, name))
+
+
+def automatic(one: Scanned) -> z3.BoolRef:
+    """The constants switch off the inhibit of this state."""
+    i = one.inputs
+    if one.was("Init"):
+        return z3.And(i.S_StartReset, TRUE)
+    if one.was("ESPEInterrupted1", "WaitForReset1", "ESPEInterrupted2", "WaitForReset2"):
+        return z3.And(i.S_AutoReset, TRUE)
+    if one.was(*TEST_ERRORS, *MANUAL):
+        return z3.And(i.S_AutoReset, one.params.AUTO_RESET_ERRORS)
+    return FALSE
+
+
+def no_restart_by_itself(one: Scanned) -> Said:
+    given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In)
+    return rises(one, "S_OSSD_Out"), z3.And(given, z3.Or(edge(one), automatic(one)))
+
+
+def _spoken(sentence: Sentence) -> Sentence:
+    """Not asked of paths that cannot enable."""
+
+    def of(one: Scanned) -> Said:
+        said = sentence(one)
+        return None if said is None or z3.is_false(z3.simplify(said[0])) else said
+
+    return of
+
+
+@theorem(
+    clauses=[
+        "TSS-REL-1",
+        "TSS-FN-2",
+        "TSS-FN-3",
+        "TSS-EB-3",
+        "TSS-EB-4",
+        "TSS-EB-5",
+        "TSS-IN-STARTRESET",
+        "TSS-IN-AUTORESET",
+    ],
+    findings=["TSSF-15", "TSSF-24"],
+    properties=["NoRestartByItself"],
+)
+def the_block_never_enables_by_itself() -> Queries:
+    """S_OSSD_Out rises only in a call with Activate and the sensor free, and with an edge of Reset, or where
+    S_StartReset, or S_AutoReset, switches off the inhibit of that very state; S_AutoReset after a failed test
+    only with AUTO_RESET_ERRORS.
+    """
+    yield from JUDGE.in_every_scan(_spoken(no_restart_by_itself))
+    yield JUDGE.without(_spoken(no_restart_by_itself), "WaitForReset1", "EdgesAreRemembered")
+
+    def always_an_edge(one: Scanned) -> Said:
+        return rises(one, "S_OSSD_Out"), edge(one)
+
+    yield JUDGE.too_strong("always by an edge", _spoken(always_an_edge), "ESPEInterrupted2")
+
+
+def failed_test_needs_reset(one: Scanned) -> Said:
+    if not one.was(*TEST_ERRORS, *MANUAL):
+        return None
+    return z3.And(rises(one, "S_OSSD_Out"), z3.Not(one.params.AUTO_RESET_ERRORS)), edge(one)
+
+
+@theorem(
+    clauses=["TSS-EB-2", "TSS-EB-3", "TSS-IN-NOEXT-FALSE"],
+    findings=["TSSF-15"],
+    properties=["FailedTestNeedsReset"],
+)
+def after_a_failed_test_only_a_reset_enables() -> Queries:
+    """With AUTO_RESET_ERRORS FALSE, S_OSSD_Out rises from a test error or from the manual test only in a call
+    with an edge of Reset, whatever S_AutoReset is.
+    """
+    yield from JUDGE.in_every_scan(_spoken(failed_test_needs_reset))
+
+    def with_the_other_value(one: Scanned) -> Said:
+        return rises(one, "S_OSSD_Out"), edge(one)
+
+    yield JUDGE.too_strong("with AUTO_RESET_ERRORS too", _spoken(with_the_other_value), "TestError1C410")
+
+
+def start_inhibit_holds(one: Scanned) -> Said:
+    off = z3.And(one.inputs.S_StartReset, TRUE) if one.was("Init") else FALSE
+    return TRUE, z3.Implies(z3.And(rises(one, "S_OSSD_Out"), SEEN.starting), z3.Or(edge(one), off))
+
+
+@theorem(clauses=["TSS-FN-3", "TSS-EB-5"], findings=["TSSF-19"], properties=["StartInhibitHolds"])
+def the_start_up_inhibit_outlives_an_interruption() -> Queries:
+    """The first enable after an activation needs an edge of Reset, unless S_StartReset is TRUE when the
+    sensor is first judged; a sensor that is dark then, and S_AutoReset, change nothing in this.
+    """
+    yield from JUDGE.in_every_scan(start_inhibit_holds)
+    yield JUDGE.without(start_inhibit_holds, "ESPEInterrupted1", "StartInhibitPending")
+    yield JUDGE.without(start_inhibit_holds, "ESPEInterrupted2", "StartInhibitPending")
+
+
+def reset_only_where_requested(one: Scanned) -> Said:
+    kept = z3.Not(z3.Or(one.inputs.S_StartReset, one.inputs.S_AutoReset))
+    return kept, z3.Implies(rises(one, "S_OSSD_Out"), one.sent.ResetRequest)
+
+
+@theorem(
+    clauses=["TSS-OUT-REQUEST", "TSS-C410"], findings=["TSSF-18"], properties=["ResetOnlyWhereRequested"]
+)
+def a_reset_enables_only_where_it_was_asked_for() -> Queries:
+    """With S_StartReset and S_AutoReset FALSE, S_OSSD_Out rises only in a call after one that showed
+    ResetRequest.
+    """
+    yield from JUDGE.in_every_scan(reset_only_where_requested)
+
+    def whatever_the_constants(one: Scanned) -> Said:
+        return rises(one, "S_OSSD_Out"), z3.And(one.sent.ResetRequest, TRUE)
+
+    yield JUDGE.too_strong("whatever the constants", _spoken(whatever_the_constants), "ESPEInterrupted1")
+
+
+def demand_is_shown(one: Scanned) -> Said:
+    judged = ("ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest")
+    if not one.was(*judged):
+        return None
+    lost = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_OSSD_In))
+    return lost, z3.Or(one.sends.SafetyDemand, one.sends.Error)
+
+
+@theorem(
+    clauses=["TSS-8802", "TSS-8806", "TSS-OUT-DEMAND", "TSS-OUT-OSSD"],
+    findings=["TSSF-31"],
+    properties=["DemandIsShown"],
+)
+def a_lost_sensor_is_shown_at_once() -> Queries:
+    """Where the sensor was free, or is judged for the first time, and no test runs, a call that finds it dark
+    shows SafetyDemand or an error.
+    """
+    yield from JUDGE.in_every_scan(demand_is_shown)
+
+    def as_a_demand(one: Scanned) -> Said:
+        said = demand_is_shown(one)
+        return None if said is None else (said[0], z3.And(one.sends.SafetyDemand, TRUE))
+
+    yield JUDGE.too_strong("always as a demand", as_a_demand, "WaitForReset2")

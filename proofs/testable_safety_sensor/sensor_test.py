@@ -1,0 +1,263 @@
+"""The test of the sensor: when it begins, when it fails, and what TestExecuted says.
+
+Each theorem proves the property of properties.toml that it names, written like its TLA+ in
+TestableSafetySensorOpen.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import z3
+
+from proofs.explorer.device import LOGIC
+from proofs.explorer.ends import FALSE, TRUE
+from proofs.explorer.scanned import Scanned, Scans, control
+from proofs.sentences import Said
+from proofs.testable_safety_sensor.invariants import SEEN, TEST_ERRORS, TESTING
+from proofs.testable_safety_sensor.sensor_safety import JUDGE, rises
+from proofs.theorem import Queries, claim, theorem
+from proofs.theorem import control as control_query
+
+POSSIBLE: Final = ("ESPEFreeNoTest", "ESPEFreeTestOk")
+
+
+def asked_for(one: Scanned) -> z3.BoolRef:
+    """StartTest rises, as an observer of the wires sees it."""
+    return z3.And(one.inputs.StartTest, z3.Not(SEEN.start_test))
+
+
+def over(one: Scanned) -> z3.BoolRef:
+    """This phase of the test has lasted TestTime, as an observer of the wires counts it."""
+    late: z3.BoolRef = SEEN.phase + one.inputs.dt_ms >= one.params.TestTime_ms
+    return late
+
+
+# ---------------------------------------------------------------- its start
+
+
+def test_needs_edge(one: Scanned) -> Said:
+    if not one.becomes("TestRequest") or one.was("TestRequest"):
+        return TRUE, TRUE
+    return TRUE, z3.And(one.sent.TestPossible, asked_for(one))
+
+
+@theorem(
+    clauses=["TSS-IN-STARTTEST", "TSS-OUT-POSSIBLE", "TSS-NOTE-3", "TSS-NOTE-4", "TSS-TEST-1"],
+    findings=["TSSF-23"],
+    properties=["TestNeedsEdgeWhilePossible"],
+)
+def a_test_begins_only_by_an_edge_while_it_is_possible() -> Queries:
+    """A test begins only in a call with an edge of StartTest, after a call that showed TestPossible."""
+    yield from JUDGE.in_every_scan(test_needs_edge)
+    yield JUDGE.without(test_needs_edge, "ESPEFreeTestOk", "EdgesAreRemembered")
+
+    def never(one: Scanned) -> Said:
+        return TRUE, FALSE if one.becomes("TestRequest") else TRUE
+
+    yield JUDGE.too_strong("never", never, "ESPEFreeNoTest")
+
+
+def test_starts_at_once(one: Scanned) -> Said:
+    if not one.was(*POSSIBLE):
+        return None
+    begins = TRUE if one.becomes("TestRequest") else FALSE
+    return z3.And(one.inputs.Activate, one.inputs.S_OSSD_In), begins == asked_for(one)
+
+
+@theorem(
+    clauses=["TSS-TEST-1", "TSS-8010", "TSS-8000"],
+    findings=["TSSF-22", "TSSF-23"],
+    properties=["TestStartsAtOnce"],
+)
+def every_such_edge_starts_a_test() -> Queries:
+    """After a call that showed TestPossible, active and with the sensor free, a test begins in exactly those
+    calls that have an edge of StartTest.
+    """
+    yield from JUDGE.in_every_scan(test_starts_at_once)
+
+    def over_a_dark_sensor(one: Scanned) -> Said:
+        said = test_starts_at_once(one)
+        return None if said is None else (z3.And(one.inputs.Activate, TRUE), said[1])
+
+    yield JUDGE.too_strong("also over a dark sensor", over_a_dark_sensor, "ESPEFreeTestOk")
+
+
+VALUES: Final = (z3.Int("then.elapsed_ms"), z3.Bool("then.start_inhibit"))
+OTHER: Final = (z3.Bool("other.StartTest"), z3.Bool("other.start_test_before"))
+
+
+def _answer(scans: Scans, end: str) -> z3.BoolRef:
+    """The call leads to this state, with these values in its memory; edges that it remembers left out."""
+
+    def there(one: Scanned) -> z3.BoolRef:
+        if not one.becomes(end):
+            return FALSE
+        after = one.after
+        return z3.And(after.elapsed_ms == VALUES[0], after.start_inhibit == VALUES[1])
+
+    return scans.some(there)
+
+
+def _without_start_test(scans: Scans, formula: z3.BoolRef) -> z3.BoolRef:
+    """The same of a call that differs in StartTest, now and before, and in nothing else."""
+    was, now = scans.scan.state.start_test_before.term, scans.scan.inputs.StartTest.term
+    changed: z3.BoolRef = z3.substitute(formula, (now, OTHER[0]), (was, OTHER[1]))
+    return changed
+
+
+@theorem(
+    clauses=["TSS-IN-STARTTEST", "TSS-OUT-POSSIBLE", "TSS-NOTE-3"],
+    findings=["TSSF-23"],
+    properties=["TestNeedsEdgeWhilePossible"],
+)
+def start_test_has_no_effect_while_no_test_is_possible() -> Queries:
+    """From any memory: where TestPossible is FALSE, two calls that differ in StartTest alone, or in what was
+    remembered of it, lead to the same state, outputs, time and inhibit.
+    """
+    for scans in JUDGE.scans():
+        ends = dict.fromkeys(control(one.device, one.after) for one in scans.read.values())
+        given = {"memory, inputs and parameters in their ranges": scans.scan.premise}
+        same = [_answer(scans, end) == _without_start_test(scans, _answer(scans, end)) for end in ends]
+        if scans.control not in POSSIBLE:
+            yield from claim(f"from {scans.control}", given, z3.And(*same), LOGIC)
+        else:
+            differs = {**given, "StartTest decides": z3.Not(z3.And(*same))}
+            yield control_query(f"control: it decides in {scans.control}", differs, LOGIC)
+
+
+# ---------------------------------------------------------------- its end
+
+
+def slow_test_fails(one: Scanned) -> Said:
+    if not one.was(*TESTING):
+        return None
+    failed = z3.And(one.sends.Error, z3.Not(one.sends.S_OSSD_Out), z3.Not(one.sends.TestExecuted))
+    return z3.And(one.inputs.Activate, over(one)), failed if one.becomes(*TEST_ERRORS) else FALSE
+
+
+@theorem(
+    clauses=[
+        "TSS-ERR-1",
+        "TSS-ERR-2",
+        "TSS-FN-4",
+        "TSS-FN-6A",
+        "TSS-FN-6B",
+        "TSS-FN-6C",
+        "TSS-EB-1",
+        "TSS-CX10",
+    ],
+    findings=["TSSF-07", "TSSF-08", "TSSF-10"],
+    properties=["SlowTestFails"],
+)
+def a_test_longer_than_test_time_or_without_reaction_always_fails() -> Queries:
+    """For any TestTime and any times between calls: a call that finds that a phase of the test has lasted
+    TestTime ends in the test error, with S_OSSD_Out and TestExecuted FALSE, whatever the sensor shows in it.
+
+    A sensor that does not react at all is in this: its phase lasts until then.
+    """
+    yield from JUDGE.in_every_scan(slow_test_fails)
+    yield JUDGE.without(slow_test_fails, "TestActive", "TimeIsThatOfThePhase")
+
+    def a_ms_before(one: Scanned) -> Said:
+        said = slow_test_fails(one)
+        early = SEEN.phase + one.inputs.dt_ms + 1 >= one.params.TestTime_ms
+        return None if said is None else (z3.And(one.inputs.Activate, early), said[1])
+
+    yield JUDGE.too_strong("a millisecond before", a_ms_before, "TestRequest")
+
+
+def each_phase_has_its_time(one: Scanned) -> Said:
+    if not one.was(*TESTING):
+        return None
+    return TRUE, over(one) if one.becomes(*TEST_ERRORS) else TRUE
+
+
+@theorem(clauses=["TSS-TEST-0"], findings=["TSSF-06", "TSSF-08"], properties=["EachPhaseHasItsTime"])
+def no_other_test_fails() -> Queries:
+    """A test fails only in a call that finds that the phase it is in has lasted TestTime."""
+    yield from JUDGE.in_every_scan(each_phase_has_its_time)
+    yield JUDGE.without(each_phase_has_its_time, "TestRequest", "TimeIsThatOfThePhase")
+
+    def never(one: Scanned) -> Said:
+        return None if not one.was(*TESTING) else (TRUE, FALSE if one.becomes(*TEST_ERRORS) else TRUE)
+
+    yield JUDGE.too_strong("no test fails", never, "TestActive")
+
+
+def reaction_is_seen(one: Scanned) -> Said:
+    if not one.was(*TESTING):
+        return None
+    free = one.inputs.S_OSSD_In
+    waits = free if one.was("TestRequest") else z3.Not(free)
+    goes_on = {"TestRequest": "TestActive", "TestActive": "ESPEFreeTestOk"}[control(one.device, one.before)]
+    here = z3.And(one.inputs.Activate, z3.Not(over(one)))
+    if one.becomes(goes_on):
+        return here, z3.Not(waits)
+    same = z3.And(waits, one.after.elapsed_ms == SEEN.phase + one.inputs.dt_ms)
+    return here, same if one.becomes(control(one.device, one.before)) else FALSE
+
+
+@theorem(
+    clauses=["TSS-TEST-2", "TSS-TEST-3", "TSS-FN-5"],
+    findings=["TSSF-06"],
+    properties=["ReactionIsSeen"],
+)
+def a_reaction_in_time_is_seen_at_once() -> Queries:
+    """Within TestTime each call of a phase goes on exactly if the sensor has reacted, and otherwise adds its
+    time.
+    """
+    yield from JUDGE.in_every_scan(reaction_is_seen)
+    yield JUDGE.without(reaction_is_seen, "TestActive", "TimeIsThatOfThePhase")
+
+
+def test_executed_is_true(one: Scanned) -> Said:
+    if not one.becomes("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
+        return TRUE, z3.Not(rises(one, "TestExecuted"))
+    if not one.was("TestActive"):
+        return TRUE, z3.Not(rises(one, "TestExecuted"))
+    in_time = z3.And(one.inputs.S_OSSD_In, z3.Not(over(one)), SEEN.dark >= 0)
+    return TRUE, z3.Implies(rises(one, "TestExecuted"), in_time)
+
+
+@theorem(
+    clauses=["TSS-OUT-EXECUTED", "TSS-TEST-2", "TSS-TEST-3", "TSS-FN-6C"],
+    findings=["TSSF-07"],
+    properties=["TestExecutedIsTrue"],
+)
+def test_executed_says_the_truth() -> Queries:
+    """TestExecuted rises only in a call of the second phase that finds the sensor free before TestTime is
+    over, after it was seen dark.
+    """
+    yield from JUDGE.in_every_scan(test_executed_is_true)
+    yield JUDGE.without(test_executed_is_true, "TestActive", "DarkInTheSecondPhase")
+
+    def never(one: Scanned) -> Said:
+        return TRUE, z3.Not(rises(one, "TestExecuted"))
+
+    yield JUDGE.too_strong("never", never, "TestActive")
+
+
+def test_executed_stays(one: Scanned) -> Said:
+    if not one.was("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
+        return None
+    ends = z3.Not(one.sends.TestExecuted)
+    return z3.And(one.inputs.Activate, one.sent.TestExecuted), TRUE if one.becomes("TestRequest") else z3.Not(
+        ends
+    )
+
+
+@theorem(
+    clauses=["TSS-OUT-EXECUTED", "TSS-8806", "TSS-8406", "TSS-C051"],
+    findings=["TSSF-03"],
+    properties=["TestExecutedStays"],
+)
+def test_executed_stays_until_the_next_test() -> Queries:
+    """While the block is active TestExecuted ends only in a call that begins another test."""
+    yield from JUDGE.in_every_scan(test_executed_stays)
+
+    def also_inactive(one: Scanned) -> Said:
+        said = test_executed_stays(one)
+        return None if said is None else (TRUE, said[1])
+
+    yield JUDGE.too_strong("also without Activate", also_inactive, "WaitForReset2")
