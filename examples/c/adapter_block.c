@@ -24,6 +24,8 @@ static void take(wire_line *line, const char *name, const block_row *row)
         *row->word = wire_word(line, name);
     } else if (row->number != NULL) {
         *row->number = wire_number(line, name);
+    } else if (row->signed_number != NULL) {
+        *row->signed_number = wire_signed(line, name);
     } else {
         for (uint8_t n = 0; n < BLOCK_CHOICES && row->values[n] != NULL; n++) {
             if (wire_is(line, name, row->values[n])) {
@@ -69,6 +71,8 @@ static void answer(void)
             printf("\"%04X\"", (unsigned)*row->word);
         } else if (row->number != NULL) {
             printf("%lu", (unsigned long)*row->number);
+        } else if (row->signed_number != NULL) {
+            printf("%ld", (long)*row->signed_number);
         } else {
             printf("\"%s\"", row->values[*row->choice]);
         }

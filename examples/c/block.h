@@ -8,12 +8,13 @@
 
 enum { BLOCK_CHOICES = 4 };
 
-/* One signal or parameter, with one of four places for its value. A table ends with a row without name. */
+/* One signal or parameter, with one of five places for its value. A table ends with a row without name. */
 typedef struct {
     const char *name;
     bool *flag;                        /* true or false */
     uint16_t *word;                    /* four upper-case hex digits */
     uint32_t *number;                  /* 0..4294967295, times in ms too */
+    int32_t *signed_number;            /* -2147483648..2147483647: a time that may be out of its range */
     uint8_t *choice;                   /* one of these texts, by its place among them */
     const char *values[BLOCK_CHOICES]; /* at most so many */
 } block_row;

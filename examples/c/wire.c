@@ -330,6 +330,28 @@ uint32_t wire_number(wire_line *line, const char *name)
     return (uint32_t)number;
 }
 
+int32_t wire_signed(wire_line *line, const char *name)
+{
+    const wire_field *one = take(line, name);
+    int64_t number = 0;
+    if (one == NULL) {
+        return 0;
+    }
+    const bool negative = one->length > 1 && one->value[0] == '-';
+    for (size_t i = negative ? 1 : 0; i < one->length; i++) {
+        if (!is_digit(one->value[i]) || number > INT32_MAX) {
+            number = (int64_t)INT32_MAX + 2;
+            break;
+        }
+        number = number * 10 + (one->value[i] - '0');
+    }
+    if (number > (int64_t)INT32_MAX + (negative ? 1 : 0)) {
+        wire_refuse(line, name, "an integer -2147483648..2147483647 expected");
+        return 0;
+    }
+    return (int32_t)(negative ? -number : number);
+}
+
 uint8_t wire_modes(wire_line *line, const char *name)
 {
     const wire_field *one = take(line, name);

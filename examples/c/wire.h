@@ -36,6 +36,7 @@ void wire_refuse(wire_line *line, const char *name, const char *why);
 bool wire_bool(wire_line *line, const char *name);
 uint16_t wire_word(wire_line *line, const char *name);   /* four upper-case hex digits */
 uint32_t wire_number(wire_line *line, const char *name); /* 0..4294967295 */
+int32_t wire_signed(wire_line *line, const char *name);  /* -2147483648..2147483647 */
 uint8_t wire_modes(wire_line *line, const char *name);   /* ascending list of 0..4, as bits */
 
 /* The field is there and has this text; then it is taken. Nothing is refused. */
