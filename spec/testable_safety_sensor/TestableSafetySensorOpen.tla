@@ -200,8 +200,9 @@ CodeTellsItsOutputs ==
 \* TSS-OUT-DIAG: no two states have one code
 ASSUME \A s, t \in States : s # t => Rows[s].DiagCode # Rows[t].DiagCode
 \* TSS-IN-RESET, TSS-IN-STARTTEST: edges count from the call before, active or not
-EdgesAreRemembered == step # "" =>
-    resetBefore = Before.Reset /\ startTestBefore = Before.StartTest /\ sensorBefore = Before.S_OSSD_In
+EdgesAreRemembered ==
+    [][/\ resetBefore' = Scanned.Reset /\ startTestBefore' = Scanned.StartTest /\ sensorBefore' = Scanned.S_OSSD_In
+       /\ (step # "" => resetBefore = Before.Reset /\ startTestBefore = Before.StartTest /\ sensorBefore = Before.S_OSSD_In)]_beat
 \* TSS-OUT-DIAG, TSSF-27: every call takes one of these, or stays
 Transitions == TLCEval(
     {<<"Idle", "Init">>, <<"Init", "ParameterError">>, <<"Init", "ResetError1">>, <<"Init", "ESPEInterrupted1">>, <<"Init", "ESPEFreeNoTest">>,

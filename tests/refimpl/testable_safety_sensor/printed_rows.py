@@ -1,5 +1,5 @@
-"""The table of codes as the document prints it, taken from its text by machine: code, name, and its outputs in
-order, T for TRUE and SAFETRUE, F for FALSE and SAFEFALSE. Written for neither specification nor code.
+"""The table of codes as the document prints it, taken from its text by machine: code, name, outputs in order,
+T for TRUE and SAFETRUE, F for FALSE and SAFEFALSE. Written for neither specification nor code.
 """
 
 from __future__ import annotations

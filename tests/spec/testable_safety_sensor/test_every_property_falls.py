@@ -1,0 +1,142 @@
+"""Each property of the sensor block falls to a reading that is restored, or to a fault planted in a copy."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from modeproof.places import root
+from modeproof.registers.load import load_document
+from modeproof.tlc.process import run_tlc
+from modeproof.tlc.runs import load_runs
+from modeproof.tlc.toolchain import find_toolchain
+
+DOCUMENT = "testable_safety_sensor"
+SPEC = root() / "spec" / DOCUMENT
+MODULE = "TestableSafetySensor.tla"
+REGISTERS = load_document(root(), DOCUMENT)
+PROPERTIES = {one.id: one for one in REGISTERS.properties}
+RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
+BASE = "MC_SF_TestableSafetySensor_arbitrary"
+OTHER_BASE = {
+    "EnablesAgain": "LIVE_SF_TestableSafetySensor_enables_again",
+    "TestedAgain": "LIVE_SF_TestableSafetySensor_tested_again",
+    "PersonStopsMachine": "MC_SF_TestableSafetySensor_field",
+}
+NEVER_FREE = (
+    '/\\ Reacts(i, Free(i)) /\\ To("ESPEFreeTestOk")',
+    '/\\ Reacts(i, Free(i)) /\\ To("ESPEFreeNoTest")',
+)
+FAULTS = {
+    "InactiveAtOnce": ('Released("Idle") /\\ Did("Deactivate")', 'Released("Init") /\\ Did("Deactivate")'),
+    "EnableMeansNothingPending": (
+        "OutputRow(\\h8402, T, F, T, F, F, F, T, F)",
+        "OutputRow(\\h8402, T, T, T, F, F, F, T, F)",
+    ),
+    "DemandIsShown": (
+        'Tested(i) /\\ ~Free(i) /\\ To("ESPEInterruptedExternalTest")',
+        'Tested(i) /\\ ~Free(i) /\\ To("ExternalFunctionTest")',
+    ),
+    "TestStartsAtOnce": (
+        'At("ESPEFreeTestOk", i) /\\ ~Lost(i) /\\ TestAsked(i) /\\ To("TestRequest")',
+        'At("ESPEFreeTestOk", i) /\\ ~Lost(i) /\\ TestAsked(i) /\\ To("ESPEFreeNoTest")',
+    ),
+    "TestExecutedIsTrue": (
+        "Fails(i, Free(i)) /\\ To(TestErrorShown(i))",
+        'Fails(i, Free(i)) /\\ To(IF Free(i) THEN "WaitForReset2" ELSE TestErrorShown(i))',
+    ),
+    "TestExecutedStays": (
+        'Lost(i) /\\ To("ESPEInterrupted2") /\\ Did("Interrupt2")',
+        'Lost(i) /\\ To("ESPEInterrupted1") /\\ Did("Interrupt2")',
+    ),
+    "ReactionIsSeen": NEVER_FREE,
+    "StaticResetIsFound": (
+        "StaticAtEnd(i) == StaticInError(i) /\\ ~Printed",
+        "StaticAtEnd(i) == StaticInError(i) /\\ ~Printed /\\ Free(i)",
+    ),
+    "CodeTellsItsOutputs": ("OutputRow(\\h8804,", "OutputRow(\\h8004,"),
+    "EdgesAreRemembered": ("sensorBefore' = i.S_OSSD_In", "sensorBefore' = (i.S_OSSD_In /\\ i.Activate)"),
+    "OneTransitionPerCall": (
+        'Free(i) /\\ To("EndExternalTest")',
+        'Free(i) /\\ To(IF i.S_AutoReset THEN "WaitForReset1" ELSE "EndExternalTest")',
+    ),
+    "EveryCallIsAnswered": ("LeaveResetError(i) \\/ StayInResetError(i)", "LeaveResetError(i)"),
+    "PowerUpIsSafe": ('/\\ state = "Idle" /\\ elapsed = 0', '/\\ state = "Init" /\\ elapsed = 0'),
+    "EnablesAgain": (
+        "~i.NoExternalTest /\\ (ErrorEnds(i)",
+        "~i.NoExternalTest /\\ ~Free(i) /\\ (ErrorEnds(i)",
+    ),
+    "TestedAgain": NEVER_FREE,
+    "PersonStopsMachine": (
+        "elapsed' = Counted(elapsed, i.dt, TEST_TIME)",
+        "elapsed' = Counted(elapsed, IF Free(i) THEN i.dt ELSE 0, TEST_TIME)",
+    ),
+}
+FALLEN = {run.violates: run.id for run in RUNS.values() if run.kind == "NEG"}
+
+
+def checked(place: Path, name: str, edit: tuple[str, str]) -> list[tuple[str, str]]:
+    """What TLC says of this property alone on a copy with the edit."""
+    base = RUNS[OTHER_BASE.get(name, BASE)]
+    folder = place / "spec" / DOCUMENT
+    shutil.copytree(SPEC, folder)
+    shutil.copytree(SPEC.parent / "common", place / "spec/common")
+    text = (folder / MODULE).read_text()
+    assert text.count(edit[0]) == 1, edit[0]
+    (folder / MODULE).write_text(text.replace(*edit))
+    kind = "INVARIANT" if PROPERTIES[name].kind == "invariant" else "PROPERTY"
+    text = (folder / base.cfg).read_text()
+    text = re.sub(r"^(INVARIANTS?|PROPERT(?:Y|IES)) (?s:.*)", f"{kind} {name}\n", text, flags=re.MULTILINE)
+    (folder / base.cfg).write_text(text)
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    run = replace(base, properties=(name,), cfg_sha256=digest)
+    return list(run_tlc(place, run, find_toolchain()).log.violations)
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_the_property_falls_to_the_fault(name: str, tmp_path: Path) -> None:
+    if PROPERTIES[name].kind == "liveness":  # TLC does not name it, but checked no other
+        assert checked(tmp_path, name, FAULTS[name]) == [("temporal", "")]
+        return
+    said = "invariant" if PROPERTIES[name].kind == "invariant" else "property"
+    assert checked(tmp_path, name, FAULTS[name]) == [(said, name)]
+
+
+def test_nothing_planted_nothing_falls(tmp_path: Path) -> None:
+    unchanged = "SensorOutputs == Rows[state]"
+    assert checked(tmp_path, "ReactionIsSeen", (unchanged, unchanged)) == []
+
+
+def test_every_property_falls_to_something() -> None:
+    assert set(FAULTS) | {name for name in FALLEN if name} == set(PROPERTIES)
+
+
+def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
+    files = (f"{DOCUMENT}/{MODULE}", "common/CyclicBlock.tla")
+    text = "".join((SPEC.parent / file).read_text() for file in files)
+    lists = re.findall(r"Readings == (?:\w+ \\cup )?\{([^}]*)\}", text)
+    readings = {name for one in lists for name in re.findall(r'"(\w+)"', one)}
+    tried = {run.switch: run.kind for run in REGISTERS.runs if run.switch in readings}
+    assert len(readings) == 19 and set(tried) == readings
+    assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
+        "RESET_SEEN_ONLY_WHILE_ACTIVE",
+        "STATIC_RESET_BEFORE_TEST_TIME",
+        "WAIT_FOR_RESET_NEEDS_EDGE",
+    ]
+
+
+def test_every_state_step_code_and_transition_is_witnessed() -> None:
+    device = REGISTERS.interface.devices["sf_testable_safety_sensor"]
+    witnessed = {name for run in REGISTERS.runs if run.kind == "WIT" for name in run.witnesses}
+    assert set(device.steps) <= witnessed
+    assert len({name for name in witnessed if name.startswith("DiagCode")}) == len(device.states) == 22
+    states = "|".join(sorted(device.states, key=len, reverse=True))
+    joined = {name for name in witnessed if re.fullmatch(rf"({states})To({states})", name)}
+    assert {f"{one}ToIdle" for one in device.states if one != "Idle"} <= joined
+    entered = {re.fullmatch(rf"({states})To({states})", name).group(2) for name in joined}  # type: ignore[union-attr]
+    assert entered == set(device.states) and len(joined) == 21 + 45
