@@ -24,7 +24,7 @@ from proofs.testable_safety_sensor.invariants import (
     TESTING,
     valid,
 )
-from proofs.testable_safety_sensor.sensor_safety import JUDGE, edge, rises
+from proofs.testable_safety_sensor.sensor_safety import JUDGE, automatic, edge, rises
 from proofs.theorem import Queries, theorem
 
 WATCHED: Final = {
@@ -102,14 +102,25 @@ def errors_are_left_only_as_documented() -> Queries:
     yield JUDGE.too_strong("no error is left", never, "ResetError6")
 
 
+def kept(one: Scanned, state: str) -> z3.BoolRef:
+    """The inhibit, or the error, of this very state is kept in this call."""
+    i, p = one.inputs, one.params
+    if state == "Init":
+        return z3.And(z3.Not(i.S_StartReset), valid(p))
+    if state == "WaitForReset1":
+        return z3.Or(z3.Not(i.S_AutoReset), one.before.start_inhibit)
+    if state == "WaitForReset2":
+        return z3.Not(i.S_AutoReset)
+    return TRUE if state in PARAMETER_ERRORS else z3.Not(z3.And(p.AUTO_RESET_ERRORS, i.S_AutoReset))
+
+
 def static_reset_is_found(one: Scanned) -> Said:
     before, after = control(SENSOR, one.before), control(SENSOR, one.after)
     found = [error for error, states in WATCHED.items() if before in states]
     if not found:
         return None
-    kept = z3.Not(z3.Or(one.inputs.S_AutoReset, one.inputs.S_StartReset))
-    given = z3.And(one.inputs.Activate, static(one), kept)
-    return given, TRUE if after in found else z3.Not(valid(one.params))
+    given = z3.And(one.inputs.Activate, static(one), kept(one, before))
+    return given, TRUE if after in found else FALSE
 
 
 @theorem(
@@ -127,9 +138,9 @@ def static_reset_is_found(one: Scanned) -> Said:
     properties=["StaticResetIsFound"],
 )
 def a_static_reset_is_found_wherever_a_reset_is_waited_for() -> Queries:
-    """With both inhibits kept, a Reset that was TRUE in the call before and still is leads to the reset error
-    of the state: in Init (with a valid TestTime), both waits, the test error, the end of the manual
-    test and the parameter error.
+    """A Reset that was TRUE in the call before and still is leads to the reset error of the state, wherever
+    the inhibit or error of that very state is kept: in Init (with a valid TestTime), both waits, the test
+    error, the end of the manual test and the parameter error.
     """
     yield from JUDGE.in_every_scan(static_reset_is_found)
     yield JUDGE.without(static_reset_is_found, "EndExternalTest", "EdgesAreRemembered")
@@ -142,15 +153,16 @@ def a_static_reset_is_found_wherever_a_reset_is_waited_for() -> Queries:
 
 
 def a_held_reset_never_resets(one: Scanned) -> Said:
-    kept = z3.Not(z3.Or(one.inputs.S_AutoReset, one.inputs.S_StartReset))
-    return z3.And(static(one), kept), z3.Not(rises(one, "S_OSSD_Out"))
+    return z3.And(static(one), z3.Not(automatic(one))), z3.Not(rises(one, "S_OSSD_Out"))
 
 
 @theorem(
     clauses=["TSS-ERR-3", "TSS-EB-3", "TSS-REL-1"], findings=["TSSF-24"], properties=["NoRestartByItself"]
 )
 def a_static_reset_never_resets() -> Queries:
-    """With both inhibits kept, no call in which Reset is held makes S_OSSD_Out TRUE."""
+    """No call in which Reset is held makes S_OSSD_Out TRUE, unless the inhibit of that very state is switched
+    off.
+    """
     yield from JUDGE.in_every_scan(a_held_reset_never_resets)
     yield JUDGE.without(a_held_reset_never_resets, "WaitForReset1", "EdgesAreRemembered")
 
@@ -194,8 +206,8 @@ def external_test_is_complete(one: Scanned) -> Said:
     properties=["ExternalTestIsComplete"],
 )
 def after_a_failed_test_the_manual_test_is_complete_or_there_is_none() -> Queries:
-    """After a failed test S_OSSD_Out rises only with NoExternalTest TRUE, or at the end of a manual test in
-    which the sensor was seen free, then dark, then free.
+    """While Activate stays, after a failed test S_OSSD_Out rises only with NoExternalTest TRUE, or at the end
+    of a manual test in which the sensor was seen free, then dark, then free.
     """
     yield from JUDGE.in_every_scan(external_test_is_complete)
     yield JUDGE.without(external_test_is_complete, "EndExternalTest", "CycleOfTheManualTest")

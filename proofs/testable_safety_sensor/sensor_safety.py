@@ -100,9 +100,9 @@ def masked_time_is_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
     properties=["MaskedTimeIsBounded"],
 )
 def a_test_masks_the_sensor_for_less_than_test_time() -> Queries:
-    """For any TestTime and any times between calls: S_OSSD_Out stays TRUE over a dark sensor for less than
-    TestTime, counted from the call that first saw it dark; and a test as a whole lasts less than twice
-    TestTime.
+    """For any TestTime and any times between calls: after every call that leaves S_OSSD_Out TRUE over a dark
+    sensor less than TestTime has passed since the call that first saw it dark, and less than twice TestTime
+    since the test began.
     """
     yield from JUDGE.after_every_scan(masked_time_is_bounded)
     sentence = JUDGE.after_a_scan(masked_time_is_bounded)
@@ -119,6 +119,24 @@ def a_test_masks_the_sensor_for_less_than_test_time() -> Queries:
         return TRUE, z3.Or(JUDGE.sees(one).tested <= 0, JUDGE.sees(one).tested <= one.params.TestTime_ms)
 
     yield JUDGE.too_strong("a test lasts TestTime at most", once, "TestActive")
+
+
+def sender_off_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
+    if not one.becomes("TestRequest"):
+        return z3.And(one.sends.S_TestOut, TRUE)
+    return z3.Or(seen.phase == 0, seen.phase < one.params.TestTime_ms)
+
+
+@theorem(clauses=["TSS-FN-7", "TSS-OUT-TESTOUT", "TSS-NOTE-1"], findings=["TSSF-06"])
+def the_sender_is_off_for_less_than_test_time_and_one_call() -> Queries:
+    """After every call that leaves S_TestOut FALSE less than TestTime has passed since the call that made it
+    so; the first call that finds TestTime over makes it TRUE.
+
+    So it is off for less than TestTime and the time of one call: at most 150 ms only if both together are
+    (TSSA-10).
+    """
+    yield from JUDGE.after_every_scan(sender_off_bounded)
+    yield JUDGE.without(JUDGE.after_a_scan(sender_off_bounded), "TestRequest", "TimeIsThatOfThePhase")
 
 
 def latency(one: Scanned) -> Said:

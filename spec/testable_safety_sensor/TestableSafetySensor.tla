@@ -42,7 +42,8 @@ Readings == FamilyReadings \cup {
     "WAIT_FOR_RESET_NEEDS_EDGE",
     "RESET_BEFORE_INTERRUPTION",
     "TEST_BEFORE_INTERRUPTION",
-    "START_TEST_BY_LEVEL"
+    "START_TEST_BY_LEVEL",
+    "MANUAL_TEST_SEEN_ONCE"
 }
 ASSUME FamilyReadings \subseteq Readings /\ LITERAL \subseteq Readings
 ASSUME TEST_TIME \in Int /\ AUTO_RESET_ERRORS \in BOOLEAN
@@ -318,14 +319,16 @@ FindStaticReset4(i) ==
        \/ At("WaitForReset2", i) /\ StaticInWait(i) /\ Printed
     /\ To("ResetError4") /\ Did("FindStaticReset4")
 LOCAL Tested(i) == At("EndExternalTest", i) /\ ~StaticAtEnd(i)
+\* TSSF-31
+LOCAL FreeAtEnd(i) == Free(i) \/ Literal("MANUAL_TEST_SEEN_ONCE")
 \* TSS-8804, TSS-8404, TSSF-31
 InterruptExternal(i) ==
-    Tested(i) /\ ~Free(i) /\ To("ESPEInterruptedExternalTest") /\ Did("InterruptExternal")
+    Tested(i) /\ ~FreeAtEnd(i) /\ To("ESPEInterruptedExternalTest") /\ Did("InterruptExternal")
 \* TSS-8404, TSS-IN-NOEXT-FALSE, TSS-IN-RESET, TSS-8010, TSSF-15, TSSF-31
 EndManualTest(i) ==
-    Tested(i) /\ Free(i) /\ ErrorEnds(i) /\ Released("ESPEFreeNoTest") /\ Did("EndManualTest")
+    Tested(i) /\ FreeAtEnd(i) /\ ErrorEnds(i) /\ Released("ESPEFreeNoTest") /\ Did("EndManualTest")
 \* TSS-8404
-AwaitExternalReset(i) == Tested(i) /\ Free(i) /\ ~ErrorEnds(i) /\ Stay /\ Did("AwaitExternalReset")
+AwaitExternalReset(i) == Tested(i) /\ FreeAtEnd(i) /\ ~ErrorEnds(i) /\ Stay /\ Did("AwaitExternalReset")
 TestFailed(i) ==
     \/ FindStaticReset3(i) \/ ResetTestError(i) \/ RequireExternalTest(i) \/ ShowTestError(i)
     \/ BeginExternalTest(i) \/ AwaitExternalTest(i) \/ BecomeFreeExternal(i) \/ AwaitFreeExternal(i)

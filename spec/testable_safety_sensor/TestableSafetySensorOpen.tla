@@ -172,10 +172,16 @@ ErrorLeftOnlyAsDocumented ==
         IF state \in ResetErrors THEN ~Scanned.Reset /\ state' \in Watched[state]
         ELSE \/ state' \in ResetErrors /\ state \in Watched[state'] /\ Scanned.Reset /\ Before.Reset
              \/ state \in TestErrors /\ (state' \in TestErrors \/ Edge \/ (AUTO_RESET_ERRORS /\ Scanned.S_AutoReset)))]_beat
+\* TSS-IN-STARTRESET, TSS-IN-AUTORESET, TSS-EB-3: whether the inhibit or the error that this reset error watches is kept in this call
+Kept(e) == CASE e = "ResetError1" -> ~Scanned.S_StartReset /\ TestTimeValid
+             [] e = "ResetError2" -> ~Scanned.S_AutoReset \/ startInhibit
+             [] e = "ResetError6" -> ~Scanned.S_AutoReset
+             [] e = "ResetError5" -> TRUE
+             [] OTHER -> ~(AUTO_RESET_ERRORS /\ Scanned.S_AutoReset)
 \* TSS-ERR-3, TSS-IN-RESET, TSSF-01, TSSF-02, TSSF-03, TSSF-24: a static Reset where a reset is waited for is found, and found to be an error
 StaticResetIsFound ==
-    [][(Scanned.Activate /\ Scanned.Reset /\ Before.Reset /\ ~Scanned.S_AutoReset /\ ~Scanned.S_StartReset =>
-        (\A e \in ResetErrors : state \in Watched[e] => state' = e \/ (state = "Init" /\ ~TestTimeValid)))]_beat
+    [][(Scanned.Activate /\ Scanned.Reset /\ Before.Reset =>
+        (\A e \in ResetErrors : state \in Watched[e] /\ Kept(e) => state' = e))]_beat
 \* TSS-C051, TSS-OUT-EXECUTED, TSSF-02, TSSF-03: finding it changes neither what is known of the test nor where the block goes on
 ResetErrorKeepsTestExecuted ==
     [][(state' \in ResetErrors => state \in Watched[state'] \cup {state'} /\ Then("TestExecuted") = Now("TestExecuted"))]_beat
