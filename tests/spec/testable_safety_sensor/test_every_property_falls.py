@@ -39,8 +39,8 @@ FAULTS = {
         "OutputRow(\\h8402, T, T, T, F, F, F, T, F)",
     ),
     "DemandIsShown": (
-        'Tested(i) /\\ ~Free(i) /\\ To("ESPEInterruptedExternalTest")',
-        'Tested(i) /\\ ~Free(i) /\\ To("ExternalFunctionTest")',
+        'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ESPEInterruptedExternalTest")',
+        'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ExternalFunctionTest")',
     ),
     "TestStartsAtOnce": (
         'At("ESPEFreeTestOk", i) /\\ ~Lost(i) /\\ TestAsked(i) /\\ To("TestRequest")',
