@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path, PurePath
 
 ROOT = Path(__file__).resolve().parents[1]
-SHARING = frozenset({"proofs", "report", "spec", "trace"})
-"""Rooms whose tests share explored devices, runs of TLC or graphs, each document its own."""
+SHARING = frozenset({"proofs", "report", "spec", "strength", "trace"})
+"""Rooms whose tests share explored devices, parse trees, runs of TLC or graphs, each document its own."""
 DOCUMENTS = frozenset(path.parent.name for path in ROOT.glob("spec/*/interface.toml"))
 
 

@@ -10,14 +10,13 @@ import pytest
 
 from modeproof.errors import Unjudged
 from modeproof.places import documents, root
-from modeproof.strength.campaign import Judged, all_mutants, inputs_now
+from modeproof.strength.campaign import Judged, inputs_now
 from modeproof.strength.command import summary
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.page import page, page_path, render, stamp_of, table
-from modeproof.strength.register import load_strength
 from modeproof.strength.results import Results
-from modeproof.tlc.toolchain import find_toolchain
+from tests.strength.shipped import bench_of, mutants_of
 
 WORDS = ("KILLED", "KILLED", "SURVIVED", "EQUIVALENT", "INVALID")
 
@@ -60,16 +59,12 @@ def test_a_page_is_not_rendered_from_results_that_are_not_there(
 RENDERED = [name for name in documents(root()) if (root() / page_path(name)).is_file()]
 
 
-def document_bench(document: str) -> Bench:
-    return Bench(root(), load_strength(root(), document), find_toolchain())
-
-
 @pytest.mark.parametrize("document", RENDERED)
 def test_the_page_is_as_it_was_rendered_and_tells_what_it_holds_for(document: str) -> None:
     path = page_path(document)
     inputs, untouched = stamp_of(root(), path)
     assert untouched, f"{path} was edited by hand; run modeproof mutate spec --render"
-    now = inputs_now(document_bench(document))
+    now = inputs_now(bench_of(document))
     assert set(inputs) == set(now)
     moved = sorted(module for module in now if now[module] != inputs[module])
     if moved:
@@ -78,10 +73,10 @@ def test_the_page_is_as_it_was_rendered_and_tells_what_it_holds_for(document: st
 
 @pytest.mark.parametrize("document", RENDERED)
 def test_every_explained_survivor_is_a_mutant_and_on_the_page(document: str) -> None:
-    bench = document_bench(document)
+    bench = bench_of(document)
     text = (root() / page_path(document)).read_text(encoding="utf-8")
     assert ("## Survivors\n\nNone.\n" in text) == (not bench.strength.explained)
-    ids = {one.id for one in all_mutants(bench)} if bench.strength.explained else set()
+    ids = {one.id for one in mutants_of(document)} if bench.strength.explained else set()
     for explained in bench.strength.explained:
         for id in explained.ids:
             assert "*" in id or id in ids, f"{id} is explained and is no mutant"

@@ -4,26 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.places import root
-from modeproof.strength.campaign import all_mutants
-from modeproof.strength.judge import Bench, judge
-from modeproof.strength.mutant import Mutant
-from modeproof.strength.register import Rejudged, load_strength
-from modeproof.tlc.toolchain import find_toolchain
+from modeproof.strength.judge import judge
+from modeproof.strength.register import Rejudged
+from tests.strength.shipped import bench_of, mutants_of
 
-STRENGTH = load_strength(root(), "mode_selection")
-
-
-@pytest.fixture(scope="module")
-def judged() -> tuple[Bench, dict[str, Mutant]]:
-    bench = Bench(root(), STRENGTH, find_toolchain())
-    return bench, {one.id: one for one in all_mutants(bench)}
+DOCUMENT = "mode_selection"
+STRENGTH = bench_of(DOCUMENT).strength
 
 
 @pytest.mark.parametrize("one", STRENGTH.rejudged, ids=lambda one: one.id)
-def test_a_mutant_meets_the_same_fate_again(one: Rejudged, judged: tuple[Bench, dict[str, Mutant]]) -> None:
-    bench, mutants = judged
-    verdict = judge(bench, mutants[one.id])
+def test_a_mutant_meets_the_same_fate_again(one: Rejudged) -> None:
+    (mutant,) = [mutant for mutant in mutants_of(DOCUMENT) if mutant.id == one.id]
+    verdict = judge(bench_of(DOCUMENT), mutant)
     assert (verdict.word, verdict.killers[:1]) == (one.verdict, (one.killer,) if one.killer else ())
 
 
