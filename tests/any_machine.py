@@ -9,6 +9,8 @@ from hypothesis import HealthCheck, settings
 
 PATIENCE_S = 600.0
 """Limit for what always comes in a sound program; reached only when it never comes."""
+LONG_MS = 600_000
+"""Limit for a solver that answers; reached only when it never does."""
 SHARED_FIXTURE = [HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
 """What Hypothesis need not watch where all examples share what a fixture made, and may."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
 
@@ -41,9 +42,13 @@ def test_a_mutant_meets_its_fate(
 
 def test_what_never_ends_is_unmeasured(tmp_path_factory: pytest.TempPathFactory) -> None:
     """Two guards stop the count; in this text only one, and without it TLC counts for ever."""
-    endless = lamp(tmp_path_factory.mktemp("endless"), STRENGTH.replace("timeout_s = 500", "timeout_s = 3"))
+    endless = lamp(tmp_path_factory.mktemp("endless"))
     path = endless.folder / "Lamp.tla"
     path.write_text(path.read_text().replace(" /\\ count # 3", ""))
+    for tier in endless.strength.tiers:  # the original has the time that it needs
+        endless.control(tier)
+    hurried = tuple(replace(tier, timeout_s=3.0) for tier in endless.strength.tiers)
+    endless.strength = replace(endless.strength, tiers=hurried)
     verdict = judge(endless, the(all_mutants(endless), "Up", "conjunct dropped", "count < 3"))
     assert verdict.word == "UNMEASURED"
     assert verdict.reason == "tier alone: the limit of 3 s came first"

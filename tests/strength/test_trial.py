@@ -10,9 +10,9 @@ from modeproof.registers.load import load_document
 from modeproof.strength.judge import Bench
 from modeproof.strength.register import Strength, Tier, load_strength
 from modeproof.strength.trial import BROKEN, make_trial
-from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
+from tests.strength.shipped import bench_of
 
 DOCUMENT = "mode_selection"
 RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
@@ -46,7 +46,7 @@ def test_what_tlc_stops_at_is_among_the_names(id: str) -> None:
 def test_a_property_of_time_is_not_taken_apart() -> None:
     live = next(run for run in RUNS.values() if run.kind == "LIVE")
     folder = root() / "spec" / DOCUMENT
-    tree = read_tree(folder, live.module, find_toolchain())
+    tree = bench_of(DOCUMENT).tree(live.module)
     tier = Tier("live", (), live, "properties", "always", {}, "", (), False, 60.0, 512)
     with pytest.raises(Unjudged, match="ask for it in a tier on liveness"):
         make_trial(tree, tier, (folder / live.cfg).read_text())
@@ -55,7 +55,7 @@ def test_a_property_of_time_is_not_taken_apart() -> None:
 def test_a_contract_in_another_module_is_judged_in_its_first_state_and_in_every_step() -> None:
     flows = next(run for run in RUNS.values() if "RefinesModeSelection" in run.properties)
     folder = root() / "spec" / DOCUMENT
-    tree = read_tree(folder, flows.module, find_toolchain())
+    tree = bench_of(DOCUMENT).tree(flows.module)
     tier = Tier("flows", (), flows, "properties", "always", {}, "", (), False, 60.0, 512)
     text = make_trial(tree, tier, (folder / flows.cfg).read_text()).module
     assert "Contract!Init" in text and "Contract!Next" in text and "Contract!vars" in text

@@ -17,6 +17,7 @@ from proofs.guard_locking.invariant import JUDGE, LOCKED
 from proofs.sentences import Judge, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem
+from tests.any_machine import LONG_MS
 from tests.proofs.mode_selection.planted_steps import begun_in, planted, refuted
 
 ANYWHERE = block_response.FROM_ANYWHERE
@@ -317,4 +318,4 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
 def test_the_theorem_of_the_paths_is_true() -> None:
     queries = step_paths.every_call_takes_exactly_one_path.queries()
     assert len(queries) >= 2 * len(BLOCK.register.states)
-    assert not [one.name for one in queries[:8] if ask_z3(one, "", 20_000).answer != one.expected]
+    assert not [one.name for one in queries[:8] if ask_z3(one, "", LONG_MS).answer != one.expected]

@@ -27,6 +27,7 @@ from proofs.mode_selection.devices import EKS, FPLC, HMI, PLC, ROOT
 from proofs.solvers import ask_z3
 from proofs.theorem import Query, Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import eks, fplc, hmi, key_flows, plc
+from tests.any_machine import LONG_MS
 from tests.proofs.mode_selection.composed_flow import (
     OFF,
     Moment,
@@ -54,7 +55,7 @@ def _queries(item: Theorem) -> tuple[Query, ...]:
 @cache
 def _wrong(item: Theorem) -> tuple[str, ...]:
     """The queries of a theorem to which z3 gives another answer than the expected one."""
-    return tuple(one.name for one in _queries(item) if ask_z3(one, "", 20_000).answer != one.expected)
+    return tuple(one.name for one in _queries(item) if ask_z3(one, "", LONG_MS).answer != one.expected)
 
 
 # ---------------------------------------------------------------- proved
@@ -139,8 +140,8 @@ def test_an_assumption_that_is_not_needed_has_no_counterexample_without_it() -> 
             for one in ARGUMENT.proved
         ),
     )
-    assert ask_z3(argument.without(ZEROS, "outputs are wired"), "", 20_000).answer == "unsat"
-    assert ask_z3(ARGUMENT.without(ZEROS, "words arrive within the dwell time"), "", 20_000).answer == "sat"
+    assert ask_z3(argument.without(ZEROS, "outputs are wired"), "", LONG_MS).answer == "unsat"
+    assert ask_z3(ARGUMENT.without(ZEROS, "words arrive within the dwell time"), "", LONG_MS).answer == "sat"
 
 
 def test_what_a_formula_rests_on_is_followed_to_the_end() -> None:
@@ -355,7 +356,7 @@ def test_two_broken_wires_switch_the_mode_of_one_user_for_another() -> None:
     assert moment.switched
     assert (moment.touched, moment.seen, moment.confirmed) == (-1, -1, -1)
     seen_anyway = composition.SEEN_ANYWAY
-    assert ask_z3(ARGUMENT.without(seen_anyway, BROKEN), "", 20_000).answer == "sat"
+    assert ask_z3(ARGUMENT.without(seen_anyway, BROKEN), "", LONG_MS).answer == "sat"
 
 
 # ---------------------------------------------------------------- a fault is planted in a device
@@ -435,7 +436,7 @@ def test_a_plc_that_crosses_two_words_breaks_its_guarantee(monkeypatch: pytest.M
 def test_a_planted_fault_falls_in_the_theorem_of_the_device(monkeypatch: pytest.MonkeyPatch) -> None:
     _plant(monkeypatch, plc, "_copy_mw03", _crosses_two_words)
     asked = [one for one in PLC_COPIES.build() if one.expected == "unsat"]
-    fallen = [one.name for one in asked if ask_z3(one, "", 20_000).answer == "sat"]
+    fallen = [one.name for one in asked if ask_z3(one, "", LONG_MS).answer == "sat"]
     assert fallen == ["CopyMW03: the PLC copies or keeps"]
 
 

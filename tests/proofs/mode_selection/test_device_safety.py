@@ -27,6 +27,7 @@ from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
+from tests.any_machine import LONG_MS
 from tests.proofs.mode_selection.planted_steps import begun_in, breaks, built, planted, refuted
 
 MODULES: list[Any] = [panel_safety, panel_prompt, plc_safety, eks_safety, eks_prompt, fplc_response]
@@ -41,7 +42,7 @@ SMALL = [item for module in MODULES[:-1] for item in _theorems(module)]
 
 @pytest.mark.parametrize("item", SMALL, ids=lambda item: item.name)
 def test_every_theorem_of_panel_plc_and_eks_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
-    (result,) = prove_all([item], tmp_path, lambda line: None)
+    (result,) = prove_all([item], tmp_path, lambda line: None, LONG_MS)
     assert (result.verdict, result.reason) == ("PROVED", "")
 
 
@@ -49,7 +50,7 @@ def test_every_theorem_of_panel_plc_and_eks_is_proved_by_both_solvers(item: Theo
 def test_every_theorem_of_the_response_holds(item: Theorem) -> None:
     queries, _ = built(item)
     assert [query for query in queries if query.name.startswith("control")]
-    assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
+    assert not [query.name for query in queries if ask_z3(query, "", LONG_MS).answer != query.expected]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.__name__.rsplit(".", 1)[-1])
@@ -393,7 +394,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(
 def _off_the_way(judge: Judge, way: fplc_response.OnTheWay, times: Callable[[Any], z3.BoolRef]) -> list[str]:
     """The claims of the response within a time that are false of these scans."""
     asked = fplc_response.stays_on_the_way(way, fplc_response.ANYWHERE, times, judge)
-    return [one.name for one in asked if one.expected == "unsat" and ask_z3(one, "", 20_000).answer == "sat"]
+    return [one.name for one in asked if one.expected == "unsat" and ask_z3(one, "", LONG_MS).answer == "sat"]
 
 
 @pytest.mark.parametrize(

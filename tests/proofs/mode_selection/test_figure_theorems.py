@@ -16,6 +16,7 @@ from proofs.solvers import ask_z3
 from proofs.theorem import Theorem
 from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import CH, RE, SE, SW
+from tests.any_machine import LONG_MS
 
 THEOREMS = [item for item in vars(figures).values() if isinstance(item, Theorem)]
 ONE_OF_THE_REST = 0x5A5A
@@ -47,7 +48,7 @@ SAME_MODE = {(SE[mode], SW[mode]) for mode in range(5)}
 
 @pytest.mark.parametrize("item", THEOREMS, ids=lambda item: item.name)
 def test_every_theorem_on_the_figures_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
-    (result,) = prove_all([item], tmp_path, lambda line: None)
+    (result,) = prove_all([item], tmp_path, lambda line: None, LONG_MS)
     assert (result.verdict, result.reason) == ("PROVED", "")
 
 
@@ -171,7 +172,7 @@ def test_a_planted_fault_is_refuted_and_the_counterexample_is_one_in_python_too(
     fallen = [
         query
         for query in theorem.build()
-        if query.expected == "unsat" and ask_z3(query, "", 20_000).answer == "sat"
+        if query.expected == "unsat" and ask_z3(query, "", LONG_MS).answer == "sat"
     ]
     assert fallen
     for query in fallen:

@@ -16,6 +16,7 @@ from proofs.runner import prove_all
 from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem
+from tests.any_machine import LONG_MS
 from tests.proofs.mode_selection.planted_steps import begun_in, breaks, built, planted, refuted
 
 SAFETY = [
@@ -32,7 +33,7 @@ QUICK = [
 
 @pytest.mark.parametrize("item", QUICK, ids=lambda item: item.name)
 def test_what_is_said_of_power_up_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
-    (result,) = prove_all([item], tmp_path, lambda line: None)
+    (result,) = prove_all([item], tmp_path, lambda line: None, LONG_MS)
     assert (result.verdict, result.reason) == ("PROVED", "")
 
 
@@ -41,12 +42,12 @@ def test_every_claim_holds_and_every_control_has_an_example(item: Theorem) -> No
     queries, _ = built(item)
     assert item.properties
     assert {query.name for query in queries if query.name.startswith("control")}
-    assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
+    assert not [query.name for query in queries if ask_z3(query, "", LONG_MS).answer != query.expected]
 
 
 def test_every_scan_keeps_the_invariant() -> None:
     queries = fplc_invariant.every_scan_of_the_fplc_keeps_its_invariant.queries()
-    assert not [query.name for query in queries if ask_z3(query, "", 20_000).answer != query.expected]
+    assert not [query.name for query in queries if ask_z3(query, "", LONG_MS).answer != query.expected]
 
 
 def test_the_examples_of_all_controls_happen_in_the_real_step() -> None:
@@ -375,4 +376,4 @@ POWER_UP = {
 def test_a_device_that_wakes_up_otherwise_is_seen(device: Any) -> None:
     with planted(device, POWER_UP[device.name]) as other:
         claims = [*Judge(other, ()).at_power_up(every_device.SAFE[device.name])]
-        assert ask_z3(claims[0], "", 20_000).answer == "sat"
+        assert ask_z3(claims[0], "", LONG_MS).answer == "sat"

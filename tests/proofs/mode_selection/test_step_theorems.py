@@ -12,6 +12,7 @@ from proofs.runner import TheoremResult, prove_all
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem, TheoremError
 from refimpl.mode_selection import hmi, plc
+from tests.any_machine import LONG_MS
 
 PLC_PATHS = step_paths.every_scan_of_the_plc_takes_exactly_one_path
 PLC_WORDS = word_classes.the_plc_passes_words_on_and_decides_nothing_by_them
@@ -19,7 +20,7 @@ PANEL_WORDS = word_classes.the_panel_cannot_tell_the_words_of_one_class_apart
 
 
 def _result(item: Theorem, out: Path) -> TheoremResult:
-    return prove_all([item], out, lambda line: None)[0]
+    return prove_all([item], out, lambda line: None, LONG_MS)[0]
 
 
 def _fallen(item: Theorem) -> set[str]:
@@ -27,7 +28,7 @@ def _fallen(item: Theorem) -> set[str]:
     return {
         query.name
         for query in item.build()
-        if query.expected == "unsat" and ask_z3(query, "", 20_000).answer == "sat"
+        if query.expected == "unsat" and ask_z3(query, "", LONG_MS).answer == "sat"
     }
 
 
