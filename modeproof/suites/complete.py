@@ -91,9 +91,9 @@ class _Reasoning:
                 if known != outputs:
                     self.problems.append("two cases begin alike and expect different outputs")
                     return False
-        first: dict[int, int] = {}
+        first = {0: 0}  # cases are followed from power-up, so that stands for its own state
         for node, state in hints.items():  # where most is tried
-            if len(self.children[node]) > len(self.children[first.setdefault(state, node)]):
+            if state and len(self.children[node]) > len(self.children[first.setdefault(state, node)]):
                 first[state] = node
         self.chosen = [first.get(state, -1) for state in range(self.states)]
         if -1 in self.chosen or len(first) != self.states:

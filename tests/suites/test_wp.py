@@ -148,6 +148,18 @@ def test_cases_that_are_judged_complete_let_no_wrong_machine_pass(
         assert not wrong
 
 
+def test_power_up_must_be_told_apart_itself() -> None:
+    """The states are told apart after 0 and after 0, 1; power-up is not: there 1 is never tried."""
+    table = (((0, 1), (0, 0)), ((0, 1), (1, 0)))
+    wrong = (((0, 0), (1, 1)), ((0, 0), (0, 1)))
+    cases = [(0, 0, 1, 1, 1), (0, 1, 1), (0, 1, 0)]
+    found = as_machine(table)
+    assert found is not None and not same(table, wrong)
+    assert all(answers(wrong, one) == answers(table, one) for one in cases)
+    assert judged(found, cases) == ["no case tells the states 0 and 1 apart"]
+    assert judged(found, [*cases, (1,)]) == []
+
+
 @settings(max_examples=30, deadline=None)
 @given(tables, st.data())
 def test_a_case_that_is_missing_and_lets_a_wrong_machine_pass_is_noticed(

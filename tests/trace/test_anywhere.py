@@ -38,7 +38,8 @@ def test_as_many_as_the_graph_has(device: str, run: str, module: str, extra: str
     (tmp_path / "Any.cfg").write_text(cfg + "INIT AnyInit\nNEXT AnyNext\n")
     place = tmp_path / "root"
     (place / "spec").mkdir(parents=True)
-    (place / "spec" / DOCUMENT).symlink_to(root() / "spec" / DOCUMENT)
+    for room in (DOCUMENT, "common"):
+        (place / "spec" / room).symlink_to(root() / "spec" / room)
     log = run_tlc(place, trace_run(target, "Any", 512), find_toolchain(), made_in=tmp_path).log
     assert log.errors == [] and log.counts is not None
     graph = RUNS[run].graph

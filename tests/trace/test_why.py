@@ -87,10 +87,11 @@ def test_in_the_whole_system_the_wire_is_named(graphs: Graphs) -> None:
 
 
 def test_every_step_of_every_device_has_a_guard_that_ends_with_its_own() -> None:
+    spec = root() / "spec"
     for target in targets_of(root(), DOCUMENT):
         if target.system or target.id not in ("fplc", "eks"):
             continue
-        tree = read_tree(root() / "spec" / DOCUMENT, target.module, find_toolchain())
+        tree = read_tree(spec / DOCUMENT, target.module, find_toolchain(), spec / "common")
         steps = target.only.device.steps
         guards = Guards(tree, target.only.scan, steps)
         for step in steps:
