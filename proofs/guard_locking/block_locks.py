@@ -158,7 +158,9 @@ def latched_request_unlocks(one: Scanned) -> Said:
     return z3.And(waits, _asked_safely(one)), _unlocked(one)
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=["GLF-02"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=["GLF-02"], properties=["LatchedRequestUnlocks"]
+)
 def with_a_latched_request_the_zone_being_safe_unlocks() -> Queries:
     """With UNLOCK_ON = latched, a request that rose at this locked guard and stands unlocks it in the first
     active call that finds the guard closed and locked and the zone safe.

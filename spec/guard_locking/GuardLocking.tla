@@ -10,7 +10,7 @@
 (* The document prints outputs and one diagram, and neither states nor     *)
 (* codes: both are the family's of V1.0 as the project's reference notes   *)
 (* have them (GLF-01), changed where the document's own words ask for it   *)
-(* (UNLOCK_ON, ZONE_LOST and START_UP_INHIBIT).                            *)
+(* (UNLOCK_ON, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS).                *)
 (* Leaves out: door, bolt, machine and person (GuardLockingZone), and   *)
 (* time: the block has no timer.                                           *)
 (***************************************************************************)
@@ -19,11 +19,13 @@ EXTENDS CyclicBlock
 CONSTANTS
     UNLOCK_ON,         \* what unlocks a locked guard: "edge", "latched" or "level" of UnlockRequest (GLF-02)
     ZONE_LOST,         \* S_SafetyActive FALSE while the guard is closed but unlocked: "error" or "tolerated" (GLF-04)
-    START_UP_INHIBIT   \* lasts "until_reset", or "until_opened": a guard that is not locked at start-up ends it (GLF-08)
+    START_UP_INHIBIT,  \* lasts "until_reset", or "until_opened": a guard that is not locked at start-up ends it (GLF-08)
+    CAUSE_OF_LOSS      \* is gone with "guard_and_zone", the guard being closed and locked too, or with the "zone" alone (GLF-14)
 
 ASSUME UNLOCK_ON \in {"edge", "latched", "level"}
 ASSUME ZONE_LOST \in {"error", "tolerated"}
 ASSUME START_UP_INHIBIT \in {"until_reset", "until_opened"}
+ASSUME CAUSE_OF_LOSS \in {"guard_and_zone", "zone"}
 
 Readings == FamilyReadings \cup {
     "UNLOCKS_WITHOUT_SAFE_ZONE",
@@ -36,7 +38,7 @@ Readings == FamilyReadings \cup {
     "AUTO_RESET_ENDS_ERROR",
     "STATIC_RESET_UNNOTICED",
     "ERROR_UNTIL_RESET",
-    "CAUSE_IS_THE_GUARD_TOO"
+    "EDGE_WHERE_NOTHING_IS_ENABLED"
 }
 ASSUME LITERAL \subseteq Readings
 
@@ -215,7 +217,10 @@ LOCAL OpenFirst(i) == Literal("OPEN_GUARD_NEEDS_NO_SAFE_ZONE") /\ ~i.S_GuardMoni
 LOCAL ZoneOpenToIt(i) == ~i.S_SafetyActive /\ ~Secured(i) /\ ~OpenFirst(i)
 \* GLF-03: an open guard is unlocked without a request
 LOCAL GoesOpen(i) == ~(i.S_GuardMonitoring \/ EndsWithRequest(i))
-LOCAL GoesOnRequest(i) == i.S_GuardMonitoring /\ i.UnlockRequest /\ i.S_SafetyActive
+\* GLF-11: one reading needs an edge of the request here too
+LOCAL GoesOnRequest(i) ==
+    /\ i.S_GuardMonitoring /\ i.UnlockRequest /\ i.S_SafetyActive
+    /\ Literal("EDGE_WHERE_NOTHING_IS_ENABLED") => RequestRises(i)
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-10: the zone is not safe and the guard does not keep anybody out
 FindZoneUnprotected(i) ==
     At("WaitForOperator", i) /\ ZoneOpenToIt(i) /\ GoTo("SafetyLost") /\ Did("FindZoneUnprotected")
@@ -271,17 +276,17 @@ SeeZoneSafe(i) == At("SafetyLost", i) /\ i.S_SafetyActive /\ GoTo("SafetyReturn"
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
 StaySafetyLost(i) == At("SafetyLost", i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("StaySafetyLost")
 
-\* GL-IN-AUTORESET, GLF-13: one reading needs no edge where the restart inhibit is off
+\* GL-IN-AUTORESET, GLF-13, GLF-14: the guard that was lost must be back; one reading needs no edge where the restart inhibit is off
 LOCAL Acknowledged(i) ==
     /\ IF Literal("AUTO_RESET_ENDS_ERROR") /\ i.S_AutoReset THEN TRUE ELSE ResetRises(i)
-    /\ Literal("CAUSE_IS_THE_GUARD_TOO") => Secured(i)
+    /\ CAUSE_OF_LOSS = "guard_and_zone" => Secured(i)
 \* GL-IN-RESET, GLF-07
 FindStaticResetAfterError(i) ==
     At("SafetyReturn", i) /\ Static(i) /\ GoTo("ResetError2") /\ Did("FindStaticResetAfterError")
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR
 LoseZoneAgain(i) ==
     At("SafetyReturn", i) /\ ~Static(i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("LoseZoneAgain")
-\* GL-IN-RESET, GLF-06, GLF-13
+\* GL-IN-RESET, GLF-06, GLF-13, GLF-14
 AcknowledgeError(i) ==
     /\ At("SafetyReturn", i) /\ ~Static(i) /\ i.S_SafetyActive /\ Acknowledged(i)
     /\ GoTo("WaitForOperator")

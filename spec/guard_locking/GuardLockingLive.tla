@@ -7,7 +7,7 @@
 (*  RecoverySpec  the guard stays closed and locked, nobody asks: enabled. *)
 (*  EntrySpec     the zone stays safe, and somebody holds the button of    *)
 (*                the request, pressing it anew while the guard is still   *)
-(*                enabled: unlocked, whatever the guard does.              *)
+(*                enabled: unlocked, if the guard closes and locks.                   *)
 (* Leaves out how many calls it takes (a theorem says that).               *)
 (***************************************************************************)
 EXTENDS GuardLocking
@@ -34,9 +34,10 @@ RecoverySpec ==
 
 \* GL-IN-UNLOCKREQUEST, GLF-02: who wants to get in holds the button, and presses it anew while the guard is still enabled
 Asks == IF S_GuardLocked THEN ~unlockRequestBefore ELSE TRUE
-\* GL-IN-UNLOCKREQUEST, GL-SEQ-3: the zone stays safe
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3: the zone stays safe, and a guard that is asked to lock is closed and locked
+Secured == IF S_UnlockGuard THEN BOOLEAN ELSE {TRUE}
 EntryCall(reset) ==
-    calm /\ UNCHANGED calm /\ \E guard, lock, start, auto \in BOOLEAN : Call(TRUE, guard, TRUE, lock, Asks, start, auto, reset)
+    calm /\ UNCHANGED calm /\ \E guard, lock \in Secured, start, auto \in BOOLEAN : Call(TRUE, guard, TRUE, lock, Asks, start, auto, reset)
 EntrySpec ==
     /\ LiveInit /\ [][AnyCall \/ \E reset \in BOOLEAN : EntryCall(reset)]_liveVars
     /\ WF_liveVars(EntryCall(~resetBefore))

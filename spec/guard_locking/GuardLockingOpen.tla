@@ -18,15 +18,16 @@ VARIABLES
     requestSeen,   \* UnlockRequest in the call before
     asked,         \* UnlockRequest rose while the guard is locked, and is TRUE since
     starting,      \* since Activate came nothing was enabled yet, and no call of a start-up without inhibit was seen
-    lost           \* the guard, its lock or the zone was lost, and no edge of Reset has acknowledged it
+    lost,          \* the guard, its lock or the zone was lost, and no edge of Reset has acknowledged it
+    unguarded      \* and none has come with the guard closed and locked
 
-observer == <<resetSeen, requestSeen, asked, starting, lost>>
+observer == <<resetSeen, requestSeen, asked, starting, lost, unguarded>>
 View == guardLocking
 ObservedView == <<View, observer>>
 \* GLF-06: a reading that changes outputs alone is told apart by them
 ViewWithOutputs == <<ObservedView, GuardLockingOutputs>>
 \* GLF-07: where Reset is not remembered while inactive, what it was then is asked by nobody: an enable is two calls away
-ViewWithoutResetSeen == <<View, requestSeen, asked, starting, lost>>
+ViewWithoutResetSeen == <<View, requestSeen, asked, starting, lost, unguarded>>
 
 ----------------------------------------------------------------------------
 Bit(n, k) == (n \div (2^k)) % 2 = 1
@@ -44,7 +45,7 @@ PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>)
 
 OpenInit ==
     /\ GuardLockingInit /\ step = "" /\ in = 0 /\ beat = FALSE
-    /\ resetSeen = FALSE /\ requestSeen = FALSE /\ asked = FALSE /\ starting = FALSE /\ lost = FALSE
+    /\ resetSeen = FALSE /\ requestSeen = FALSE /\ asked = FALSE /\ starting = FALSE /\ lost = FALSE /\ unguarded = FALSE
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 \* GL-IN-RESET, GL-IN-UNLOCKREQUEST: edges as they stand on the wires
@@ -56,6 +57,7 @@ Observe(i) ==
     /\ resetSeen' = i.Reset /\ requestSeen' = i.UnlockRequest
     /\ asked' = (S_GuardLocked' /\ i.UnlockRequest /\ (RequestEdge(i) \/ asked))
     /\ starting' = (Ready' /\ ~S_GuardLocked' /\ (~Ready \/ (starting /\ ~(DiagCode = \h8001 /\ i.S_StartReset))))
+    /\ unguarded' = (Ready' /\ (DiagCode' = \hC004 \/ (unguarded /\ ~(i.S_GuardMonitoring /\ i.S_GuardLock /\ ResetEdge(i)))))
     /\ lost' = (Ready' /\ (DiagCode' = \hC004 \/ (lost /\ ~(DiagCode = \h8014 /\ i.S_SafetyActive /\ ResetEdge(i)))))
 
 OpenNext ==
@@ -100,12 +102,18 @@ StaticResetNeverResets ==
         /\ Enables => IF DiagCode = \h8001 THEN Scanned.S_StartReset ELSE Scanned.S_AutoReset
         /\ DiagCode \in {\h8014, \hC001, \hC002, \hC003} => DiagCode' \in {DiagCode, \hC002, \hC004, 0}]_beat
 
+\* GL-IN-RESET, GL-IN-STARTRESET, GL-IN-AUTORESET, GLF-07, GLF-08: where an edge of Reset is waited for
+EdgeAwaited ==
+    CASE DiagCode = \h8001 -> ~Scanned.S_StartReset
+      [] DiagCode = \h8003 -> ~Scanned.S_AutoReset \/ startUpInhibit
+      [] OTHER -> DiagCode = \h8014
+
 \* GL-IN-RESET, GLF-07: where an edge is waited for, a Reset that does not move is an error in that call
 StaticResetIsFound ==
     [][Scanned.Activate /\ Scanned.Reset /\ resetSeen =>
-        /\ DiagCode = \h8001 /\ ~Scanned.S_StartReset => DiagCode' = \hC001
+        /\ DiagCode = \h8001 /\ EdgeAwaited => DiagCode' = \hC001
         /\ DiagCode = \h8014 => DiagCode' = \hC002
-        /\ DiagCode = \h8003 /\ ~Scanned.S_AutoReset => DiagCode' = \hC003]_beat
+        /\ DiagCode = \h8003 /\ EdgeAwaited => DiagCode' = \hC003]_beat
 
 \* GL-IN-SAFETYACTIVE, GL-SEQ-3: the guard is unlocked only with the zone safe, or when it is open already
 UnlockNeedsSafeZone == [][Unlocks => Scanned.S_SafetyActive \/ ~Scanned.S_GuardMonitoring]_beat
@@ -125,6 +133,10 @@ UnlockNeedsRequestNow == [][S_GuardLocked /\ S_UnlockGuard' => RequestEdge(Scann
 \* GL-IN-UNLOCKREQUEST, GLF-02: a request that stands unlocks as soon as the zone is safe
 HeldRequestUnlocks ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-02: a request that came while the guard is locked, and stands, unlocks as soon as the zone is safe
+LatchedRequestUnlocks ==
+    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ asked /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
 
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a request that comes with the zone safe unlocks at once, and withdraws the enable
 RequestUnlocksAtOnce ==
@@ -162,11 +174,6 @@ LossSeen ==
       [] DiagCode = \h8011 -> ~Scanned.S_SafetyActive /\ ~Secure
       [] DiagCode = \h8014 -> ~Scanned.S_SafetyActive
       [] OTHER -> FALSE
-\* GL-IN-RESET, GL-IN-STARTRESET, GL-IN-AUTORESET, GLF-07, GLF-08: where an edge of Reset is waited for
-EdgeAwaited ==
-    CASE DiagCode = \h8001 -> ~Scanned.S_StartReset
-      [] DiagCode = \h8003 -> ~Scanned.S_AutoReset \/ startUpInhibit
-      [] OTHER -> DiagCode = \h8014
 \* GL-OUT-ERROR, GL-IN-SAFETYACTIVE, GLF-07, GLF-09, GLF-10: an error has a cause in that very call
 ErrorNeedsCause ==
     [][~Error /\ Error' =>
@@ -183,9 +190,8 @@ ErrorEndsWithCause ==
 MessageUntilReset ==
     [][Error /\ ~Error' => ~Scanned.Activate \/ ~Scanned.Reset \/ ResetEdge(Scanned)]_beat
 
-\* GL-IN-RESET, GLF-14: after a loss only a guard that is closed and locked again lets the error be reset
-ResetNeedsGuardBack ==
-    [][DiagCode = \h8014 /\ DiagCode' = \h8011 => Secure]_beat
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss nothing is enabled before an edge of Reset that found the guard closed and locked
+LossNeedsGuardBack == [][S_GuardLocked' => ~unguarded']_beat
 
 \* GL-OUT-DIAGCODE, GL-IN-GUARDMONITORING, GLF-11: the code of an unlocked guard tells whether it is open
 CodeTellsTheGuard ==
@@ -200,7 +206,7 @@ Transitions == {
     <<\h8014, \hC002>>, <<\h8014, \hC004>>, <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
 OneTransitionACall == [][DiagCode' \in {0, DiagCode} \/ <<DiagCode, DiagCode'>> \in Transitions]_beat
 
-\* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that leaves its state has not seen what it waits for
+\* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what it waits for
 AnswersAtOnce ==
     [][DiagCode' = DiagCode /\ Scanned.Activate =>
         CASE DiagCode = \h8001 -> Secure /\ ~Scanned.S_StartReset /\ ~Scanned.Reset
@@ -209,7 +215,7 @@ AnswersAtOnce ==
           [] DiagCode = \h8012 -> ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive
           [] DiagCode = \h8011 -> Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
           [] DiagCode = \h8003 -> Secure /\ ~Scanned.Reset /\ (~Scanned.S_AutoReset \/ startUpInhibit)
-          [] DiagCode = \h8014 -> ~Scanned.Reset /\ Scanned.S_SafetyActive
+          [] DiagCode = \h8014 -> (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
           [] DiagCode = \hC004 -> ~Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> Scanned.Reset]_beat
 

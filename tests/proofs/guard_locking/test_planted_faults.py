@@ -191,7 +191,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
         [("return rises(i.UnlockRequest, s.unlock_request_before)", "return s.request_pending")],
     ),
     (
-        "the latched request",
+        "LatchedRequestUnlocks",
         JUDGE,
         LOCKED,
         block_locks.latched_request_unlocks,
