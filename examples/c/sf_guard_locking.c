@@ -23,6 +23,7 @@ void sf_guard_locking_defaults(sf_guard_locking_params *set)
     set->UNLOCK_ON = UNLOCK_ON_EDGE;
     set->ZONE_LOST = ZONE_LOST_ERROR;
     set->START_UP_INHIBIT = START_UP_INHIBIT_UNTIL_RESET;
+    set->CAUSE_OF_LOSS = CAUSE_OF_LOSS_GUARD_AND_ZONE;
 }
 
 void sf_guard_locking_power_up(sf_guard_locking_memory *memory, const sf_guard_locking_params *set)
@@ -109,6 +110,9 @@ static uint16_t next(const sf_guard_locking_memory *m, const sf_guard_locking_in
         }
         if (zone_lost) {
             return SAFETY_LOST;
+        }
+        if (!secured && m->set.CAUSE_OF_LOSS == CAUSE_OF_LOSS_GUARD_AND_ZONE) {
+            return SAFETY_RETURN; /* GLF-14 */
         }
         return edge ? WAIT_FOR_OPERATOR : SAFETY_RETURN;
 

@@ -8,9 +8,10 @@
 enum { UNLOCK_ON_EDGE, UNLOCK_ON_LATCHED, UNLOCK_ON_LEVEL };          /* GLF-02 */
 enum { ZONE_LOST_ERROR, ZONE_LOST_TOLERATED };                        /* GLF-04 */
 enum { START_UP_INHIBIT_UNTIL_RESET, START_UP_INHIBIT_UNTIL_OPENED }; /* GLF-08 */
+enum { CAUSE_OF_LOSS_GUARD_AND_ZONE, CAUSE_OF_LOSS_ZONE };             /* GLF-14 */
 
 typedef struct {
-    uint8_t UNLOCK_ON, ZONE_LOST, START_UP_INHIBIT;
+    uint8_t UNLOCK_ON, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS;
 } sf_guard_locking_params;
 
 typedef struct {

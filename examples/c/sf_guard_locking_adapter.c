@@ -28,6 +28,7 @@ static const block_row parameters[] = {
     {.name = "UNLOCK_ON", .choice = &set.UNLOCK_ON, .values = {"edge", "latched", "level"}},
     {.name = "ZONE_LOST", .choice = &set.ZONE_LOST, .values = {"error", "tolerated"}},
     {.name = "START_UP_INHIBIT", .choice = &set.START_UP_INHIBIT, .values = {"until_reset", "until_opened"}},
+    {.name = "CAUSE_OF_LOSS", .choice = &set.CAUSE_OF_LOSS, .values = {"guard_and_zone", "zone"}},
     {0}};
 
 static void defaults(void)

@@ -10,7 +10,7 @@ from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
 from proofs.guard_locking.block_safety import secure
-from proofs.guard_locking.devices import BLOCK
+from proofs.guard_locking.devices import BLOCK, chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
 from proofs.guard_locking.observer import request_edge
 from proofs.sentences import Judge, Said
@@ -40,6 +40,7 @@ def answers_at_once(one: Scanned) -> Said:
     """A call that stays has not seen what its state waits for."""
     i = one.inputs
     guard, zone, request, reset = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest, i.Reset
+    guard_too = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
     due = z3.And(i.S_AutoReset, z3.Not(one.before.start_up_inhibit))
     waits = {
         "Init": z3.And(secure(one), z3.Not(i.S_StartReset), z3.Not(reset)),
@@ -48,7 +49,7 @@ def answers_at_once(one: Scanned) -> Said:
         "GuardOpenAndUnlocked": z3.And(z3.Not(guard), zone),
         "WaitForOperator": z3.And(guard, z3.Not(i.S_GuardLock), zone, z3.Not(request)),
         "WaitForReset": z3.And(secure(one), z3.Not(reset), z3.Not(due)),
-        "SafetyReturn": z3.And(z3.Not(reset), zone),
+        "SafetyReturn": z3.And(zone, z3.Or(z3.Not(reset), z3.And(guard_too, z3.Not(secure(one))))),
         "SafetyLost": z3.Not(zone),
         "ResetError1": reset,
         "ResetError2": reset,

@@ -230,6 +230,20 @@ def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
     yield JUDGE.without(loss_needs_reset, "WaitForReset", "LossIsWaitedOut")
 
 
+def loss_needs_guard_back(one: Scanned) -> Said:
+    strict = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    return TRUE, z3.Implies(z3.And(strict, one.sends.S_GuardLocked), z3.Not(sees(one).unguarded))
+
+
+@theorem(clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-14"], properties=["LossNeedsGuardBack"])
+def after_a_loss_nothing_is_enabled_before_an_edge_of_reset_behind_the_guard() -> Queries:
+    """With CAUSE_OF_LOSS = guard_and_zone, after a loss S_GuardLocked is FALSE after every call until an edge
+    of Reset has found the guard closed and locked, whatever S_AutoReset says (or Activate has ended).
+    """
+    yield from JUDGE.in_every_scan(loss_needs_guard_back)
+    yield JUDGE.without(loss_needs_guard_back, "WaitForReset", "GuardComesBack")
+
+
 def static_reset_resets_nothing(one: Scanned) -> Said:
     waits = z3.Or(*[one.sent.DiagCode == code for code in (0x8014, 0xC001, 0xC002, 0xC003)])
     there = z3.Or(
@@ -261,9 +275,9 @@ def a_reset_that_does_not_move_resets_nothing() -> Queries:
 def static_reset_is_found(one: Scanned) -> Said:
     found = one.sends.DiagCode
     wanted = {
-        "Init": z3.Implies(z3.Not(one.inputs.S_StartReset), found == 0xC001),
+        "Init": z3.Implies(edge_awaited(one), found == 0xC001),
         "SafetyReturn": found == 0xC002,
-        "WaitForReset": z3.Implies(z3.Not(one.inputs.S_AutoReset), found == 0xC003),
+        "WaitForReset": z3.Implies(edge_awaited(one), found == 0xC003),
     }
     where = [one_state for one_state in wanted if one.was(one_state)]
     if not where:

@@ -48,6 +48,12 @@ def _loss_is_waited_out(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     return TRUE if c in AFTER_A_LOSS else z3.Not(seen.lost)
 
 
+def _guard_comes_back(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    if c in AFTER_A_LOSS:
+        return TRUE
+    return z3.Implies(chosen(p, "CAUSE_OF_LOSS", "guard_and_zone"), z3.Not(seen.unguarded))
+
+
 INVARIANT: Final = (
     Conjunct("WiresAreRemembered", "what the call before read is what stood there", _wires_are_remembered),
     Conjunct("PendingWasAsked", "a pending request rose at this locked guard", _pending_was_asked),
@@ -55,6 +61,7 @@ INVARIANT: Final = (
     Conjunct("InhibitIsWanted", "an inhibit is carried only where it is to be", _inhibit_is_wanted),
     Conjunct("NothingStartsWhereEnabled", "the start-up is over", _nothing_starts_where_enabled),
     Conjunct("LossIsWaitedOut", "a loss is acknowledged before anything else", _loss_is_waited_out),
+    Conjunct("GuardComesBack", "it is acknowledged with the guard closed and locked", _guard_comes_back),
 )
 JUDGE: Final = Judge(BLOCK, INVARIANT, SEEN, sees, NOTHING)
 

@@ -22,7 +22,7 @@ class Seen:
     reset, request: Reset and UnlockRequest in the call before · asked: UnlockRequest rose while the guard is
     locked, and is TRUE since · starting: since Activate came nothing was enabled, and no call of a start-up
     without inhibit was seen · lost: the guard, its lock or the zone was lost, and no edge of Reset has
-    acknowledged it.
+    acknowledged it · unguarded: and none has come with the guard closed and locked.
     """
 
     reset: z3.BoolRef
@@ -30,11 +30,14 @@ class Seen:
     asked: z3.BoolRef
     starting: z3.BoolRef
     lost: z3.BoolRef
+    unguarded: z3.BoolRef
 
 
-SEEN: Final = Seen(*(z3.Bool(f"seen.{name}") for name in ("reset", "request", "asked", "starting", "lost")))
+SEEN: Final = Seen(
+    *(z3.Bool(f"seen.{name}") for name in ("reset", "request", "asked", "starting", "lost", "unguarded"))
+)
 """Any memory of the observer before a call."""
-NOTHING: Final = Seen(*[z3.BoolVal(False)] * 5)
+NOTHING: Final = Seen(*[z3.BoolVal(False)] * 6)
 """At power-up nothing was seen."""
 
 
@@ -53,6 +56,7 @@ def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a call."""
     i, sent, sends = one.inputs, one.sent, one.sends
     free = z3.And(sent.DiagCode == 0x8001, i.S_StartReset)
+    behind = z3.And(i.S_GuardMonitoring, i.S_GuardLock, reset_edge(one, seen))
     acknowledged = z3.And(sent.DiagCode == 0x8014, i.S_SafetyActive, reset_edge(one, seen))
     return Seen(
         reset=i.Reset,
@@ -64,4 +68,7 @@ def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
             z3.Or(z3.Not(sent.Ready), z3.And(seen.starting, z3.Not(free))),
         ),
         lost=z3.And(sends.Ready, z3.Or(sends.DiagCode == 0xC004, z3.And(seen.lost, z3.Not(acknowledged)))),
+        unguarded=z3.And(
+            sends.Ready, z3.Or(sends.DiagCode == 0xC004, z3.And(seen.unguarded, z3.Not(behind)))
+        ),
     )

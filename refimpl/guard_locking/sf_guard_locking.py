@@ -4,7 +4,7 @@
 that the call before left behind, and the outputs are the row of the state after it (GL-SEQ-NOTE). The block
 has no timer. States and codes are the family's (GLF-01); the document prints outputs and a diagram.
 
-The three parameters choose between readings; the defaults are the safer ones (GLF-02, GLF-04, GLF-08).
+The parameters choose between readings; the defaults are the safer ones (GLF-02, GLF-04, GLF-08, GLF-14).
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ ERROR = "error"
 TOLERATED = "tolerated"
 UNTIL_RESET = "until_reset"
 UNTIL_OPENED = "until_opened"
+GUARD_AND_ZONE = "guard_and_zone"
+ZONE = "zone"
 
 
 class Step(Enum):
@@ -49,17 +51,20 @@ class Params:
     while the guard is locked and has stood since, or the level (GLF-02). ZONE_LOST: S_SafetyActive FALSE
     while the guard is closed but unlocked is an error, or tolerated until the guard opens (GLF-04).
     START_UP_INHIBIT: it lasts until an edge of Reset, or a guard that is not locked at start-up ends it
-    (GLF-08).
+    (GLF-08). CAUSE_OF_LOSS: after a loss an edge of Reset is taken with the zone safe and the guard closed
+    and locked, or with the zone safe alone (GLF-14).
     """
 
     UNLOCK_ON: str = EDGE
     ZONE_LOST: str = ERROR
     START_UP_INHIBIT: str = UNTIL_RESET
+    CAUSE_OF_LOSS: str = GUARD_AND_ZONE
 
     def __post_init__(self) -> None:
         check_text("UNLOCK_ON", self.UNLOCK_ON, (EDGE, LATCHED, LEVEL), ParameterError)
         check_text("ZONE_LOST", self.ZONE_LOST, (ERROR, TOLERATED), ParameterError)
         check_text("START_UP_INHIBIT", self.START_UP_INHIBIT, (UNTIL_RESET, UNTIL_OPENED), ParameterError)
+        check_text("CAUSE_OF_LOSS", self.CAUSE_OF_LOSS, (GUARD_AND_ZONE, ZONE), ParameterError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -317,11 +322,16 @@ def _safety_lost(i: Inputs) -> Step:
 
 
 def _safety_return(s: State, i: Inputs) -> Step:
-    """Then an edge of Reset, whatever S_AutoReset says. GL-IN-RESET, GLF-06, GLF-13, GLF-14"""
+    """Then an edge of Reset, whatever S_AutoReset says, with the guard back (CAUSE_OF_LOSS).
+
+    GL-IN-RESET, GLF-06, GLF-13, GLF-14
+    """
     if held(i.Reset, s.reset_before):
         return Step.RESET_ERROR2  # FindStaticResetAfterError
     if not i.S_SafetyActive:
         return Step.SAFETY_LOST  # LoseZoneAgain
+    if s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE and not (i.S_GuardMonitoring and i.S_GuardLock):
+        return Step.SAFETY_RETURN  # AwaitAcknowledgment
     if rises(i.Reset, s.reset_before):
         return Step.WAIT_FOR_OPERATOR  # AcknowledgeError
     return Step.SAFETY_RETURN  # AwaitAcknowledgment

@@ -7,7 +7,7 @@
 (*  RecoverySpec  the guard stays closed and locked, nobody asks: enabled. *)
 (*  EntrySpec     the zone stays safe, and somebody holds the button of    *)
 (*                the request, pressing it anew while the guard is still   *)
-(*                enabled: unlocked, if the guard closes and locks.                   *)
+(*                enabled: unlocked, if the guard closes and locks.        *)
 (* Leaves out how many calls it takes (a theorem says that).               *)
 (***************************************************************************)
 EXTENDS GuardLocking

@@ -21,11 +21,14 @@ from refimpl.guard_locking.sf_guard_locking import (
 
 FLAGS = ("Activate", "S_GuardMonitoring", "S_SafetyActive", "S_GuardLock", "UnlockRequest", "S_StartReset")
 PARAMS = Params()
-FAMILY = Params(ZONE_LOST="tolerated", START_UP_INHIBIT="until_opened")
+FAMILY = Params(ZONE_LOST="tolerated", START_UP_INHIBIT="until_opened", CAUSE_OF_LOSS="zone")
 EVERY = tuple(
     Params(*one)
     for one in itertools.product(
-        ("edge", "latched", "level"), ("error", "tolerated"), ("until_reset", "until_opened")
+        ("edge", "latched", "level"),
+        ("error", "tolerated"),
+        ("until_reset", "until_opened"),
+        ("guard_and_zone", "zone"),
     )
 )
 
@@ -142,6 +145,22 @@ def test_a_lost_guard_needs_an_edge_of_reset_whatever_s_auto_reset_says() -> Non
     assert out.S_GuardLocked
 
 
+def test_a_loss_is_acknowledged_only_behind_the_guard() -> None:
+    """Forced open, Reset with the door open, and no restart inhibit."""
+    free = {"S_AutoReset": True}
+    way = (
+        call(**OPEN, **free),
+        call(**OPEN, **free),
+        call(**OPEN, **free, Reset=True),
+        call(**OPEN, **free),
+        *[call(**free)] * 5,
+    )
+    state, out = run(enabled(), *way)
+    assert not out.S_GuardLocked and out.DiagCode == 0x8014
+    assert run(state, call(**free, Reset=True), call(**free), call(**free))[1].S_GuardLocked
+    assert run(enabled(FAMILY), *way)[1].S_GuardLocked
+
+
 @pytest.mark.parametrize(
     ("control", "error"),
     [
@@ -187,7 +206,7 @@ def test_what_is_no_input_is_refused() -> None:
         replace(call(), dt_ms=-1)
 
 
-@pytest.mark.parametrize("name", ["UNLOCK_ON", "ZONE_LOST", "START_UP_INHIBIT"])
+@pytest.mark.parametrize("name", ["UNLOCK_ON", "ZONE_LOST", "START_UP_INHIBIT", "CAUSE_OF_LOSS"])
 def test_what_is_no_parameter_is_refused(name: str) -> None:
     with pytest.raises(ParameterError) as refused:
         Params(**{name: "never"})
