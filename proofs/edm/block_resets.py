@@ -59,6 +59,7 @@ def reset_needs_edge(one: Scanned) -> Said:
     ],
     findings=["EDMF-10"],
     properties=["ResetNeedsEdge"],
+    slow=True,
 )
 def neither_inhibit_nor_error_goes_without_an_edge() -> Queries:
     """While the block stays active, the inhibit goes only in a call with a rising edge of Reset, or with
@@ -73,7 +74,10 @@ def cause_is_gone(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["EDM-IN-RESET-1", "EDM-SEQ-6", "EDM-FB-1"], findings=["EDMF-07"], properties=["CauseIsGone"]
+    clauses=["EDM-IN-RESET-1", "EDM-SEQ-6", "EDM-FB-1"],
+    findings=["EDMF-07"],
+    properties=["CauseIsGone"],
+    slow=True,
 )
 def no_error_is_reset_over_its_cause() -> Queries:
     """An error is reset only in a call with both feedbacks TRUE."""
@@ -95,6 +99,7 @@ def errors_are_left(one: Scanned) -> Said:
     clauses=["EDM-OUT-ERROR", "EDM-IN-RESET-1", "EDM-SEQ-6"],
     findings=["EDMF-10", "EDMF-11"],
     properties=["ErrorsAreLeftAsDocumented"],
+    slow=True,
 )
 def an_error_has_one_way_out() -> Queries:
     """An active block leaves an error by its reset, to the state with the output off on request, or one about
@@ -113,7 +118,7 @@ def held_reset(one: Scanned) -> Said:
     return TRUE, z3.Implies(z3.And(waits, one.inputs.Activate, held(one)), reset_error(one))
 
 
-@theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["HeldResetIsAnError"])
+@theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["HeldResetIsAnError"], slow=True)
 def a_held_reset_is_an_error_where_its_edge_is_waited_for() -> Queries:
     """An active call with Reset held ends in an error about Reset, from the inhibit and from each error."""
     yield from JUDGE.in_every_scan(held_reset)
@@ -126,7 +131,10 @@ def two_edges(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["EDM-IN-START-2", "EDM-IN-RESET-4"], findings=["EDMF-11"], properties=["TwoEdgesAreAnError"]
+    clauses=["EDM-IN-START-2", "EDM-IN-RESET-4"],
+    findings=["EDMF-11"],
+    properties=["TwoEdgesAreAnError"],
+    slow=True,
 )
 def reset_and_request_that_rise_together_are_an_error() -> Queries:
     """From the inhibit an active call in which Reset and S_OutControl rise ends in an error about Reset."""
@@ -139,7 +147,12 @@ def starts_by_itself(one: Scanned) -> Said:
     return TRUE, z3.Implies(free, one.sends.SafetyDemand)
 
 
-@theorem(clauses=["EDM-IN-START-1", "EDM-IN-START-3"], findings=["EDMF-11"], properties=["StartsByItself"])
+@theorem(
+    clauses=["EDM-IN-START-1", "EDM-IN-START-3"],
+    findings=["EDMF-11"],
+    properties=["StartsByItself"],
+    slow=True,
+)
 def without_inhibit_nothing_is_waited_for() -> Queries:
     """From Init an active call with S_StartReset TRUE ends in the state with the output off on request."""
     yield from JUDGE.in_every_scan(starts_by_itself)
@@ -164,6 +177,7 @@ def resets_at_once(one: Scanned) -> Said:
     clauses=["EDM-IN-START-2", "EDM-IN-RESET-2", "EDM-SEQ-2"],
     findings=["EDMF-11"],
     properties=["RemovesInhibitAtOnce"],
+    slow=True,
 )
 def the_edge_removes_the_inhibit_in_its_call() -> Queries:
     """From Init an active call with an edge of Reset, and none of S_OutControl, removes the inhibit."""
@@ -172,7 +186,10 @@ def the_edge_removes_the_inhibit_in_its_call() -> Queries:
 
 
 @theorem(
-    clauses=["EDM-IN-RESET-1", "EDM-SEQ-6"], findings=["EDMF-07", "EDMF-11"], properties=["ResetsAtOnce"]
+    clauses=["EDM-IN-RESET-1", "EDM-SEQ-6"],
+    findings=["EDMF-07", "EDMF-11"],
+    properties=["ResetsAtOnce"],
+    slow=True,
 )
 def the_edge_resets_an_error_whose_cause_is_gone_in_its_call() -> Queries:
     """From each of the nine errors an active call with an edge of Reset and both feedbacks TRUE resets it."""
@@ -195,6 +212,7 @@ def error_needs_cause(one: Scanned) -> Said:
     clauses=["EDM-OUT-ERROR", "EDM-SEQ-2", "EDM-SEQ-3", "EDM-SEQ-6"],
     findings=["EDMF-05"],
     properties=["ErrorNeedsCause"],
+    slow=True,
 )
 def no_error_comes_for_nothing() -> Queries:
     """An error comes only over a wrong feedback with MonitoringTime over, or with a request that counts; or
@@ -218,6 +236,7 @@ def code_names_the_cause(one: Scanned) -> Said:
     clauses=["EDM-OUT-DIAG", "EDM-OUT-ERROR", "EDM-IN-EDM-1"],
     findings=["EDMF-01", "EDMF-06"],
     properties=["CodeNamesTheCause"],
+    slow=True,
 )
 def the_code_names_the_contactors_that_were_wrong() -> Queries:
     """The DiagCode of an error that a feedback causes says which of the two was wrong in that call, and
@@ -235,7 +254,7 @@ def keeps_the_code(one: Scanned) -> Said:
     return TRUE, z3.Implies(numbered, z3.And(same, ((after & 0x000F) == 1) == digit))
 
 
-@theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["ResetErrorKeepsTheCode"])
+@theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["ResetErrorKeepsTheCode"], slow=True)
 def a_held_reset_does_not_hide_the_error() -> Queries:
     """From an error about contactors a held Reset leads to the error about Reset with the same number, which
     leads back to it.

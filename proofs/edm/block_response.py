@@ -27,6 +27,7 @@ def switches_on_at_once(one: Scanned) -> Said:
     clauses=["EDM-IN-CONTROL-3", "EDM-OUT-EDM-2", "EDM-SEQ-3", "EDM-SEQ-5"],
     findings=["EDMF-12"],
     properties=["SwitchesOnAtOnce"],
+    slow=True,
 )
 def what_may_switch_on_does_in_that_call() -> Queries:
     """With SafetyDemand, both feedbacks TRUE, and a request of a control that was released since a reset by
@@ -75,6 +76,7 @@ def comes_closer(one: Scanned) -> Said:
     clauses=["EDM-IN-START-2", "EDM-IN-RESET-1", "EDM-IN-RESET-2", "EDM-OUT-EDM-2", "EDM-SEQ-2", "EDM-SEQ-6"],
     findings=["EDMF-04", "EDMF-07"],
     properties=["EnablesAgain"],
+    slow=True,
 )
 def the_output_is_on_again_within_four_calls() -> Queries:
     """From any state and memory: while the contactors follow, Reset changes in every call, and S_OutControl

@@ -50,6 +50,7 @@ def stop_at_once(one: Scanned) -> Said:
     clauses=["EDM-IN-ACTIVATE", "EDM-IN-CONTROL-2", "EDM-OUT-EDM-1", "EDM-SEQ-4"],
     findings=["EDMF-12"],
     properties=["StopAtOnce"],
+    slow=True,
 )
 def a_stop_request_switches_off_in_its_own_call() -> Queries:
     """In a call that is not active, or with S_OutControl FALSE, S_EDM_Out is FALSE."""
@@ -69,6 +70,7 @@ def inactive_at_once(one: Scanned) -> Said:
     clauses=["EDM-IN-ACTIVATE", "EDM-OUT-READY-1", "EDM-OUT-READY-2"],
     findings=[],
     properties=["InactiveAtOnce"],
+    slow=True,
 )
 def ready_is_activate_of_the_same_call() -> Queries:
     """After every call Ready is what Activate was in it."""
@@ -102,6 +104,7 @@ def one_transition(one: Scanned) -> Said:
     clauses=["EDM-INST-1", "EDM-IN-ACTIVATE"],
     findings=["EDMF-12"],
     properties=["OneTransitionACall"],
+    slow=True,
 )
 def a_call_takes_one_transition_at_most() -> Queries:
     """From any memory a call stays in its state, ends in Idle, or takes one of its state's transitions."""
@@ -124,6 +127,7 @@ def starts_with_inhibit(one: Scanned) -> Said:
     clauses=["EDM-IN-START-1", "EDM-SEQ-1", "EDM-INST-1"],
     findings=["EDMF-12"],
     properties=["StartsWithInhibit"],
+    slow=True,
 )
 def activation_shows_the_inhibit_for_one_call_at_least() -> Queries:
     """A call that makes the block active shows the inhibit and no output, whatever else is TRUE."""
@@ -144,6 +148,7 @@ def switch_on_needs_initial_state(one: Scanned) -> Said:
     clauses=["EDM-IN-EDM-1", "EDM-IN-EDM-2", "EDM-IN-CONTROL-3", "EDM-OUT-EDM-2", "EDM-SEQ-3", "EDM-FB-1"],
     findings=["EDMF-05"],
     properties=["SwitchOnNeedsInitialState"],
+    slow=True,
 )
 def both_contactors_are_dropped_out_at_switching_on() -> Queries:
     """S_EDM_Out becomes TRUE only out of the state that shows SafetyDemand, in a call with both feedbacks
@@ -165,6 +170,7 @@ def wrong_only_for_a_time(one: Scanned) -> Said:
     clauses=["EDM-IN-TIME-1", "EDM-IN-TIME-2", "EDM-IN-EDM-1", "EDM-SEQ-3", "EDM-SEQ-5", "EDM-FB-1"],
     findings=["EDMF-08", "EDMF-09"],
     properties=["FeedbackWrongOnlyForATime"],
+    slow=True,
 )
 def the_output_stays_over_a_wrong_feedback_less_than_monitoring_time() -> Queries:
     """A call that leaves S_EDM_Out TRUE either comes before MonitoringTime has passed since it became TRUE,
@@ -190,6 +196,7 @@ def missed_drop_out(one: Scanned) -> Said:
     clauses=["EDM-IN-TIME-1", "EDM-SEQ-5", "EDM-OUT-ERROR", "EDM-FB-1"],
     findings=["EDMF-06", "EDMF-08"],
     properties=["MissedPickUpIsAnError"],
+    slow=True,
 )
 def a_missed_pick_up_is_an_error_whatever_else_the_call_asks() -> Queries:
     """An active call that finds MonitoringTime over and a feedback TRUE, with the output on, ends in an
@@ -203,6 +210,7 @@ def a_missed_pick_up_is_an_error_whatever_else_the_call_asks() -> Queries:
     clauses=["EDM-IN-TIME-1", "EDM-SEQ-4", "EDM-OUT-ERROR", "EDM-FB-1"],
     findings=["EDMF-06", "EDMF-14"],
     properties=["MissedDropOutIsAnError"],
+    slow=True,
 )
 def a_missed_drop_out_is_an_error_whatever_else_the_call_asks() -> Queries:
     """An active call that finds MonitoringTime over and a feedback FALSE, with the output off on request,
@@ -220,6 +228,7 @@ def reset_never_starts(one: Scanned) -> Said:
     clauses=["EDM-IN-RESET-4", "EDM-IN-CONTROL-1"],
     findings=["EDMF-04"],
     properties=["ResetNeverStarts"],
+    slow=True,
 )
 def with_stop_first_the_reset_button_never_starts() -> Queries:
     """With AFTER_RESET at stop_first S_EDM_Out becomes TRUE only once S_OutControl has been FALSE since the

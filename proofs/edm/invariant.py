@@ -63,6 +63,7 @@ JUDGE: Final = Judge(BLOCK, INVARIANT, SEEN, sees, NOTHING)
 @theorem(
     clauses=["EDM-IN-TIME-1", "EDM-IN-RESET-1", "EDM-IN-CONTROL-1", "EDM-INST-1"],
     findings=["EDMF-04", "EDMF-08", "EDMF-14"],
+    slow=True,
 )
 def every_call_keeps_the_invariant() -> Queries:
     """The invariant of the block is true at power-up, and every call keeps it, with any inputs, times and

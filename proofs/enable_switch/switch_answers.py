@@ -85,6 +85,7 @@ def patterns_decide(one: Scanned) -> Said:
     clauses=["ES-STAGE-0", "ES-STAGE-1", "ES-STAGE-2", "ES-SEQ-6", "ES-SEQ-7", "ES-SEQ-8", "ES-ORDER-2"],
     findings=["ESF-02", "ESF-03", "ESF-04", "ESF-05", "ESF-06"],
     properties=["PatternsDecide"],
+    slow=True,
 )
 def each_pattern_in_each_state_has_its_answer() -> Queries:
     """From any memory: where the block is active in the mode, the time of a change is not over, and Reset and
@@ -125,6 +126,7 @@ def one_transition(one: Scanned) -> Said:
     clauses=["ES-NOTE-1", "ES-ORDER-2", "ES-SEQ-2", "ES-SEQ-5"],
     findings=["ESF-02", "ESF-06", "ESF-08"],
     properties=["OneTransitionACall"],
+    slow=True,
 )
 def a_call_leads_to_a_neighbour_or_stays() -> Queries:
     """From any memory and with any inputs, times and parameters, a call leads to one of the ways out that its
@@ -158,7 +160,7 @@ def resets_lead_back(one: Scanned) -> Said:
     return i.Activate, z3.Not(z3.And(kept))
 
 
-@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06", "ESF-08", "ESF-10"])
+@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06", "ESF-08", "ESF-10"], slow=True)
 def a_reset_at_stage_0_ends_the_error_in_that_call() -> Queries:
     """From any memory: where a reset is waited for, a call that sees stage 0 with a rising edge of Reset, or
     with S_AutoReset, leads to Stage0 in the mode and to BasicMode without it; and to a reset error, which is
@@ -210,7 +212,7 @@ def stage_1_enables(one: Scanned) -> Said:
     return given, one.sends.S_EnableSwitchOut
 
 
-@theorem(clauses=["ES-SEQ-2", "ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-10"])
+@theorem(clauses=["ES-SEQ-2", "ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-10"], slow=True)
 def a_released_switch_leads_to_stage_0_or_to_the_wait_for_a_reset() -> Queries:
     """From any memory, each call in the mode that sees stage 0 with Reset FALSE brings the block one state
     closer to Stage0, or to an error that waits for its reset: there after three calls at most, and it stays.
@@ -223,7 +225,7 @@ def a_released_switch_leads_to_stage_0_or_to_the_wait_for_a_reset() -> Queries:
     yield ANYWHERE.too_strong("one call is enough", one_call, "ChangeToStage0")
 
 
-@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06"])
+@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06"], slow=True)
 def then_the_edge_of_reset_leads_to_stage_0() -> Queries:
     """From any memory: where a reset is waited for, the next call in the mode that sees stage 0 with Reset
     TRUE, which was FALSE before, leads to Stage0.
@@ -237,7 +239,12 @@ def then_the_edge_of_reset_leads_to_stage_0() -> Queries:
     yield ANYWHERE.too_strong("any Reset", any_reset, "OperationErrorAtStage0")
 
 
-@theorem(clauses=["ES-SEQ-6", "ES-SEQ-9", "ES-STAGE-1"], findings=["ESF-02"], properties=["EnablesAgain"])
+@theorem(
+    clauses=["ES-SEQ-6", "ES-SEQ-9", "ES-STAGE-1"],
+    findings=["ESF-02"],
+    properties=["EnablesAgain"],
+    slow=True,
+)
 def then_stage_1_enables() -> Queries:
     """From any memory: out of Stage0, or out of a change from there that is not too late, a call in the mode
     that sees stage 1 enables.
@@ -265,7 +272,7 @@ def kept_in_error(one: Scanned) -> Said:
     return kept, TRUE if before in RELEASED and one.becomes("Stage0", "BasicMode") else FALSE
 
 
-@theorem(clauses=["ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-08"])
+@theorem(clauses=["ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-08"], slow=True)
 def an_error_stays_the_error_that_it_is() -> Queries:
     """From any memory: an error never turns into one of another kind, and, unless MODE_ENDS_ERROR is set, an
     active block leaves it for Stage0 or BasicMode, from where the reset is waited for.
@@ -285,7 +292,7 @@ def parameter_ends_errors(one: Scanned) -> Said:
     return off, TRUE if one.becomes("BasicMode") else FALSE
 
 
-@theorem(clauses=["ES-RESTART"], findings=["ESF-08"])
+@theorem(clauses=["ES-RESTART"], findings=["ESF-08"], slow=True)
 def the_parameter_lets_the_end_of_the_mode_end_every_error() -> Queries:
     """From any memory: with MODE_ENDS_ERROR set, a call of an active block without the mode leads from every
     error to BasicMode.

@@ -73,7 +73,7 @@ def outputs_follow_the_code(one: Scanned, seen: Any) -> z3.BoolRef:
     )
 
 
-@theorem(clauses=["ES-NOTE-3"], findings=["ESF-01"], properties=["OutputsFollowTheCode"])
+@theorem(clauses=["ES-NOTE-3"], findings=["ESF-01"], properties=["OutputsFollowTheCode"], slow=True)
 def the_code_says_what_the_flags_say() -> Queries:
     """Before the first call and after every call the bits 8000, 4000, 0800 and 0400 of DiagCode are Ready,
     Error, SafetyDemand and ResetRequest, and S_EnableSwitchOut is TRUE exactly with 8000.
@@ -89,7 +89,7 @@ def enable_stands_alone(one: Scanned, seen: Any) -> z3.BoolRef:
     return z3.Implies(o.S_EnableSwitchOut, alone)
 
 
-@theorem(clauses=["ES-SEQ-3", "ES-SEQ-4"], findings=["ESF-01"], properties=["EnableStandsAlone"])
+@theorem(clauses=["ES-SEQ-3", "ES-SEQ-4"], findings=["ESF-01"], properties=["EnableStandsAlone"], slow=True)
 def the_switch_never_enables_beside_an_error_or_a_pending_reset() -> Queries:
     """Before the first call and after every call: with S_EnableSwitchOut TRUE, Ready is TRUE, and Error,
     ResetRequest and SafetyDemand are FALSE.
@@ -105,7 +105,7 @@ def idle_is_silent(one: Scanned, seen: Any) -> z3.BoolRef:
     return z3.And(one.sends.DiagCode == 0, *[z3.Not(getattr(one.sends, name)) for name in FLAGS])
 
 
-@theorem(clauses=["ES-SEQ-0"], findings=[], properties=["IdleIsSilent"])
+@theorem(clauses=["ES-SEQ-0"], findings=[], properties=["IdleIsSilent"], slow=True)
 def the_switch_that_is_not_active_sends_nothing() -> Queries:
     """Before the first call, and after every call that leads to Idle, all outputs are FALSE and DiagCode is
     0000.
@@ -120,7 +120,7 @@ def in_idle(one: Scanned, seen: Any) -> z3.BoolRef:
     return nothing if one.becomes("Idle") else FALSE
 
 
-@theorem(clauses=["ES-SEQ-0"], findings=[], properties=["PowerUpIsSilent"])
+@theorem(clauses=["ES-SEQ-0"], findings=[], properties=["PowerUpIsSilent"], slow=True)
 def the_switch_begins_in_idle() -> Queries:
     """Before the first call, with any parameters, the block is in Idle, no time has passed and no Reset was
     seen.

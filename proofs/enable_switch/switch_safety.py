@@ -27,7 +27,7 @@ from proofs.sentences import Said
 from proofs.theorem import Queries, theorem
 
 
-@theorem(clauses=["ES-SEQ-3", "ES-SEQ-5", "ES-ORDER-2"], findings=["ESF-02", "ESF-04", "ESF-05"])
+@theorem(clauses=["ES-SEQ-3", "ES-SEQ-5", "ES-ORDER-2"], findings=["ESF-02", "ESF-04", "ESF-05"], slow=True)
 def every_call_of_the_switch_keeps_its_invariant() -> Queries:
     """The invariant of the block is true before the first call, and every call keeps it, with any inputs, any
     time and any parameters.
@@ -49,6 +49,7 @@ def enable_needs_its_conditions(one: Scanned) -> Said:
     clauses=["ES-STAGE-1", "ES-SEQ-1", "ES-SEQ-7"],
     findings=["ESF-04", "ESF-05", "ESF-08"],
     properties=["EnableNeedsItsConditions"],
+    slow=True,
 )
 def the_switch_enables_only_in_a_call_that_sees_stage_1_in_the_mode() -> Queries:
     """After a call with S_EnableSwitchOut TRUE, that very call found Activate and S_SafetyActive TRUE,
@@ -75,6 +76,7 @@ def enable_needs_stage_0(one: Scanned) -> Said:
     clauses=["ES-SEQ-6", "ES-SEQ-8", "ES-SEQ-9", "ES-ORDER-2"],
     findings=["ESF-02", "ESF-03", "ESF-11"],
     properties=["EnableNeedsStage0"],
+    slow=True,
 )
 def the_enable_comes_out_of_stage_0_alone() -> Queries:
     """In a call in which S_EnableSwitchOut rises, the last stage that an observer of the wires saw before, in
@@ -91,7 +93,7 @@ def activate_goes_first(one: Scanned) -> Said:
     return TRUE, one.sends.Ready == one.inputs.Activate
 
 
-@theorem(clauses=["ES-SEQ-0"], findings=[], properties=["ActivateGoesFirst"])
+@theorem(clauses=["ES-SEQ-0"], findings=[], properties=["ActivateGoesFirst"], slow=True)
 def the_end_of_activate_goes_before_everything() -> Queries:
     """After every call Ready is what Activate was in it, whatever the state and the other inputs are."""
     yield from JUDGE.in_every_scan(activate_goes_first)
@@ -110,7 +112,7 @@ def mode_ends_operation(one: Scanned) -> Said:
     return off, z3.And(quiet, kept)
 
 
-@theorem(clauses=["ES-SEQ-1"], findings=["ESF-08", "ESF-09"], properties=["ModeEndsOperation"])
+@theorem(clauses=["ES-SEQ-1"], findings=["ESF-08", "ESF-09"], properties=["ModeEndsOperation"], slow=True)
 def without_the_mode_the_switch_demands_and_enables_nothing() -> Queries:
     """After a call with S_SafetyActive FALSE there is neither enable nor demand, and an active block that had
     no error is in BasicMode.
@@ -146,6 +148,7 @@ def error_needs_reset(one: Scanned) -> Said:
     clauses=["ES-STAGE-0", "ES-SEQ-4", "ES-SEQ-5", "ES-RESTART"],
     findings=["ESF-06", "ESF-08"],
     properties=["ErrorNeedsReset"],
+    slow=True,
 )
 def an_error_ends_at_stage_0_and_by_a_reset() -> Queries:
     """Unless MODE_ENDS_ERROR is set, an error of an active block ends only in a call that sees stage 0 after
@@ -171,7 +174,12 @@ def error_needs_reset_in_the_mode(one: Scanned) -> Said:
     return TRUE, z3.Not(ends)
 
 
-@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-08"], properties=["ErrorNeedsResetInTheMode"])
+@theorem(
+    clauses=["ES-SEQ-5", "ES-RESTART"],
+    findings=["ESF-08"],
+    properties=["ErrorNeedsResetInTheMode"],
+    slow=True,
+)
 def in_the_mode_an_error_ends_by_a_reset_whatever_the_parameter_is() -> Queries:
     """With S_SafetyActive TRUE an error of an active block ends only at stage 0 and by a reset, whatever
     MODE_ENDS_ERROR is, and the call leads to Stage0.
@@ -192,7 +200,9 @@ def held_reset_never_resets(one: Scanned) -> Said:
     return TRUE, z3.Not(ends)
 
 
-@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-10"], properties=["HeldResetNeverResets"])
+@theorem(
+    clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-10"], properties=["HeldResetNeverResets"], slow=True
+)
 def a_reset_that_is_held_never_resets() -> Queries:
     """Without S_AutoReset an error of an active block ends only in a call with Reset TRUE, and an observer of
     the wires saw Reset FALSE in the call before, whether or not the block was active in it; where
@@ -214,7 +224,9 @@ def held_reset_is_an_error(one: Scanned) -> Said:
     return None
 
 
-@theorem(clauses=["ES-RESTART", "ES-SEQ-5"], findings=["ESF-10"], properties=["HeldResetIsAnError"])
+@theorem(
+    clauses=["ES-RESTART", "ES-SEQ-5"], findings=["ESF-10"], properties=["HeldResetIsAnError"], slow=True
+)
 def a_reset_that_is_held_is_reported_until_it_is_released() -> Queries:
     """Where the edge of Reset is waited for, a call that finds Reset TRUE as in the call before leads to a
     reset error, unless S_AutoReset is set; and a reset error stays for as long as Reset is TRUE.
@@ -243,7 +255,10 @@ def disagreement_ends_in_error(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["ES-SEQ-3", "ES-SEQ-8"], findings=["ESF-04", "ESF-07"], properties=["DisagreementEndsInError"]
+    clauses=["ES-SEQ-3", "ES-SEQ-8"],
+    findings=["ESF-04", "ESF-07"],
+    properties=["DisagreementEndsInError"],
+    slow=True,
 )
 def channels_that_differ_for_the_discrepancy_time_end_in_an_error() -> Queries:
     """A call that finds channels 1 and 3 different, in a block that is watching them, and that they have been
@@ -263,7 +278,7 @@ def contradiction_ends_in_error(one: Scanned) -> Said:
     return (late, one.sends.Error) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
 
-@theorem(clauses=["ES-STAGE-1"], findings=["ESF-05"], properties=["ContradictionEndsInError"])
+@theorem(clauses=["ES-STAGE-1"], findings=["ESF-05"], properties=["ContradictionEndsInError"], slow=True)
 def three_channels_true_for_the_discrepancy_time_end_in_an_error() -> Queries:
     """A call that finds all three channels TRUE, in a block that is watching them, and that they have been so
     for the discrepancy time, ends in an error.
@@ -277,7 +292,7 @@ def enable_comes_in_time(one: Scanned) -> Said:
     return (late, z3.Not(one.sends.S_EnableSwitchOut)) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
 
-@theorem(clauses=["ES-SEQ-3", "ES-SEQ-6"], findings=["ESF-07"], properties=["EnableComesInTime"])
+@theorem(clauses=["ES-SEQ-3", "ES-SEQ-6"], findings=["ESF-07"], properties=["EnableComesInTime"], slow=True)
 def channels_that_come_together_too_late_do_not_enable() -> Queries:
     """When channels 1 and 3 have differed for the discrepancy time, the call that finds it does not enable,
     even if it finds them together again. Equality counts as too late.
@@ -302,7 +317,7 @@ def timer_counts(one: Scanned) -> Said:
     return TRUE, one.after.elapsed_ms == 0
 
 
-@theorem(clauses=["ES-SEQ-3", "ES-SEQ-8"], findings=["ESF-04", "ESF-07"])
+@theorem(clauses=["ES-SEQ-3", "ES-SEQ-8"], findings=["ESF-04", "ESF-07"], slow=True)
 def the_time_of_a_change_starts_with_it_and_adds_up() -> Queries:
     """A call that begins a change starts the timer with 0, a call that goes on with it adds the time since
     the call before, and a call that ends it leaves 0; one change never turns into the other.
@@ -324,7 +339,7 @@ def ends_by_its_cause(one: Scanned) -> Said:
     return in_the_mode(one), z3.Not(late)
 
 
-@theorem(clauses=["ES-SEQ-3"], findings=["ESF-05", "ESF-07"])
+@theorem(clauses=["ES-SEQ-3"], findings=["ESF-05", "ESF-07"], slow=True)
 def a_change_that_is_too_late_ends_in_the_error_of_its_cause() -> Queries:
     """In the mode, a call that finds the time of a change over ends in PlausibilityError if all three
     channels are TRUE, and in EquivalenceError with any other pattern; no other call does the latter.

@@ -30,7 +30,12 @@ def unlock_needs_safe_zone(one: Scanned) -> Said:
     return TRUE, z3.Implies(unlocks(one), one.inputs.S_SafetyActive)
 
 
-@theorem(clauses=["GL-IN-SAFETYACTIVE", "GL-SEQ-3"], findings=["GLF-18"], properties=["UnlockNeedsSafeZone"])
+@theorem(
+    clauses=["GL-IN-SAFETYACTIVE", "GL-SEQ-3"],
+    findings=["GLF-18"],
+    properties=["UnlockNeedsSafeZone"],
+    slow=True,
+)
 def a_guard_is_unlocked_only_with_the_zone_safe() -> Queries:
     """A call in which S_UnlockGuard rises found S_SafetyActive TRUE, under all parameters. (So the property,
     which allows an open guard besides, is met without that.)
@@ -49,6 +54,7 @@ def unlocked_only_while_safe(one: Scanned) -> Said:
     clauses=["GL-IN-SAFETYACTIVE", "GL-OUT-UNLOCKGUARD"],
     findings=["GLF-04", "GLF-10"],
     properties=["UnlockedOnlyWhileSafe"],
+    slow=True,
 )
 def the_guard_is_unlocked_no_longer_than_the_zone_is_safe() -> Queries:
     """With ZONE_LOST = error, after every call with S_UnlockGuard TRUE that very call found S_SafetyActive
@@ -67,7 +73,12 @@ def unlock_needs_request(one: Scanned) -> Said:
     return TRUE, z3.Implies(unlocks(one), asked)
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=["GLF-11"], properties=["UnlockNeedsRequest"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"],
+    findings=["GLF-11"],
+    properties=["UnlockNeedsRequest"],
+    slow=True,
+)
 def a_closed_guard_is_unlocked_only_on_request() -> Queries:
     """A call in which S_UnlockGuard rises found UnlockRequest TRUE, or the guard open."""
     yield from JUDGE.in_every_scan(unlock_needs_request)
@@ -83,7 +94,12 @@ def request_while_locked(one: Scanned) -> Said:
     return TRUE, z3.Implies(given, z3.Or(request_edge(one), SEEN.asked))
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"], properties=["UnlockNeedsRequestWhileLocked"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST"],
+    findings=["GLF-02"],
+    properties=["UnlockNeedsRequestWhileLocked"],
+    slow=True,
+)
 def a_locked_guard_is_unlocked_by_a_request_that_rose_while_it_is_locked() -> Queries:
     """With UNLOCK_ON = edge or latched, a call that unlocks an enabled guard found UnlockRequest rising, or
     standing since it rose at this locked guard.
@@ -99,7 +115,9 @@ def request_now(one: Scanned) -> Said:
     return TRUE, z3.Implies(given, request_edge(one))
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"], properties=["UnlockNeedsRequestNow"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"], properties=["UnlockNeedsRequestNow"], slow=True
+)
 def with_the_edge_the_request_comes_in_the_call_that_unlocks() -> Queries:
     """With UNLOCK_ON = edge, a call that unlocks an enabled guard is the one in which it rises."""
     yield from JUDGE.in_every_scan(request_now)
@@ -122,7 +140,12 @@ def held_request_unlocks(one: Scanned) -> Said:
     return z3.And(chosen(one.params, "UNLOCK_ON", "level"), _asked_safely(one)), _unlocked(one)
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=["GLF-02"], properties=["HeldRequestUnlocks"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"],
+    findings=["GLF-02"],
+    properties=["HeldRequestUnlocks"],
+    slow=True,
+)
 def with_the_level_a_request_that_stands_unlocks() -> Queries:
     """With UNLOCK_ON = level, an active call that finds an enabled guard closed and locked, the zone safe and
     UnlockRequest TRUE unlocks it.
@@ -138,7 +161,9 @@ def request_unlocks_at_once(one: Scanned) -> Said:
     return z3.And(_asked_safely(one), request_edge(one)), _unlocked(one)
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=[], properties=["RequestUnlocksAtOnce"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=[], properties=["RequestUnlocksAtOnce"], slow=True
+)
 def a_request_that_rises_with_the_zone_safe_unlocks_in_that_call() -> Queries:
     """Under all parameters: an active call that finds an enabled guard closed and locked, the zone safe and
     UnlockRequest rising sets S_UnlockGuard and withdraws S_GuardLocked.
@@ -159,7 +184,10 @@ def latched_request_unlocks(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"], findings=["GLF-02"], properties=["LatchedRequestUnlocks"]
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-3"],
+    findings=["GLF-02"],
+    properties=["LatchedRequestUnlocks"],
+    slow=True,
 )
 def with_a_latched_request_the_zone_being_safe_unlocks() -> Queries:
     """With UNLOCK_ON = latched, a request that rose at this locked guard and stands unlocks it in the first
@@ -181,6 +209,7 @@ def stays_unlocked_while_requested(one: Scanned) -> Said:
     clauses=["GL-OUT-UNLOCKGUARD", "GL-SEQ-3", "GL-SEQ-4"],
     findings=["GLF-03"],
     properties=["StaysUnlockedWhileRequested"],
+    slow=True,
 )
 def as_long_as_it_is_requested_the_guard_stays_unlocked() -> Queries:
     """An active call with the guard unlocked before it, a request and the zone safe leaves it so."""
@@ -219,7 +248,12 @@ def locks_without_request(one: Scanned) -> Said:
     return z3.And(i.S_GuardMonitoring, z3.Not(i.UnlockRequest)), z3.Not(one.sends.S_UnlockGuard)
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-5"], findings=["GLF-03"], properties=["LocksWithoutRequest"])
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-SEQ-5"],
+    findings=["GLF-03"],
+    properties=["LocksWithoutRequest"],
+    slow=True,
+)
 def without_a_request_a_closed_guard_is_asked_to_lock() -> Queries:
     """From the state of a guard that is closed but unlocked, a call that finds it closed and no request ends
     with S_UnlockGuard FALSE.
@@ -240,7 +274,10 @@ def locked_whatever_the_zone(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["GL-SEQ-2", "GL-IN-SAFETYACTIVE"], findings=["GLF-19"], properties=["LockedWhateverTheZone"]
+    clauses=["GL-SEQ-2", "GL-IN-SAFETYACTIVE"],
+    findings=["GLF-19"],
+    properties=["LockedWhateverTheZone"],
+    slow=True,
 )
 def a_locked_guard_stays_enabled_whatever_the_zone_does() -> Queries:
     """An active call that finds an enabled guard closed and locked, and the zone not safe, leaves it enabled,
@@ -261,7 +298,7 @@ def stays_locked(one: Scanned) -> Said:
     return z3.And(one.inputs.Activate, secure(one), unasked), one.sends.S_GuardLocked
 
 
-@theorem(clauses=["GL-OUT-GUARDLOCKED", "GL-SEQ-2"], findings=[], properties=["StaysLocked"])
+@theorem(clauses=["GL-OUT-GUARDLOCKED", "GL-SEQ-2"], findings=[], properties=["StaysLocked"], slow=True)
 def without_a_request_a_locked_guard_stays_enabled() -> Queries:
     """An active call that finds an enabled guard closed and locked, and no request, leaves it enabled."""
     yield from JUDGE.in_every_scan(stays_locked)

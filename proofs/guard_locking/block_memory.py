@@ -18,7 +18,7 @@ def remembers_the_wires(one: Scanned) -> Said:
     return TRUE, z3.And(after.reset_before == i.Reset, after.unlock_request_before == i.UnlockRequest)
 
 
-@theorem(clauses=["GL-IN-RESET", "GL-IN-UNLOCKREQUEST"], findings=["GLF-07"])
+@theorem(clauses=["GL-IN-RESET", "GL-IN-UNLOCKREQUEST"], findings=["GLF-07"], slow=True)
 def every_call_remembers_reset_and_request() -> Queries:
     """Every call, active or not, leaves Reset and UnlockRequest as it read them."""
     yield from JUDGE.in_every_scan(remembers_the_wires)
@@ -36,7 +36,7 @@ def pending(one: Scanned) -> Said:
     return TRUE, one.after.request_pending == z3.And(latched, there, stands)
 
 
-@theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"])
+@theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"], slow=True)
 def a_request_is_pending_only_where_it_is_latched() -> Queries:
     """After every call a request is pending exactly if UNLOCK_ON = latched, the guard is enabled, and
     UnlockRequest is TRUE and rose in this call or was pending before it.
@@ -60,7 +60,7 @@ def inhibit(one: Scanned) -> Said:
     return TRUE, one.after.start_up_inhibit == carried
 
 
-@theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08", "GLF-21"])
+@theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08", "GLF-21"], slow=True)
 def a_start_up_inhibit_is_carried_to_the_first_enable() -> Queries:
     """A start-up that finds the guard not locked leaves its inhibit, if S_StartReset specifies one and
     START_UP_INHIBIT = until_reset, to every call up to the one that enables, or to the end of Activate.

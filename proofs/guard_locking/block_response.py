@@ -64,6 +64,7 @@ def answers_at_once(one: Scanned) -> Said:
     clauses=["GL-IN-RESET", "GL-IN-AUTORESET", "GL-IN-STARTRESET", "GL-WARN-2", "GL-SEQ-2"],
     findings=["GLF-15"],
     properties=["AnswersAtOnce"],
+    slow=True,
 )
 def a_call_that_stays_has_not_seen_what_it_waits_for() -> Queries:
     """An active call that ends in the state in which it began has seen nothing that this state waits for:
@@ -101,6 +102,7 @@ def comes_closer(one: Scanned) -> Said:
     clauses=["GL-IN-RESET", "GL-IN-STARTRESET", "GL-IN-AUTORESET", "GL-SEQ-2"],
     findings=["GLF-07", "GLF-13"],
     properties=["EnablesAgain"],
+    slow=True,
 )
 def the_block_enables_again_within_five_calls() -> Queries:
     """From any state and memory: while the guard is closed and locked, the zone safe and nobody asks, and
@@ -139,6 +141,7 @@ def lets_in(one: Scanned) -> Said:
     clauses=["GL-IN-UNLOCKREQUEST", "GL-OUT-UNLOCKGUARD"],
     findings=["GLF-09", "GLF-11"],
     properties=["EntryIsGranted"],
+    slow=True,
 )
 def who_asks_where_nothing_is_enabled_gets_in_at_once() -> Queries:
     """Where the block waits for its operator, an active call with the zone safe and a request unlocks,

@@ -98,6 +98,7 @@ def nothing_while_inactive(one: Scanned, seen: Any) -> z3.BoolRef:
     clauses=["GL-OUT-READY", "GL-OUT-ERROR", "GL-OUT-GUARDLOCKED", "GL-SEQ-0"],
     findings=["GLF-09", "GLF-17"],
     properties=["NothingWhileInactiveOrInError", "InactiveIsNoError"],
+    slow=True,
 )
 def nothing_is_enabled_or_unlocked_while_inactive_or_in_error() -> Queries:
     """At power-up and after every call: while the block is not ready or shows an error it neither enables nor
@@ -113,7 +114,10 @@ def never_both(one: Scanned, seen: Any) -> z3.BoolRef:
 
 
 @theorem(
-    clauses=["GL-OUT-GUARDLOCKED", "GL-OUT-UNLOCKGUARD"], findings=[], properties=["NeverEnabledAndUnlocked"]
+    clauses=["GL-OUT-GUARDLOCKED", "GL-OUT-UNLOCKGUARD"],
+    findings=[],
+    properties=["NeverEnabledAndUnlocked"],
+    slow=True,
 )
 def the_block_never_enables_and_unlocks_together() -> Queries:
     """At power-up and after every call S_GuardLocked and S_UnlockGuard are not both TRUE."""
@@ -126,7 +130,12 @@ def safe_at_power_up(one: Scanned, seen: Any) -> z3.BoolRef:
     return nothing(one.sends) if one.becomes("Idle") else FALSE
 
 
-@theorem(clauses=["GL-OUT-READY", "GL-SEQ-0", "GL-IN-DEFAULT"], findings=[], properties=["PowerUpIsSafe"])
+@theorem(
+    clauses=["GL-OUT-READY", "GL-SEQ-0", "GL-IN-DEFAULT"],
+    findings=[],
+    properties=["PowerUpIsSafe"],
+    slow=True,
+)
 def before_the_first_call_every_output_is_false() -> Queries:
     """After power-up and before the first call, with any parameters, the block is idle and every output is
     FALSE.
@@ -145,6 +154,7 @@ def inactive_at_once(one: Scanned) -> Said:
     clauses=["GL-IN-ACTIVATE", "GL-OUT-READY", "GL-SEQ-0", "GL-SEQ-1"],
     findings=["GLF-17", "GLF-21"],
     properties=["InactiveAtOnce"],
+    slow=True,
 )
 def without_activate_every_output_is_false_in_that_call() -> Queries:
     """A call without Activate ends idle with every output FALSE, from every state and before everything else;
@@ -165,6 +175,7 @@ def enable_needs_secured_guard(one: Scanned) -> Said:
     clauses=["GL-DOC-2", "GL-OUT-GUARDLOCKED", "GL-SEQ-4"],
     findings=["GLF-12"],
     properties=["EnableNeedsSecuredGuard"],
+    slow=True,
 )
 def no_enable_without_a_closed_and_locked_guard_in_that_call() -> Queries:
     """After every call with S_GuardLocked TRUE, that very call found Activate, S_GuardMonitoring and
@@ -186,6 +197,7 @@ def no_automatic_restart(one: Scanned) -> Said:
     clauses=["GL-IN-STARTRESET", "GL-IN-AUTORESET", "GL-SEQ-INHIBITS", "GL-SEQ-1", "GL-SEQ-2"],
     findings=["GLF-07"],
     properties=["NoAutomaticRestart"],
+    slow=True,
 )
 def nothing_is_enabled_without_an_edge_of_reset_unless_an_input_allows_it() -> Queries:
     """A call in which S_GuardLocked rises found a rising edge of Reset, or S_StartReset TRUE at start-up, or
@@ -203,7 +215,9 @@ def start_up_inhibit_needs_reset(one: Scanned) -> Said:
     return TRUE, z3.Implies(given, z3.Or(reset_edge(one), free))
 
 
-@theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08"], properties=["StartUpInhibitNeedsReset"])
+@theorem(
+    clauses=["GL-IN-STARTRESET"], findings=["GLF-08"], properties=["StartUpInhibitNeedsReset"], slow=True
+)
 def a_start_up_inhibit_ends_by_an_edge_of_reset() -> Queries:
     """With START_UP_INHIBIT = until_reset, the first enable after a start-up with inhibit comes in a call
     with a rising edge of Reset, whatever S_AutoReset says and wherever the guard was at start-up.
@@ -221,7 +235,9 @@ def loss_needs_reset(one: Scanned) -> Said:
     return TRUE, z3.Implies(one.sends.S_GuardLocked, z3.Not(sees(one).lost))
 
 
-@theorem(clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-13"], properties=["LossNeedsReset"])
+@theorem(
+    clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-13"], properties=["LossNeedsReset"], slow=True
+)
 def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
     """After the guard, its lock or the zone was lost, S_GuardLocked is FALSE after every call until an edge
     of Reset has come with the zone safe, whatever S_AutoReset says (or Activate has ended).
@@ -235,7 +251,9 @@ def loss_needs_guard_back(one: Scanned) -> Said:
     return TRUE, z3.Implies(z3.And(strict, one.sends.S_GuardLocked), z3.Not(sees(one).unguarded))
 
 
-@theorem(clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-14"], properties=["LossNeedsGuardBack"])
+@theorem(
+    clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-14"], properties=["LossNeedsGuardBack"], slow=True
+)
 def after_a_loss_nothing_is_enabled_before_an_edge_of_reset_behind_the_guard() -> Queries:
     """With CAUSE_OF_LOSS = guard_and_zone, after a loss S_GuardLocked is FALSE after every call until an edge
     of Reset has found the guard closed and locked, whatever S_AutoReset says (or Activate has ended).
@@ -258,6 +276,7 @@ def static_reset_resets_nothing(one: Scanned) -> Said:
     clauses=["GL-IN-RESET", "GL-IN-EDGE"],
     findings=["GLF-07", "GLF-15"],
     properties=["StaticResetNeverResets"],
+    slow=True,
 )
 def a_reset_that_does_not_move_resets_nothing() -> Queries:
     """A call with a Reset that was TRUE in the call before removes no inhibit that is specified, and leads
@@ -285,7 +304,7 @@ def static_reset_is_found(one: Scanned) -> Said:
     return z3.And(one.inputs.Activate, static(one)), wanted[where[0]]
 
 
-@theorem(clauses=["GL-IN-RESET"], findings=["GLF-07"], properties=["StaticResetIsFound"])
+@theorem(clauses=["GL-IN-RESET"], findings=["GLF-07"], properties=["StaticResetIsFound"], slow=True)
 def a_reset_that_does_not_move_is_found() -> Queries:
     """Where an edge of Reset is waited for (at start-up and at restart only with their inhibits), an active
     call with a Reset that was TRUE in the call before ends in the reset error of that state.
@@ -314,6 +333,7 @@ def loss_is_an_error(one: Scanned) -> Said:
     clauses=["GL-OUT-GUARDLOCKED", "GL-OUT-ERROR"],
     findings=["GLF-05", "GLF-12"],
     properties=["LossIsAnError"],
+    slow=True,
 )
 def the_loss_of_a_locked_guard_is_an_error_in_that_call() -> Queries:
     """An active call that finds an enabled guard open or not locked shows the error and neither enables nor
@@ -360,6 +380,7 @@ def error_needs_cause(one: Scanned) -> Said:
     clauses=["GL-OUT-ERROR", "GL-IN-SAFETYACTIVE"],
     findings=["GLF-04", "GLF-05", "GLF-07", "GLF-10"],
     properties=["ErrorNeedsCause"],
+    slow=True,
 )
 def an_error_has_a_cause_in_that_call() -> Queries:
     """A call that begins to show an error found a static Reset where an edge is waited for, an enabled guard
@@ -395,6 +416,7 @@ def error_ends_with_cause(one: Scanned) -> Said:
     clauses=["GL-IN-RESET", "GL-OUT-ERROR"],
     findings=["GLF-06", "GLF-07"],
     properties=["ErrorEndsWithCause"],
+    slow=True,
 )
 def an_error_ends_with_its_cause() -> Queries:
     """While Activate stays, a loss is shown until the zone is safe, and a reset error until Reset is
@@ -430,7 +452,7 @@ def in_the_table(one: Scanned) -> Said:
     return TRUE, TRUE if one.becomes("Idle", before, *TRANSITIONS[before]) else FALSE
 
 
-@theorem(clauses=["GL-SEQ-NOTE"], findings=["GLF-01"], properties=["OneTransitionACall"])
+@theorem(clauses=["GL-SEQ-NOTE"], findings=["GLF-01"], properties=["OneTransitionACall"], slow=True)
 def a_call_takes_one_transition_of_the_table() -> Queries:
     """Every call stays in its state, ends in Idle, or takes one transition of the table."""
     yield from JUDGE.in_every_scan(in_the_table)
@@ -454,6 +476,7 @@ def code_tells_the_guard(one: Scanned) -> Said:
     clauses=["GL-OUT-DIAGCODE", "GL-IN-GUARDMONITORING"],
     findings=["GLF-11"],
     properties=["CodeTellsTheGuard"],
+    slow=True,
 )
 def the_code_of_an_unlocked_guard_tells_whether_it_is_open() -> Queries:
     """After every call with the code of a guard that is closed but unlocked, that call found it closed; with

@@ -66,7 +66,9 @@ INVARIANT: Final = (
 JUDGE: Final = Judge(BLOCK, INVARIANT, SEEN, sees, NOTHING)
 
 
-@theorem(clauses=["GL-IN-RESET", "GL-IN-UNLOCKREQUEST", "GL-SEQ-NOTE"], findings=["GLF-02", "GLF-08"])
+@theorem(
+    clauses=["GL-IN-RESET", "GL-IN-UNLOCKREQUEST", "GL-SEQ-NOTE"], findings=["GLF-02", "GLF-08"], slow=True
+)
 def every_call_keeps_the_invariant() -> Queries:
     """The invariant of the block is true at power-up, and every call keeps it, with any inputs and any
     parameters.

@@ -103,6 +103,7 @@ def code_tells_its_outputs(one: Scanned, seen: Any) -> z3.BoolRef:
     clauses=["TSS-OUT-DIAG", "TSS-OUT-READY", "TSS-OUT-ERROR", "TSS-OUT-DEMAND", "TSS-OUT-REQUEST"],
     findings=[],
     properties=["CodeTellsItsOutputs"],
+    slow=True,
 )
 def the_code_tells_its_outputs() -> Queries:
     """At power-up and after every call four bits of DiagCode say what Ready, Error, SafetyDemand and
@@ -126,6 +127,7 @@ def enable_means_nothing_pending(one: Scanned, seen: Any) -> z3.BoolRef:
     clauses=["TSS-OUT-OSSD", "TSS-OUT-ERROR", "TSS-OUT-DEMAND", "TSS-OUT-REQUEST", "TSS-EB-1"],
     findings=[],
     properties=["EnableMeansNothingPending"],
+    slow=True,
 )
 def nothing_is_pending_while_the_block_enables() -> Queries:
     """At power-up and after every call that leaves S_OSSD_Out TRUE the block is ready, in no error, with no
@@ -148,6 +150,7 @@ def test_out_only_in_test_request(one: Scanned, seen: Any) -> z3.BoolRef:
     clauses=["TSS-OUT-TESTOUT", "TSS-TEST-1", "TSS-TEST-2", "TSS-8020"],
     findings=["TSSF-05"],
     properties=["TestOutOnlyInTestRequest"],
+    slow=True,
 )
 def the_sender_is_off_in_the_first_phase_only() -> Queries:
     """At power-up and after every call S_TestOut is FALSE exactly in the first phase of a test."""
@@ -163,7 +166,7 @@ def power_up_is_safe(one: Scanned) -> z3.BoolRef:
     return z3.And(row_of_the_state(one, None), z3.Not(one.sends.S_OSSD_Out), z3.Not(one.sends.Ready))
 
 
-@theorem(clauses=["TSS-0000", "TSS-FN-3"], findings=[], properties=["PowerUpIsSafe"])
+@theorem(clauses=["TSS-0000", "TSS-FN-3"], findings=[], properties=["PowerUpIsSafe"], slow=True)
 def at_power_up_nothing_is_enabled() -> Queries:
     """At power-up the block is inactive and enables nothing, whatever TestTime is."""
     yield from JUDGE.at_power_up(lambda one, seen: power_up_is_safe(one))

@@ -53,7 +53,10 @@ def code_tells_resettable(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["TSS-CX10", "TSS-C410", "TSS-C010"], findings=["TSSF-17"], properties=["CodeTellsResettable"]
+    clauses=["TSS-CX10", "TSS-C410", "TSS-C010"],
+    findings=["TSSF-17"],
+    properties=["CodeTellsResettable"],
+    slow=True,
 )
 def c410_is_shown_exactly_with_the_sensor_free_and_no_manual_test() -> Queries:
     """Every call that ends in the test error shows C410 if S_OSSD_In and NoExternalTest are TRUE in it, and
@@ -87,6 +90,7 @@ def error_left_only_as_documented(one: Scanned) -> Said:
     clauses=["TSS-EB-1", "TSS-EB-2", "TSS-ERR-3", "TSS-C000"],
     findings=["TSSF-12", "TSSF-13", "TSSF-15", "TSSF-24"],
     properties=["ErrorLeftOnlyAsDocumented"],
+    slow=True,
 )
 def errors_are_left_only_as_documented() -> Queries:
     """While the block is active: a test error is left by an edge of Reset, or for the reset error of a static
@@ -136,6 +140,7 @@ def static_reset_is_found(one: Scanned) -> Said:
     ],
     findings=["TSSF-01", "TSSF-02", "TSSF-03", "TSSF-24"],
     properties=["StaticResetIsFound"],
+    slow=True,
 )
 def a_static_reset_is_found_wherever_a_reset_is_waited_for() -> Queries:
     """A Reset that was TRUE in the call before and still is leads to the reset error of the state, wherever
@@ -157,7 +162,10 @@ def a_held_reset_never_resets(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["TSS-ERR-3", "TSS-EB-3", "TSS-REL-1"], findings=["TSSF-24"], properties=["NoRestartByItself"]
+    clauses=["TSS-ERR-3", "TSS-EB-3", "TSS-REL-1"],
+    findings=["TSSF-24"],
+    properties=["NoRestartByItself"],
+    slow=True,
 )
 def a_static_reset_never_resets() -> Queries:
     """No call in which Reset is held makes S_OSSD_Out TRUE, unless the inhibit of that very state is switched
@@ -179,6 +187,7 @@ def reset_error_keeps_test_executed(one: Scanned) -> Said:
     clauses=["TSS-C051", "TSS-OUT-EXECUTED"],
     findings=["TSSF-02", "TSSF-03"],
     properties=["ResetErrorKeepsTestExecuted"],
+    slow=True,
 )
 def a_reset_error_keeps_the_result_of_the_test() -> Queries:
     """A reset error is reached from the state that it belongs to, and TestExecuted stays as it was."""
@@ -204,6 +213,7 @@ def external_test_is_complete(one: Scanned) -> Said:
     clauses=["TSS-IN-NOEXT-FALSE", "TSS-8002", "TSS-8804", "TSS-8404"],
     findings=["TSSF-14", "TSSF-16"],
     properties=["ExternalTestIsComplete"],
+    slow=True,
 )
 def after_a_failed_test_the_manual_test_is_complete_or_there_is_none() -> Queries:
     """While Activate stays, after a failed test S_OSSD_Out rises only with NoExternalTest TRUE, or at the end
@@ -232,6 +242,7 @@ def _refusable(one: Scanned) -> Said:
     clauses=["TSS-C000", "TSS-ERR-4", "TSS-IN-TESTTIME"],
     findings=["TSSF-11", "TSSF-12"],
     properties=["ParameterErrorStays"],
+    slow=True,
 )
 def a_test_time_out_of_its_range_never_enables() -> Queries:
     """For every TestTime below 0 or above 150 ms, also those that no real one can be: S_OSSD_Out is never
@@ -279,7 +290,7 @@ def one_transition(one: Scanned) -> Said:
     return TRUE, TRUE if pair in TRANSITIONS else FALSE
 
 
-@theorem(clauses=["TSS-OUT-DIAG"], findings=["TSSF-27"], properties=["OneTransitionPerCall"])
+@theorem(clauses=["TSS-OUT-DIAG"], findings=["TSSF-27"], properties=["OneTransitionPerCall"], slow=True)
 def every_call_takes_one_of_the_listed_transitions_or_stays() -> Queries:
     """From every state every call stays, or takes one of the listed transitions."""
     yield from JUDGE.in_every_scan(one_transition)

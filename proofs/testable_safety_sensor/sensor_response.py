@@ -89,6 +89,7 @@ def comes_closer(one: Scanned) -> Said:
     ],
     findings=["TSSF-12", "TSSF-13", "TSSF-15", "TSSF-16"],
     properties=["EnablesAgain"],
+    slow=True,
 )
 def a_served_block_enables_within_six_calls_and_goes_on_to() -> Queries:
     """With a valid TestTime, from any memory and in every state but the parameter errors: S_OSSD_Out is TRUE
@@ -139,6 +140,7 @@ def test_comes_closer(one: Scanned) -> Said:
     clauses=["TSS-TEST-1", "TSS-TEST-2", "TSS-TEST-3", "TSS-OUT-EXECUTED", "TSS-FN-5"],
     findings=[],
     properties=["TestedAgain"],
+    slow=True,
 )
 def a_test_is_passed_within_four_calls() -> Queries:
     """Once it enables without a test, a served block whose StartTest is pressed and released while

@@ -32,6 +32,7 @@ JUDGE: Final = Judge(SENSOR, SENSOR_INVARIANT, SEEN, sees, NOTHING)
 @theorem(
     clauses=["TSS-IN-RESET", "TSS-IN-STARTTEST", "TSS-TEST-0", "TSS-FN-3", "TSS-8002", "TSS-C000"],
     findings=["TSSF-19", "TSSF-16"],
+    slow=True,
 )
 def every_call_of_the_block_keeps_its_invariant() -> Queries:
     """The invariant of the block is true at power-up, and every call keeps it, with any inputs, times and
@@ -42,7 +43,10 @@ def every_call_of_the_block_keeps_its_invariant() -> Queries:
 
 
 @theorem(
-    clauses=["TSS-IN-RESET", "TSS-IN-STARTTEST"], findings=["TSSF-25"], properties=["EdgesAreRemembered"]
+    clauses=["TSS-IN-RESET", "TSS-IN-STARTTEST"],
+    findings=["TSSF-25"],
+    properties=["EdgesAreRemembered"],
+    slow=True,
 )
 def the_block_remembers_the_inputs_of_every_call() -> Queries:
     """After every call, active or not, what the block remembers of Reset, StartTest and S_OSSD_In is what
@@ -74,6 +78,7 @@ def enable_needs_free_sensor(one: Scanned) -> Said:
     clauses=["TSS-IN-OSSD", "TSS-FN-1", "TSS-FN-5", "TSS-OUT-OSSD"],
     findings=["TSSF-09", "TSSF-21", "TSSF-22"],
     properties=["EnableNeedsFreeSensor"],
+    slow=True,
 )
 def the_block_enables_over_a_dark_sensor_in_the_second_phase_of_a_test_only() -> Queries:
     """After every call that finds the sensor dark S_OSSD_Out is FALSE, unless it leads to, or stays in, the
@@ -98,6 +103,7 @@ def masked_time_is_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
     clauses=["TSS-TEST-0", "TSS-FN-7"],
     findings=["TSSF-06", "TSSF-08", "TSSF-09"],
     properties=["MaskedTimeIsBounded"],
+    slow=True,
 )
 def a_test_masks_the_sensor_for_less_than_test_time() -> Queries:
     """For any TestTime and any times between calls: after every call that leaves S_OSSD_Out TRUE over a dark
@@ -127,7 +133,7 @@ def sender_off_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
     return z3.Or(seen.phase == 0, seen.phase < one.params.TestTime_ms)
 
 
-@theorem(clauses=["TSS-FN-7", "TSS-OUT-TESTOUT", "TSS-NOTE-1"], findings=["TSSF-06"])
+@theorem(clauses=["TSS-FN-7", "TSS-OUT-TESTOUT", "TSS-NOTE-1"], findings=["TSSF-06"], slow=True)
 def the_sender_is_off_for_less_than_test_time_and_one_call() -> Queries:
     """After every call that leaves S_TestOut FALSE less than TestTime has passed since the call that made it
     so; the first call that finds TestTime over makes it TRUE.
@@ -149,7 +155,7 @@ def latency(one: Scanned) -> Said:
     return z3.And(falls, z3.Not(one.inputs.S_OSSD_In)), bound
 
 
-@theorem(clauses=["TSS-NOTE-1", "TSS-FN-7", "TSS-OUT-OSSD"], findings=["TSSF-09"])
+@theorem(clauses=["TSS-NOTE-1", "TSS-FN-7", "TSS-OUT-OSSD"], findings=["TSSF-09"], slow=True)
 def a_person_in_the_field_is_answered_within_test_time_and_one_call() -> Queries:
     """Who makes the sensor dark and stays: outside a test S_OSSD_Out falls in the first call that sees it;
     in a test it falls less than TestTime, and the time of one call, after the call that first saw it.
@@ -182,7 +188,7 @@ def a_short_demand(one: Scanned) -> z3.BoolRef:
     return z3.And(SEEN.dark > 0, one.inputs.S_OSSD_In, one.sends.S_OSSD_Out, one.sends.TestExecuted)
 
 
-@theorem(clauses=["TSS-FN-1", "TSS-TEST-3", "TSS-OUT-EXECUTED"], findings=["TSSF-09"])
+@theorem(clauses=["TSS-FN-1", "TSS-TEST-3", "TSS-OUT-EXECUTED"], findings=["TSSF-09"], slow=True)
 def a_demand_that_begins_and_ends_in_a_test_is_only_seen_as_the_test() -> Queries:
     """A sensor that became dark in a test, by the test or by a person, and is free again within TestTime
     leaves S_OSSD_Out TRUE and TestExecuted TRUE: no output shows which it was.
@@ -206,7 +212,7 @@ def inactive_at_once(one: Scanned) -> Said:
     return z3.Not(one.inputs.Activate), off
 
 
-@theorem(clauses=["TSS-IN-ACTIVATE", "TSS-0000"], findings=[], properties=["InactiveAtOnce"])
+@theorem(clauses=["TSS-IN-ACTIVATE", "TSS-0000"], findings=[], properties=["InactiveAtOnce"], slow=True)
 def without_activate_the_call_ends_in_idle() -> Queries:
     """Every call without Activate, from any state, ends in Idle, with S_OSSD_Out FALSE."""
     yield from JUDGE.in_every_scan(inactive_at_once)
@@ -270,6 +276,7 @@ def _spoken(sentence: Sentence) -> Sentence:
     ],
     findings=["TSSF-15", "TSSF-24"],
     properties=["NoRestartByItself"],
+    slow=True,
 )
 def the_block_never_enables_by_itself() -> Queries:
     """S_OSSD_Out rises only in a call with Activate and the sensor free, and with an edge of Reset, or where
@@ -295,6 +302,7 @@ def failed_test_needs_reset(one: Scanned) -> Said:
     clauses=["TSS-EB-2", "TSS-EB-3", "TSS-IN-NOEXT-FALSE"],
     findings=["TSSF-15"],
     properties=["FailedTestNeedsReset"],
+    slow=True,
 )
 def after_a_failed_test_only_a_reset_enables() -> Queries:
     """With AUTO_RESET_ERRORS FALSE, S_OSSD_Out rises from a test error or from the manual test only in a call
@@ -313,7 +321,7 @@ def start_inhibit_holds(one: Scanned) -> Said:
     return TRUE, z3.Implies(z3.And(rises(one, "S_OSSD_Out"), SEEN.starting), z3.Or(edge(one), off))
 
 
-@theorem(clauses=["TSS-FN-3", "TSS-EB-5"], findings=["TSSF-19"], properties=["StartInhibitHolds"])
+@theorem(clauses=["TSS-FN-3", "TSS-EB-5"], findings=["TSSF-19"], properties=["StartInhibitHolds"], slow=True)
 def the_start_up_inhibit_outlives_an_interruption() -> Queries:
     """The first enable after an activation needs an edge of Reset, unless S_StartReset is TRUE when the
     sensor is first judged; a sensor that is dark then, and S_AutoReset, change nothing in this.
@@ -329,7 +337,10 @@ def reset_only_where_requested(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["TSS-OUT-REQUEST", "TSS-C410"], findings=["TSSF-18"], properties=["ResetOnlyWhereRequested"]
+    clauses=["TSS-OUT-REQUEST", "TSS-C410"],
+    findings=["TSSF-18"],
+    properties=["ResetOnlyWhereRequested"],
+    slow=True,
 )
 def a_reset_enables_only_where_it_was_asked_for() -> Queries:
     """With S_StartReset and S_AutoReset FALSE, S_OSSD_Out rises only in a call after one that showed
@@ -355,6 +366,7 @@ def demand_is_shown(one: Scanned) -> Said:
     clauses=["TSS-8802", "TSS-8806", "TSS-OUT-DEMAND", "TSS-OUT-OSSD"],
     findings=["TSSF-31"],
     properties=["DemandIsShown"],
+    slow=True,
 )
 def a_lost_sensor_is_shown_at_once() -> Queries:
     """Where the sensor was free, or is judged for the first time, and no test runs, a call that finds it dark

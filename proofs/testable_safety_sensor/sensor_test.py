@@ -46,6 +46,7 @@ def test_needs_edge(one: Scanned) -> Said:
     clauses=["TSS-IN-STARTTEST", "TSS-OUT-POSSIBLE", "TSS-NOTE-3", "TSS-NOTE-4", "TSS-TEST-1"],
     findings=["TSSF-23"],
     properties=["TestNeedsEdgeWhilePossible"],
+    slow=True,
 )
 def a_test_begins_only_by_an_edge_while_it_is_possible() -> Queries:
     """A test begins only in a call with an edge of StartTest, after a call that showed TestPossible."""
@@ -69,6 +70,7 @@ def test_starts_at_once(one: Scanned) -> Said:
     clauses=["TSS-TEST-1", "TSS-8010", "TSS-8000"],
     findings=["TSSF-22", "TSSF-23"],
     properties=["TestStartsAtOnce"],
+    slow=True,
 )
 def every_such_edge_starts_a_test() -> Queries:
     """After a call that showed TestPossible, active and with the sensor free, a test begins in exactly those
@@ -110,6 +112,7 @@ def _without_start_test(scans: Scans, formula: z3.BoolRef) -> z3.BoolRef:
     clauses=["TSS-IN-STARTTEST", "TSS-OUT-POSSIBLE", "TSS-NOTE-3"],
     findings=["TSSF-23"],
     properties=["TestNeedsEdgeWhilePossible"],
+    slow=True,
 )
 def start_test_has_no_effect_while_no_test_is_possible() -> Queries:
     """From any memory: where TestPossible is FALSE, two calls that differ in StartTest alone, or in what was
@@ -149,6 +152,7 @@ def slow_test_fails(one: Scanned) -> Said:
     ],
     findings=["TSSF-07", "TSSF-08", "TSSF-10"],
     properties=["SlowTestFails"],
+    slow=True,
 )
 def a_test_longer_than_test_time_or_without_reaction_always_fails() -> Queries:
     """For any TestTime and any times between calls: a call that finds that a phase of the test has lasted
@@ -173,7 +177,9 @@ def each_phase_has_its_time(one: Scanned) -> Said:
     return TRUE, over(one) if one.becomes(*TEST_ERRORS) else TRUE
 
 
-@theorem(clauses=["TSS-TEST-0"], findings=["TSSF-06", "TSSF-08"], properties=["EachPhaseHasItsTime"])
+@theorem(
+    clauses=["TSS-TEST-0"], findings=["TSSF-06", "TSSF-08"], properties=["EachPhaseHasItsTime"], slow=True
+)
 def no_other_test_fails() -> Queries:
     """A test fails only in a call that finds that the phase it is in has lasted TestTime."""
     yield from JUDGE.in_every_scan(each_phase_has_its_time)
@@ -202,6 +208,7 @@ def reaction_is_seen(one: Scanned) -> Said:
     clauses=["TSS-TEST-2", "TSS-TEST-3", "TSS-FN-5"],
     findings=["TSSF-06"],
     properties=["ReactionIsSeen"],
+    slow=True,
 )
 def a_reaction_in_time_is_seen_at_once() -> Queries:
     """Within TestTime each call of a phase goes on exactly if the sensor has reacted, and otherwise adds its
@@ -224,6 +231,7 @@ def test_executed_is_true(one: Scanned) -> Said:
     clauses=["TSS-OUT-EXECUTED", "TSS-TEST-2", "TSS-TEST-3", "TSS-FN-6C"],
     findings=["TSSF-07"],
     properties=["TestExecutedIsTrue"],
+    slow=True,
 )
 def test_executed_says_the_truth() -> Queries:
     """TestExecuted rises only in a call of the second phase that finds the sensor free before TestTime is
@@ -251,6 +259,7 @@ def test_executed_stays(one: Scanned) -> Said:
     clauses=["TSS-OUT-EXECUTED", "TSS-8806", "TSS-8406", "TSS-C051"],
     findings=["TSSF-03"],
     properties=["TestExecutedStays"],
+    slow=True,
 )
 def test_executed_stays_until_the_next_test() -> Queries:
     """While the block is active TestExecuted ends only in a call that begins another test."""
