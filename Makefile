@@ -17,7 +17,7 @@ smoke: $(STAMP)
 
 # Two processes; tests that share what is made once are in one of them (tests/groups.py)
 test: $(STAMP) $(AWLSIM)
-	@$(PY) -m pytest -n 2 --dist loadgroup
+	@$(PY) -m pytest -n 2 --dist loadscope
 
 bench: $(STAMP) $(AWLSIM)
 	@$(PY) -m tests.bench

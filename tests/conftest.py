@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
+from pathlib import Path, PurePath
+from typing import Any
 
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 from tests.any_machine import PATIENCE_S, no_hurry
 from tests.groups import group_of
@@ -14,10 +16,18 @@ no_hurry()
 HERE = Path(__file__).resolve().parent
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Say which tests share a process when several run at once (`make test`)."""
-    for item in items:
-        item.add_marker(pytest.mark.xdist_group(group_of(item.path.relative_to(HERE))))
+class ByGroup(LoadScopeScheduling):  # type: ignore[misc]
+    """Tests that share a process are one unit of work (`make test`)."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return group_of(PurePath(nodeid.partition("::")[0]).relative_to(HERE.name))
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByGroup:
+    """Several processes take groups, whatever `--dist` says. (Its own groups have no effect with this pytest:
+    the suffix that they put on the id of a test is lost.)
+    """
+    return ByGroup(config, log)
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import PurePath
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path, PurePath
 
 import pytest
 
 from tests.groups import group_of
 
+ROOT = Path(__file__).resolve().parents[1]
 DOCUMENTS = frozenset({"lamp", "door"})
 
 
@@ -28,7 +33,31 @@ def test_a_document_or_a_room_or_a_file(file: str, group: str) -> None:
     assert group_of(PurePath(file), DOCUMENTS) == group
 
 
-def test_every_test_of_this_run_has_a_group(request: pytest.FixtureRequest) -> None:
-    for item in request.session.items:
-        (mark,) = item.iter_markers("xdist_group")
-        assert mark.args
+def test_processes_take_whole_groups(tmp_path: Path) -> None:
+    """Run as `make test` does: all files of one room are run in one process."""
+    tests = tmp_path / "tests"
+    for file in ("trace/test_a.py", "trace/test_b.py", "kit/test_c.py"):
+        (tests / file).parent.mkdir(parents=True, exist_ok=True)
+        (tests / file).write_text(
+            "import pytest, time\n@pytest.mark.parametrize('n', range(4))\ndef test(n): time.sleep(0.05)\n"
+        )
+    for file in ("conftest.py", "groups.py", "any_machine.py"):
+        shutil.copyfile(ROOT / "tests" / file, tests / file)
+    shutil.copyfile(ROOT / "pyproject.toml", tmp_path / "pyproject.toml")
+    shutil.copytree(ROOT / "modeproof", tmp_path / "modeproof", ignore=shutil.ignore_patterns("__pycache__"))
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-v",
+        "-n",
+        "2",
+        "--dist",
+        "loadscope",
+        "-p",
+        "no:cacheprovider",
+    ]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    ran = re.findall(r"\[(gw\d)\].* tests/(\w+)/", done.stdout)
+    assert (done.returncode, len(ran)) == (0, 12), done.stdout
+    assert len({worker for worker, room in ran if room == "trace"}) == 1
