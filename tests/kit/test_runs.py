@@ -212,5 +212,10 @@ def test_the_way_for_systems_without_poll_judges_alike(
         return made[-1]
 
     plain, threaded = (run_suite(words, lambda threads=threads: start(threads)) for threads in (False, True))
-    assert (plain.word, plain.reason, plain.cases) == (threaded.word, threaded.reason, threaded.cases)
+    assert (plain.word, plain.cases) == (threaded.word, threaded.cases)
+    if fault == TWICE:  # seen before the next request is sent, or instead of its answer: the system decides
+        too_many = ("a line that nobody asked for", "reset was answered with", "expected, got")
+        assert all(any(said in one.reason for said in too_many) for one in (plain, threaded))
+    else:
+        assert plain.reason == threaded.reason
     assert all(one.process.poll() is not None for one in made)
