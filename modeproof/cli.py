@@ -137,6 +137,7 @@ def make_parser() -> argparse.ArgumentParser:
     _plug_in(commands, "trace", "modeproof.trace.command")
     _plug_in(commands, "registers", "modeproof.registers.command")
     _plug_in(commands, "findings", "modeproof.findings")
+    _plug_in(commands, "report", "modeproof.report.command")
     _plug_in(commands, "mutate", "modeproof.strength.command")
     _plug_in(commands, "scale", "modeproof.scale")
 

@@ -34,7 +34,13 @@ RULES = (
     Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
     Rule(
         "modeproof/report",
-        ("modeproof.report", "modeproof.registers", "modeproof.evidence", "modeproof.errors"),
+        (
+            "modeproof.report",
+            "modeproof.registers",
+            "modeproof.evidence",
+            "modeproof.errors",
+            "modeproof.places",
+        ),
     ),
     Rule("modeproof/registers", ("modeproof.registers", "modeproof.errors", "modeproof.places")),
 )

@@ -1,0 +1,174 @@
+"""What the report is made from: registers and evidence files, each with its hash.
+
+What is missing is kept as a trouble, never dropped.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import Unjudged
+from modeproof.evidence.files import read
+from modeproof.registers.load import documents, load_document
+from modeproof.registers.rows import Document
+
+DIFFERS, HOLE = 1, 2
+"""What a trouble is: something is not as expected or contradicts something else; something is not there."""
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """Something that the report must say before all else.
+
+    `status` is DIFFERS or HOLE; `part` is the id of the part of the page where it shows.
+    """
+
+    status: int
+    part: str
+    what: str
+    remedy: str = ""
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A number or word of the page that a machine measured, and its file relative to the root."""
+
+    value: int | float | str | bool | None
+    source: str
+    unit: str = ""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """One piece of evidence: its record, its file relative to the root, and the SHA-256 of that file.
+
+    `changed`, `gone`: the files that it rests on which are no longer what they were, or not there.
+    """
+
+    record: Mapping[str, Any]
+    path: str
+    sha256: str
+    changed: tuple[str, ...] = ()
+    gone: tuple[str, ...] = ()
+
+    @property
+    def id(self) -> str:
+        """The run, theorem or comparison."""
+        return str(self.record["id"])
+
+    @property
+    def result(self) -> Mapping[str, Any]:
+        """What was found, by kind."""
+        result: Mapping[str, Any] = self.record["result"]
+        return result
+
+    def figure(self, *keys: str, unit: str = "") -> Figure:
+        """A value of the record by its keys, with its source; None where there is none."""
+        value: Any = self.record
+        for key in keys:
+            value = value.get(key) if isinstance(value, Mapping) else None
+        return Figure(value, self.path, unit)
+
+
+@dataclass(frozen=True)
+class Sources:
+    """Registers and evidence of all documents.
+
+    `files` is the SHA-256 of every file that was read, by its path relative to the root.
+    """
+
+    root: Path
+    documents: Mapping[str, Document]
+    evidence: Mapping[str, Mapping[str, Evidence]]
+    files: Mapping[str, str]
+    troubles: tuple[Trouble, ...] = ()
+    shelf: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
+    """What a part worked out and another may use again."""
+
+    def of_kind(self, document: str, kind: str) -> list[Evidence]:
+        """The evidence of a document of one kind (tlc, conformance, proof, agreement, registers, ..)."""
+        return [one for one in self.evidence[document].values() if one.record["kind"] == kind]
+
+    def everything(self) -> Iterator[Evidence]:
+        """All evidence, by document and id."""
+        for of_document in self.evidence.values():
+            yield from of_document.values()
+
+    @cached_property
+    def digest(self) -> str:
+        """One SHA-256 over all files that were read."""
+        lines = "".join(f"{digest}  {path}\n" for path, digest in sorted(self.files.items()))
+        return hashlib.sha256(lines.encode()).hexdigest()
+
+
+def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
+    """Read all there is.
+
+    A register or a piece of evidence that is damaged becomes a trouble; the rest is read.
+    Raises Unjudged only when there is no document at all.
+    """
+    chosen = tuple(names or documents(root))
+    if not chosen:
+        raise Unjudged("spec/ holds no document; there is nothing to report")
+    troubles: list[Trouble] = []
+    files: dict[str, str] = {}
+    found: dict[str, Document] = {}
+    evidence: dict[str, dict[str, Evidence]] = {}
+    hashes = _Hashes(root)
+    for name in chosen:
+        try:
+            found[name] = load_document(root, name)
+        except Unjudged as error:
+            troubles.append(Trouble(HOLE, "scope", error.message, f"modeproof registers --document {name}"))
+            continue
+        for path in sorted((root / "spec" / name).glob("*.toml")):
+            shown = path.relative_to(root).as_posix()
+            files[shown] = hashes[shown] or ""
+        evidence[name] = {}
+        for path in sorted((root / "build/evidence" / name).glob("*.json")):
+            shown = path.relative_to(root).as_posix()
+            try:
+                record = read(path)
+            except Unjudged as error:
+                troubles.append(Trouble(HOLE, "verdict", error.message, "modeproof verify"))
+                continue
+            before = record["inputs"]
+            changed = tuple(one for one, digest in before.items() if hashes[one] not in (digest, None))
+            gone = tuple(one for one in before if hashes[one] is None)
+            files[shown] = hashes[shown] or ""
+            evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)
+            if changed:
+                troubles.append(
+                    Trouble(
+                        HOLE,
+                        "verdict",
+                        f"{name}/{path.stem} is of another text of {changed[0]}"
+                        + (f" and {len(changed) - 1} more files" if len(changed) > 1 else ""),
+                        str(record["command"]),
+                    )
+                )
+        if not evidence[name]:
+            what = f"{name}: there is no evidence in build/evidence/{name}/"
+            troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
+    return Sources(root, found, evidence, dict(sorted(files.items())), tuple(troubles))
+
+
+class _Hashes(dict[str, str | None]):
+    """SHA-256 of files by their path relative to the root, each read once; None: no such file."""
+
+    def __init__(self, root: Path) -> None:
+        super().__init__()
+        self._root = root
+
+    def __missing__(self, path: str) -> str | None:
+        try:
+            with (self._root / path).open("rb") as stream:
+                self[path] = hashlib.file_digest(stream, "sha256").hexdigest()
+        except OSError:
+            self[path] = None
+        return self[path]
