@@ -6,7 +6,7 @@ import base64
 import gzip
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -17,7 +17,7 @@ from markupsafe import Markup
 
 from modeproof.report.part import Part, plain
 from modeproof.report.parts import makers
-from modeproof.report.sources import Sources, Trouble, gather
+from modeproof.report.sources import NOTE, Sources, Trouble, gather
 
 SCHEMA_VERSION = 1
 STYLES = ("report.css",)
@@ -27,16 +27,17 @@ SCRIPTS = ("report.js",)
 
 @dataclass(frozen=True)
 class Report:
-    """The page, the JSON, and what is wrong; `status` is 0, or that of the worst trouble (1 before 2)."""
+    """The page, the JSON, what is wrong, and the files beside the page by their names."""
 
     html: str
     json: str
     troubles: tuple[Trouble, ...]
+    attachments: Mapping[str, bytes] = field(default_factory=dict)
 
     @property
     def status(self) -> int:
         """1 where something is not as expected, else 2 where something is missing, else 0."""
-        return min((one.status for one in self.troubles), default=0)
+        return min((one.status for one in self.troubles if one.status != NOTE), default=0)
 
 
 def make(root: Path) -> Report:
@@ -44,7 +45,10 @@ def make(root: Path) -> Report:
     sources = gather(root)
     parts = _with_troubles([maker(sources) for _, maker in makers()], sources)
     return Report(
-        _page(sources, parts), _as_json(sources, parts), tuple(t for p in parts for t in p.troubles)
+        _page(sources, parts),
+        _as_json(sources, parts),
+        tuple(t for p in parts for t in p.troubles),
+        {name: content for one in parts for name, content in one.attachments.items()},
     )
 
 
@@ -52,15 +56,12 @@ def _with_troubles(parts: list[Part], sources: Sources) -> list[Part]:
     """The parts, each with the troubles that concern it; the first has those that concern no other."""
     known = {one.id for one in parts}
     return [
-        Part(
-            one.id,
-            one.title,
-            one.data,
-            (
+        replace(
+            one,
+            troubles=(
                 *(t for t in sources.troubles if t.part == one.id or (not place and t.part not in known)),
                 *one.troubles,
             ),
-            one.payload,
         )
         for place, one in enumerate(parts)
     ]
@@ -90,6 +91,7 @@ def _page(sources: Sources, parts: list[Part]) -> str:
         for one in parts
     ]
     payload = [(id, _packed(content)) for one in parts for id, content in one.payload.items()]
+    payload += [(f"file-{name}", _packed(data)) for one in parts for name, data in one.attachments.items()]
     return environment.get_template("report.html.j2").render(
         parts=shown,
         m=macros,

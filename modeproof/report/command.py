@@ -36,6 +36,8 @@ def run(args: argparse.Namespace) -> int:
     folder = args.out or build(place) / "report"
     write_whole(folder / "report.json", report.json.encode("utf-8"))
     write_whole(folder / "report.html", report.html.encode("utf-8"))
+    for name, content in report.attachments.items():
+        write_whole(folder / name, content)
     for one in report.troubles:
         word = "NOT AS EXPECTED" if one.status == 1 else "NOT THERE"
         print(f"{word}  {one.what}" + (f"; run {one.remedy}" if one.remedy else ""))

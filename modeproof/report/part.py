@@ -20,6 +20,9 @@ class Part:
     troubles: tuple[Trouble, ...] = ()
     payload: Mapping[str, bytes] = field(default_factory=dict)
     """What only scripts of the page read, by the id of its element: compressed by gzip, written as base64."""
+    attachments: Mapping[str, bytes] = field(default_factory=dict)
+    """Files for other programs (a CSV, a workbook) by their name: they lie beside the page and in it, where
+    `m.attachment(name, label)` offers them."""
 
 
 Maker = Callable[[Sources], Part]

@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -17,21 +16,24 @@ from modeproof.evidence.files import read
 from modeproof.registers.load import documents, load_document
 from modeproof.registers.rows import Document
 
-DIFFERS, HOLE = 1, 2
-"""What a trouble is: something is not as expected or contradicts something else; something is not there."""
+NOTE, DIFFERS, HOLE = 0, 1, 2
+"""What a trouble is: something to know, which changes no status; something is not as expected or contradicts
+something else; something is not there."""
 
 
 @dataclass(frozen=True)
 class Trouble:
     """Something that the report must say before all else.
 
-    `status` is DIFFERS or HOLE; `part` is the id of the part of the page where it shows.
+    `status` is NOTE, DIFFERS or HOLE; `part` is the id of the part of the page where it shows; `items` is
+    what the one cause concerns, where that is more than `what` can name.
     """
 
     status: int
     part: str
     what: str
     remedy: str = ""
+    items: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -79,13 +81,14 @@ class Evidence:
 class Sources:
     """Registers and evidence of all documents.
 
-    `files` is the SHA-256 of every file that was read, by its path relative to the root.
+    `files` is the SHA-256 of every file that was read, by its path relative to the root; a part that reads
+    another file reads it by `content`, so that it is among them.
     """
 
     root: Path
     documents: Mapping[str, Document]
     evidence: Mapping[str, Mapping[str, Evidence]]
-    files: Mapping[str, str]
+    files: dict[str, str]
     troubles: tuple[Trouble, ...] = ()
     shelf: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
@@ -99,9 +102,18 @@ class Sources:
         for of_document in self.evidence.values():
             yield from of_document.values()
 
-    @cached_property
+    def content(self, path: str) -> bytes | None:
+        """A file by its path relative to the root, and from now on one of `files`; None: there is none."""
+        try:
+            content = (self.root / path).read_bytes()
+        except OSError:
+            return None
+        self.files[path] = hashlib.sha256(content).hexdigest()
+        return content
+
+    @property
     def digest(self) -> str:
-        """One SHA-256 over all files that were read."""
+        """One SHA-256 over all files that were read until now."""
         lines = "".join(f"{digest}  {path}\n" for path, digest in sorted(self.files.items()))
         return hashlib.sha256(lines.encode()).hexdigest()
 

@@ -17,3 +17,29 @@
     if (event.key === "Escape") box.hidden = true;
   });
 })();
+
+// The payload of an id: what only scripts read, as bytes. It is decoded when it is asked for, and once.
+const payload = (() => {
+  const known = new Map();
+  const decode = async (id) => {
+    const packed = Uint8Array.from(atob(document.getElementById(id).textContent), (letter) => letter.charCodeAt(0));
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  };
+  return (id) => {
+    if (!known.has(id)) known.set(id, decode(id));
+    return known.get(id);
+  };
+})();
+const payloadJson = async (id) => JSON.parse(new TextDecoder().decode(await payload(id)));
+
+// A file that the page carries is saved under its name.
+document.addEventListener("click", async (event) => {
+  const button = event.target.closest("button.attachment");
+  if (!button) return;
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([await payload(`file-${button.dataset.file}`)]));
+  link.download = button.dataset.file;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+});
