@@ -80,7 +80,8 @@ def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
     verdict, reason, strength = "UNJUDGED", "", ""
     result: dict[str, Any] = {"run": run.id, "device": run.graph.device, "implementation": REFERENCE}
     try:
-        found = _compare(place, run)
+        found, drawn = _compare(place, run)
+        result["chart"] = drawn
         verdict = found.verdict
         strength = (
             f"{found.states:,} states, {found.replayed:,} of {found.transitions:,} transitions, "
@@ -114,7 +115,9 @@ def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
     return record
 
 
-def _compare(place: Path, run: Run) -> Any:
+def _compare(place: Path, run: Run) -> tuple[Any, Record | None]:
+    """The comparison, and the state chart of the graph that was compared."""
+    from modeproof.graph.chart import chart
     from modeproof.graph.device import load_device_graph
     from modeproof.graph.equal import compare
     from modeproof.graph.implementation import load_implementation
@@ -122,7 +125,8 @@ def _compare(place: Path, run: Run) -> Any:
     assert run.graph is not None
     graph = load_device_graph(place, run)
     code = load_implementation(REFERENCE, run.document, run.graph.device)
-    return compare(graph, code)
+    drawn = chart(graph)
+    return compare(graph, code), None if drawn is None else asdict(drawn)
 
 
 def _targets(place: Path, document: str, lane: str) -> list[str]:

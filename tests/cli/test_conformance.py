@@ -61,13 +61,14 @@ def test_a_missing_graph_is_unjudged(toy: Path) -> None:
 
 def test_a_difference_is_named(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = Found("DIFFERS", False, differences=("outputs in Up after 3 scans: expected MW01='0000'",))
-    monkeypatch.setattr(conformance, "_compare", lambda *_: found)
+    monkeypatch.setattr(conformance, "_compare", lambda *_: (found, None))
     record = compare(toy)
     assert (record["verdict"], record["as_expected"]) == ("DIFFERS", False)
     assert "first: outputs in Up after 3 scans" in record["reason"]
 
 
 def test_equal_says_how_much_was_covered(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(conformance, "_compare", lambda *_: Found("EQUAL", True))
+    monkeypatch.setattr(conformance, "_compare", lambda *_: (Found("EQUAL", True), {"initial": "Off"}))
     record = compare(toy)
     assert record["as_expected"] and "18 of 18 transitions, 1 of 2 steps in full" in record["strength"]
+    assert record["result"]["chart"] == {"initial": "Off"}
