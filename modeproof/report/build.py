@@ -20,7 +20,7 @@ from modeproof.report.parts import makers
 from modeproof.report.sources import NOTE, Sources, Trouble, gather
 
 SCHEMA_VERSION = 1
-STYLES = ("report.css",)
+STYLES = ("report.css", "tables.css")
 SCRIPTS = ("report.js",)
 """Files of page/, in the order in which the page has them."""
 

@@ -1,0 +1,243 @@
+"""What the evidence says of each property in each environment: by which runs, by which theorems, in one word.
+
+Nothing stands for something that is missing: a run that is declared and has no evidence is a hole, and so is
+one whose evidence is of another text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from modeproof.errors import Unjudged
+from modeproof.registers.citations import Citation, citations, read_sources
+from modeproof.registers.citations import Sources as Texts
+from modeproof.registers.python_source import PythonTheorem
+from modeproof.registers.rows import Document, Property, Run
+from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
+
+NOT_THERE = "not there"
+ASIDE = "not in this lane"
+LANE = "full"
+"""The lane whose evidence is expected to be there."""
+POSITIVE = ("MC", "LIVE", "OPEN")
+"""Kinds of runs in which the listed properties must hold."""
+UNDECIDED = ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED")
+
+
+@dataclass(frozen=True)
+class Said:
+    """What one run or theorem says; `evidence` is None where there is none."""
+
+    id: str
+    evidence: Evidence | None
+    note: str = ""
+    aside: bool = False
+    """It belongs to another lane: that there is no evidence is no hole."""
+
+    @property
+    def word(self) -> str:
+        """The verdict, or that it is not there."""
+        if self.evidence is None:
+            return ASIDE if self.aside else NOT_THERE
+        return str(self.evidence.record["verdict"])
+
+    @property
+    def verdict(self) -> Figure | None:
+        """The verdict with its source."""
+        return None if self.evidence is None else self.evidence.figure("verdict")
+
+    @property
+    def status(self) -> int:
+        """0 as expected or of another lane; DIFFERS; HOLE where missing, undecided, of another text."""
+        if self.evidence is None:
+            return 0 if self.aside else HOLE
+        if self.evidence.changed or self.word in UNDECIDED:
+            return HOLE
+        return 0 if self.evidence.record["as_expected"] else DIFFERS
+
+    @property
+    def good(self) -> bool | None:
+        """As expected, not as expected, or (None) neither can be said."""
+        return None if self.evidence is None else {0: True, DIFFERS: False}.get(self.status)
+
+    @property
+    def why(self) -> str:
+        """What is wrong with it, in plain words; empty where nothing is."""
+        if self.evidence is None:
+            return self.note or "no evidence"
+        if self.evidence.changed:
+            return f"the evidence is of another text of {self.evidence.changed[0]}"
+        return str(self.evidence.record["reason"])
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One property in one environment. `runs` check it, the one declared first is the strongest.
+
+    `theorems` prove it of the shipped code; `because` says why none does, where the proofs say so.
+    """
+
+    of: Property
+    environment: str
+    runs: tuple[Said, ...]
+    theorems: tuple[Said, ...]
+    because: str
+
+    @property
+    def shown(self) -> Said | None:
+        """The run whose verdict counts: the worst of those that there are, else the one declared first."""
+        there = [one for one in self.runs if one.evidence is not None]
+        bad = [one for one in there if one.status == DIFFERS] or [one for one in there if one.status]
+        declared = [one for one in self.runs if not one.aside] or list(self.runs)
+        return next(iter([*bad, *there, *declared]), None)
+
+    @property
+    def status(self) -> int:
+        """0; DIFFERS where a run or a theorem is not as expected; HOLE where none judges it."""
+        every = [one for one in (self.shown, *self.theorems) if one is not None]
+        if self.shown is None:
+            return HOLE
+        return min((one.status for one in every if one.status), default=0)
+
+    @property
+    def good(self) -> bool | None:
+        """As expected, not as expected, or (None) neither can be said."""
+        if self.shown is None or self.shown.evidence is None:
+            return None
+        return {0: True, DIFFERS: False}.get(self.status)
+
+    @property
+    def word(self) -> str:
+        """The verdict of the run whose verdict counts.
+
+        Where another property of the same run fell first, nothing is known of this one: INCONCLUSIVE.
+        """
+        if self.shown is None or self.shown.evidence is None:
+            return NOT_THERE if self.shown is None else self.shown.word
+        fell = self.shown.evidence.result.get("violated")
+        if self.shown.word == "VIOLATED" and fell and fell != self.of.tla:
+            return "INCONCLUSIVE"
+        return self.shown.word
+
+    @property
+    def engines(self) -> tuple[str, ...]:
+        """The engines that agree that it holds."""
+        found = []
+        if any(one.word == "HOLDS" and one.good for one in self.runs):
+            found.append("TLC")
+        if any(one.word == "PROVED" and one.good for one in self.theorems):
+            found += ["Z3", "cvc5"]
+        return tuple(found)
+
+    @property
+    def disagreement(self) -> str:
+        """What two engines say against each other; empty where they do not."""
+        good = [one for one in (*self.runs, *self.theorems) if one.word in ("HOLDS", "PROVED")]
+        bad = [one for one in (*self.runs, *self.theorems) if one.word == "VIOLATED"]
+        if not good or not bad:
+            return ""
+        return f"{good[0].id} says {good[0].word}, {bad[0].id} says {bad[0].word}"
+
+
+def claims(sources: Sources, document: Document) -> tuple[Claim, ...]:
+    """Every property of the document in every environment, in the order of the register."""
+    key = f"claims {document.name}"
+    if key not in sources.shelf:
+        sources.shelf[key] = tuple(_claims(sources, document))
+    found: tuple[Claim, ...] = sources.shelf[key]
+    return found
+
+
+def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
+    named = theorems_of(sources, document)
+    agreed = agreement(sources, document)
+    for one in document.properties:
+        for environment in one.environments:
+            runs = [
+                said(sources, document, run)
+                for run in document.runs
+                if run.kind in POSITIVE and run.environment == environment and one.tla in run.properties
+            ]
+            row = agreed.get((one.id, environment))
+            if row is None:
+                theorems, because = named.get(one.id, ()), ""
+            else:
+                theorems, because = (row[0],) if row[0] else (), row[1]
+            yield Claim(
+                one,
+                environment,
+                tuple(runs),
+                tuple(proved(sources, document, name) for name in theorems),
+                because,
+            )
+
+
+def said(sources: Sources, document: Document, run: Run) -> Said:
+    """What a declared run says."""
+    lanes = " and ".join(run.lanes)
+    evidence = sources.evidence[document.name].get(run.id)
+    return Said(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
+
+
+def proved(sources: Sources, document: Document, theorem: str) -> Said:
+    """What there is of a theorem."""
+    return Said(theorem, sources.evidence[document.name].get(theorem), "no evidence")
+
+
+def theorems_of(sources: Sources, document: Document) -> Mapping[str, tuple[str, ...]]:
+    """The names of the theorems that prove each property, by the property's id."""
+    found: dict[str, list[str]] = {}
+    for module in texts_of(sources, document).proofs:
+        for one in module.theorems:
+            for name in one.properties:
+                found.setdefault(name, []).append(one.name)
+    return {name: tuple(theorems) for name, theorems in found.items()}
+
+
+def theorem_rows(sources: Sources, document: Document) -> Iterator[tuple[str, PythonTheorem]]:
+    """Every theorem of the document with its file, in the order of the files."""
+    for module in texts_of(sources, document).proofs:
+        for one in module.theorems:
+            yield module.file, one
+
+
+def agreement(sources: Sources, document: Document) -> Mapping[tuple[str, str], tuple[str, str]]:
+    """By property and environment: the theorem that proves it of the whole system, or why none does."""
+    found = sources.of_kind(document.name, "agreement")
+    rows = found[0].result.get("rows", []) if found else []
+    return {(row["id"], row["environment"]): (str(row["theorem"]), str(row["reason"])) for row in rows}
+
+
+def texts_of(sources: Sources, document: Document) -> Texts:
+    """Specification, reference implementation and proofs of a document as texts, read once."""
+    key = f"texts {document.name}"
+    if key not in sources.shelf:
+        try:
+            texts = read_sources(document)
+            files = [
+                *(m.file for m in texts.modules.values()),
+                *(m.file for m in (*texts.refimpl, *texts.proofs)),
+            ]
+            for file in files:
+                sources.content(file)
+            sources.shelf[key] = texts, ""
+        except Unjudged as error:
+            sources.shelf[key] = Texts({}, (), ()), error.message
+    found: Texts = sources.shelf[key][0]
+    return found
+
+
+def fault_of_texts(sources: Sources, document: Document) -> str:
+    """Why the texts of a document cannot be read; empty where they can."""
+    texts_of(sources, document)
+    return str(sources.shelf[f"texts {document.name}"][1])
+
+
+def citations_of(sources: Sources, document: Document) -> tuple[Citation, ...]:
+    """Who cites what, found once."""
+    key = f"citations {document.name}"
+    if key not in sources.shelf:
+        sources.shelf[key] = citations(document, texts_of(sources, document))
+    found: tuple[Citation, ...] = sources.shelf[key]
+    return found

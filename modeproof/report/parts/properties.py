@@ -1,0 +1,240 @@
+"""Properties: what must hold, who suffers if it does not, the formal text, and what the evidence says."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from typing import Any
+
+from modeproof.registers.rows import Document, Property, Run
+from modeproof.registers.tla import closure
+from modeproof.report.campaigns import KINDS, Campaign, campaign
+from modeproof.report.claims import Claim, Said, claims, said, texts_of, theorem_rows
+from modeproof.report.part import Part
+from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble
+
+ID = "properties"
+SHOWN = 12
+"""So many mutants that a property kills are named; all are in the JSON of their campaign."""
+
+
+def part(sources: Sources) -> Part:
+    """One entry a document, and in it one a property."""
+    troubles: list[Trouble] = []
+    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    return Part(ID, "Properties", {"documents": found}, tuple(troubles))
+
+
+def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
+    every = claims(sources, document)
+    killing = campaign(sources, document.name, "spec")
+    troubles += _holes(document, every)
+    properties = [
+        _property(sources, document, one, [c for c in every if c.of is one], killing, troubles)
+        for one in document.properties
+    ]
+    unwitnessed = [one["id"] for one in properties if one["witness"]["status"] == HOLE]
+    if unwitnessed:
+        what = f"{document.name}: no run of this text has reached the witness of {_named(unwitnessed)}"
+        command = f"modeproof verify --document {document.name}"
+        troubles.append(Trouble(HOLE, ID, what, command, tuple(unwitnessed)))
+    return {
+        "id": document.name,
+        "title": document.about.title,
+        "strength_command": KINDS["spec"][2].format(document.name),
+        "properties": properties,
+        "runs": [_run(sources, document, one) for one in document.runs],
+    }
+
+
+def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
+    """A row of the table of all runs of the model checker."""
+    one = said(sources, document, run)
+    record = None if one.evidence is None else one.evidence
+    return {
+        **_said(one),
+        "kind": run.kind,
+        "environment": run.environment,
+        "strength": run.strength,
+        "violates": run.property,
+        "expected": "" if record is None else record.record["expected"],
+        "traced": record is not None and bool(record.result.get("trace")),
+        "command": f"modeproof check {document.name}/{run.id}",
+        **{
+            key: None if record is None else record.figure("result", key)
+            for key in ("distinct", "generated", "depth", "trace_length")
+        },
+        "seconds": None if record is None else record.figure("seconds", unit="s"),
+    }
+
+
+def _property(
+    sources: Sources,
+    document: Document,
+    one: Property,
+    own: list[Claim],
+    killing: Campaign | None,
+    troubles: list[Trouble],
+) -> dict[str, Any]:
+    name = f"{document.name}: {one.id}"
+    for what, text in (("sentence", one.sentence), ("hazard", one.hazard), ("clause", "".join(one.clauses))):
+        if not text.strip():
+            troubles.append(Trouble(HOLE, ID, f"{name} has no {what}", "modeproof registers"))
+    for claim in own:
+        troubles += _disagreements(document, claim)
+    witness = _witness(sources, document, one)
+    if witness["status"] == DIFFERS:
+        troubles.append(Trouble(witness["status"], ID, f"{name}: {witness['why']}", witness["command"]))
+    formal = _formal(sources, document, one)
+    if formal is None:
+        what = f"{name}: its definition {one.tla} is not found in module {one.module}"
+        troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
+    return {
+        "id": one.id,
+        "title": one.title,
+        "kind": one.kind,
+        "sentence": one.sentence,
+        "hazard": one.hazard,
+        "clauses": list(one.clauses),
+        "findings": list(one.findings),
+        "register": document.source("properties"),
+        "formal": formal,
+        "environments": [_environment(claim) for claim in own],
+        "theorems": _theorems(sources, document, own),
+        "witness": witness,
+        "kills": _kills(killing, one),
+    }
+
+
+def _disagreements(document: Document, claim: Claim) -> list[Trouble]:
+    """What is not as expected, each by itself."""
+    name = f"{document.name}: {claim.of.id} ({claim.environment})"
+    if claim.disagreement:
+        return [Trouble(DIFFERS, ID, f"{name}: two engines disagree: {claim.disagreement}")]
+    command = f"modeproof verify --document {document.name}"
+    return [
+        Trouble(DIFFERS, ID, f"{name}: {one.id} is {one.word}: {one.why}", command)
+        for one in (claim.shown, *claim.theorems)
+        if one is not None and one.status == DIFFERS
+    ]
+
+
+def _holes(document: Document, every: Sequence[Claim]) -> list[Trouble]:
+    """What is not there, by its cause: one line a document and cause, with all that it concerns."""
+    found: dict[tuple[str, str], list[str]] = {}
+    command = f"modeproof verify --document {document.name}"
+    for claim in every:
+        name = f"{claim.of.id} ({claim.environment})"
+        for one in (claim.shown, *claim.theorems):
+            if one is None:
+                found.setdefault(("no run is declared that checks it", "modeproof registers"), []).append(
+                    name
+                )
+            elif one.status == HOLE:
+                cause = "no evidence" if one.evidence is None else one.word
+                cause = "evidence of another text" if one.evidence and one.evidence.changed else cause
+                found.setdefault((cause, command), []).append(f"{name}: {one.id}: {one.why}")
+    return [
+        Trouble(HOLE, ID, f"{document.name}: {cause} of {_named(names)}", remedy, tuple(names))
+        for (cause, remedy), names in found.items()
+    ]
+
+
+def _named(names: Sequence[str]) -> str:
+    head = names[0].split(": ")[0]
+    return head if len(names) == 1 else f"{head} and {len(names) - 1} more"
+
+
+def _environment(claim: Claim) -> dict[str, Any]:
+    shown = claim.shown
+    evidence = shown.evidence if shown is not None else None
+    return {
+        "environment": claim.environment,
+        "word": claim.word,
+        "good": claim.good,
+        "verdict": None if shown is None else shown.verdict,
+        "why": "no run is declared" if shown is None else shown.why,
+        "strength": evidence.record["strength"] if evidence is not None else "",
+        "engines": list(claim.engines),
+        "disagreement": claim.disagreement,
+        "run": None if shown is None else shown.id,
+        "other_runs": [_said(one) for one in claim.runs if one is not shown],
+        "theorems": [_said(one) for one in claim.theorems],
+        "because": claim.because,
+        "distinct": None if evidence is None else evidence.figure("result", "distinct"),
+        "generated": None if evidence is None else evidence.figure("result", "generated"),
+        "seconds": None if evidence is None else evidence.figure("seconds", unit="s"),
+    }
+
+
+def _said(one: Said) -> dict[str, Any]:
+    return {"id": one.id, "word": one.word, "good": one.good, "verdict": one.verdict, "why": one.why}
+
+
+def _formal(sources: Sources, document: Document, one: Property) -> dict[str, Any] | None:
+    modules = texts_of(sources, document).modules
+    for module in closure(modules, one.module):
+        for definition in module.definitions:
+            if definition.name == one.tla:
+                lines = [line.rstrip() for line in definition.body.splitlines()]
+                text = textwrap.dedent("\n".join(line for line in lines if line))
+                return {"file": module.file, "line": definition.line, "text": text}
+    return None
+
+
+def _theorems(sources: Sources, document: Document, own: list[Claim]) -> list[dict[str, Any]]:
+    """The sentences of the theorems that prove it, each once."""
+    names = {each.id: each for claim in own for each in claim.theorems}
+    sentences = {one.name: one.sentence for _, one in theorem_rows(sources, document)}
+    return [{**_said(one), "sentence": sentences.get(name, "")} for name, one in names.items()]
+
+
+def _witness(sources: Sources, document: Document, one: Property) -> dict[str, Any]:
+    """The situation that the property speaks of, and the run that reached it."""
+    declared = [run for run in document.runs if one.antecedent and one.antecedent in run.witnesses]
+    runs = [Said(run.id, sources.evidence[document.name].get(run.id)) for run in declared]
+    reached = [
+        each
+        for each in runs
+        if each.evidence is not None
+        and each.status == 0
+        and one.antecedent in each.evidence.result.get("reached", ())
+    ]
+    answer = {
+        "antecedent": one.antecedent,
+        "reason": one.reason,
+        "run": None,
+        "verdict": None,
+        "status": 0,
+        "why": "",
+        "command": "",
+    }
+    if reached:
+        evidence = reached[0].evidence
+        assert evidence is not None
+        return {**answer, "run": reached[0].id, "verdict": Figure("REACHED", evidence.path)}
+    if not one.antecedent:
+        return answer
+    if not runs:
+        why, command = f"no run looks for {one.antecedent}", "modeproof registers"
+        return {**answer, "status": HOLE, "why": why, "command": command}
+    first = runs[0]
+    command = f"modeproof check {document.name}/{first.id}"
+    status = first.status or DIFFERS
+    why = f"{first.id} has not reached {one.antecedent}" + (f": {first.why}" if first.why else "")
+    return {**answer, "run": first.id, "status": status, "why": why, "command": command}
+
+
+def _kills(killing: Campaign | None, one: Property) -> dict[str, Any] | None:
+    """What of the recorded campaign it kills; None where there is no campaign."""
+    if killing is None:
+        return None
+    source = killing.evidence.path
+    mutants = [mutant["id"] for mutant in killing.mutants if one.tla in mutant["killers"]]
+    return {
+        "asked": Figure(killing.judges.get(one.tla, 0), source),
+        "killed": Figure(killing.killed[one.tla], source),
+        "alone": Figure(killing.alone[one.tla], source),
+        "mutants": mutants[:SHOWN],
+        "more": max(0, len(mutants) - SHOWN),
+    }

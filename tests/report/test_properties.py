@@ -1,0 +1,135 @@
+"""Properties in the report: each with what the evidence says of it, and a hole where there is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof.report.build import make
+from modeproof.report.parts.properties import part
+from modeproof.report.sources import DIFFERS, HOLE, gather
+from tests.report.paper import RESULT, change, make_paper, put, without
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """The box with all its evidence."""
+    return make_paper(tmp_path)
+
+
+def shown(root: Path) -> dict[str, Any]:
+    """The data of the only property."""
+    data = part(gather(root)).data
+    found: dict[str, Any] = data["documents"][0]["properties"][0]
+    return found
+
+
+def test_a_property_has_sentence_hazard_clause_formal_text_witness_and_what_each_engine_says(
+    root: Path,
+) -> None:
+    one = shown(root)
+    assert (one["sentence"], one["hazard"]) == ("It shuts only over the door.", "It shuts on a hand.")
+    assert one["clauses"] == ["BX-1-2"]
+    assert one["formal"]["text"].startswith("ShutsOverDoor == [][boxState' # boxState => door']")
+    assert one["witness"]["run"] == "WIT_Box" and one["witness"]["verdict"].value == "REACHED"
+    row = one["environments"][0]
+    assert (row["word"], row["good"], row["engines"]) == ("HOLDS", True, ["TLC", "Z3", "cvc5"])
+    assert (row["run"], row["distinct"].value, row["generated"].value) == ("MC_Box", 5, 11)
+    assert row["distinct"].source == "build/evidence/box/MC_Box.json"
+    assert [other["id"] for other in row["other_runs"]] == ["MC_Box_lazy"]
+    assert one["theorems"][0]["sentence"] == "It shuts only over the door, whatever happens."
+    assert part(gather(root)).troubles == ()
+
+
+def test_a_property_without_evidence_shows_a_hole_in_its_place(root: Path) -> None:
+    without(root, "MC_Box")
+    without(root, "MC_Box_lazy")
+    found = part(gather(root))
+    row = found.data["documents"][0]["properties"][0]["environments"][0]
+    assert (row["word"], row["good"], row["distinct"]) == ("not there", None, None)
+    assert [one.status for one in found.troubles] == [HOLE]
+    assert "ShutsOverDoor (arbitrary)" in found.troubles[0].what
+    assert '<span class="hole">not there</span>' in make(root).html
+
+
+def test_evidence_of_another_text_is_no_verdict_on_this_one(root: Path) -> None:
+    change(root / "spec" / "box" / "Box.tla", "The box: it shuts", "The box: it shuts now")
+    row = shown(root)["environments"][0]
+    assert (row["word"], row["good"], row["engines"]) == ("HOLDS", None, [])
+    assert row["why"] == "the evidence is of another text of spec/box/Box.tla"
+
+
+def test_engines_that_contradict_each_other_are_not_as_expected(root: Path) -> None:
+    name = "it_shuts_over_the_door_only"
+    put(root, name, verdict="VIOLATED", as_expected=False, reason="counterexample door=0")
+    found = part(gather(root))
+    assert [one.status for one in found.troubles] == [DIFFERS]
+    assert found.troubles[0].what.endswith(f"two engines disagree: MC_Box says HOLDS, {name} says VIOLATED")
+    assert make(root).status == DIFFERS
+
+
+def test_a_run_that_fails_outweighs_one_that_holds(root: Path) -> None:
+    changes = {"verdict": "VIOLATED", "as_expected": False, "reason": "ShutsOverDoor is violated"}
+    put(root, "MC_Box_lazy", result={"violated": "ShutsOverDoor"}, **changes)
+    row = shown(root)["environments"][0]
+    assert (row["run"], row["word"], row["good"]) == ("MC_Box_lazy", "VIOLATED", False)
+
+
+def test_where_another_property_fell_first_nothing_is_known_of_this_one(root: Path) -> None:
+    changes = {"verdict": "VIOLATED", "as_expected": False, "reason": "TypeOK is violated"}
+    put(root, "MC_Box", result={"violated": "TypeOK"}, **changes)
+    assert shown(root)["environments"][0]["word"] == "INCONCLUSIVE"
+
+
+def test_a_witness_that_the_run_did_not_reach_is_not_as_expected(root: Path) -> None:
+    put(root, "WIT_Box", result={"reached": []})
+    found = part(gather(root))
+    assert [one.status for one in found.troubles] == [DIFFERS]
+    assert "WIT_Box has not reached Close" in found.troubles[0].what
+
+
+def test_a_run_of_another_lane_alone_is_no_hole_and_no_verdict(root: Path) -> None:
+    without(root, "MC_Box")
+    without(root, "MC_Box_lazy")
+    path = root / "spec" / "box" / "runs.toml"
+    path.write_text(path.read_text().replace('lanes = ["full"]', 'lanes = ["exhaustive"]'))
+    found = part(gather(root))
+    row = found.data["documents"][0]["properties"][0]["environments"][0]
+    assert (row["word"], row["good"], found.troubles) == ("not in this lane", None, ())
+
+
+def test_without_a_recorded_campaign_the_kills_are_a_hole_with_the_command(root: Path) -> None:
+    assert shown(root)["kills"] is None
+    assert "no campaign is recorded: <code>modeproof mutate spec --document box</code>" in make(root).html
+
+
+def test_a_property_says_which_mutants_it_kills_and_how_many_alone(root: Path) -> None:
+    mutants = [
+        {"id": "Box-1", "killers": ["ShutsOverDoor"], "verdict": "KILLED", "operator": "swap"},
+        {"id": "Box-2", "killers": ["ShutsOverDoor", "TypeOK"], "verdict": "KILLED", "operator": "swap"},
+        {"id": "Box-3", "killers": [], "verdict": "SURVIVED", "operator": "swap"},
+    ]
+    result = {"mutants": mutants, "judges": {"ShutsOverDoor": 3, "TypeOK": 3}}
+    put(root, "strength_spec", kind="strength", result=result, verdict="KILLED", expected="KILLED")
+    kills = shown(root)["kills"]
+    assert [kills[key].value for key in ("asked", "killed", "alone")] == [3, 2, 1]
+    assert kills["mutants"] == ["Box-1", "Box-2"]
+
+
+def test_text_of_registers_and_evidence_cannot_become_markup(root: Path) -> None:
+    hostile = "<script>alert(1)</script>"
+    change(root / "spec" / "box" / "properties.toml", "It shuts on a hand.", hostile)
+    put(root, "MC_Box", strength=hostile, result=RESULT["MC_Box"])
+    html = make(root).html
+    assert "alert(1)&lt;/script&gt;" in html and hostile not in html
+
+
+def test_the_table_of_runs_has_every_declared_run_with_its_command(root: Path) -> None:
+    without(root, "NEG_Box_hasty")
+    rows = {row["id"]: row for row in part(gather(root)).data["documents"][0]["runs"]}
+    assert list(rows) == ["MC_Box", "MC_Box_lazy", "NEG_Box_eager", "NEG_Box_hasty", "WIT_Box"]
+    assert rows["NEG_Box_eager"]["traced"] and rows["NEG_Box_eager"]["trace_length"].value == 2
+    assert rows["NEG_Box_hasty"]["verdict"] is None and not rows["NEG_Box_hasty"]["traced"]
+    assert rows["NEG_Box_hasty"]["command"] == "modeproof check box/NEG_Box_hasty"
