@@ -72,15 +72,17 @@ def _say(record: Record, progress: Progress) -> None:
 
 def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
     from modeproof.graph.device import compared_files
+    from modeproof.graph.export import export_file
 
     assert run.graph is not None
     name = f"{REFERENCE}_{run.id}"
     evidence.discard(place, run.document, name)
+    export_file(place, run.document, run.id).unlink(missing_ok=True)
     started = time.time()
     verdict, reason, strength = "UNJUDGED", "", ""
     result: dict[str, Any] = {"run": run.id, "device": run.graph.device, "implementation": REFERENCE}
     try:
-        found, drawn = _compare(place, run)
+        found, drawn, exported = _compare(place, run)
         result["chart"] = drawn
         verdict = found.verdict
         strength = (
@@ -88,7 +90,7 @@ def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
             f"{sum(done == total for done, total in found.covered.values())} of {len(found.covered)} steps "
             "in full, both ways, in process"
         )
-        result |= asdict(found)
+        result |= asdict(found) | {"artefacts": evidence.hashes(place, [exported])}
         reason = "" if found.equal else found.summary()
         if found.differences:
             reason = f"{reason}; first: {found.differences[0]}"
@@ -115,18 +117,20 @@ def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
     return record
 
 
-def _compare(place: Path, run: Run) -> tuple[Any, Record | None]:
-    """The comparison, and the state chart of the graph that was compared."""
+def _compare(place: Path, run: Run) -> tuple[Any, Record | None, Path]:
+    """The comparison, the state chart of the graph that was compared, and the export of that graph."""
     from modeproof.graph.chart import chart
     from modeproof.graph.device import load_device_graph
     from modeproof.graph.equal import compare
+    from modeproof.graph.export import write_export
     from modeproof.graph.implementation import load_implementation
 
     assert run.graph is not None
     graph = load_device_graph(place, run)
+    exported = write_export(place, run, graph)
     code = load_implementation(REFERENCE, run.document, run.graph.device)
     drawn = chart(graph)
-    return compare(graph, code), None if drawn is None else asdict(drawn)
+    return compare(graph, code), None if drawn is None else asdict(drawn), exported
 
 
 def _targets(place: Path, document: str, lane: str) -> list[str]:

@@ -17,6 +17,7 @@ _SECTION = re.compile(
     r"(?:ACTION[_-])?CONSTRAINTS?)\b",
     re.MULTILINE,
 )
+_VIEW = re.compile(r"^[ \t]*VIEW\s+([A-Za-z_]\w*)", re.MULTILINE)
 _GIVEN = re.compile(r"([A-Za-z_]\w*)\s*(=|<-)\s*")
 _TEXT = re.compile(r'"([^"\n]*)"')
 
@@ -42,6 +43,12 @@ def constants_of(text: str) -> Mapping[str, Constant]:
                 value = section[one.end() : follower.start() if follower else len(section)]
                 found[one.group(1)] = Constant(" ".join(value.split()), one.group(2) == "<-")
     return found
+
+
+def view_of(text: str) -> str:
+    """The name of the view that a cfg gives; "" where it gives none."""
+    found = _VIEW.search(_COMMENT.sub(" ", text))
+    return found.group(1) if found is not None else ""
 
 
 def read_constants(root: Path, document: str, cfg: str) -> Mapping[str, Constant]:

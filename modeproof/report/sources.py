@@ -49,7 +49,7 @@ class Figure:
 class Evidence:
     """One piece of evidence: its record, its file relative to the root, and the SHA-256 of that file.
 
-    `changed`, `gone`: the files that it rests on which are no longer what they were, or not there.
+    `changed`, `gone`: the files that it rests on or made which are no longer what they were, or not there.
     """
 
     record: Mapping[str, Any]
@@ -62,6 +62,12 @@ class Evidence:
     def id(self) -> str:
         """The run, theorem or comparison."""
         return str(self.record["id"])
+
+    @property
+    def artefacts(self) -> tuple[str, ...]:
+        """The files that it made for the report and that are what it made; each is in `Sources.files`."""
+        made: Mapping[str, str] = self.result.get("artefacts", {})
+        return tuple(one for one in made if one not in self.changed and one not in self.gone)
 
     @property
     def result(self) -> Mapping[str, Any]:
@@ -149,10 +155,13 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
             except Unjudged as error:
                 troubles.append(Trouble(HOLE, "verdict", error.message, "modeproof verify"))
                 continue
-            before = record["inputs"]
+            before = {**record["inputs"], **record["result"].get("artefacts", {})}
             changed = tuple(one for one, digest in before.items() if hashes[one] not in (digest, None))
             gone = tuple(one for one in before if hashes[one] is None)
             files[shown] = hashes[shown] or ""
+            for made in record["result"].get("artefacts", {}):
+                if digest := hashes[made]:
+                    files[made] = digest
             evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)
             if changed:
                 troubles.append(

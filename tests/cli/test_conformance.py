@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ import pytest
 
 from modeproof import conformance, evidence
 from modeproof.errors import Unjudged
+from modeproof.graph.export import export_file
 from modeproof.progress import Progress
 from tests.toy_tree import toy_tree
 
@@ -48,6 +50,14 @@ def compare(root: Path, lane: str = "smoke") -> dict[str, Any]:
     return record
 
 
+def export(root: Path) -> Path:
+    """A file as the export of the graph."""
+    path = export_file(root, "toy", "OPEN_toy")
+    path.parent.mkdir(parents=True)
+    path.write_bytes(b"a graph")
+    return path
+
+
 def test_a_lane_without_a_graph_is_no_pass(toy: Path) -> None:
     with pytest.raises(Unjudged, match="the lane exhaustive has no OPEN run, so nothing is compared"):
         compare(toy, "exhaustive")
@@ -61,14 +71,27 @@ def test_a_missing_graph_is_unjudged(toy: Path) -> None:
 
 def test_a_difference_is_named(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = Found("DIFFERS", False, differences=("outputs in Up after 3 scans: expected MW01='0000'",))
-    monkeypatch.setattr(conformance, "_compare", lambda *_: (found, None))
+    monkeypatch.setattr(conformance, "_compare", lambda *_: (found, None, export(toy)))
     record = compare(toy)
     assert (record["verdict"], record["as_expected"]) == ("DIFFERS", False)
     assert "first: outputs in Up after 3 scans" in record["reason"]
 
 
 def test_equal_says_how_much_was_covered(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(conformance, "_compare", lambda *_: (Found("EQUAL", True), {"initial": "Off"}))
+    monkeypatch.setattr(
+        conformance, "_compare", lambda *_: (Found("EQUAL", True), {"initial": "Off"}, export(toy))
+    )
     record = compare(toy)
     assert record["as_expected"] and "18 of 18 transitions, 1 of 2 steps in full" in record["strength"]
     assert record["result"]["chart"] == {"initial": "Off"}
+
+
+def test_the_export_of_the_graph_is_named_with_its_hash(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(conformance, "_compare", lambda *_: (Found("EQUAL", True), None, export(toy)))
+    digest = hashlib.sha256(b"a graph").hexdigest()
+    assert compare(toy)["result"]["artefacts"] == {"build/export/toy/OPEN_toy.json.gz": digest}
+
+
+def test_an_export_of_an_earlier_run_does_not_stay(toy: Path) -> None:
+    old = export(toy)
+    assert compare(toy)["verdict"] == "UNJUDGED" and not old.exists()
