@@ -6,15 +6,16 @@ one whose evidence is of another text.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.citations import Sources as Texts
 from modeproof.registers.python_source import PythonTheorem
 from modeproof.registers.rows import Document, Property, Run
-from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
+from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources, Trouble
 
 NOT_THERE = "not there"
 ASIDE = "not in this lane"
@@ -69,6 +70,17 @@ class Said:
         if self.evidence.changed:
             return f"the evidence is of another text of {self.evidence.changed[0]}"
         return str(self.evidence.record["reason"])
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """As parts show it."""
+        return {
+            "id": self.id,
+            "word": self.word,
+            "good": self.good,
+            "verdict": self.verdict,
+            "why": self.why,
+        }
 
 
 @dataclass(frozen=True)
@@ -178,6 +190,27 @@ def said(sources: Sources, document: Document, run: Run) -> Said:
     lanes = " and ".join(run.lanes)
     evidence = sources.evidence[document.name].get(run.id)
     return Said(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
+
+
+def steps_of(one: Said) -> Figure | None:
+    """The steps of the counterexample that a run found; None where it found none.
+
+    A trace of one state takes no step.
+    """
+    if one.evidence is None or not one.evidence.result.get("trace"):
+        return None
+    return Figure(int(one.evidence.result["trace_length"]) - 1, one.evidence.path)
+
+
+def holes(part: str, what: str, missing: Sequence[Said], command: str) -> list[Trouble]:
+    """One trouble for all that is missing or cannot be judged, one for each that is not as expected."""
+    bad = dict.fromkeys(f"{one.id} is {one.word}: {one.why}" for one in missing if one.status == DIFFERS)
+    found = [Trouble(DIFFERS, part, f"{what}: {one}", command) for one in bad]
+    gone = list(dict.fromkeys(f"{one.id}: {one.why}" for one in missing if one.status == HOLE))
+    if gone:
+        more = f" and {len(gone) - 1} more" if len(gone) > 1 else ""
+        found.append(Trouble(HOLE, part, f"{what}: not there: {gone[0]}{more}", command, tuple(gone)))
+    return found
 
 
 def proved(sources: Sources, document: Document, theorem: str) -> Said:

@@ -1,4 +1,4 @@
-"""The toy document `box` with evidence written by hand: no model checker, no solver; faults can be planted."""
+"""The toy document `box` with evidence written by hand, so that faults can be planted without any run."""
 
 from __future__ import annotations
 

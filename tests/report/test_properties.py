@@ -130,6 +130,6 @@ def test_the_table_of_runs_has_every_declared_run_with_its_command(root: Path) -
     without(root, "NEG_Box_hasty")
     rows = {row["id"]: row for row in part(gather(root)).data["documents"][0]["runs"]}
     assert list(rows) == ["MC_Box", "MC_Box_lazy", "NEG_Box_eager", "NEG_Box_hasty", "WIT_Box"]
-    assert rows["NEG_Box_eager"]["traced"] and rows["NEG_Box_eager"]["trace_length"].value == 2
+    assert rows["NEG_Box_eager"]["traced"] and rows["NEG_Box_eager"]["steps"].value == 1
     assert rows["NEG_Box_hasty"]["verdict"] is None and not rows["NEG_Box_hasty"]["traced"]
     assert rows["NEG_Box_hasty"]["command"] == "modeproof check box/NEG_Box_hasty"

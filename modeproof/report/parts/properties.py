@@ -9,7 +9,7 @@ from typing import Any
 from modeproof.registers.rows import Document, Property, Run
 from modeproof.registers.tla import closure
 from modeproof.report.campaigns import KINDS, Campaign, campaign
-from modeproof.report.claims import Claim, Said, claims, said, texts_of, theorem_rows
+from modeproof.report.claims import Claim, Said, claims, said, steps_of, texts_of, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble
 
@@ -52,7 +52,7 @@ def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
     one = said(sources, document, run)
     record = None if one.evidence is None else one.evidence
     return {
-        **_said(one),
+        **one.data,
         "kind": run.kind,
         "environment": run.environment,
         "strength": run.strength,
@@ -62,8 +62,9 @@ def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
         "command": f"modeproof check {document.name}/{run.id}",
         **{
             key: None if record is None else record.figure("result", key)
-            for key in ("distinct", "generated", "depth", "trace_length")
+            for key in ("distinct", "generated", "depth")
         },
+        "steps": steps_of(one),
         "seconds": None if record is None else record.figure("seconds", unit="s"),
     }
 
@@ -158,17 +159,13 @@ def _environment(claim: Claim) -> dict[str, Any]:
         "engines": list(claim.engines),
         "disagreement": claim.disagreement,
         "run": None if shown is None else shown.id,
-        "other_runs": [_said(one) for one in claim.runs if one is not shown],
-        "theorems": [_said(one) for one in claim.theorems],
+        "other_runs": [one.data for one in claim.runs if one is not shown],
+        "theorems": [one.data for one in claim.theorems],
         "because": claim.because,
         "distinct": None if evidence is None else evidence.figure("result", "distinct"),
         "generated": None if evidence is None else evidence.figure("result", "generated"),
         "seconds": None if evidence is None else evidence.figure("seconds", unit="s"),
     }
-
-
-def _said(one: Said) -> dict[str, Any]:
-    return {"id": one.id, "word": one.word, "good": one.good, "verdict": one.verdict, "why": one.why}
 
 
 def _formal(sources: Sources, document: Document, one: Property) -> dict[str, Any] | None:
@@ -186,7 +183,7 @@ def _theorems(sources: Sources, document: Document, own: list[Claim]) -> list[di
     """The sentences of the theorems that prove it, each once."""
     names = {each.id: each for claim in own for each in claim.theorems}
     sentences = {one.name: one.sentence for _, one in theorem_rows(sources, document)}
-    return [{**_said(one), "sentence": sentences.get(name, "")} for name, one in names.items()]
+    return [{**one.data, "sentence": sentences.get(name, "")} for name, one in names.items()]
 
 
 def _witness(sources: Sources, document: Document, one: Property) -> dict[str, Any]:

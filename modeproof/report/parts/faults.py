@@ -1,0 +1,87 @@
+"""The table of faults from outside: what detects each, what holds, what falls, what is not modelled."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from modeproof.registers.fault_table import CELL
+from modeproof.registers.rows import Document, Fault, Run
+from modeproof.report.claims import Said, holes, said, steps_of
+from modeproof.report.part import Part
+from modeproof.report.sources import Sources, Trouble
+
+ID = "faults"
+
+
+def part(sources: Sources) -> Part:
+    """One entry a document; `faults` is empty where a document declares no table."""
+    troubles: list[Trouble] = []
+    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    return Part(ID, "Faults from outside", {"documents": found}, tuple(troubles))
+
+
+def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
+    runs = {one.id: one for one in document.runs}
+    shown: list[Said] = []
+    rows = [_row(sources, document, one, runs, shown) for one in document.faults]
+    command = f"modeproof verify --document {document.name}"
+    troubles += holes(ID, f"{document.name}: runs of the fault table", shown, command)
+    return {
+        "id": document.name,
+        "title": document.about.title,
+        "register": document.source("faults") if document.faults else None,
+        "faults": rows,
+        "matrix": _matrix(sources, document, runs),
+    }
+
+
+def _row(
+    sources: Sources, document: Document, one: Fault, runs: Mapping[str, Run], shown: list[Said]
+) -> dict[str, Any]:
+    holding = [said(sources, document, runs[name]) for name in one.runs if name in runs]
+    falling = [(fall, said(sources, document, runs[fall.run])) for fall in one.falls if fall.run in runs]
+    shown += [*holding, *(each for _, each in falling)]
+    return {
+        "id": one.id,
+        "class": one.kind,
+        "title": one.title,
+        "model": one.model,
+        "detected_by": list(one.detected_by),
+        "not_detected": one.not_detected,
+        "not_modelled": one.not_modelled,
+        "holds": list(one.holds),
+        "runs": [each.data for each in holding],
+        "falls": [
+            {**each.data, "property": fall.property, "needs": fall.needs, "steps": steps_of(each)}
+            for fall, each in falling
+        ],
+    }
+
+
+def _matrix(sources: Sources, document: Document, runs: Mapping[str, Run]) -> dict[str, Any] | None:
+    """The table whose cells are witnesses of one run, and which of them the run has reached."""
+    if document.matrix is None or document.matrix.run not in runs:
+        return None
+    run = runs[document.matrix.run]
+    saying = said(sources, document, run)
+    reached = saying.evidence.result.get("reached", ()) if saying.evidence is not None else ()
+    cells: dict[str, dict[str, list[dict[str, Any]]]] = {}
+    columns: dict[str, None] = {}
+    for witness in run.witnesses:
+        match = CELL.fullmatch(witness)
+        if match is None:
+            continue
+        columns.setdefault(match["column"])
+        text = match["what"] + (f" ({match['rest'].strip(', ')})" if match["rest"].strip(", ") else "")
+        row = cells.setdefault(match["row"], {})
+        row.setdefault(match["column"], []).append({"text": text, "reached": witness in reached})
+    return {
+        "title": document.matrix.title,
+        "run": saying.data,
+        "columns": list(columns),
+        "rows": [
+            {"name": name, "cells": [row.get(column, []) for column in columns]}
+            for name, row in cells.items()
+        ],
+    }

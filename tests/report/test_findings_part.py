@@ -1,0 +1,135 @@
+"""Findings, assumptions and faults in the report: each with what shows it, and a hole where nothing does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modeproof.report.build import make
+from modeproof.report.parts import assumptions, faults, findings
+from modeproof.report.sources import DIFFERS, HOLE, gather
+from tests.report.paper import change, make_paper, put, without
+
+FAULTS = """
+document = "box"
+[matrix]
+run = "WIT_Box"
+title = "door"
+[[fault]]
+id = "gone"
+class = "loss"
+title = "the door is gone"
+model = "It is not there."
+detected_by = ["the eye"]
+runs = ["MC_Box"]
+holds = ["ShutsOverDoor"]
+falls = [{ property = "ShutsOverDoor", run = "NEG_Box_hasty", needs = "one hand" }]
+not_detected = "A door of glass."
+[[fault]]
+id = "late"
+class = "delay"
+title = "the door is late"
+model = "It comes later."
+detected_by = []
+not_detected = "Everything."
+not_modelled = "nothing here has a clock"
+"""
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """The box with all its evidence."""
+    return make_paper(tmp_path)
+
+
+def entry(part: Any, root: Path) -> dict[str, Any]:
+    """The data of the only document."""
+    found: dict[str, Any] = part.part(gather(root)).data["documents"][0]
+    return found
+
+
+def test_a_finding_shows_its_readings_its_decision_and_each_piece_of_evidence_with_its_verdict(
+    root: Path,
+) -> None:
+    one = entry(findings, root)["findings"][0]
+    assert (one["says"], one["class"], one["drawing"]) == ("It shuts.", "safety", True)
+    assert one["switches"] == ["EAGER", "LAZY"]
+    shown = {row["id"]: row for row in one["evidence"]}
+    assert (shown["NEG_Box_eager"]["word"], shown["NEG_Box_eager"]["good"]) == ("VIOLATED", True)
+    assert shown["NEG_Box_eager"]["steps"].value == 1
+    assert shown["MC_Box_lazy"]["steps"] is None
+    html = make(root).html
+    assert 'href="#trace-box-NEG_Box_eager"' in html and 'id="finding-E-01"' in html
+    assert "could settle it; this is no error of the document" in html
+
+
+def test_each_reading_restored_alone_stands_with_what_falls_and_in_how_many_steps(root: Path) -> None:
+    rows = {row["id"]: row for row in entry(findings, root)["alone"]}
+    assert list(rows) == ["MC_Box_lazy", "NEG_Box_eager"]
+    assert (rows["NEG_Box_eager"]["readings"], rows["NEG_Box_eager"]["property"]) == (
+        ["EAGER"],
+        "ShutsOverDoor",
+    )
+    assert rows["NEG_Box_eager"]["steps"].value == 1 and not rows["NEG_Box_eager"]["harmless"]
+    assert rows["MC_Box_lazy"]["harmless"]
+
+
+def test_a_reading_is_never_called_harmless_without_the_evidence(root: Path) -> None:
+    without(root, "MC_Box_lazy")
+    rows = {row["id"]: row for row in entry(findings, root)["alone"]}
+    assert not rows["MC_Box_lazy"]["harmless"] and rows["MC_Box_lazy"]["word"] == "not there"
+    troubles = findings.part(gather(root)).troubles
+    assert [(one.status, one.items) for one in troubles] == [
+        (HOLE, ("MC_Box_lazy: a run of lane full",)),
+    ]
+
+
+def test_a_negative_that_holds_is_not_as_expected(root: Path) -> None:
+    put(root, "NEG_Box_eager", verdict="HOLDS", as_expected=False, reason="it does not fall")
+    troubles = findings.part(gather(root)).troubles
+    assert [one.status for one in troubles] == [DIFFERS]
+    assert "NEG_Box_eager is HOLDS: it does not fall" in troubles[0].what
+
+
+def test_a_finding_with_neither_evidence_nor_a_reason_is_a_hole(root: Path) -> None:
+    change(root / "spec" / "box" / "findings.toml", "no model can show a slip of the pen", "")
+    troubles = findings.part(gather(root)).troubles
+    assert [one.what for one in troubles] == ["box: E-02 names no evidence and does not say why"]
+
+
+def test_an_assumption_says_who_ensures_it_how_to_check_it_and_what_falls_without_it(root: Path) -> None:
+    one = entry(assumptions, root)["assumptions"][0]
+    assert (one["who"], one["check"]) == ("the builder", "count")
+    assert (one["breaks"][0]["property"], one["breaks"][0]["steps"].value) == ("ShutsOverDoor", 1)
+    assert 'id="assumption-A-01"' in make(root).html
+    without(root, "NEG_Box_hasty")
+    found = assumptions.part(gather(root))
+    assert [one.status for one in found.troubles] == [HOLE]
+
+
+def test_a_document_without_a_fault_table_says_so(root: Path) -> None:
+    assert entry(faults, root)["faults"] == []
+    assert "declares no table of faults" in make(root).html
+
+
+def test_the_fault_table_says_what_holds_what_falls_and_why_something_is_not_modelled(root: Path) -> None:
+    (root / "spec" / "box" / "faults.toml").write_text(FAULTS)
+    gone, late = entry(faults, root)["faults"]
+    assert (gone["holds"], gone["runs"][0]["word"]) == (["ShutsOverDoor"], "HOLDS")
+    assert (gone["falls"][0]["needs"], gone["falls"][0]["steps"].value) == ("one hand", 1)
+    assert late["not_modelled"] == "nothing here has a clock"
+    without(root, "MC_Box")
+    assert [one.status for one in faults.part(gather(root)).troubles] == [HOLE]
+
+
+def test_a_cell_of_the_fault_matrix_that_was_not_reached_says_so(root: Path) -> None:
+    (root / "spec" / "box" / "faults.toml").write_text(FAULTS)
+    runs = root / "spec" / "box" / "runs.toml"
+    change(runs, 'witnesses = ["Close"]', 'witnesses = ["Close", "door at noon: shut", "door at dusk: open"]')
+    put(root, "WIT_Box", result={"reached": ["Close", "door at noon: shut"]})
+    matrix = entry(faults, root)["matrix"]
+    assert matrix["columns"] == ["noon", "dusk"]
+    assert [[one["reached"] for one in cell] for cell in matrix["rows"][0]["cells"]] == [[True], [False]]
+    assert "not reached" in make(root).html
