@@ -373,7 +373,8 @@ def _prove(args: argparse.Namespace) -> int:
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.report.proofs import never_needed
-    from modeproof.summary import counted, status_of
+    from modeproof.report.verdicts import status_of
+    from modeproof.summary import counted
 
     place = root()
     progress = Progress(quiet=args.quiet)
@@ -685,7 +686,7 @@ def _of_proofs(name: str) -> Any:
 
 def _coverage(args: argparse.Namespace, place: Path, names: Sequence[str], progress: Any) -> int:
     from modeproof.lock import only_one
-    from modeproof.summary import status_of
+    from modeproof.report.verdicts import status_of
 
     if args.theorems:
         raise Unjudged("--coverage speaks of devices, not of theorems: give it no name")

@@ -11,7 +11,8 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
-from modeproof.summary import Line, PropertyRow, failures, property_lines, render, status_of, total
+from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
+from modeproof.summary import failures, render, total
 from modeproof.tlc.check import Checked, check_all, register_problems, select
 from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
@@ -142,7 +143,7 @@ def declared_pairs(place: Path, document: str) -> dict[str, set[tuple[str, str]]
     return {
         run.id: {(name, run.environment) for name in run.properties}
         for run in load_runs(place, document)
-        if run.kind in ("MC", "LIVE", "OPEN")
+        if run.kind in POSITIVE
     }
 
 

@@ -12,7 +12,8 @@ import pytest
 from modeproof import evidence
 from modeproof.agreement import ID, compare, line
 from modeproof.evidence import evidence_path
-from modeproof.summary import failures, render, status_of
+from modeproof.report.verdicts import status_of
+from modeproof.summary import failures, render
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import pytest
 from modeproof.cli import cover_document, main
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.summary import status_of
+from modeproof.report.verdicts import status_of
 from proofs.mode_selection import devices
 
 REGISTER = Path("proofs/mode_selection/unreached.toml")

@@ -6,7 +6,8 @@ import io
 from typing import Any
 
 from modeproof.progress import Progress
-from modeproof.summary import ASIDE, PropertyRow, failures, property_lines, render, status_of
+from modeproof.report.verdicts import ASIDE, PropertyRow, property_lines, status_of
+from modeproof.summary import failures, render
 
 
 def tlc(id: str, **changes: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ import pytest
 from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.summary import PropertyRow
+from modeproof.report.verdicts import PropertyRow
 from modeproof.verify import Stage, check_lane, check_registers, verify
 from tests.toy_tree import toy_tree
 
