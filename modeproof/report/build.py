@@ -5,24 +5,34 @@ from __future__ import annotations
 import base64
 import gzip
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import resources
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 import jinja2
 from markupsafe import Markup
 
+from modeproof.report.baseline import Baseline
+from modeproof.report.contradictions import contradictions
+from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page
+from modeproof.report.missing import missing, mixed, unexpected
 from modeproof.report.part import Part, plain
 from modeproof.report.parts import makers
 from modeproof.report.sources import NOTE, Sources, Trouble, gather
+from modeproof.report.standing import standing
+from modeproof.report.terms import Terms
+from modeproof.report.vendored import SCRIPT, STYLE, tables
 
 SCHEMA_VERSION = 1
 STYLES = ("report.css", "tables.css")
 SCRIPTS = ("report.js",)
 """Files of page/, in the order in which the page has them."""
+LAST = "changes"
+"""The part that is made after all others, for what it is compared with rests on what they read."""
+WORDS = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}
 
 
 @dataclass(frozen=True)
@@ -33,22 +43,40 @@ class Report:
     json: str
     troubles: tuple[Trouble, ...]
     attachments: Mapping[str, bytes] = field(default_factory=dict)
+    baseline: Baseline = field(default_factory=Baseline)
 
     @property
     def status(self) -> int:
         """1 where something is not as expected, else 2 where something is missing, else 0."""
-        return min((one.status for one in self.troubles if one.status != NOTE), default=0)
+        return _status(self.troubles)
 
 
-def make(root: Path) -> Report:
-    """The report on what lies in `root`. Identical registers and evidence give an identical report."""
+def _status(troubles: Sequence[Trouble]) -> int:
+    return min((one.status for one in troubles if one.status != NOTE), default=0)
+
+
+def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseline()) -> Report:
+    """The report on what lies in `root`. Identical registers and evidence give an identical report.
+
+    `baseline` gives, for the digest of all that was read, the earlier report to compare with.
+    """
     sources = gather(root)
-    parts = _with_troubles([maker(sources) for _, maker in makers()], sources)
+    found = (*missing(sources), *unexpected(sources), *contradictions(sources), *mixed(sources))
+    sources = replace(sources, troubles=(*sources.troubles, *found))
+    made = {id: maker(sources) for id, maker in makers() if id != LAST}
+    sources.shelf["standing"] = standing(sources)
+    sources.shelf["baseline"] = baseline(sources.digest)
+    made |= {id: maker(sources) for id, maker in makers() if id == LAST}
+    parts = _with_troubles([made[id] for id, _ in makers()], sources)
+    troubles = tuple(dict.fromkeys(t for one in parts for t in one.troubles))
+    text = seal_json(_as_json(sources, parts, troubles))
+    seal = seal_of_json(text)
     return Report(
-        _page(sources, parts),
-        _as_json(sources, parts),
-        tuple(t for p in parts for t in p.troubles),
+        seal_page(_page(sources, parts, troubles, seal[0] if seal else BLANK)),
+        text,
+        troubles,
         {name: content for one in parts for name, content in one.attachments.items()},
+        sources.shelf["baseline"],
     )
 
 
@@ -67,40 +95,65 @@ def _with_troubles(parts: list[Part], sources: Sources) -> list[Part]:
     ]
 
 
-def _as_json(sources: Sources, parts: list[Part]) -> str:
+def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...]) -> str:
     content = {
         "schema_version": SCHEMA_VERSION,
+        "sha256": BLANK,
         "digest": sources.digest,
-        "troubles": plain([t for one in parts for t in one.troubles]),
+        "status": _status(troubles),
+        "troubles": plain(troubles),
         "parts": {one.id: {"title": one.title, **plain(one.data)} for one in parts},
-        "files": sources.files,
+        "standing": sources.shelf["standing"],
+        "files": dict(sorted(sources.files.items())),
     }
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _page(sources: Sources, parts: list[Part]) -> str:
+def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], json_sha256: str) -> str:
     environment = _environment()
     macros = environment.get_template("macros.html.j2").module
+    terms = Terms(sources)
     shown = [
         {
             "id": one.id,
             "title": one.title,
             "troubles": one.troubles,
-            "html": Markup(environment.get_template(f"{one.id}.html.j2").render(data=one.data, m=macros)),
+            "bad": sum(1 for trouble in one.troubles if trouble.status),
+            "html": Markup(
+                terms.linked(
+                    one.id, environment.get_template(f"{one.id}.html.j2").render(data=one.data, m=macros)
+                )
+            ),
         }
         for one in parts
     ]
     payload = [(id, _packed(content)) for one in parts for id, content in one.payload.items()]
     payload += [(f"file-{name}", _packed(data)) for one in parts for name, data in one.attachments.items()]
+    payload += [(id, _packed(data)) for id, data in zip((SCRIPT, STYLE), tables(), strict=True)]
+    status = _status(troubles)
     return environment.get_template("report.html.j2").render(
         parts=shown,
+        troubles=troubles,
+        state={"word": WORDS[status], "good": (True, False, None)[status]},
         m=macros,
+        blank=BLANK,
+        json_sha256=json_sha256,
         digest=sources.digest,
-        files=sources.files,
+        files=dict(sorted(sources.files.items())),
+        folders=_folders(sources),
         payload=payload,
         styles=Markup("\n".join(_file(name) for name in STYLES)),
         scripts=[Markup(_file(name)) for name in SCRIPTS],
     )
+
+
+def _folders(sources: Sources) -> dict[str, str]:
+    """For each folder, with its files: one SHA-256 over the list of their hashes; "" is all."""
+    names = {
+        "",
+        *(f"{parent.as_posix()}/" for path in sources.files for parent in PurePosixPath(path).parents),
+    }
+    return {name: sources.digest_of(name) for name in sorted(names - {"./"})}
 
 
 def _file(name: str) -> str:

@@ -6,7 +6,7 @@ What is missing is kept as a trouble, never dropped.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -120,7 +120,12 @@ class Sources:
     @property
     def digest(self) -> str:
         """One SHA-256 over all files that were read until now."""
-        lines = "".join(f"{digest}  {path}\n" for path, digest in sorted(self.files.items()))
+        return self.digest_of("")
+
+    def digest_of(self, folder: str) -> str:
+        """The same over the files below a folder, whose name ends with a slash."""
+        some = {path: digest for path, digest in self.files.items() if path.startswith(folder)}
+        lines = "".join(f"{digest}  {path}\n" for path, digest in sorted(some.items()))
         return hashlib.sha256(lines.encode()).hexdigest()
 
 
@@ -163,20 +168,46 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
                 if digest := hashes[made]:
                     files[made] = digest
             evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)
-            if changed:
-                troubles.append(
-                    Trouble(
-                        HOLE,
-                        "verdict",
-                        f"{name}/{path.stem} is of another text of {changed[0]}"
-                        + (f" and {len(changed) - 1} more files" if len(changed) > 1 else ""),
-                        str(record["command"]),
-                    )
-                )
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
+        troubles += _stale(name, evidence[name].values())
     return Sources(root, found, evidence, dict(sorted(files.items())), tuple(troubles))
+
+
+def few(names: Sequence[str], most: int = 3) -> str:
+    """The first of several names, and how many more there are."""
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
+
+
+def _stale(name: str, evidence: Iterable[Evidence]) -> Iterator[Trouble]:
+    """Evidence of other texts than the present ones: one trouble for each set of files that changed or went.
+
+    A file of build/ that went is made again by the command that made it, so that it is no hole.
+    """
+    causes: dict[tuple[tuple[str, ...], str, int], list[Evidence]] = {}
+    for one in evidence:
+        if one.changed:
+            causes.setdefault((one.changed, "is of another text of", HOLE), []).append(one)
+        lost = tuple(path for path in one.gone if not path.startswith("build/"))
+        made = tuple(path for path in one.gone if path.startswith("build/"))
+        if lost:
+            causes.setdefault((lost, "rests on what is not there:", HOLE), []).append(one)
+        elif made and not one.changed:
+            causes.setdefault((made, "rests on a file that was made and is not there now:", NOTE), []).append(
+                one
+            )
+    for (files, says, status), found in causes.items():
+        ids = tuple(one.id for one in found)
+        remedy = str(found[0].record["command"]) if len(found) == 1 else f"modeproof verify --document {name}"
+        yield Trouble(
+            status,
+            "verdict" if status else "reproduce",
+            f"{name}: {few(ids)} {says} {few(files)}",
+            remedy,
+            ids,
+        )
 
 
 class _Hashes(dict[str, str | None]):

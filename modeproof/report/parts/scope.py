@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from modeproof.registers.rows import Document
+from modeproof.registers.rows import Device, Document
 from modeproof.report.part import Part
-from modeproof.report.sources import Sources
+from modeproof.report.sources import Figure, Sources
+
+LEFT_OUT = "not modelled"
 
 
 def part(sources: Sources) -> Part:
@@ -16,25 +18,46 @@ def part(sources: Sources) -> Part:
 
 def _document(document: Document) -> dict[str, Any]:
     about = document.about
+    kinds = dict.fromkeys(one.kind for one in document.clauses)
+    clauses = document.source("clauses")
     return {
         "id": document.name,
         "title": about.title,
         "number": about.number,
         "edition": about.edition,
         "publisher": about.publisher,
-        "sha256": about.sha256,
+        "seed": about.seed,
+        "sha256": Figure(about.sha256, document.source("document")),
         "available": about.available,
         "not_available": about.not_available,
         "not_endorsed": about.not_endorsed,
+        "sources": about.sources,
         "register": document.source("document"),
         "devices": [
-            {"id": one.id, "title": one.title, "published": one.published}
-            for one in document.interface.devices.values()
+            _device(one, document.source("interface")) for one in document.interface.devices.values()
         ],
-        "clauses": len(document.clauses),
+        "clauses": Figure(len(document.clauses), clauses),
+        "kinds": [
+            {"kind": kind, "count": Figure(sum(one.kind == kind for one in document.clauses), clauses)}
+            for kind in kinds
+        ],
         "left_out": [
             {"id": one.id, "title": one.title, "because": one.because}
             for one in document.clauses
-            if one.because
+            if one.kind == LEFT_OUT or one.because
         ],
+    }
+
+
+def _device(device: Device, register: str) -> dict[str, Any]:
+    groups = (device.memory, device.inputs, device.outputs, device.parameters)
+    names = ("memory", "inputs", "outputs", "parameters")
+    return {
+        "id": device.id,
+        "title": device.title,
+        "module": device.module,
+        "published": device.published,
+        "states": Figure(len(device.states), register),
+        "steps": Figure(len(device.steps), register),
+        **{name: Figure(len(group), register) for name, group in zip(names, groups, strict=True)},
     }

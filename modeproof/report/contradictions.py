@@ -1,0 +1,94 @@
+"""Evidence that contradicts other evidence: two engines, two counts of one thing, two texts of one file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from modeproof.report.sources import DIFFERS, Evidence, Sources, Trouble, few
+from modeproof.report.verdicts import POSITIVE
+
+
+def contradictions(sources: Sources) -> Iterator[Trouble]:
+    """All of them; stale evidence, which is named elsewhere, is compared too."""
+    yield from _two_texts(sources)
+    for name in sources.documents:
+        yield from _engines(sources, name)
+        yield from _solvers(sources, name)
+        yield from _counts(sources, name)
+
+
+def _two_texts(sources: Sources) -> Iterator[Trouble]:
+    """One file with two hashes: evidence of different source trees lies in one folder."""
+    texts: dict[str, dict[str, list[str]]] = {}
+    for one in sources.everything():
+        for path, digest in one.record["inputs"].items():
+            texts.setdefault(path, {}).setdefault(digest, []).append(f"{one.record['document']}/{one.id}")
+    double = {path: of for path, of in sorted(texts.items()) if len(of) > 1}
+    if double:
+        items = tuple(
+            f"{path} as {digest[:12]}: {few(ids)}"
+            for path, of in double.items()
+            for digest, ids in sorted(of.items())
+        )
+        what = f"the evidence is of different texts of {few(tuple(double))}"
+        yield Trouble(DIFFERS, "verdict", what, "modeproof verify", items)
+
+
+def _engines(sources: Sources, name: str) -> Iterator[Trouble]:
+    """A property that one engine holds and another refutes."""
+    held: dict[str, list[Evidence]] = {}
+    fallen: dict[str, list[Evidence]] = {}
+    for one in sources.of_kind(name, "tlc"):
+        if one.result.get("run") not in POSITIVE:
+            continue
+        if one.record["verdict"] == "HOLDS":
+            for tla in one.result.get("properties", ()):
+                held.setdefault(str(tla), []).append(one)
+        elif one.record["verdict"] == "VIOLATED":
+            fallen.setdefault(str(one.result.get("violated", "")), []).append(one)
+    tla_of = {one.id: one.tla for one in sources.documents[name].properties}
+    for proof in sources.of_kind(name, "proof"):
+        for id in proof.result.get("properties", ()):
+            tla = tla_of.get(str(id), "")
+            if proof.record["verdict"] == "VIOLATED" and tla in held:
+                yield Trouble(
+                    DIFFERS,
+                    "proofs",
+                    f"{name}: {id} HOLDS in {held[tla][0].id}, and its theorem {proof.id} is VIOLATED",
+                )
+            if proof.record["verdict"] == "PROVED" and tla in fallen:
+                yield Trouble(
+                    DIFFERS,
+                    "proofs",
+                    f"{name}: {id} is VIOLATED in {fallen[tla][0].id}, and its theorem {proof.id} is PROVED",
+                )
+
+
+def _solvers(sources: Sources, name: str) -> Iterator[Trouble]:
+    """A query to which two solvers give opposite answers."""
+    for proof in sources.of_kind(name, "proof"):
+        for query in proof.result.get("queries", ()):
+            if {query.get("z3"), query.get("cvc5")} == {"sat", "unsat"}:
+                text = f"{name}/{proof.id}: {query['name']}: z3 says {query['z3']}, cvc5 {query['cvc5']}"
+                yield Trouble(DIFFERS, "proofs", text, str(proof.record["command"]))
+
+
+def _counts(sources: Sources, name: str) -> Iterator[Trouble]:
+    """The graph that a run printed beside the one that a program was compared with: states, transitions."""
+    graphs = {one.id: one.result["graph"] for one in sources.of_kind(name, "tlc") if "graph" in one.result}
+    for one in sources.of_kind(name, "conformance"):
+        run = str(one.result.get("run", "")).partition("/")[2]
+        graph = graphs.get(run)
+        if not isinstance(graph, Mapping):
+            continue
+        for of_graph, of_comparison in (("states", "states"), ("edges", "transitions")):
+            before, after = graph.get(of_graph), one.result.get(of_comparison)
+            if None not in (before, after) and before != after:
+                text = f"{name}: {run} printed {before:,} {of_graph}, and {one.id} compared {after:,}"
+                yield Trouble(DIFFERS, "conformance", text, str(one.record["command"]))
+        recorded = {
+            path: digest for path, digest in one.record["inputs"].items() if path == graph.get("file")
+        }
+        if recorded and graph.get("sha256") not in recorded.values():
+            text = f"{name}: {one.id} is of another graph than {run} printed"
+            yield Trouble(DIFFERS, "conformance", text, str(one.record["command"]))

@@ -1,0 +1,122 @@
+"""What is not there though a register declares it, and evidence that cannot count: one trouble a cause."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from modeproof.errors import Unjudged
+from modeproof.registers.python_source import read_python
+from modeproof.registers.rows import Document
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, Sources, Trouble, few
+from modeproof.report.verdicts import status_of
+
+LANE = "full"
+"""The lane that a report is about: what `verify` runs. What only another lane runs is no hole."""
+PART_OF = {
+    "tlc": "verdict",
+    "conformance": "conformance",
+    "proof": "proofs",
+    "coverage": "proofs",
+    "agreement": "proofs",
+    "registers": "matrix",
+}
+
+
+def theorems_of(sources: Sources, document: Document) -> tuple[str, ...]:
+    """The names of a document's theorems, as their text has them."""
+    key = f"theorems of {document.name}"
+    if key not in sources.shelf:
+        try:
+            modules = read_python(sources.root, sources.root / "proofs" / document.name)
+        except Unjudged:
+            modules = ()
+        sources.shelf[key] = tuple(one.name for module in modules for one in module.theorems)
+    names: tuple[str, ...] = sources.shelf[key]
+    return names
+
+
+def missing(sources: Sources) -> Iterator[Trouble]:
+    """Declared in a register, and without evidence; and evidence of what no register declares."""
+    for name, document in sources.documents.items():
+        found = sources.evidence[name]
+        if not found:
+            continue  # said once, where the folder is read
+        for kind, ids in _declared(sources, document).items():
+            there = {id for one in found.values() if one.record["kind"] == kind for id in _ids(one.record)}
+            lost = tuple(id for id in ids if id not in there)
+            if lost:
+                word = {"tlc": "runs", "proof": "theorems", "conformance": "graphs"}.get(kind, kind)
+                what = f"{name}: {len(lost)} of {len(ids)} {word} without evidence: {few(lost)}"
+                if kind == "conformance":
+                    what = (
+                        f"{name}: {len(lost)} of {len(ids)} graphs are compared with no program: {few(lost)}"
+                    )
+                remedy = f"modeproof verify --document {name}"
+                yield Trouble(HOLE, PART_OF[kind], what, remedy, lost)
+        known = {
+            "tlc": {one.id for one in document.runs},
+            "proof": set(theorems_of(sources, document)),
+        }
+        for kind, ids_known in known.items():
+            strange = tuple(
+                one.id for one in found.values() if one.record["kind"] == kind and one.id not in ids_known
+            )
+            if strange:
+                what = (
+                    f"{name}: {len(strange)} pieces of evidence of what is declared no more: {few(strange)}"
+                )
+                yield Trouble(HOLE, PART_OF[kind], what, f"modeproof verify --document {name}", strange)
+
+
+def _declared(sources: Sources, document: Document) -> dict[str, tuple[str, ...]]:
+    runs = [one for one in document.runs if LANE in one.lanes]
+    return {
+        "tlc": tuple(one.id for one in runs),
+        "proof": theorems_of(sources, document),
+        "conformance": tuple(f"{document.name}/{one.id}" for one in runs if one.graph is not None),
+        "registers": ("registers",),
+    }
+
+
+def _ids(record: object) -> tuple[str, ...]:
+    """What a piece of evidence is evidence of: of a comparison, the run that printed the graph."""
+    assert isinstance(record, dict)
+    if record["kind"] == "conformance":
+        return (str(record["result"].get("run", "")),)
+    return (str(record["id"]),)
+
+
+def unexpected(sources: Sources) -> Iterator[Trouble]:
+    """Evidence that says itself that it is not as expected, or not judged; one trouble each."""
+    for one in sources.everything():
+        status = status_of(one.record)
+        if status:
+            what = f"{one.record['document']}/{one.id}: {one.record['verdict']}: {one.record['reason']}"
+            part = PART_OF.get(str(one.record["kind"]), "verdict")
+            yield Trouble(DIFFERS if status == 1 else HOLE, part, what, str(one.record["command"]))
+
+
+def mixed(sources: Sources) -> Iterator[Trouble]:
+    """Evidence by different versions of a tool or on different machines: said, not hidden."""
+    made: dict[tuple[str, str], list[str]] = {}
+    for one in sources.everything():
+        name = f"{one.record['document']}/{one.id}"
+        for tool, entry in one.record["tools"].items():
+            version = f"{entry['version']} ({entry['sha256'][:12]})" if entry["sha256"] else entry["version"]
+            made.setdefault((str(tool), version), []).append(name)
+        computer = one.record["machine"]
+        words = f"{computer['system']}, {computer.get('cpu', '')}, {computer['cores']} cores"
+        made.setdefault(("machine", words), []).append(name)
+    sources.shelf["made"] = made
+    for tool in dict.fromkeys(tool for tool, _ in made):
+        versions = {version: names for (of, version), names in made.items() if of == tool}
+        if len(versions) > 1:
+            most = max(versions, key=lambda version: (len(versions[version]), version))
+            others = tuple(
+                f"{version}: {id}" for version, ids in versions.items() if version != most for id in ids
+            )
+            listed = "; ".join(f"{len(ids)} by {version}" for version, ids in versions.items())
+            text = f"the evidence was made with {len(versions)} versions of {tool}: {listed}"
+            if tool == "machine":
+                text = f"the evidence was made on {len(versions)} machines: {listed}"
+            yield Trouble(NOTE, "reproduce", text, "", others)

@@ -1,0 +1,60 @@
+"""How to reproduce: the command behind each piece of evidence, hashes, tools, machines, licences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from modeproof.report.part import Part
+from modeproof.report.sources import Figure, Sources
+from modeproof.report.vendored import packages
+
+
+def part(sources: Sources) -> Part:
+    """Evidence by document; what made it; what made this page."""
+    return Part(
+        "reproduce",
+        "How to reproduce",
+        {
+            "documents": [
+                {
+                    "id": name,
+                    "evidence": [
+                        {
+                            "id": one.id,
+                            "kind": one.record["kind"],
+                            "verdict": one.record["verdict"],
+                            "as_expected": one.record["as_expected"],
+                            "command": one.record["command"],
+                            "started": one.record["started"],
+                            "seconds": one.figure("seconds", unit="s"),
+                            "sha256": Figure(one.sha256, one.path),
+                            "inputs": len(one.record["inputs"]),
+                            "stale": bool(one.changed),
+                        }
+                        for one in evidence.values()
+                    ],
+                }
+                for name, evidence in sources.evidence.items()
+            ],
+            "made": _made(sources),
+            "packages": packages(),
+        },
+    )
+
+
+def _made(sources: Sources) -> list[dict[str, Any]]:
+    """Each tool and machine with the version or hash that evidence names, and how many pieces do."""
+    counts: dict[tuple[str, str, str], int] = {}
+    for one in sources.everything():
+        for tool, entry in one.record["tools"].items():
+            key = (str(tool), str(entry["version"]), str(entry["sha256"] or ""))
+            counts[key] = counts.get(key, 0) + 1
+        machine: Mapping[str, Any] = one.record["machine"]
+        words = f"{machine['system']}, {machine['arch']}, {machine.get('cpu', '')}, {machine['cores']} cores"
+        key = ("machine", words, "")
+        counts[key] = counts.get(key, 0) + 1
+    return [
+        {"tool": tool, "version": version, "sha256": digest, "pieces": Figure(count, "build/evidence/")}
+        for (tool, version, digest), count in sorted(counts.items())
+    ]

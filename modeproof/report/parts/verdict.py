@@ -1,0 +1,161 @@
+"""Verdict at a glance: what must be said first, then all documents on one screen, then each property."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from modeproof.registers.rows import Document
+from modeproof.report.part import Part
+from modeproof.report.sources import Evidence, Figure, Sources
+from modeproof.report.standing import JUDGES, as_it_counts, lines_of, mutants_file, mutants_of
+from modeproof.report.verdicts import ASIDE, Line, status_of
+
+GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (
+    ("theorems", "PROVED", lambda one: one.record["kind"] == "proof"),
+    ("negatives", "VIOLATED, as expected", lambda one: one.result.get("run") == "NEG"),
+    ("witnesses", "REACHED", lambda one: one.result.get("run") == "WIT"),
+    ("graphs", "complete", lambda one: one.result.get("run") == "OPEN"),
+    ("conformance", "EQUAL or CONFORMS", lambda one: one.record["kind"] == "conformance"),
+    ("registers", "EQUAL", lambda one: one.record["kind"] == "registers"),
+)
+"""What is counted together: its title, what is good, and which evidence belongs to it."""
+
+
+def part(sources: Sources) -> Part:
+    """Documents by environment and by kind of evidence; each property with verdict and strength."""
+    documents = [_document(sources, one) for one in sources.documents.values()]
+    return Part(
+        "verdict",
+        "Verdict at a glance",
+        {
+            "groups": [{"title": title, "good": good} for title, good, _ in GROUPS],
+            "documents": documents,
+            "total": _total(documents),
+        },
+    )
+
+
+def _document(sources: Sources, document: Document) -> dict[str, Any]:
+    lines = lines_of(sources, document)
+    environments = list(dict.fromkeys(line.environment for line in lines))
+    marks: dict[str, int] = {}
+    for line in lines:
+        if line.status == 0 and line.verdict != ASIDE:
+            marks.setdefault(line.strength, len(marks) + 1)
+    folder = f"build/evidence/{document.name}/"
+    evidence = list(sources.evidence[document.name].values())
+    return {
+        "id": document.name,
+        "title": document.about.title,
+        "folder": folder,
+        "environments": [
+            {
+                "id": name,
+                **_count(
+                    [line.status for line in lines if _counted(line) and line.environment == name], folder
+                ),
+                "aside": sum(1 for line in lines if line.environment == name and line.verdict == ASIDE),
+            }
+            for name in environments
+        ],
+        "groups": [
+            _count([status_of(as_it_counts(one)) for one in evidence if of(one)], folder) for *_, of in GROUPS
+        ],
+        "mutants": _mutants(sources, document.name),
+        "columns": environments,
+        "rows": _rows(sources, document, lines, environments, marks),
+        "strengths": [{"mark": mark, "text": text} for text, mark in marks.items()],
+        "status": min((line.status for line in lines if line.status), default=0),
+    }
+
+
+def _counted(line: Line) -> bool:
+    return line.verdict != ASIDE
+
+
+def _count(statuses: Sequence[int], folder: str) -> dict[str, Any]:
+    """How many of how many are as expected, and the worst status of the others."""
+    return {
+        "good": Figure(sum(1 for one in statuses if not one), folder),
+        "of": Figure(len(statuses), folder),
+        "status": min((one for one in statuses if one), default=0),
+    }
+
+
+def _mutants(sources: Sources, document: str) -> list[dict[str, Any]]:
+    """KILLED of those that behave differently and were measured, for each judge."""
+    found = mutants_of(sources, document)
+    rows = []
+    for file, judge in JUDGES.items():
+        counts = found.get(judge, {})
+        different = sum(counts.get(word, 0) for word in ("KILLED", "SURVIVED", "UNMEASURED"))
+        if different:
+            path = mutants_file(document, file)
+            killed = counts.get("KILLED", 0)
+            rows.append({"judge": judge, "killed": Figure(killed, path), "of": Figure(different, path)})
+    return rows
+
+
+def _rows(
+    sources: Sources, document: Document, lines: Sequence[Line], columns: Sequence[str], marks: dict[str, int]
+) -> list[dict[str, Any]]:
+    by = {(line.property, line.environment): line for line in lines}
+    titles = {one.id: one.title for one in document.properties}
+    worst_first = sorted(
+        dict.fromkeys(line.property for line in lines),
+        key=lambda id: min(line.status or 3 for line in lines if line.property == id),
+    )
+    return [
+        {
+            "id": id,
+            "title": titles[id],
+            "cells": [_cell(sources, document.name, by.get((id, column)), marks) for column in columns],
+        }
+        for id in worst_first
+    ]
+
+
+def _cell(sources: Sources, name: str, line: Line | None, marks: dict[str, int]) -> dict[str, Any] | None:
+    if line is None:
+        return None
+    source = sources.evidence[name].get(line.run)
+    return {
+        "environment": line.environment,
+        "verdict": line.verdict,
+        "status": line.status,
+        "aside": line.verdict == ASIDE,
+        "strength": line.strength,
+        "mark": marks.get(line.strength) if not line.status else None,
+        "run": line.run,
+        "distinct": Figure(line.distinct, source.path) if source and line.distinct is not None else None,
+    }
+
+
+def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """All documents together, column by column; a mutant counts once for each judge."""
+    folder = "build/evidence/"
+
+    def add(cells: Sequence[dict[str, Any]]) -> dict[str, Any]:
+        return {
+            "good": Figure(sum(one["good"].value for one in cells), folder),
+            "of": Figure(sum(one["of"].value for one in cells), folder),
+            "status": min((one["status"] for one in cells if one["status"]), default=0),
+        }
+
+    mutants = []
+    for judge in JUDGES.values():
+        rows = [row for one in documents for row in one["mutants"] if row["judge"] == judge]
+        if rows:
+            mutants.append(
+                {
+                    "judge": judge,
+                    "killed": Figure(sum(row["killed"].value for row in rows), "build/strength/"),
+                    "of": Figure(sum(row["of"].value for row in rows), "build/strength/"),
+                }
+            )
+    return {
+        "properties": add([cell for one in documents for cell in one["environments"]]),
+        "groups": [add([one["groups"][place] for one in documents]) for place in range(len(GROUPS))],
+        "mutants": mutants,
+    }

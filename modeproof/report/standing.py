@@ -1,0 +1,137 @@
+"""How things stand, in a form that two reports can be compared by: verdicts, counts, mutants, pins, tools."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from modeproof.registers.rows import Document
+from modeproof.report.missing import LANE
+from modeproof.report.sources import Evidence, Sources
+from modeproof.report.verdicts import ASIDE, POSITIVE, Line, PropertyRow, Record, property_lines
+
+COUNTS = ("distinct", "generated", "states", "transitions", "scans", "cases", "clauses", "citations")
+"""What is counted in the result of a piece of evidence and is the same whenever it is made."""
+JUDGES = {"spec": "properties", "impl": "theorems", "vectors": "vectors"}
+"""Who judged the planted faults of build/strength/<document>/<name>.jsonl."""
+_PIN = re.compile(r"^(\w+) = ([^#\n]*?)\s*(?:# (.*))?$")
+_PINNED = ("distinct", "generated", "trace_length", "states", "edges", "cfg_sha256")
+
+
+def as_it_counts(one: Evidence) -> Record:
+    """The record of a piece of evidence; of one that is stale, that nothing is known now."""
+    if not one.changed:
+        return one.record
+    reason = f"its evidence ({one.record['verdict']}) is of another text of {one.changed[0]}"
+    return {**one.record, "verdict": "UNJUDGED", "as_expected": False, "reason": reason, "strength": reason}
+
+
+def lines_of(sources: Sources, document: Document) -> list[Line]:
+    """Each property in each environment; UNJUDGED where this lane declares a run and none has evidence."""
+    rows = [PropertyRow(one.id, one.tla, one.environments) for one in document.properties]
+    records = [as_it_counts(one) for one in sources.evidence[document.name].values()]
+    runs = [run for run in document.runs if run.kind in POSITIVE]
+    declared = {run.id: {(name, run.environment) for name in run.properties} for run in runs}
+    here: dict[tuple[str, str], str] = {}
+    for run in runs:
+        if LANE in run.lanes:
+            for name in run.properties:
+                here.setdefault((name, run.environment), run.id)
+    tla_of = {one.id: one.tla for one in document.properties}
+    found = []
+    for line in property_lines(rows, records, declared):
+        lost = here.get((tla_of[line.property], line.environment))
+        if line.verdict == ASIDE and lost:
+            why = f"no evidence of {lost}"
+            line = replace(line, verdict="UNJUDGED", status=2, strength=why, run="")
+        found.append(line)
+    return found
+
+
+def mutants_of(sources: Sources, document: str) -> dict[str, dict[str, int]]:
+    """How many planted faults have which verdict, by judge; the last judgement of a fault counts."""
+    key = f"mutants of {document}"
+    if key not in sources.shelf:
+        found: dict[str, dict[str, int]] = {}
+        for file, judge in JUDGES.items():
+            content = sources.content(mutants_file(document, file))
+            if content is None:
+                continue
+            verdicts: dict[str, str] = {}
+            for line in content.splitlines():
+                try:
+                    row = json.loads(line)
+                    verdicts[str(row["mutant"])] = str(row["verdict"])
+                except (ValueError, KeyError, TypeError):
+                    continue  # the last line of a campaign that was stopped
+            counts: dict[str, int] = {}
+            for verdict in sorted(verdicts.values()):
+                counts[verdict] = counts.get(verdict, 0) + 1
+            found[judge] = counts
+        sources.shelf[key] = found
+    kept: dict[str, dict[str, int]] = sources.shelf[key]
+    return kept
+
+
+def mutants_file(document: str, name: str) -> str:
+    """Where a campaign keeps its judgements."""
+    return f"build/strength/{document}/{name}.jsonl"
+
+
+def pins_of(sources: Sources, document: str) -> dict[str, dict[str, dict[str, str]]]:
+    """The pins of each run as runs.toml has them: value, and the reason that was given when it was moved."""
+    content = sources.content(f"spec/{document}/runs.toml") or b""
+    pins: dict[str, dict[str, dict[str, str]]] = {}
+    id = ""
+    for line in content.decode("utf-8", "replace").splitlines():
+        if line.startswith("[[run]]"):
+            id = ""
+        found = _PIN.match(line)
+        if found and found.group(1) == "id":
+            id = found.group(2).strip('"')
+        elif found and id and found.group(1) in _PINNED:
+            value = {"value": found.group(2).strip('"')}
+            if found.group(3):
+                value["why"] = found.group(3).strip()
+            pins.setdefault(id, {})[found.group(1)] = value
+    return pins
+
+
+def standing(sources: Sources) -> dict[str, Any]:
+    """All that the next report will be compared with."""
+    verdicts: dict[str, str] = {}
+    results: dict[str, Any] = {}
+    mutants: dict[str, Any] = {}
+    pins: dict[str, Any] = {}
+    for name, document in sources.documents.items():
+        for line in lines_of(sources, document):
+            verdicts[f"{name}: {line.property} ({line.environment})"] = line.verdict
+        for one in sources.evidence[name].values():
+            results[f"{name}/{one.id}"] = {"verdict": one.record["verdict"], "counts": _counts(one.result)}
+        mutants |= {f"{name}, by {judge}": of for judge, of in mutants_of(sources, name).items()}
+        pins |= {f"{name}/{run}": of for run, of in pins_of(sources, name).items()}
+    tools: dict[str, list[str]] = {}
+    for one in sources.everything():
+        for tool, entry in one.record["tools"].items():
+            version = str(entry["version"])
+            if version not in tools.setdefault(str(tool), []):
+                tools[str(tool)].append(version)
+    return {
+        "verdicts": verdicts,
+        "results": results,
+        "mutants": mutants,
+        "pins": pins,
+        "tools": {tool: sorted(versions) for tool, versions in sorted(tools.items())},
+    }
+
+
+def _counts(result: Mapping[str, Any]) -> dict[str, int]:
+    found = {key: result[key] for key in COUNTS if isinstance(result.get(key), int)}
+    if isinstance(result.get("graph"), Mapping):
+        found |= {key: result["graph"][key] for key in ("states", "edges") if key in result["graph"]}
+    if isinstance(result.get("queries"), list):
+        found["queries"] = len(result["queries"])
+    return found

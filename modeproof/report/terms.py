@@ -1,0 +1,102 @@
+"""Terms of the field, from docs/glossary.toml; where a part uses one first, the word leads to its meaning."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass
+
+from modeproof.report.sources import HOLE, Sources, Trouble
+
+REGISTER = "docs/glossary.toml"
+PART = "glossary"
+_TAG = re.compile(r"(<[^>]*>)")
+_NAME = re.compile(r"</?([a-zA-Z0-9]+)")
+_APART = frozenset(
+    (
+        "a",
+        "button",
+        "caption",
+        "code",
+        "h2",
+        "h3",
+        "h4",
+        "label",
+        "option",
+        "pre",
+        "script",
+        "select",
+        "style",
+        "summary",
+        "svg",
+        "textarea",
+        "th",
+    )
+)
+"""Elements whose text is left as it is: links within links, headings, names, drawings."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """One word of the field: what it means here, other forms of it, and where it is from."""
+
+    word: str
+    says: str
+    forms: tuple[str, ...] = ()
+    clauses: tuple[str, ...] = ()
+
+    @property
+    def anchor(self) -> str:
+        """The id of its row."""
+        return "term-" + re.sub(r"[^a-z0-9]+", "-", self.word.lower()).strip("-")
+
+
+def terms_of(sources: Sources) -> tuple[tuple[Term, ...], tuple[Trouble, ...]]:
+    """The register in the order of the words; none, with a trouble, where it is not there or damaged."""
+    content = sources.content(REGISTER)
+    if content is None:
+        return (), (Trouble(HOLE, PART, f"{REGISTER} is not there: no word of the field is explained"),)
+    try:
+        rows = tomllib.loads(content.decode("utf-8"))["term"]
+        terms = [
+            Term(
+                str(row["word"]), str(row["says"]), tuple(row.get("forms", ())), tuple(row.get("clauses", ()))
+            )
+            for row in rows
+        ]
+    except (ValueError, KeyError, TypeError) as error:
+        return (), (Trouble(HOLE, PART, f"{REGISTER} cannot be read: {error}"),)
+    return tuple(sorted(terms, key=lambda one: one.word.lower())), ()
+
+
+class Terms:
+    """Links the first use of each term in a part."""
+
+    def __init__(self, sources: Sources) -> None:
+        self._terms = {form.lower(): one for one in terms_of(sources)[0] for form in (one.word, *one.forms)}
+        longest_first = sorted(map(re.escape, self._terms), key=len, reverse=True)
+        self._form = re.compile(rf"(?<![\w-])(?:{'|'.join(longest_first)})(?![\w-])", re.IGNORECASE)
+
+    def linked(self, part: str, html: str) -> str:
+        """The HTML of a part, as a template made it: tags stay as they are, and all text but terms."""
+        if not self._terms or part == PART:
+            return html
+        used: set[str] = set()
+        depth = 0
+
+        def link(found: re.Match[str]) -> str:
+            term = self._terms[found.group().lower()]
+            if term.word in used:
+                return found.group()
+            used.add(term.word)
+            return f'<a class="term" href="#{term.anchor}">{found.group()}</a>'
+
+        pieces = _TAG.split(html)
+        for place, piece in enumerate(pieces):
+            if place % 2:
+                name = _NAME.match(piece)
+                if name and name.group(1).lower() in _APART and not piece.endswith("/>"):
+                    depth += -1 if piece.startswith("</") else 1
+            elif not depth and piece.strip():
+                pieces[place] = self._form.sub(link, piece)
+        return "".join(pieces)

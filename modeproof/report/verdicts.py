@@ -1,0 +1,91 @@
+"""The verdict on each property in each environment, from evidence and the register of properties alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+Record = Mapping[str, Any]
+
+ASIDE = "not in this lane"
+POSITIVE = ("MC", "LIVE", "OPEN")
+"""Kinds of runs in which every property must hold."""
+
+
+@dataclass(frozen=True)
+class PropertyRow:
+    """A property as the register declares it: id, TLA+ name and the environments under which it must hold."""
+
+    id: str
+    tla: str
+    environments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Line:
+    """One property in one environment; `status` 0 as expected, 1 not, 2 not judged.
+
+    `run` is the id of the run that is shown; "" where there is none.
+    """
+
+    property: str
+    verdict: str
+    environment: str
+    strength: str
+    distinct: int | None
+    seconds: float | None
+    status: int
+    run: str = ""
+
+
+def status_of(record: Record) -> int:
+    """Exit status of one piece of evidence."""
+    if record["as_expected"]:
+        return 0
+    return 2 if record["verdict"] in ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED") else 1
+
+
+def property_lines(
+    properties: Sequence[PropertyRow], records: Sequence[Record], declared: Mapping[str, set[tuple[str, str]]]
+) -> list[Line]:
+    """A line per property and environment, from the runs that must hold.
+
+    `declared` gives for each run id the pairs (property, environment) that any lane checks: a pair that no
+    run of any lane checks is UNJUDGED; one that only another lane checks is shown and not counted. Runs stand
+    in the order of runs.toml, the strongest first.
+    """
+    order = {run: place for place, run in enumerate(declared)}
+    anywhere = set().union(*declared.values()) if declared else set()
+    positive = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in POSITIVE]
+    lines = []
+    for row in properties:
+        for environment in row.environments:
+            runs = [
+                r
+                for r in positive
+                if r["environment"] == environment and row.tla in r["result"].get("properties", ())
+            ]
+            runs.sort(key=lambda r: order.get(r["id"], len(order)))
+            lines.append(_line(row, environment, runs, (row.tla, environment) in anywhere))
+    return lines
+
+
+def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere: bool) -> Line:
+    if not runs:
+        word, status = (ASIDE, 0) if elsewhere else ("UNJUDGED", 2)
+        why = "" if elsewhere else "no run checks it"
+        return Line(row.id, word, environment, why, None, None, status)
+    # The weakest verdict counts; among equals the run that is declared first is shown.
+    worst = max(runs, key=status_of)
+    status = status_of(worst)
+    verdict = str(worst["verdict"])
+    if status and verdict == "VIOLATED" and worst["result"].get("violated") not in (row.tla, ""):
+        verdict = (
+            "INCONCLUSIVE"  # another property of the same run failed first: nothing is known of this one
+        )
+    elif status == 1 and verdict == "HOLDS":
+        verdict = "HOLDS?"  # held, but not the run that was declared: a count or a name differs
+    seconds = sum(float(r["seconds"]) for r in runs)
+    distinct = worst["result"].get("distinct")
+    return Line(row.id, verdict, environment, worst["strength"], distinct, seconds, status, str(worst["id"]))
