@@ -58,10 +58,10 @@ def choose(folder: Path, digest: str) -> Baseline:
             if last.get("digest") != digest:
                 return Baseline(last, text)
         except Unjudged as error:
-            problem = error.message
+            problem = error.message.replace(f"{folder}/", "")
     if (folder / PREVIOUS).exists():
         try:
             return Baseline(read_report(folder / PREVIOUS)[1], None, problem)
         except Unjudged as error:
-            problem = error.message
+            problem = error.message.replace(f"{folder}/", "")
     return Baseline(None, None, problem)

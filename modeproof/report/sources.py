@@ -171,7 +171,7 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
-        troubles += _stale(name, evidence[name].values())
+    troubles += _stale([one for of in evidence.values() for one in of.values()])
     return Sources(root, found, evidence, dict(sorted(files.items())), tuple(troubles))
 
 
@@ -181,33 +181,33 @@ def few(names: Sequence[str], most: int = 3) -> str:
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
 
 
-def _stale(name: str, evidence: Iterable[Evidence]) -> Iterator[Trouble]:
-    """Evidence of other texts than the present ones: one trouble for each set of files that changed or went.
-
-    A file of build/ that went is made again by the command that made it, so that it is no hole.
+def _stale(evidence: Iterable[Evidence]) -> Iterator[Trouble]:
+    """Evidence of other texts than the present ones: one trouble for each set of files that changed or went,
+    and one for all that rests on files of build/ that went: the command that made them makes them again.
     """
-    causes: dict[tuple[tuple[str, ...], str, int], list[Evidence]] = {}
+    causes: dict[tuple[tuple[str, ...], str], list[Evidence]] = {}
+    unmade: dict[str, list[Evidence]] = {}
     for one in evidence:
         if one.changed:
-            causes.setdefault((one.changed, "is of another text of", HOLE), []).append(one)
-        lost = tuple(path for path in one.gone if not path.startswith("build/"))
-        made = tuple(path for path in one.gone if path.startswith("build/"))
-        if lost:
-            causes.setdefault((lost, "rests on what is not there:", HOLE), []).append(one)
-        elif made and not one.changed:
-            causes.setdefault((made, "rests on a file that was made and is not there now:", NOTE), []).append(
-                one
-            )
-    for (files, says, status), found in causes.items():
-        ids = tuple(one.id for one in found)
-        remedy = str(found[0].record["command"]) if len(found) == 1 else f"modeproof verify --document {name}"
-        yield Trouble(
-            status,
-            "verdict" if status else "reproduce",
-            f"{name}: {few(ids)} {says} {few(files)}",
-            remedy,
-            ids,
-        )
+            causes.setdefault((one.changed, "of another text of"), []).append(one)
+        for path in one.gone:
+            if path.startswith("build/"):
+                unmade.setdefault(path, []).append(one)
+        if lost := tuple(path for path in one.gone if not path.startswith("build/")):
+            causes.setdefault((lost, "resting on what is not there:"), []).append(one)
+    for (files, says), found in causes.items():
+        ids = tuple(f"{one.record['document']}/{one.id}" for one in found)
+        documents = dict.fromkeys(str(one.record["document"]) for one in found)
+        remedy = "modeproof verify" + (f" --document {next(iter(documents))}" if len(documents) == 1 else "")
+        if len(found) == 1:
+            remedy = str(found[0].record["command"])
+        count = "1 piece" if len(ids) == 1 else f"{len(ids)} pieces"
+        what = f"{count} of evidence {says} {few(files)}: {few(ids)}"
+        yield Trouble(HOLE, "verdict", what, remedy, ids)
+    if unmade:
+        what = f"files were made, used and are not there now: {few(tuple(unmade))}"
+        items = tuple(f"{path} ({few([one.id for one in of])})" for path, of in unmade.items())
+        yield Trouble(NOTE, "reproduce", what, "", items)
 
 
 class _Hashes(dict[str, str | None]):
