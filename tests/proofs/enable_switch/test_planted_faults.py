@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from types import ModuleType
-from typing import Any
 
 import pytest
 import z3
@@ -14,13 +11,10 @@ from modeproof.places import root
 from modeproof.registers import load_document
 from proofs.enable_switch import invariants, step_paths, switch_answers, switch_outputs, switch_safety
 from proofs.enable_switch.devices import SWITCH
-from proofs.sentences import Judge, Sentence
-from proofs.solvers import ask_z3
-from proofs.theorem import Theorem
-from tests.proofs.mode_selection.planted_steps import begun_in, planted, refuted
+from proofs.sentences import Sentence
+from tests.proofs.block import Planted, named, wrong_answers
 
 JUDGE, ANYWHERE = invariants.JUDGE, switch_answers.ANYWHERE
-Edit = tuple[str, str]
 
 
 def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
@@ -35,8 +29,8 @@ NEVER_OVER = (
     "return s.elapsed_ms + i.dt_ms >= s.params.DiscrepancyTimeCh1_Ch3_ms",
     "return s.elapsed_ms + i.dt_ms > s.params.DiscrepancyTimeCh1_Ch3_ms",
 )
-FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
-    (
+FAULTS = [
+    Planted(
         "EnableNeedsItsConditions",
         JUDGE,
         "Stage0",
@@ -48,14 +42,14 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "EnableNeedsStage0",
         JUDGE,
         "Stage2",
         switch_safety.enable_needs_stage_0,
         [("return _at(s, i, Step.PLAUSIBILITY_ERROR)  # RefuseStage1", "return _at(s, i, Step.STAGE_1)")],
     ),
-    (
+    Planted(
         "EnableStandsAlone",
         JUDGE,
         "Stage0",
@@ -67,7 +61,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "IdleIsSilent",
         JUDGE,
         "Stage1",
@@ -79,79 +73,81 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "ActivateGoesFirst",
         JUDGE,
         "Stage1",
         switch_safety.activate_goes_first,
         [("if not i.Activate:", "if not i.Activate and s.state != Step.STAGE_1:")],
     ),
-    (
+    Planted(
         "ModeEndsOperation",
         JUDGE,
         "Stage1",
         switch_safety.mode_ends_operation,
         [("return _at(s, i, Step.BASIC_MODE)  # LoseSafetyActive", "return _at(s, i, Step.STAGE_0)")],
     ),
-    ("ErrorNeedsReset", JUDGE, "OperationErrorAtStage0", switch_safety.error_needs_reset, [RESET, STATIC]),
-    (
+    Planted(
+        "ErrorNeedsReset", JUDGE, "OperationErrorAtStage0", switch_safety.error_needs_reset, [RESET, STATIC]
+    ),
+    Planted(
         "ErrorNeedsReset",
         JUDGE,
         "EquivalenceError",
         switch_safety.error_needs_reset,
         [("if s.params.MODE_ENDS_ERROR and not i.S_SafetyActive:", "if not i.S_SafetyActive:")],
     ),
-    (
+    Planted(
         "ErrorNeedsResetInTheMode",
         JUDGE,
         "PlausibilityError",
         switch_safety.error_needs_reset_in_the_mode,
         [("if s.params.MODE_ENDS_ERROR and not i.S_SafetyActive:", "if s.params.MODE_ENDS_ERROR:")],
     ),
-    (
+    Planted(
         "HeldResetNeverResets",
         JUDGE,
         "EquivalenceErrorAtStage0",
         switch_safety.held_reset_never_resets,
         [RESET, STATIC],
     ),
-    (
+    Planted(
         "HeldResetIsAnError",
         JUDGE,
         "EquivalenceErrorAtStage0",
         switch_safety.held_reset_is_an_error,
         [STATIC],
     ),
-    (
+    Planted(
         "DisagreementEndsInError",
         JUDGE,
         "ChangeToStage0",
         switch_safety.disagreement_ends_in_error,
         [NEVER_OVER],
     ),
-    (
+    Planted(
         "ContradictionEndsInError",
         JUDGE,
         "ChangeToStage1",
         switch_safety.contradiction_ends_in_error,
         [NEVER_OVER],
     ),
-    ("EnableComesInTime", JUDGE, "ChangeToStage1", switch_safety.enable_comes_in_time, [LATE]),
-    (
+    Planted("EnableComesInTime", JUDGE, "ChangeToStage1", switch_safety.enable_comes_in_time, [LATE]),
+    Planted(
         "PatternsDecide",
         ANYWHERE,
         "Stage1",
         switch_answers.patterns_decide,
         [("return _at(s, i, Step.CHANGE_TO_STAGE_0)  # BeginReturn", "return _at(s, i, Step.STAGE_1)")],
     ),
-    (
+    Planted(
         "OneTransitionACall",
         ANYWHERE,
         "PlausibilityErrorAtStage0",
         switch_answers.one_transition,
         [("return _at(s, i, Step.STAGE_0)  # LeaveError", "return _at(s, i, Step.SAFE_MODE)")],
     ),
-    (
+    Planted(
         "HeldResetNeverResets",
         JUDGE,
         "OperationErrorAtStage0",
@@ -163,7 +159,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "OutputsFollowTheCode",
         JUDGE,
         "EquivalenceError",
@@ -175,7 +171,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "PowerUpIsSilent",
         JUDGE,
         "Stage1",
@@ -187,14 +183,14 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "EnablesAgain",
         ANYWHERE,
         "Stage0",
         switch_answers.stage_1_enables,
         [("return _at(s, i, Step.STAGE_1)  # Enable", "return _at(s, i, Step.STAGE_2)")],
     ),
-    (
+    Planted(
         "EnablesAgain",
         ANYWHERE,
         "ResetError2",
@@ -206,49 +202,49 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "the invariant",
         JUDGE,
         "Stage0",
         lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
         [REMEMBERED],
     ),
-    (
+    Planted(
         "the row",
         JUDGE,
         "Stage2",
         _state(switch_outputs.row_of_the_state),
         [("0x8832", "0x8812")],
     ),
-    (
+    Planted(
         "the time",
         JUDGE,
         "ChangeToStage1",
         switch_safety.timer_counts,
         [("s.elapsed_ms + i.dt_ms)  # AwaitChange", "i.dt_ms)")],
     ),
-    (
+    Planted(
         "the cause",
         JUDGE,
         "ChangeToStage0",
         switch_safety.ends_by_its_cause,
         [("if all_true(i):", "if i.S_EnableSwitchCh2:")],
     ),
-    (
+    Planted(
         "the reset",
         ANYWHERE,
         "PlausibilityErrorAtStage0",
         switch_answers.resets_lead_back,
         [("        if i.S_SafetyActive:\n            return _at(s, i, Step.STAGE_0)  # LeaveError\n", "")],
     ),
-    (
+    Planted(
         "the edge",
         ANYWHERE,
         "OperationErrorAtStage0",
         switch_answers.the_edge_resets,
         [("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.S_AutoReset:")],
     ),
-    (
+    Planted(
         "the kind of error",
         ANYWHERE,
         "ResetError3",
@@ -260,7 +256,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "the parameter",
         ANYWHERE,
         "EquivalenceError",
@@ -270,30 +266,19 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "judge", "control", "sentence", "edits"), FAULTS, ids=[f"{one[0]}-{one[2]}" for one in FAULTS]
-)
-def test_a_planted_fault_is_refuted_with_an_example_that_happens(
-    name: str, judge: Judge, control: str, sentence: Sentence, edits: list[Edit]
-) -> None:
-    with planted(judge.device, *edits) as device:
-        scan = begun_in(device, control)
-        assert refuted(replace(judge, device=device, explored=(scan,)), sentence, control)
-    assert not refuted(judge, sentence, control)
-
-
-def _theorems(*modules: ModuleType) -> list[Theorem]:
-    return [one for module in modules for one in vars(module).values() if isinstance(one, Theorem)]
+@pytest.mark.parametrize("fault", FAULTS, ids=[f"{one.name}-{one.control}" for one in FAULTS])
+def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
+    assert fault.refuted()
+    assert not fault.refuted_unplanted()
 
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
-    found: list[Any] = _theorems(switch_answers, switch_outputs, switch_safety, step_paths)
-    named = {name for item in found for name in item.properties}
-    assert {one[0] for one in FAULTS} >= named - {"EveryCallIsAnswered"}
-    assert {one.id for one in load_document(root(), "enable_switch").properties} == named
+    proved = named(switch_answers, switch_outputs, switch_safety, step_paths)
+    assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
+    assert {one.id for one in load_document(root(), "enable_switch").properties} == proved
 
 
 def test_the_theorem_of_the_paths_is_true() -> None:
     queries = step_paths.every_call_of_the_switch_takes_exactly_one_path.queries()
     assert len(queries) >= 2 * len(SWITCH.register.states)
-    assert not [one.name for one in queries[:8] if ask_z3(one, "", 20_000).answer != one.expected]
+    assert not wrong_answers(queries[:8])

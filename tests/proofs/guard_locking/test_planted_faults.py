@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from types import ModuleType
 
 import pytest
 import z3
@@ -14,14 +12,10 @@ from modeproof.registers import load_document
 from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, step_paths
 from proofs.guard_locking.devices import BLOCK
 from proofs.guard_locking.invariant import JUDGE, LOCKED
-from proofs.sentences import Judge, Sentence
-from proofs.solvers import ask_z3
-from proofs.theorem import Theorem
-from tests.any_machine import LONG_MS
-from tests.proofs.mode_selection.planted_steps import begun_in, planted, refuted
+from proofs.sentences import Sentence
+from tests.proofs.block import Planted, named, wrong_answers
 
 ANYWHERE = block_response.FROM_ANYWHERE
-Edit = tuple[str, str]
 
 
 def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
@@ -32,44 +26,44 @@ UNASKED = ("if i.S_SafetyActive and _requested(s, i):", "if i.UnlockRequest or i
 NO_EDGE = ("if rises(i.Reset, s.reset_before):", "if i.Reset:")
 NO_STATIC = ("held(i.Reset, s.reset_before)", "held(i.Reset, i.Activate) and not i.Reset")
 ROW = "Outputs(True, False, False, True, 0xC004)"
-FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
-    ("RowOfDiagCode", JUDGE, "SafetyReturn", _state(block_safety.row), [("0xC002", "0xC003")]),
-    (
+FAULTS = [
+    Planted("RowOfDiagCode", JUDGE, "SafetyReturn", _state(block_safety.row), [("0xC002", "0xC003")]),
+    Planted(
         "NothingWhileInactiveOrInError",
         JUDGE,
         "GuardOpenAndUnlocked",
         _state(block_safety.nothing_while_inactive),
         [(ROW, ROW.replace("True, False, False", "True, False, True"))],
     ),
-    (
+    Planted(
         "InactiveIsNoError",
         JUDGE,
         "Init",
         _state(block_safety.nothing_while_inactive),
         [("Outputs(False, False, False, False, 0x0000)", "Outputs(False, False, False, False, 0x8002)")],
     ),
-    (
+    Planted(
         "NeverEnabledAndUnlocked",
         JUDGE,
         "WaitForReset",
         _state(block_safety.never_both),
         [("Outputs(True, True, False, False, 0x8000)", "Outputs(True, True, True, False, 0x8000)")],
     ),
-    (
+    Planted(
         "PowerUpIsSafe",
         JUDGE,
         "Init",
         lambda one: (z3.Not(one.inputs.Activate), block_safety.safe_at_power_up(one, None)),
         [("Outputs(False, False, False, False, 0x0000)", "Outputs(True, False, False, False, 0x0000)")],
     ),
-    (
+    Planted(
         "InactiveAtOnce",
         JUDGE,
         "ResetError2",
         block_safety.inactive_at_once,
         [("if not i.Activate:", "if not i.Activate and not i.Reset:")],
     ),
-    (
+    Planted(
         "EnableNeedsSecuredGuard",
         JUDGE,
         "WaitForReset",
@@ -81,15 +75,15 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    ("NoAutomaticRestart", JUDGE, "Init", block_safety.no_automatic_restart, [NO_STATIC, NO_EDGE]),
-    (
+    Planted("NoAutomaticRestart", JUDGE, "Init", block_safety.no_automatic_restart, [NO_STATIC, NO_EDGE]),
+    Planted(
         "StartUpInhibitNeedsReset",
         JUDGE,
         "WaitForReset",
         block_safety.start_up_inhibit_needs_reset,
         [("alone = i.S_AutoReset and not s.start_up_inhibit", "alone = i.S_AutoReset")],
     ),
-    (
+    Planted(
         "LossNeedsReset",
         JUDGE,
         "SafetyReturn",
@@ -99,36 +93,36 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             ("if rises(i.Reset, s.reset_before):", "if i.S_AutoReset:"),
         ],
     ),
-    (
+    Planted(
         "LossNeedsGuardBack",
         JUDGE,
         "SafetyReturn",
         lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
         [("s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE and", "s.params.CAUSE_OF_LOSS == ZONE and")],
     ),
-    (
+    Planted(
         "StaticResetNeverResets",
         JUDGE,
         "SafetyReturn",
         block_safety.static_reset_resets_nothing,
         [NO_STATIC, NO_EDGE],
     ),
-    ("StaticResetIsFound", JUDGE, "WaitForReset", block_safety.static_reset_is_found, [NO_STATIC]),
-    (
+    Planted("StaticResetIsFound", JUDGE, "WaitForReset", block_safety.static_reset_is_found, [NO_STATIC]),
+    Planted(
         "LossIsAnError",
         JUDGE,
         LOCKED,
         block_safety.loss_is_an_error,
         [("return Step.SAFETY_LOST  # LoseGuard", "return Step.WAIT_FOR_OPERATOR")],
     ),
-    (
+    Planted(
         "ErrorNeedsCause",
         JUDGE,
         "WaitForOperator",
         block_safety.error_needs_cause,
         [("if not i.S_SafetyActive and not (i.S", "if not (i.S")],
     ),
-    (
+    Planted(
         "ErrorEndsWithCause",
         JUDGE,
         "ResetError3",
@@ -140,64 +134,76 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "OneTransitionACall",
         JUDGE,
         "Idle",
         block_safety.in_the_table,
         [("return Step.INIT  # StartUp", "return Step.WAIT_FOR_RESET")],
     ),
-    (
+    Planted(
         "CodeTellsTheGuard",
         JUDGE,
         "GuardOpenAndUnlocked",
         block_safety.code_tells_the_guard,
         [("return Step.GUARD_OPEN_AND_UNLOCKED  # StayOpen", "return Step.GUARD_CLOSED_BUT_UNLOCKED")],
     ),
-    ("UnlockNeedsSafeZone", JUDGE, LOCKED, block_locks.unlock_needs_safe_zone, [UNASKED]),
-    (
+    Planted("UnlockNeedsSafeZone", JUDGE, LOCKED, block_locks.unlock_needs_safe_zone, [UNASKED]),
+    Planted(
         "UnlockedOnlyWhileSafe",
         JUDGE,
         "GuardOpenAndUnlocked",
         block_locks.unlocked_only_while_safe,
         [("if not i.S_SafetyActive and s.params.ZONE_LOST == ERROR:", "if False:")],
     ),
-    (
+    Planted(
+        "NoErrorLocksSafeZone",
+        JUDGE,
+        "GuardOpenAndUnlocked",
+        block_locks.no_error_locks_safe_zone,
+        [
+            (
+                "    if i.S_GuardMonitoring:\n",
+                "    if i.S_GuardLock:\n        return Step.SAFETY_LOST\n    if i.S_GuardMonitoring:\n",
+            )
+        ],
+    ),
+    Planted(
         "UnlockNeedsRequest",
         JUDGE,
         "WaitForOperator",
         block_locks.unlock_needs_request,
         [("if i.UnlockRequest and i.S_SafetyActive:", "if i.S_SafetyActive:")],
     ),
-    (
+    Planted(
         "UnlockNeedsRequestWhileLocked",
         JUDGE,
         LOCKED,
         block_locks.request_while_locked,
         [("if s.params.UNLOCK_ON == LATCHED and s.request_pending:", "if s.params.UNLOCK_ON == LATCHED:")],
     ),
-    (
+    Planted(
         "UnlockNeedsRequestNow",
         JUDGE,
         LOCKED,
         block_locks.request_now,
         [("return rises(i.UnlockRequest, s.unlock_request_before)", "return i.UnlockRequest")],
     ),
-    (
+    Planted(
         "HeldRequestUnlocks",
         JUDGE,
         LOCKED,
         block_locks.held_request_unlocks,
         [("if s.params.UNLOCK_ON == LEVEL:", "if s.params.UNLOCK_ON == LEVEL and i.Reset:")],
     ),
-    (
+    Planted(
         "RequestUnlocksAtOnce",
         JUDGE,
         LOCKED,
         block_locks.request_unlocks_at_once,
         [("return rises(i.UnlockRequest, s.unlock_request_before)", "return s.request_pending")],
     ),
-    (
+    Planted(
         "LatchedRequestUnlocks",
         JUDGE,
         LOCKED,
@@ -209,57 +215,57 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "StaysUnlockedWhileRequested",
         JUDGE,
         "GuardClosedButUnlocked",
         block_locks.stays_unlocked_while_requested,
         [("if not i.UnlockRequest:\n", "if i.S_GuardLock:\n")],
     ),
-    (
+    Planted(
         "StaysUnlockedWhileOpen",
         JUDGE,
         "GuardOpenAndUnlocked",
         block_locks.stays_unlocked_while_open,
         [("return Step.GUARD_OPEN_AND_UNLOCKED  # StayOpen", "return Step.WAIT_FOR_OPERATOR")],
     ),
-    (
+    Planted(
         "LocksWithoutRequest",
         JUDGE,
         "GuardClosedButUnlocked",
         block_locks.locks_without_request,
         [("if not i.UnlockRequest:\n", "if not i.UnlockRequest and i.S_GuardLock:\n")],
     ),
-    (
+    Planted(
         "LockedWhateverTheZone",
         JUDGE,
         LOCKED,
         block_locks.locked_whatever_the_zone,
         [("return Step.GUARD_CLOSED_AND_LOCKED  # StayLocked", "return Step.SAFETY_LOST")],
     ),
-    ("StaysLocked", JUDGE, LOCKED, block_locks.stays_locked, [UNASKED]),
-    (
+    Planted("StaysLocked", JUDGE, LOCKED, block_locks.stays_locked, [UNASKED]),
+    Planted(
         "the wires",
         JUDGE,
         "SafetyLost",
         block_memory.remembers_the_wires,
         [("        inputs.Reset,\n", "        inputs.Reset and inputs.Activate,\n")],
     ),
-    (
+    Planted(
         "the pending request",
         JUDGE,
         LOCKED,
         block_memory.pending,
         [("s.request_pending or not s.unlock_request_before", "not s.unlock_request_before")],
     ),
-    (
+    Planted(
         "the inhibit",
         JUDGE,
         "Init",
         block_memory.inhibit,
         [("== UNTIL_RESET and not i.S_StartReset", "== UNTIL_RESET")],
     ),
-    (
+    Planted(
         "AnswersAtOnce",
         JUDGE,
         "SafetyLost",
@@ -271,21 +277,21 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "EnablesAgain",
         ANYWHERE,
         "ResetError2",
         block_response.comes_closer,
         [("return Step.SAFETY_RETURN  # ReleaseReset", "return Step.SAFETY_LOST")],
     ),
-    (
+    Planted(
         "EntryIsGranted",
         JUDGE,
         "WaitForOperator",
         block_response.lets_in,
         [("if i.UnlockRequest and i.S_SafetyActive:", "if i.UnlockRequest and not i.S_GuardLock:")],
     ),
-    (
+    Planted(
         "the invariant",
         JUDGE,
         "Init",
@@ -295,34 +301,23 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "judge", "control", "sentence", "edits"), FAULTS, ids=[one[0] for one in FAULTS]
-)
-def test_a_planted_fault_is_refuted_with_an_example_that_happens(
-    name: str, judge: Judge, control: str, sentence: Sentence, edits: list[Edit]
-) -> None:
-    with planted(judge.device, *edits) as device:
-        scan = begun_in(device, control)
-        assert refuted(replace(judge, device=device, explored=(scan,)), sentence, control)
-    if name != "PowerUpIsSafe":  # it speaks of power-up, and is asked of a call here
-        assert not refuted(judge, sentence, control)
-
-
-def _theorems(*modules: ModuleType) -> list[Theorem]:
-    return [one for module in modules for one in vars(module).values() if isinstance(one, Theorem)]
+@pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
+def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
+    assert fault.refuted()
+    if fault.name != "PowerUpIsSafe":  # it speaks of power-up, and is asked of a call here
+        assert not fault.refuted_unplanted()
 
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
-    found = _theorems(block_safety, block_locks, block_memory, block_response, step_paths)
-    named = {name for item in found for name in item.properties}
-    assert {one[0] for one in FAULTS} >= named - {"EveryCallIsAnswered"}
+    proved = named(block_safety, block_locks, block_memory, block_response, step_paths)
+    assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
     not_of_the_block = {"NobodyInMovingZone", "NoMotionBehindOpenDoor", "NobodyShutInByAnError"}
     not_as_decided = {"MessageUntilReset"}
     known = {one.id for one in load_document(root(), "guard_locking").properties}
-    assert known - named == not_of_the_block | not_as_decided
+    assert known - proved == not_of_the_block | not_as_decided
 
 
 def test_the_theorem_of_the_paths_is_true() -> None:
     queries = step_paths.every_call_takes_exactly_one_path.queries()
     assert len(queries) >= 2 * len(BLOCK.register.states)
-    assert not [one.name for one in queries[:8] if ask_z3(one, "", LONG_MS).answer != one.expected]
+    assert not wrong_answers(queries[:8])

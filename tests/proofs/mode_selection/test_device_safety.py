@@ -28,7 +28,7 @@ from proofs.solvers import ask_z3
 from proofs.theorem import Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
 from tests.any_machine import LONG_MS
-from tests.proofs.mode_selection.planted_steps import begun_in, breaks, built, planted, refuted
+from tests.proofs.planted_steps import begun_in, breaks, built, planted, refuted
 
 MODULES: list[Any] = [panel_safety, panel_prompt, plc_safety, eks_safety, eks_prompt, fplc_response]
 

@@ -17,7 +17,7 @@ from proofs.sentences import Judge, Said, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem
 from tests.any_machine import LONG_MS
-from tests.proofs.mode_selection.planted_steps import begun_in, breaks, built, planted, refuted
+from tests.proofs.planted_steps import begun_in, breaks, built, planted, refuted
 
 SAFETY = [
     one

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from types import ModuleType
 
 import pytest
 import z3
 
 from modeproof.places import root
 from modeproof.registers import load_document
-from proofs.sentences import Judge, Sentence
-from proofs.solvers import ask_z3
+from proofs.sentences import Sentence
 from proofs.testable_safety_sensor import (
     rows,
     sensor_errors,
@@ -23,13 +20,11 @@ from proofs.testable_safety_sensor import (
 )
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.sensor_safety import JUDGE
-from proofs.theorem import Theorem
-from tests.proofs.mode_selection.planted_steps import begun_in, planted, refuted
+from tests.proofs.block import Planted, named, wrong_answers
 from tests.refimpl.testable_safety_sensor.printed_rows import ORDER, state_of
 from tests.refimpl.testable_safety_sensor.printed_rows import rows as printed
 
 ANYWHERE = sensor_response.JUDGE
-Edit = tuple[str, str]
 
 
 def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
@@ -41,22 +36,22 @@ FORGETS = ("return State(s.params, c, i.Reset,", "return State(s.params, c, i.Re
 LEVEL = ("return rises(i.Reset, s.reset_before)", "return i.Reset")
 EXPIRES = "    if _time_is_over(s, i):\n        return _to(s, i, _test_error(i))  # ExpireActive\n"
 FREE_FIRST = (EXPIRES, EXPIRES.replace("(s, i):", "(s, i) and not i.S_OSSD_In:"))
-FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
-    (
+FAULTS = [
+    Planted(
         "CodeTellsItsOutputs",
         JUDGE,
         "ESPEInterrupted1",
         _state(rows.code_tells_its_outputs),
         [(ROW_8402, ROW_8402.replace("True, False, 0x", "False, False, 0x"))],
     ),
-    (
+    Planted(
         "EnableMeansNothingPending",
         JUDGE,
         "ESPEInterrupted1",
         _state(rows.enable_means_nothing_pending),
         [(ROW_8402, ROW_8402.replace("True, False, True", "True, True, True", 1))],
     ),
-    (
+    Planted(
         "TestOutOnlyInTestRequest",
         JUDGE,
         "TestRequest",
@@ -69,7 +64,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             ),
         ],
     ),
-    (
+    Planted(
         "PowerUpIsSafe",
         JUDGE,
         "Init",
@@ -81,14 +76,14 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "EdgesAreRemembered",
         JUDGE,
         "Init",
         lambda one: (z3.BoolVal(True), one.after.reset_before == one.inputs.Reset),
         [FORGETS],
     ),
-    (
+    Planted(
         "EnableNeedsFreeSensor",
         JUDGE,
         "WaitForReset2",
@@ -100,21 +95,21 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "MaskedTimeIsBounded",
         JUDGE,
         "TestActive",
         _state(sensor_safety.masked_time_is_bounded),
         [("s.elapsed_ms + i.dt_ms >= s.params.TestTime_ms", "s.elapsed_ms + i.dt_ms > s.params.TestTime_ms")],
     ),
-    (
+    Planted(
         "InactiveAtOnce",
         JUDGE,
         "WaitForReset1",
         sensor_safety.inactive_at_once,
         [("if not i.Activate:", "if not i.Activate and not i.Reset:")],
     ),
-    (
+    Planted(
         "NoRestartByItself",
         JUDGE,
         "ESPEInterrupted2",
@@ -126,21 +121,21 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "FailedTestNeedsReset",
         JUDGE,
         "TestError1C410",
         sensor_safety.failed_test_needs_reset,
         [("return s.params.AUTO_RESET_ERRORS and i.S_AutoReset", "return i.S_AutoReset")],
     ),
-    (
+    Planted(
         "StartInhibitHolds",
         JUDGE,
         "WaitForReset1",
         sensor_safety.start_inhibit_holds,
         [("return i.S_AutoReset and not s.start_inhibit", "return i.S_AutoReset")],
     ),
-    (
+    Planted(
         "ResetOnlyWhereRequested",
         JUDGE,
         "ESPEInterrupted2",
@@ -152,7 +147,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "DemandIsShown",
         JUDGE,
         "EndExternalTest",
@@ -164,14 +159,14 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "TestNeedsEdgeWhilePossible",
         JUDGE,
         "ESPEFreeNoTest",
         sensor_test.test_needs_edge,
         [("return rises(i.StartTest, s.start_test_before)", "return i.StartTest")],
     ),
-    (
+    Planted(
         "TestStartsAtOnce",
         JUDGE,
         "ESPEFreeTestOk",
@@ -183,8 +178,8 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    ("SlowTestFails", JUDGE, "TestActive", sensor_test.slow_test_fails, [FREE_FIRST]),
-    (
+    Planted("SlowTestFails", JUDGE, "TestActive", sensor_test.slow_test_fails, [FREE_FIRST]),
+    Planted(
         "EachPhaseHasItsTime",
         JUDGE,
         "TestRequest",
@@ -196,7 +191,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "ReactionIsSeen",
         JUDGE,
         "TestActive",
@@ -208,8 +203,8 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    ("TestExecutedIsTrue", JUDGE, "TestActive", sensor_test.test_executed_is_true, [FREE_FIRST]),
-    (
+    Planted("TestExecutedIsTrue", JUDGE, "TestActive", sensor_test.test_executed_is_true, [FREE_FIRST]),
+    Planted(
         "TestExecutedStays",
         JUDGE,
         "ESPEFreeTestOk",
@@ -221,14 +216,14 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "CodeTellsResettable",
         JUDGE,
         "TestError1C410",
         sensor_errors.code_tells_resettable,
         [("if i.S_OSSD_In and i.NoExternalTest:", "if i.S_OSSD_In:")],
     ),
-    (
+    Planted(
         "ErrorLeftOnlyAsDocumented",
         JUDGE,
         "ResetError4",
@@ -240,35 +235,35 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "StaticResetIsFound",
         JUDGE,
         "EndExternalTest",
         sensor_errors.static_reset_is_found,
         [("return _to(s, i, Step.RESET_ERROR_4)", "return _to(s, i, Step.END_EXTERNAL_TEST)")],
     ),
-    (
+    Planted(
         "ResetErrorKeepsTestExecuted",
         JUDGE,
         "WaitForReset2",
         sensor_errors.reset_error_keeps_test_executed,
         [("return _to(s, i, Step.RESET_ERROR_6)", "return _to(s, i, Step.RESET_ERROR_4)")],
     ),
-    (
+    Planted(
         "ExternalTestIsComplete",
         JUDGE,
         "TestError1C410",
         sensor_errors.external_test_is_complete,
         [("if ends and i.S_OSSD_In and i.NoExternalTest:", "if ends and i.S_OSSD_In:")],
     ),
-    (
+    Planted(
         "ParameterErrorStays",
         JUDGE,
         "Init",
         sensor_errors.parameter_error_stays,
         [("s.params.TestTime_ms <= TEST_TIME_MAX_MS", "s.params.TestTime_ms <= TEST_TIME_MAX_MS + 1")],
     ),
-    (
+    Planted(
         "OneTransitionPerCall",
         JUDGE,
         "ESPEInterruptedExternalTest",
@@ -280,7 +275,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "EnablesAgain",
         ANYWHERE,
         "ExternalFunctionTest",
@@ -292,7 +287,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
             )
         ],
     ),
-    (
+    Planted(
         "TestedAgain",
         ANYWHERE,
         "TestActive",
@@ -302,30 +297,19 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[Edit]]] = [
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "judge", "control", "sentence", "edits"), FAULTS, ids=[one[0] for one in FAULTS]
-)
-def test_a_planted_fault_is_refuted_with_an_example_that_happens(
-    name: str, judge: Judge, control: str, sentence: Sentence, edits: list[Edit]
-) -> None:
-    with planted(judge.device, *edits) as device:
-        scan = begun_in(device, control)
-        assert refuted(replace(judge, device=device, explored=(scan,)), sentence, control)
-    if name != "PowerUpIsSafe":  # it speaks of power-up, and is asked of a call here
-        assert not refuted(judge, sentence, control)
-
-
-def _theorems(*modules: ModuleType) -> list[Theorem]:
-    return [one for module in modules for one in vars(module).values() if isinstance(one, Theorem)]
+@pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
+def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
+    assert fault.refuted()
+    if fault.name != "PowerUpIsSafe":  # it speaks of power-up, and is asked of a call here
+        assert not fault.refuted_unplanted()
 
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
-    found = _theorems(rows, sensor_safety, sensor_test, sensor_errors, sensor_response, step_paths)
-    named = {name for item in found for name in item.properties}
-    assert {one[0] for one in FAULTS} >= named - {"EveryCallIsAnswered"}
+    proved = named(rows, sensor_safety, sensor_test, sensor_errors, sensor_response, step_paths)
+    assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
     beyond_the_block = {"PersonStopsMachine", "EveryPersonIsShown", "StuckSenderFails", "FailedTestIsMended"}
     known = {one.id for one in load_document(root(), "testable_safety_sensor").properties}
-    assert known - named == beyond_the_block
+    assert known - proved == beyond_the_block
 
 
 def test_the_rows_of_the_theorem_are_those_of_the_table() -> None:
@@ -340,4 +324,4 @@ def test_the_rows_of_the_theorem_are_those_of_the_table() -> None:
 def test_the_theorem_of_the_paths_is_true() -> None:
     queries = step_paths.every_call_of_the_block_takes_exactly_one_path.queries()
     assert len(queries) >= 2 * len(SENSOR.register.states)
-    assert not [one.name for one in queries[:8] if ask_z3(one, "", 20_000).answer != one.expected]
+    assert not wrong_answers(queries[:8])

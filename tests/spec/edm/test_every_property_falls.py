@@ -2,26 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
-import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from modeproof.places import root
-from modeproof.registers.load import load_document
-from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import load_runs
-from modeproof.tlc.toolchain import find_toolchain
+from tests.spec.block import Block
 
-DOCUMENT = "edm"
-SPEC = root() / "spec" / DOCUMENT
-REGISTERS = load_document(root(), DOCUMENT)
-PROPERTIES = {one.id: one for one in REGISTERS.properties}
-RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
-BASE = "MC_SF_EDM_arbitrary"
+BLOCK = Block("edm", "EDM.tla", "MC_SF_EDM_arbitrary")
 FAULTS = {
     "OutputNeedsAll": (
         'ResetRequest == state = "Init"',
@@ -77,47 +65,24 @@ FAULTS = {
         'To(IF state = "ResetError23" THEN "EDMError22" ELSE EDMErrors[Number(state, ResetErrors)])',
     ),
 }
-FALLEN = {run.violates: run.id for run in RUNS.values() if run.kind == "NEG"}
-
-
-def checked(place: Path, name: str, edit: tuple[str, str]) -> list[tuple[str, str]]:
-    """What TLC says of this property alone on a copy with the edit."""
-    base = RUNS[BASE]
-    folder = place / "spec" / DOCUMENT
-    shutil.copytree(SPEC, folder)
-    shutil.copytree(SPEC.parent / "common", place / "spec/common")
-    text = (folder / "EDM.tla").read_text()
-    assert text.count(edit[0]) == 1, edit[0]
-    (folder / "EDM.tla").write_text(text.replace(*edit))
-    kind = "INVARIANT" if PROPERTIES[name].kind == "invariant" else "PROPERTY"
-    text = (folder / base.cfg).read_text()
-    text = re.sub(r"^(INVARIANTS|PROPERTIES)(?s:.*)", f"{kind} {name}\n", text, flags=re.MULTILINE)
-    (folder / base.cfg).write_text(text)
-    digest = hashlib.sha256(text.encode()).hexdigest()
-    run = replace(base, properties=(name,), cfg_sha256=digest)
-    return list(run_tlc(place, run, find_toolchain()).log.violations)
 
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_property_falls_to_the_fault(name: str, tmp_path: Path) -> None:
-    said = "invariant" if PROPERTIES[name].kind == "invariant" else "property"
-    assert checked(tmp_path, name, FAULTS[name]) == [(said, name)]
+    assert BLOCK.checked(tmp_path, name, FAULTS[name]) == BLOCK.falls(name)
 
 
 def test_nothing_planted_nothing_falls(tmp_path: Path) -> None:
     unchanged = 'Ready == state # "Idle"'
-    assert checked(tmp_path, "ErrorNeedsCause", (unchanged, unchanged)) == []
+    assert BLOCK.checked(tmp_path, "ErrorNeedsCause", (unchanged, unchanged)) == []
 
 
 def test_every_property_falls_to_something() -> None:
-    assert set(FAULTS) | {name for name in FALLEN if name} == set(PROPERTIES)
+    assert set(FAULTS) | BLOCK.fallen == set(BLOCK.properties)
 
 
 def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
-    text = "".join((SPEC.parent / file).read_text() for file in ("edm/EDM.tla", "common/CyclicBlock.tla"))
-    lists = re.findall(r"Readings == (?:\w+ \\cup )?\{([^}]*)\}", text)
-    readings = {name for one in lists for name in re.findall(r'"([A-Z_]+)"', one)}
-    tried = {run.switch: run.kind for run in REGISTERS.runs if run.switch in readings}
+    readings, tried = BLOCK.readings(), BLOCK.tried()
     assert len(readings) == 15 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
         "REQUEST_WAITS",
@@ -127,8 +92,8 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
 
 
 def test_every_state_code_and_transition_is_witnessed() -> None:
-    device = REGISTERS.interface.devices["sf_edm"]
-    (witnessed,) = [set(run.witnesses) for run in REGISTERS.runs if run.kind == "WIT"]
+    device = BLOCK.registers.interface.devices["sf_edm"]
+    (witnessed,) = [set(run.witnesses) for run in BLOCK.registers.runs if run.kind == "WIT"]
     assert set(device.steps) <= witnessed
     assert {f"at {state}" for state in device.states} <= witnessed
     assert len({name for name in witnessed if name.startswith("code ")}) == len(device.states) == 24
@@ -138,5 +103,5 @@ def test_every_state_code_and_transition_is_witnessed() -> None:
 
 
 def test_reading_a_trace_has_a_case_for_every_step_of_the_sequence() -> None:
-    text = (SPEC / "sequences.toml").read_text()
+    text = (BLOCK.spec / "sequences.toml").read_text()
     assert re.findall(r"^    # (\d)$", text, re.MULTILINE) == list("0123456")

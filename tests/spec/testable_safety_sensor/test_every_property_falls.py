@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
-import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from modeproof.places import root
-from modeproof.registers.load import load_document
-from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import load_runs
-from modeproof.tlc.toolchain import find_toolchain
+from tests.spec.block import Block
 
-DOCUMENT = "testable_safety_sensor"
-SPEC = root() / "spec" / DOCUMENT
-MODULE = "TestableSafetySensor.tla"
-REGISTERS = load_document(root(), DOCUMENT)
-PROPERTIES = {one.id: one for one in REGISTERS.properties}
-RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
-BASE = "MC_SF_TestableSafetySensor_arbitrary"
-OTHER_BASE = {
-    "EnablesAgain": "LIVE_SF_TestableSafetySensor_enables_again",
-    "TestedAgain": "LIVE_SF_TestableSafetySensor_tested_again",
-    "PersonStopsMachine": "MC_SF_TestableSafetySensor_field",
-}
+BLOCK = Block(
+    "testable_safety_sensor",
+    "TestableSafetySensor.tla",
+    "MC_SF_TestableSafetySensor_arbitrary",
+    others={
+        "EnablesAgain": "LIVE_SF_TestableSafetySensor_enables_again",
+        "TestedAgain": "LIVE_SF_TestableSafetySensor_tested_again",
+        "PersonStopsMachine": "MC_SF_TestableSafetySensor_field",
+    },
+)
 NEVER_FREE = (
     '/\\ Reacts(i, Free(i)) /\\ To("ESPEFreeTestOk")',
     '/\\ Reacts(i, Free(i)) /\\ To("ESPEFreeNoTest")',
@@ -77,51 +68,24 @@ FAULTS = {
         "elapsed' = Counted(elapsed, IF Free(i) THEN i.dt ELSE 0, TEST_TIME)",
     ),
 }
-FALLEN = {run.violates: run.id for run in RUNS.values() if run.kind == "NEG"}
-
-
-def checked(place: Path, name: str, edit: tuple[str, str]) -> list[tuple[str, str]]:
-    """What TLC says of this property alone on a copy with the edit."""
-    base = RUNS[OTHER_BASE.get(name, BASE)]
-    folder = place / "spec" / DOCUMENT
-    shutil.copytree(SPEC, folder)
-    shutil.copytree(SPEC.parent / "common", place / "spec/common")
-    text = (folder / MODULE).read_text()
-    assert text.count(edit[0]) == 1, edit[0]
-    (folder / MODULE).write_text(text.replace(*edit))
-    kind = "INVARIANT" if PROPERTIES[name].kind == "invariant" else "PROPERTY"
-    text = (folder / base.cfg).read_text()
-    text = re.sub(r"^(INVARIANTS?|PROPERT(?:Y|IES)) (?s:.*)", f"{kind} {name}\n", text, flags=re.MULTILINE)
-    (folder / base.cfg).write_text(text)
-    digest = hashlib.sha256(text.encode()).hexdigest()
-    run = replace(base, properties=(name,), cfg_sha256=digest)
-    return list(run_tlc(place, run, find_toolchain()).log.violations)
 
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_property_falls_to_the_fault(name: str, tmp_path: Path) -> None:
-    if PROPERTIES[name].kind == "liveness":  # TLC does not name it, but checked no other
-        assert checked(tmp_path, name, FAULTS[name]) == [("temporal", "")]
-        return
-    said = "invariant" if PROPERTIES[name].kind == "invariant" else "property"
-    assert checked(tmp_path, name, FAULTS[name]) == [(said, name)]
+    assert BLOCK.checked(tmp_path, name, FAULTS[name]) == BLOCK.falls(name)
 
 
 def test_nothing_planted_nothing_falls(tmp_path: Path) -> None:
     unchanged = "SensorOutputs == Rows[state]"
-    assert checked(tmp_path, "ReactionIsSeen", (unchanged, unchanged)) == []
+    assert BLOCK.checked(tmp_path, "ReactionIsSeen", (unchanged, unchanged)) == []
 
 
 def test_every_property_falls_to_something() -> None:
-    assert set(FAULTS) | {name for name in FALLEN if name} == set(PROPERTIES)
+    assert set(FAULTS) | BLOCK.fallen == set(BLOCK.properties)
 
 
 def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
-    files = (f"{DOCUMENT}/{MODULE}", "common/CyclicBlock.tla")
-    text = "".join((SPEC.parent / file).read_text() for file in files)
-    lists = re.findall(r"Readings == (?:\w+ \\cup )?\{([^}]*)\}", text)
-    readings = {name for one in lists for name in re.findall(r'"(\w+)"', one)}
-    tried = {run.switch: run.kind for run in REGISTERS.runs if run.switch in readings}
+    readings, tried = BLOCK.readings(), BLOCK.tried()
     assert len(readings) == 20 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
         "RESET_SEEN_ONLY_WHILE_ACTIVE",
@@ -131,8 +95,8 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
 
 
 def test_every_state_step_code_and_transition_is_witnessed() -> None:
-    device = REGISTERS.interface.devices["sf_testable_safety_sensor"]
-    witnessed = {name for run in REGISTERS.runs if run.kind == "WIT" for name in run.witnesses}
+    device = BLOCK.registers.interface.devices["sf_testable_safety_sensor"]
+    witnessed = {name for run in BLOCK.registers.runs if run.kind == "WIT" for name in run.witnesses}
     assert set(device.steps) <= witnessed
     assert len({name for name in witnessed if name.startswith("DiagCode")}) == len(device.states) == 22
     states = "|".join(sorted(device.states, key=len, reverse=True))
