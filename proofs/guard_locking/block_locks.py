@@ -68,6 +68,31 @@ def the_guard_is_unlocked_no_longer_than_the_zone_is_safe() -> Queries:
     yield JUDGE.too_strong("with tolerated too", anyway, "GuardClosedButUnlocked")
 
 
+def no_error_locks_safe_zone(one: Scanned) -> Said:
+    if not one.was(*UNLOCKED):
+        return None
+    return TRUE, z3.Implies(
+        z3.And(one.sent.S_UnlockGuard, one.sends.Error), z3.Not(one.inputs.S_SafetyActive)
+    )
+
+
+@theorem(
+    clauses=["GL-OUT-ERROR", "GL-OUT-UNLOCKGUARD", "GL-IN-GUARDLOCK"],
+    findings=["GLF-09", "GLF-16"],
+    properties=["NoErrorLocksSafeZone"],
+    slow=True,
+)
+def no_error_takes_the_unlock_signal_away_from_a_safe_zone() -> Queries:
+    """Under all parameters a call that ends the unlock signal with an error found S_SafetyActive FALSE."""
+    yield from JUDGE.in_every_scan(no_error_locks_safe_zone)
+
+    def nor_ends_it(one: Scanned) -> Said:
+        ends = z3.And(one.sent.S_UnlockGuard, z3.Not(one.sends.S_UnlockGuard))
+        return ends, z3.Not(one.inputs.S_SafetyActive)
+
+    yield JUDGE.too_strong("nor does anything else", nor_ends_it, "GuardClosedButUnlocked")
+
+
 def unlock_needs_request(one: Scanned) -> Said:
     asked = z3.Or(one.inputs.UnlockRequest, z3.Not(one.inputs.S_GuardMonitoring))
     return TRUE, z3.Implies(unlocks(one), asked)

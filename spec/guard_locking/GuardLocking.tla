@@ -38,7 +38,8 @@ Readings == FamilyReadings \cup {
     "AUTO_RESET_ENDS_ERROR",
     "STATIC_RESET_UNNOTICED",
     "ERROR_UNTIL_RESET",
-    "EDGE_WHERE_NOTHING_IS_ENABLED"
+    "EDGE_WHERE_NOTHING_IS_ENABLED",
+    "CONTRADICTION_IS_AN_ERROR"
 }
 ASSUME LITERAL \subseteq Readings
 
@@ -195,9 +196,11 @@ StayUnlocked(i) ==
 LOCAL ZoneIsLostInOpen(i) == ~(i.S_SafetyActive \/ (ZONE_LOST = "tolerated" /\ i.S_GuardMonitoring))
 \* GLF-03: one reading ends the output with the request, also while the guard is open
 LOCAL EndsWithRequest(i) == Literal("UNLOCKED_ONLY_WHILE_REQUESTED") /\ ~i.UnlockRequest
+\* GLF-16: one reading takes a lock that is told thrown while the guard is open for an error
+LOCAL Contradicts(i) == Literal("CONTRADICTION_IS_AN_ERROR") /\ i.S_GuardLock /\ ~i.S_GuardMonitoring
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
 LoseZoneWhileOpen(i) ==
-    At("GuardOpenAndUnlocked", i) /\ ZoneIsLostInOpen(i) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileOpen")
+    At("GuardOpenAndUnlocked", i) /\ (ZoneIsLostInOpen(i) \/ Contradicts(i)) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileOpen")
 \* GL-IN-GUARDMONITORING, GL-SEQ-4
 CloseGuard(i) ==
     /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ i.S_GuardMonitoring
@@ -205,7 +208,7 @@ CloseGuard(i) ==
     /\ Did("CloseGuard")
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03
 StayOpen(i) ==
-    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring /\ ~Contradicts(i)
     /\ GoTo(IF EndsWithRequest(i) THEN "WaitForOperator" ELSE "GuardOpenAndUnlocked")
     /\ Did("StayOpen")
 

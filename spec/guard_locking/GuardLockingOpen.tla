@@ -166,6 +166,9 @@ StaysLocked == [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.Unlock
 LossIsAnError ==
     [][S_GuardLocked /\ Scanned.Activate /\ ~Secure => Error' /\ ~S_GuardLocked' /\ ~S_UnlockGuard']_beat
 
+\* GL-OUT-ERROR, GL-OUT-UNLOCKGUARD, GLF-09, GLF-16: no error takes the unlock signal away while the zone is safe
+NoErrorLocksSafeZone == [][S_UnlockGuard /\ Error' => ~Scanned.S_SafetyActive]_beat
+
 \* GL-OUT-ERROR, GL-IN-SAFETYACTIVE, GLF-04, GLF-05, GLF-10: what is a loss in each state
 LossSeen ==
     CASE DiagCode = \h8000 -> ~Secure
