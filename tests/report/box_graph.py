@@ -1,0 +1,68 @@
+"""The graph of the toy document `box`: as a model checker would print it, exported and named in evidence."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import Any
+
+from modeproof.evidence import hashes
+from modeproof.graph.device import graph_file, load_device_graph
+from modeproof.graph.export import write_export
+from modeproof.tlc.runs import load_runs
+from tests.report.conftest import declared
+from tests.report.paper import change, put
+
+CFG = "VIEW View\nSPECIFICATION Spec\n"
+LETTERS = [(door, dt) for door in ("FALSE", "TRUE") for dt in (0, 1)]
+OPEN, SHUT = '<<"Open", 0>>', '<<"Shut", 1>>'
+PRINTED = [
+    *(f'<<"INPUT", {n}, [door |-> {door}, dt |-> {dt}]>>' for n, (door, dt) in enumerate(LETTERS)),
+    f'<<"INIT", {OPEN}>>',
+    f'<<"STATE", {OPEN}, [WORD |-> 0, LAMP |-> FALSE, SPARE |-> FALSE]>>',
+    f'<<"STATE", {SHUT}, [WORD |-> 3856, LAMP |-> TRUE, SPARE |-> FALSE]>>',
+    *(f'<<"EDGE", {OPEN}, "Wait", {n}, {OPEN}>>' for n in (0, 1)),
+    *(f'<<"EDGE", {OPEN}, "Close", {n}, {SHUT}>>' for n in (2, 3)),
+    *(f'<<"EDGE", {SHUT}, "Stay", {n}, {SHUT}>>' for n in range(len(LETTERS))),
+]
+SEQUENCES = '[tables]\nCODE = ["0F0F", "0F10"]\n'
+GRAPH = '[run.graph]\ndevice = "box"\ntick_ms = 250\nparams = { T_HOLD_ms = 1 }\nstates = 2\nedges = 8\n'
+EXPORT = "build/export/box/OPEN_Box.json.gz"
+
+
+def add_graph(root: Path) -> Path:
+    """Give the box of `make_paper` an OPEN run, its graph, and evidence of the comparison; the export."""
+    folder = root / "spec" / "box"
+    (folder / "models" / "OPEN_Box.cfg").write_text(CFG)
+    (folder / "sequences.toml").write_text(SEQUENCES)
+    change(folder / "BoxOpen.tla", "Nothing == FALSE", "Nothing == FALSE\nView == <<boxState, shut>>")
+    text = declared("MC_Box", "any door", "distinct = 2\ngenerated = 9\n" + GRAPH).replace(
+        "MC_Box", "OPEN_Box"
+    )
+    digest = hashlib.sha256(CFG.encode()).hexdigest()
+    with (folder / "runs.toml").open("a") as runs:
+        for line in text.replace('kind = "MC"', 'kind = "OPEN"').splitlines():
+            runs.write(f'cfg_sha256 = "{digest}"\n' if "cfg_sha256" in line else f"{line}\n")
+    run = next(one for one in load_runs(root, "box") if one.id == "OPEN_Box")
+    printed = graph_file(root, run)
+    printed.parent.mkdir(parents=True)
+    printed.write_text("\n".join(PRINTED) + "\n")
+    export = write_export(root, run, load_device_graph(root, run))
+    put(root, "OPEN_Box", verdict="HOLDS", expected="HOLDS", result={"run": "OPEN", "distinct": 2})
+    compared(root)
+    return export
+
+
+def compared(root: Path, **changes: Any) -> None:
+    """Write the evidence of the comparison: as expected, but for the changes of its result."""
+    result = {
+        "run": "box/OPEN_Box",
+        "device": "box",
+        "implementation": "refimpl.box.box",
+        "states": 2,
+        "inputs": 4,
+        "transitions": 8,
+        "replayed": 8,
+        "artefacts": hashes(root, [root / EXPORT]),
+    }
+    put(root, "refimpl_OPEN_Box", kind="conformance", result={**result, **changes})
