@@ -831,6 +831,11 @@ def _verify(args: argparse.Namespace) -> int:
         status, records = verify(place, names, args.lane, stages, progress)
         for name in names:  # everything that was written can be read back
             evidence.read_document(place, name)
+        if args.lane == "full" and args.document is None:
+            from modeproof.report.command import made_by_verify
+
+            for line in made_by_verify(place):
+                progress.say(line)
     _write_json(args, status, records=records)
     return status
 

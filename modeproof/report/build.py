@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -32,6 +33,8 @@ SCRIPTS = ("report.js", "explorer.js")
 """Files of page/, in the order in which the page has them."""
 LAST = "changes"
 """The part that is made after all others, for what it is compared with rests on what they read."""
+SHOWN = 4
+"""So many troubles of one part and kind stand on the first screen; the part has all."""
 WORDS = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}
 
 
@@ -104,6 +107,9 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
         "troubles": plain(troubles),
         "parts": {one.id: {"title": one.title, **plain(one.data)} for one in parts},
         "standing": sources.shelf["standing"],
+        "attachments": {
+            name: hashlib.sha256(data).hexdigest() for one in parts for name, data in one.attachments.items()
+        },
         "files": dict(sorted(sources.files.items())),
     }
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
@@ -136,6 +142,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
         troubles=troubles,
         state={"word": WORDS[status], "good": (True, False, None)[status]},
         m=macros,
+        shown=SHOWN,
         blank=BLANK,
         json_sha256=json_sha256,
         digest=sources.digest,

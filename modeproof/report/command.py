@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import argparse
+import json
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from modeproof.evidence.files import write_whole
 from modeproof.places import build
 from modeproof.places import root as repository_root
 from modeproof.report.baseline import NAME, PREVIOUS, Baseline, choose, read_report
-from modeproof.report.build import make
-from modeproof.report.sources import DIFFERS, HOLE, NOTE
+from modeproof.report.build import SHOWN, Report, make
+from modeproof.report.part import plain
+from modeproof.report.recheck import PAGE, recheck
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, Trouble
 
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
-PAGE = "report.html"
 WORDS = {NOTE: "NOTE", DIFFERS: "NOT AS EXPECTED", HOLE: "NOT THERE"}
+BESIDE = "build/report"
 
 
 def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
@@ -29,13 +33,23 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
         "build/evidence/. Exit status: 0 complete and as expected, 1 something is not as expected or "
         "contradicts something else, 2 something is missing; the report is made in every case.",
     )
-    parser.add_argument("--out", type=Path, metavar="FOLDER", help="where to (default: build/report)")
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help=f"where to (default: {BESIDE})")
     parser.add_argument(
         "--previous",
         type=Path,
         metavar="FILE",
         help="the report.json to compare with (default: the one that was in the folder before)",
     )
+    parser.add_argument(
+        "--verify",
+        nargs="?",
+        type=Path,
+        const=Path(BESIDE) / PAGE,
+        metavar="FILE",
+        help="make nothing; recompute all hashes of a report (page or JSON) and say which file differs, "
+        "is gone or is new",
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON")
     parser.set_defaults(run=run)
     return parser
 
@@ -43,16 +57,73 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     place = repository_root()
+    if args.verify is not None:
+        return _verify(args, place)
     folder = args.out or build(place) / "report"
     given = None if args.previous is None else read_report(args.previous)[1]
     report = make(place, lambda digest: choose(folder, digest) if given is None else Baseline(given))
+    write(report, folder)
+    for line in said(report.troubles):
+        print(line)
+    print(f"report: {folder / PAGE} ({len(report.html.encode()):,} bytes)")
+    _write_json(args, report.status, report=str(folder / PAGE), troubles=plain(report.troubles))
+    return report.status
+
+
+def made_by_verify(place: Path) -> list[str]:
+    """Make the report where it belongs, at the end of a verification: lines for the terminal.
+
+    Its status is its own: what this lane does not make may be of older texts, and is named, not judged here.
+    Raises Unjudged when it cannot be made or written.
+    """
+    folder = build(place) / "report"
+    report = make(place, lambda digest: choose(folder, digest))
+    write(report, folder)
+    bad = [one for one in report.troubles if one.status != NOTE]
+    line = f"{'report':<12} {BESIDE}/{PAGE}"
+    if not bad:
+        return [f"{line}: complete"]
+    worst = min(bad, key=lambda one: one.status)
+    more = f" (and {len(bad) - 1} more)" if len(bad) > 1 else ""
+    return [f"{line}: {WORDS[worst.status].lower()}: {worst.what}{more}; it says so"]
+
+
+def write(report: Report, folder: Path) -> None:
+    """Write page, JSON, what is beside them, and the report before. Raises Unjudged when it cannot."""
     if report.baseline.keep is not None:
         write_whole(folder / PREVIOUS, report.baseline.keep.encode("utf-8"))
     write_whole(folder / NAME, report.json.encode("utf-8"))
     write_whole(folder / PAGE, report.html.encode("utf-8"))
     for name, content in report.attachments.items():
         write_whole(folder / name, content)
-    for one in report.troubles:
-        print(f"{WORDS[one.status]}  {one.what}" + (f"; run {one.remedy}" if one.remedy else ""))
-    print(f"report: {folder / PAGE} ({len(report.html.encode()):,} bytes)")
-    return report.status
+
+
+def said(troubles: Sequence[Trouble]) -> Iterator[str]:
+    """The troubles for the terminal, the worst first; of many of one part the first, and how many more."""
+    for status in (DIFFERS, HOLE, NOTE):
+        parts: dict[str, list[Trouble]] = {}
+        for one in troubles:
+            if one.status == status:
+                parts.setdefault(one.part, []).append(one)
+        for part, some in parts.items():
+            for one in some[:SHOWN]:
+                yield f"{WORDS[status]}  {one.what}" + (f"; run {one.remedy}" if one.remedy else "")
+            if len(some) > SHOWN:
+                yield f"{WORDS[status]}  and {len(some) - SHOWN} more in the part {part} of the page"
+
+
+def _verify(args: argparse.Namespace, place: Path) -> int:
+    file = args.verify if args.verify != Path(BESIDE) / PAGE else build(place) / "report" / PAGE
+    found = recheck(place, file)
+    for one in found.differences:
+        print(f"{one.word:<8} {one.path}: {one.why}")
+    words = {0: "as it was made", DIFFERS: "NOT as it was made", HOLE: "NOT complete"}[found.status]
+    print(f"{file}: {found.compared} files and what they rest on: {words}")
+    _write_json(args, found.status, report=str(file), differences=plain(found.differences))
+    return found.status
+
+
+def _write_json(args: argparse.Namespace, status: int, **content: Any) -> None:
+    if args.json is not None:
+        text = json.dumps({"command": "report", "status": status, **content}, indent=1, ensure_ascii=False)
+        write_whole(args.json, f"{text}\n".encode())

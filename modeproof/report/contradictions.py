@@ -1,18 +1,19 @@
-"""Evidence that contradicts other evidence: two engines, two counts of one thing, two texts of one file."""
+"""Evidence that contradicts other evidence: two solvers, two counts of one thing, two texts of one file.
+
+That a run and a theorem disagree on a property is said where the property is.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from modeproof.report.sources import DIFFERS, Evidence, Sources, Trouble, few
-from modeproof.report.verdicts import POSITIVE
+from modeproof.report.sources import DIFFERS, Sources, Trouble, few
 
 
 def contradictions(sources: Sources) -> Iterator[Trouble]:
     """All of them; stale evidence, which is named elsewhere, is compared too."""
     yield from _two_texts(sources)
     for name in sources.documents:
-        yield from _engines(sources, name)
         yield from _solvers(sources, name)
         yield from _counts(sources, name)
 
@@ -32,36 +33,6 @@ def _two_texts(sources: Sources) -> Iterator[Trouble]:
         )
         what = f"the evidence is of different texts of {few(tuple(double))}"
         yield Trouble(DIFFERS, "verdict", what, "modeproof verify", items)
-
-
-def _engines(sources: Sources, name: str) -> Iterator[Trouble]:
-    """A property that one engine holds and another refutes."""
-    held: dict[str, list[Evidence]] = {}
-    fallen: dict[str, list[Evidence]] = {}
-    for one in sources.of_kind(name, "tlc"):
-        if one.result.get("run") not in POSITIVE:
-            continue
-        if one.record["verdict"] == "HOLDS":
-            for tla in one.result.get("properties", ()):
-                held.setdefault(str(tla), []).append(one)
-        elif one.record["verdict"] == "VIOLATED":
-            fallen.setdefault(str(one.result.get("violated", "")), []).append(one)
-    tla_of = {one.id: one.tla for one in sources.documents[name].properties}
-    for proof in sources.of_kind(name, "proof"):
-        for id in proof.result.get("properties", ()):
-            tla = tla_of.get(str(id), "")
-            if proof.record["verdict"] == "VIOLATED" and tla in held:
-                yield Trouble(
-                    DIFFERS,
-                    "proofs",
-                    f"{name}: {id} HOLDS in {held[tla][0].id}, and its theorem {proof.id} is VIOLATED",
-                )
-            if proof.record["verdict"] == "PROVED" and tla in fallen:
-                yield Trouble(
-                    DIFFERS,
-                    "proofs",
-                    f"{name}: {id} is VIOLATED in {fallen[tla][0].id}, and its theorem {proof.id} is PROVED",
-                )
 
 
 def _solvers(sources: Sources, name: str) -> Iterator[Trouble]:

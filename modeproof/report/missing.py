@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from modeproof.errors import Unjudged
-from modeproof.registers.python_source import read_python
 from modeproof.registers.rows import Document
+from modeproof.report.claims import LANE, theorem_rows
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Sources, Trouble, few
 from modeproof.report.verdicts import status_of
 
-LANE = "full"
-"""The lane that a report is about: what `verify` runs. What only another lane runs is no hole."""
 PART_OF = {
     "tlc": "verdict",
     "conformance": "conformance",
@@ -19,20 +16,13 @@ PART_OF = {
     "coverage": "proofs",
     "agreement": "proofs",
     "registers": "matrix",
+    "strength": "strength",
 }
 
 
 def theorems_of(sources: Sources, document: Document) -> tuple[str, ...]:
     """The names of a document's theorems, as their text has them."""
-    key = f"theorems of {document.name}"
-    if key not in sources.shelf:
-        try:
-            modules = read_python(sources.root, sources.root / "proofs" / document.name)
-        except Unjudged:
-            modules = ()
-        sources.shelf[key] = tuple(one.name for module in modules for one in module.theorems)
-    names: tuple[str, ...] = sources.shelf[key]
-    return names
+    return tuple(one.name for _, one in theorem_rows(sources, document))
 
 
 def missing(sources: Sources) -> Iterator[Trouble]:

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from modeproof.registers.rows import Document
-from modeproof.report.missing import LANE
+from modeproof.report.campaigns import KINDS, campaign
+from modeproof.report.claims import LANE
 from modeproof.report.sources import Evidence, Sources
 from modeproof.report.verdicts import ASIDE, POSITIVE, Line, PropertyRow, Record, property_lines
 
 COUNTS = ("distinct", "generated", "states", "transitions", "scans", "cases", "clauses", "citations")
 """What is counted in the result of a piece of evidence and is the same whenever it is made."""
-JUDGES = {"spec": "properties", "impl": "theorems", "vectors": "vectors"}
-"""Who judged the planted faults of build/strength/<document>/<name>.jsonl."""
 _PIN = re.compile(r"^(\w+) = ([^#\n]*?)\s*(?:# (.*))?$")
 _PINNED = ("distinct", "generated", "trace_length", "states", "edges", "cfg_sha256")
 
@@ -52,33 +50,13 @@ def lines_of(sources: Sources, document: Document) -> list[Line]:
 
 
 def mutants_of(sources: Sources, document: str) -> dict[str, dict[str, int]]:
-    """How many planted faults have which verdict, by judge; the last judgement of a fault counts."""
-    key = f"mutants of {document}"
-    if key not in sources.shelf:
-        found: dict[str, dict[str, int]] = {}
-        for file, judge in JUDGES.items():
-            content = sources.content(mutants_file(document, file))
-            if content is None:
-                continue
-            verdicts: dict[str, str] = {}
-            for line in content.splitlines():
-                try:
-                    row = json.loads(line)
-                    verdicts[str(row["mutant"])] = str(row["verdict"])
-                except (ValueError, KeyError, TypeError):
-                    continue  # the last line of a campaign that was stopped
-            counts: dict[str, int] = {}
-            for verdict in sorted(verdicts.values()):
-                counts[verdict] = counts.get(verdict, 0) + 1
-            found[judge] = counts
-        sources.shelf[key] = found
-    kept: dict[str, dict[str, int]] = sources.shelf[key]
-    return kept
-
-
-def mutants_file(document: str, name: str) -> str:
-    """Where a campaign keeps its judgements."""
-    return f"build/strength/{document}/{name}.jsonl"
+    """How many planted faults have which verdict, by judge, of each campaign that is of the present texts."""
+    found = {}
+    for kind, (_, judge, _) in KINDS.items():
+        one = campaign(sources, document, kind)
+        if one is not None and not one.evidence.changed:
+            found[judge] = dict(sorted(one.counts()[""].items()))
+    return found
 
 
 def pins_of(sources: Sources, document: str) -> dict[str, dict[str, dict[str, str]]]:

@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
+from modeproof.report.campaigns import KINDS, id_of
 from modeproof.report.part import Part
 from modeproof.report.sources import Evidence, Figure, Sources
-from modeproof.report.standing import JUDGES, as_it_counts, lines_of, mutants_file, mutants_of
+from modeproof.report.standing import as_it_counts, lines_of, mutants_of
 from modeproof.report.verdicts import ASIDE, Line, status_of
 
 GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (
@@ -87,11 +88,11 @@ def _mutants(sources: Sources, document: str) -> list[dict[str, Any]]:
     """KILLED of those that behave differently and were measured, for each judge."""
     found = mutants_of(sources, document)
     rows = []
-    for file, judge in JUDGES.items():
+    for kind, (_, judge, _) in KINDS.items():
         counts = found.get(judge, {})
         different = sum(counts.get(word, 0) for word in ("KILLED", "SURVIVED", "UNMEASURED"))
         if different:
-            path = mutants_file(document, file)
+            path = sources.evidence[document][id_of(kind)].path
             killed = counts.get("KILLED", 0)
             rows.append({"judge": judge, "killed": Figure(killed, path), "of": Figure(different, path)})
     return rows
@@ -144,14 +145,14 @@ def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
         }
 
     mutants = []
-    for judge in JUDGES.values():
+    for _, judge, _ in KINDS.values():
         rows = [row for one in documents for row in one["mutants"] if row["judge"] == judge]
         if rows:
             mutants.append(
                 {
                     "judge": judge,
-                    "killed": Figure(sum(row["killed"].value for row in rows), "build/strength/"),
-                    "of": Figure(sum(row["of"].value for row in rows), "build/strength/"),
+                    "killed": Figure(sum(row["killed"].value for row in rows), folder),
+                    "of": Figure(sum(row["of"].value for row in rows), folder),
                 }
             )
     return {

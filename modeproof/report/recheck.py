@@ -1,0 +1,160 @@
+"""`modeproof report --verify`: are the report, and what it rests on, what they were when it was made?"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import Unjudged
+from modeproof.report.baseline import NAME
+from modeproof.report.integrity import json_of_page, seal_of_json, seal_of_page
+from modeproof.report.sources import DIFFERS, HOLE, NOTE
+
+PAGE = "report.html"
+_SOURCES = re.compile(r'<script type="application/json" id="sources">(.*?)</script>', re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One artefact that is not what the report says: it differs, is gone or new; `status` as of troubles."""
+
+    word: str
+    path: str
+    why: str
+    status: int
+
+
+@dataclass(frozen=True)
+class Recheck:
+    """What was compared: so many files, and what differs."""
+
+    compared: int
+    differences: tuple[Difference, ...]
+
+    @property
+    def status(self) -> int:
+        """1 where something differs or is new, else 2 where something is gone, else 0."""
+        return min((one.status for one in self.differences if one.status != NOTE), default=0)
+
+
+def recheck(root: Path, file: Path) -> Recheck:
+    """Recompute all hashes of a report, given its page or JSON; the other is compared when it is beside.
+
+    Raises Unjudged when the file is not there or is no report.
+    """
+    page, record = file, file
+    if file.suffix == ".json":
+        page = file.with_name(PAGE)
+    else:
+        record = file.with_name(NAME)
+    texts = {one: _text(one) for one in dict.fromkeys((file, page, record)) if one == file or one.exists()}
+    found: list[Difference] = []
+    listed: dict[Path, Mapping[str, str]] = {}
+    for one, text in texts.items():
+        seal = seal_of_json(text) if one.suffix == ".json" else seal_of_page(text)
+        if seal is None:
+            raise Unjudged(
+                f"{one}: not a report of `modeproof report`, or damaged at its beginning: it has no seal"
+            )
+        if seal[0] != seal[1]:
+            why = (
+                f"its text was changed since it was written: SHA-256 {seal[1][:12]}, sealed as {seal[0][:12]}"
+            )
+            found.append(Difference("differs", str(one), why, DIFFERS))
+        listed[one] = _files(one, text)
+    if page in texts and record in texts:
+        sealed = seal_of_json(texts[record])
+        if sealed is not None and json_of_page(texts[page]) != sealed[0]:
+            why = f"does not belong to {record.name}: they are of two reports"
+            found.append(Difference("differs", str(page), why, DIFFERS))
+        found += _attachments(record, texts[record])
+    files = listed[file]
+    found += _compare(root, files)
+    return Recheck(len(files), tuple(dict.fromkeys(found)))
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+
+
+def _files(path: Path, text: str) -> Mapping[str, str]:
+    """The hashes that a report lists. Raises Unjudged when they cannot be read."""
+    try:
+        if path.suffix == ".json":
+            files = json.loads(text)["files"]
+        else:
+            match = _SOURCES.search(text)
+            files = json.loads(match.group(1)) if match else None
+        return {str(name): str(digest) for name, digest in files.items()}
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        raise Unjudged(
+            f"{path}: damaged: its list of files cannot be read ({type(error).__name__})"
+        ) from None
+
+
+def _attachments(record: Path, text: str) -> Iterator[Difference]:
+    """Files beside the report; one that was not kept is no matter, for the page carries it."""
+    listed = json.loads(text).get("attachments", {})
+    for name, digest in sorted(listed.items()):
+        now = _sha256(record.with_name(name))
+        if now is not None and now != digest:
+            yield Difference(
+                "differs", str(record.with_name(name)), "was changed since it was written", DIFFERS
+            )
+
+
+def _compare(root: Path, files: Mapping[str, str]) -> Iterator[Difference]:
+    """The listed files, what lies beside them unlisted, and what the evidence among them rests on."""
+    rests: dict[str, dict[str, list[str]]] = {}
+    for path, digest in files.items():
+        now = _sha256(root / path)
+        if now is None:
+            yield Difference("gone", path, f"the report has it as {digest[:12]}", HOLE)
+        elif now != digest:
+            yield Difference("differs", path, f"SHA-256 {now[:12]}, the report has {digest[:12]}", DIFFERS)
+        elif path.startswith("build/evidence/"):
+            for name, before in _inputs(root / path).items():
+                rests.setdefault(name, {}).setdefault(before, []).append(path)
+    for place in ("build/evidence/*/*.json", "spec/*/*.toml"):
+        for one in sorted(root.glob(place)):
+            name = one.relative_to(root).as_posix()
+            if name not in files:
+                yield Difference("new", name, "the report does not know it", DIFFERS)
+    for name, of in sorted(rests.items()):
+        now = _sha256(root / name)
+        for before, pieces in of.items():
+            if now == before:
+                continue
+            why = f"rests under {pieces[0]}" + (f" and {len(pieces) - 1} more" if len(pieces) > 1 else "")
+            if now is not None:
+                yield Difference(
+                    "differs", name, f"{why}: SHA-256 {now[:12]}, they have {before[:12]}", DIFFERS
+                )
+            elif name.startswith("build/"):
+                yield Difference("gone", name, f"{why}; their command makes it again", NOTE)
+            else:
+                yield Difference("gone", name, why, HOLE)
+
+
+def _inputs(path: Path) -> Mapping[str, str]:
+    try:
+        inputs: Any = json.loads(path.read_text(encoding="utf-8")).get("inputs", {})
+    except (OSError, ValueError, AttributeError):
+        return {}  # a damaged piece of evidence that the report knows as damaged
+    return inputs if isinstance(inputs, dict) else {}
+
+
+def _sha256(path: Path) -> str | None:
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError:
+        return None
