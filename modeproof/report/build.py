@@ -127,7 +127,10 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
             "bad": sum(1 for trouble in one.troubles if trouble.status),
             "html": Markup(
                 terms.linked(
-                    one.id, environment.get_template(f"{one.id}.html.j2").render(data=one.data, m=macros)
+                    one.id,
+                    environment.get_template(f"{one.id}.html.j2").render(
+                        data=one.data, m=macros, troubles=troubles, shown=SHOWN
+                    ),
                 )
             ),
         }
@@ -139,10 +142,8 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
     status = _status(troubles)
     return environment.get_template("report.html.j2").render(
         parts=shown,
-        troubles=troubles,
         state={"word": WORDS[status], "good": (True, False, None)[status]},
         m=macros,
-        shown=SHOWN,
         blank=BLANK,
         json_sha256=json_sha256,
         digest=sources.digest,

@@ -6,7 +6,7 @@ What is missing is kept as a trouble, never dropped.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -171,7 +171,7 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
-    troubles += _stale([one for of in evidence.values() for one in of.values()])
+    troubles += _stale(evidence)
     return Sources(root, found, evidence, dict(sorted(files.items())), tuple(troubles))
 
 
@@ -181,33 +181,32 @@ def few(names: Sequence[str], most: int = 3) -> str:
     return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
 
 
-def _stale(evidence: Iterable[Evidence]) -> Iterator[Trouble]:
-    """Evidence of other texts than the present ones: one trouble for each set of files that changed or went,
-    and one for all that rests on files of build/ that went: the command that made them makes them again.
+def _stale(evidence: Mapping[str, Mapping[str, Evidence]]) -> Iterator[Trouble]:
+    """Evidence of other texts than the present ones: one trouble a document, and one for all that rests on
+    files of build/ that went: the command that made them makes them again.
     """
-    causes: dict[tuple[tuple[str, ...], str], list[Evidence]] = {}
-    unmade: dict[str, list[Evidence]] = {}
-    for one in evidence:
-        if one.changed:
-            causes.setdefault((one.changed, "of another text of"), []).append(one)
-        for path in one.gone:
-            if path.startswith("build/"):
-                unmade.setdefault(path, []).append(one)
-        if lost := tuple(path for path in one.gone if not path.startswith("build/")):
-            causes.setdefault((lost, "resting on what is not there:"), []).append(one)
-    for (files, says), found in causes.items():
-        ids = tuple(f"{one.record['document']}/{one.id}" for one in found)
-        documents = dict.fromkeys(str(one.record["document"]) for one in found)
-        remedy = "modeproof verify" + (f" --document {next(iter(documents))}" if len(documents) == 1 else "")
-        if len(found) == 1:
-            remedy = str(found[0].record["command"])
-        count = "1 piece" if len(ids) == 1 else f"{len(ids)} pieces"
-        what = f"{count} of evidence {says} {few(files)}: {few(ids)}"
-        yield Trouble(HOLE, "verdict", what, remedy, ids)
+    unmade: dict[str, list[str]] = {}
+    for name, of in evidence.items():
+        items: list[str] = []
+        files: dict[str, int] = {}
+        for one in of.values():
+            for path in one.gone:
+                if path.startswith("build/"):
+                    unmade.setdefault(path, []).append(one.id)
+            bad = (*one.changed, *(path for path in one.gone if not path.startswith("build/")))
+            if bad:
+                items.append(f"{one.id} ({', '.join(bad)})")
+                files |= {path: files.get(path, 0) + 1 for path in bad}
+        if items:
+            most = sorted(files, key=lambda path: (-files[path], path))
+            what = (
+                f"{name}: {len(items)} of {len(of)} pieces of evidence are of another text ({few(most, 2)})"
+            )
+            yield Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}", tuple(items))
     if unmade:
         what = f"files were made, used and are not there now: {few(tuple(unmade))}"
-        items = tuple(f"{path} ({few([one.id for one in of])})" for path, of in unmade.items())
-        yield Trouble(NOTE, "reproduce", what, "", items)
+        lost = tuple(f"{path} ({few(ids)})" for path, ids in unmade.items())
+        yield Trouble(NOTE, "reproduce", what, "", lost)
 
 
 class _Hashes(dict[str, str | None]):

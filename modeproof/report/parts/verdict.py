@@ -21,6 +21,8 @@ GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (
     ("registers", "EQUAL", lambda one: one.record["kind"] == "registers"),
 )
 """What is counted together: its title, what is good, and which evidence belongs to it."""
+ASIDE_OF_TABLE = ("registers",)
+"""What every document has once: counted for all together only."""
 
 
 def part(sources: Sources) -> Part:
@@ -30,9 +32,13 @@ def part(sources: Sources) -> Part:
         "verdict",
         "Verdict at a glance",
         {
-            "groups": [{"title": title, "good": good} for title, good, _ in GROUPS],
+            "groups": [
+                {"title": title, "good": good, "column": title not in ASIDE_OF_TABLE}
+                for title, good, _ in GROUPS
+            ],
             "documents": documents,
             "total": _total(documents),
+            "tiles": _tiles(sources),
         },
     )
 
@@ -160,3 +166,18 @@ def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
         "groups": [add([one["groups"][place] for one in documents]) for place in range(len(GROUPS))],
         "mutants": mutants,
     }
+
+
+def _tiles(sources: Sources) -> list[dict[str, Any]]:
+    """What registers hold, all documents together: how much a person has to judge."""
+    documents = list(sources.documents.values())
+    registers: tuple[tuple[str, str, Callable[[Document], int]], ...] = (
+        ("documents", "scope", lambda one: 1),
+        ("clauses", "review", lambda one: len(one.clauses)),
+        ("findings", "findings", lambda one: len(one.findings)),
+        ("assumptions", "assumptions", lambda one: len(one.assumptions)),
+    )
+    return [
+        {"title": title, "part": part, "count": Figure(sum(map(count, documents)), "spec/")}
+        for title, part, count in registers
+    ]
