@@ -130,7 +130,7 @@ class Sources:
 
 
 def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
-    """Read all there is.
+    """Read all there is; documents stand in the order of the texts that they are about.
 
     A register or a piece of evidence that is damaged becomes a trouble; the rest is read.
     Raises Unjudged only when there is no document at all.
@@ -172,7 +172,14 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
     troubles += _stale(evidence)
-    return Sources(root, found, evidence, dict(sorted(files.items())), tuple(troubles))
+    ordered = sorted(found.values(), key=lambda one: (one.about.seed, one.name))
+    return Sources(
+        root,
+        {one.name: one for one in ordered},
+        {one.name: evidence[one.name] for one in ordered},
+        dict(sorted(files.items())),
+        tuple(troubles),
+    )
 
 
 def few(names: Sequence[str], most: int = 3) -> str:
