@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.graph.device import DeviceGraph
@@ -23,11 +25,13 @@ class Move:
 @dataclass(frozen=True)
 class Chart:
     """`states` counts the states of the graph by control state, in the order of interface.toml; a declared
-    control state that the graph never enters counts 0. `initial` is the one after power-up.
+    control state that the graph never enters counts 0. `initial` is the one after power-up. `outputs` holds
+    for each control state those outputs (wire values) that are the same in all its states.
     """
 
     initial: str
     states: dict[str, int]
+    outputs: dict[str, dict[str, Any]]
     moves: tuple[Move, ...]
 
 
@@ -53,8 +57,24 @@ def chart(device: DeviceGraph) -> Chart | None:
     return Chart(
         initial=control[graph.initial],
         states={state: entered[state] for state in declared},
+        outputs=_outputs(device, control),
         moves=tuple(Move(*one, counted[one]) for one in moves),
     )
+
+
+def _outputs(device: DeviceGraph, control: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """What the outputs of each control state always are; an output that repeats an input is left out."""
+    found: dict[str, dict[str, Any]] = {}
+    for here, row in zip(control, device.rows, strict=True):
+        known = found.setdefault(here, dict(row))
+        for name in [name for name, value in known.items() if row[name] != value]:
+            del known[name]
+    types = device.device.outputs
+    return {
+        state: {name: device.forms.to_wire(types[name], value) for name, value in found[state].items()}
+        for state in device.device.states
+        if state in found
+    }
 
 
 def _control_states(device: DeviceGraph) -> list[str]:

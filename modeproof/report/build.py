@@ -28,8 +28,8 @@ from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
 
 SCHEMA_VERSION = 1
-STYLES = ("report.css", "tables.css", "explorer.css")
-SCRIPTS = ("report.js", "explorer.js")
+STYLES = ("report.css", "tables.css", "explorer.css", "charts.css")
+SCRIPTS = ("report.js", "explorer.js", "charts.js")
 """Files of page/, in the order in which the page has them."""
 LAST = "changes"
 """The part that is made after all others, for what it is compared with rests on what they read."""

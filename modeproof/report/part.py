@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, fields, is_dataclass
 from enum import Enum
 from typing import Any
 
+from markupsafe import Markup
+
 from modeproof.report.sources import Figure, Sources, Trouble
 
 
@@ -25,6 +27,14 @@ class Part:
     `m.attachment(name, label)` offers them."""
 
 
+@dataclass(frozen=True)
+class Picture:
+    """SVG that we made, and what it shows in words. The JSON has the words; the rows beside it the rest."""
+
+    title: str
+    svg: Markup
+
+
 Maker = Callable[[Sources], Part]
 """How a part is made; it never raises for evidence that is missing: that is a trouble."""
 
@@ -33,6 +43,8 @@ def plain(value: Any) -> Any:
     """The data as JSON has them; a figure keeps its source."""
     if isinstance(value, Figure):
         return {"value": value.value, "source": value.source, **({"unit": value.unit} if value.unit else {})}
+    if isinstance(value, Picture):
+        return {"picture": value.title}
     if isinstance(value, Mapping):
         return {str(key): plain(one) for key, one in value.items()}
     if isinstance(value, (list, tuple, set, frozenset)):

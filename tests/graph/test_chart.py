@@ -25,6 +25,7 @@ def test_states_of_one_control_state_are_one_and_every_transition_is_counted(tmp
         Move("On", "Expire", "Off", 6 + 12),
         Move("On", "StayOn", "On", 12 + 6),
     )
+    assert found.outputs == {"Off": {"LAMP": False, "MW": "0000"}, "On": {"LAMP": True, "MW": "0FF0"}}
     assert sum(one.transitions for one in found.moves) == lamp_graph(tmp_path).graph.edges
 
 
@@ -33,6 +34,14 @@ def test_a_transition_that_goes_elsewhere_changes_the_chart(tmp_path: Path) -> N
     at = next(n for n, line in enumerate(printed) if '"SwitchOn"' in line)
     printed[at] = printed[at].replace('<<"On", {}, 0>>>>', '<<"Off", {}, 0>>>>')
     assert Move("Off", "SwitchOn", "Off", 1) in drawn(tmp_path, printed).moves
+
+
+def test_an_output_that_differs_within_a_control_state_is_not_said_of_it(tmp_path: Path) -> None:
+    printed = [
+        line.replace("LAMP |-> TRUE", "LAMP |-> FALSE") if '"STATE", <<"On", {}, 1>>' in line else line
+        for line in lines()
+    ]
+    assert drawn(tmp_path, printed).outputs["On"] == {"MW": "0FF0"}
 
 
 def test_a_declared_state_that_is_never_entered_counts_none(tmp_path: Path) -> None:

@@ -1,0 +1,1 @@
+"""Pictures of the report: layered layout, and SVG without any resource from outside."""

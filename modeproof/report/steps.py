@@ -1,0 +1,36 @@
+"""What each step of a device cites: the clauses and findings named over its action in the specification."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from modeproof.registers.citations import Citation, citations, read_sources
+from modeproof.registers.rows import Device, Document
+from modeproof.report.sources import Sources
+
+
+@dataclass(frozen=True)
+class Cited:
+    """Clauses and findings in the order in which they are named."""
+
+    clauses: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
+
+
+def cited(sources: Sources, document: Document) -> tuple[Citation, ...]:
+    """Every citation of a document, read once for all parts."""
+    shelf = f"citations of {document.name}"
+    if shelf not in sources.shelf:
+        sources.shelf[shelf] = citations(document, read_sources(document))
+    found: tuple[Citation, ...] = sources.shelf[shelf]
+    return found
+
+
+def of_steps(sources: Sources, document: Document, device: Device) -> dict[str, Cited]:
+    """By step of the device; a step whose action cites nothing has an empty row."""
+    by_name = {
+        one.name: Cited(one.clauses, one.findings)
+        for one in cited(sources, document)
+        if one.kind == "definition" and one.room == "spec"
+    }
+    return {step: by_name.get(f"{device.module}!{step}", Cited()) for step in device.steps}
