@@ -7,6 +7,7 @@ grandalf (Sugiyama, Brandes and Köpf); here is what it is given, and how lines 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -18,6 +19,7 @@ from grandalf.layouts import SugiyamaLayout
 ACROSS, DOWN, MARGIN = 18.0, 36.0, 10.0
 """Pixels between two boxes of a layer, between two layers, and around the whole."""
 ROUNDS = 6
+_PAIR = re.compile(r"(-?[\d.]+) (-?[\d.]+)")
 PORT = 14.0
 """Pixels between two lines at the side of a box, where there is room."""
 
@@ -81,11 +83,23 @@ class _Column:
     of: dict[int, int] = field(default_factory=dict)
 
 
-def place(sizes: Mapping[str, Size], chains: Sequence[Chain]) -> Placed:
+def narrowest(sizes: Mapping[str, Size], chains: Sequence[Chain]) -> Placed:
+    """As `place`, downwards or to the right: whichever is narrower."""
+    return min((place(sizes, chains), place(sizes, chains, aside=True)), key=lambda placed: placed.width)
+
+
+def place(sizes: Mapping[str, Size], chains: Sequence[Chain], *, aside: bool = False) -> Placed:
     """Place boxes and lines. The order of `sizes` and `chains` decides where several places are as good.
 
-    Every chain must name boxes of `sizes`; a chain from a box to itself is refused (ValueError).
+    With `aside` the layers follow each other to the right instead of downwards. Every chain must name boxes
+    of `sizes`; a chain from a box to itself is refused (ValueError).
     """
+    if aside:
+        turned = {name: Size(size.height, size.width) for name, size in sizes.items()}
+        found = place(turned, chains)
+        middle = {name: Point(at.y, at.x) for name, at in found.middle.items()}
+        lines = tuple(tuple(_turned(path) for path in paths) for paths in found.lines)
+        return Placed(found.height, found.width, middle, lines)
     for one in chains:
         if one.source == one.target or set(one.boxes) - set(sizes):
             raise ValueError(f"a chain from {one.source!r} to {one.target!r} cannot be placed")
@@ -215,12 +229,19 @@ def _path(points: Sequence[Point]) -> str:
     """Through the points: straight where it goes straight down, else a curve that begins and ends so."""
     text = f"M{_n(points[0].x)} {_n(points[0].y)}"
     for before, after in pairwise(points):
+        if abs(before.x - after.x) < 0.05 and abs(before.y - after.y) < 0.05:
+            continue
         if abs(before.x - after.x) < 0.05:
             text += f"L{_n(after.x)} {_n(after.y)}"
         else:
             half = (before.y + after.y) / 2
             text += f"C{_n(before.x)} {_n(half)} {_n(after.x)} {_n(half)} {_n(after.x)} {_n(after.y)}"
     return text
+
+
+def _turned(path: str) -> str:
+    """The same line with x and y exchanged."""
+    return _PAIR.sub(r"\2 \1", path)
 
 
 def _reversed(path: str) -> str:

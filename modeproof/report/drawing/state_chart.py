@@ -11,11 +11,13 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
-from modeproof.report.drawing.layered import Chain, Point, Size, place
+from modeproof.report.drawing.layered import Chain, Point, Size, narrowest
 from modeproof.report.drawing.svg import Line, arrow_head, element, height_of, lines, picture, wrapped
 
-MANY = 4
+MANY = 3
 """From so many states on the sources of a step are listed, not drawn."""
+FEW = 4
+"""So many states that a step does not come from are named instead of those that it comes from."""
 PAD, CORNER = 6.0, 9.0
 STEP, CLAUSE, STATE = 10.5, 9.5, 12.0
 """Font sizes in pixels."""
@@ -90,7 +92,7 @@ def state_chart(
     sizes = {name: _size([line for part in parts for line in part]) for name, parts in contents.items()}
     sizes |= {f"label {n}": _size(shown) for n, shown in labels.items()}
     chains = [Chain(source, target, f"label {n}") for n, (source, target) in enumerate(pairs)]
-    placed = place(sizes, chains)
+    placed = narrowest(sizes, chains)
     head = f"{id}-head"
     moves = [
         _move(chain, labels[f"{n}"], sizes[chain.label], placed.middle[chain.label], placed.lines[n], head)
@@ -135,7 +137,7 @@ def _from(entry: Entry, all_states: Sequence[str]) -> list[str]:
     others = [one for one in all_states if one != entry.target and one not in entry.sources]
     if not others:
         return ["from", "every", "other", "state"]
-    if len(others) < len(entry.sources) and len(others) <= MANY:
+    if len(others) < len(entry.sources) and len(others) <= FEW:
         return ["from", "every", "other", "state", "but", *_commas(others)]
     return ["from", *_commas(entry.sources)]
 

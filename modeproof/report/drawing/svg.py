@@ -9,6 +9,8 @@ from markupsafe import Markup, escape
 
 CHARACTER = 0.61
 """Width of a character of the monospace font, in its size."""
+LEAST = 0.75
+"""A picture is made no smaller than this on a screen, so that its text can be read; it scrolls instead."""
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,7 @@ def picture(width: float, height: float, title: str, *children: str, **attribute
         viewBox=f"0 0 {number(width)} {number(height)}",
         width=width,
         height=height,
+        style=f"min-width:{number(width * LEAST)}px",
         role="group",
         **attributes,
     )

@@ -26,4 +26,11 @@
       if (event.key === "Escape") show(chart, null);
     });
   }
+  for (const button of document.querySelectorAll("figure.drawing button.fit")) {
+    const figure = button.parentElement;
+    button.hidden = figure.scrollWidth <= figure.clientWidth;
+    button.addEventListener("click", () => {
+      button.setAttribute("aria-pressed", String(figure.classList.toggle("whole")));
+    });
+  }
 })();
