@@ -97,9 +97,12 @@ def place(sizes: Mapping[str, Size], chains: Sequence[Chain], *, aside: bool = F
     if aside:
         turned = {name: Size(size.height, size.width) for name, size in sizes.items()}
         found = place(turned, chains)
-        middle = {name: Point(at.y, at.x) for name, at in found.middle.items()}
-        lines = tuple(tuple(_turned(path) for path in paths) for paths in found.lines)
-        return Placed(found.height, found.width, middle, lines)
+        return Placed(
+            found.height,
+            found.width,
+            {name: Point(at.y, at.x) for name, at in found.middle.items()},
+            tuple(tuple(_turned(path) for path in paths) for paths in found.lines),
+        )
     for one in chains:
         if one.source == one.target or set(one.boxes) - set(sizes):
             raise ValueError(f"a chain from {one.source!r} to {one.target!r} cannot be placed")
@@ -144,16 +147,16 @@ def _upwards(sizes: Mapping[str, Size], chains: Sequence[Chain]) -> set[Chain]:
         way, stack = {root}, [(root, iter(after[root]))]
         while stack:
             here, rest = stack[-1]
-            one = next(rest, None)
-            if one is None:
+            chain = next(rest, None)
+            if chain is None:
                 stack.pop()
                 way.discard(here)
                 done.add(here)
-            elif one.target in way:
-                found.add(one)
-            elif one.target not in done:
-                way.add(one.target)
-                stack.append((one.target, iter(after[one.target])))
+            elif chain.target in way:
+                found.add(chain)
+            elif chain.target not in done:
+                way.add(chain.target)
+                stack.append((chain.target, iter(after[chain.target])))
     return found
 
 

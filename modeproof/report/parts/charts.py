@@ -59,7 +59,7 @@ def _charts(
         one = by_run.get(run.id)
         if one is not None and _is_chart(one.result.get("chart")):
             found[run.id] = one
-        elif one is None or "chart" not in one.result or one.record["verdict"] != "EQUAL":
+        elif one is None or one.record["verdict"] != "EQUAL" or one.result.get("chart", "") is not None:
             missing.append(run.id)  # else its states show no control state: there is nothing to draw
     if missing:
         what = f"{document.name}: no state chart of {device.id} in the evidence of {', '.join(missing)}"
