@@ -15,11 +15,14 @@ from modeproof.registers.load import load_interface
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors
 from modeproof.strength.adequacy_page import render
 from modeproof.strength.adequacy_register import read_register, register_path
+from modeproof.strength.campaign import Judged
 from modeproof.strength.command import chosen_of, report
 from modeproof.strength.implementation import Implementation
 from modeproof.strength.implementation_command import document_of
 from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.published import published
+from modeproof.strength.recorded import Record, record
+from modeproof.strength.register import Explained
 from modeproof.strength.results import Results, read_results, results_path
 
 RESULTS = "vectors"
@@ -47,6 +50,7 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
         if args.render:
             status = render(adequacy, results, read_register(place, document).explained)
             print(f"{adequacy_page(document)} is written")
+            keep(adequacy, adequacy.known(results), read_register(place, document).explained)
             return status
         progress = Progress(quiet=args.quiet)
         judged = judge_by_vectors(adequacy, chosen, results, progress, args.jobs or cores(), args.complete)
@@ -54,7 +58,30 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
     print(f"{len(adequacy.out_of_scope)} mutants more reach no published target and are out of scope")
     register = register_path(place, document).relative_to(place).as_posix()
     whole = len(judged) == len(adequacy.every)
+    if whole:
+        keep(adequacy, judged, read_register(place, document).explained)
     return report(read_register(place, document).explained, register, judged, whole, args)
+
+
+def keep(adequacy: Adequacy, judged: Sequence[Judged], explained: Sequence[Explained]) -> None:
+    """Write the evidence of the whole campaign."""
+    document = adequacy.code.document
+    register = register_path(adequacy.place, document)
+    campaign = Record(
+        document=document,
+        what="vectors",
+        command=f"modeproof mutate impl --judge vectors --document {document}",
+        judges=adequacy.names,
+        asked=lambda found: (answer["suite"] for answer in found["answers"]),
+        rests_on=[
+            *([register] if register.is_file() else []),
+            *(file for file, _ in adequacy.code.reached.values()),
+            *(one.suite.path for one in adequacy.suites),
+        ],
+        tools={},
+        out_of_scope=len(adequacy.out_of_scope),
+    )
+    record(adequacy.place, campaign, adequacy.every, judged, explained)
 
 
 def adequacy_of(place: Path, document: str, quiet: bool = True) -> Adequacy:

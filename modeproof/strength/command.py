@@ -10,15 +10,20 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from modeproof import evidence
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
 from modeproof.places import documents, root
 from modeproof.strength.campaign import WORDS, Judged, Known, all_mutants, default_jobs, judge_all
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant, diff
-from modeproof.strength.page import page_path, render
+from modeproof.strength.page import known, page_path, render
+from modeproof.strength.recorded import Record, record
 from modeproof.strength.register import Explained, load_strength, path_of
 from modeproof.strength.results import Results, read_results, results_path
+
+PINNED, OTHER = "the pinned jar", "another jar"
+"""How the evidence of a campaign names the model checker; its version is in the evidence of runs."""
 
 
 def add_parser(commands: Any) -> None:
@@ -88,6 +93,7 @@ def _mutate(args: argparse.Namespace) -> int:
     if args.render:
         status = render(bench, every, results)
         print(f"{page_path(document)} is written")
+        keep(bench, every, known(bench, every, results))
         return status
     with only_one(place):
         judged = judge_all(
@@ -99,7 +105,32 @@ def _mutate(args: argparse.Namespace) -> int:
             args.complete,
         )
     whole = len(chosen) == len(every)
+    if whole:
+        keep(bench, every, judged)
     return _report(bench, judged, every if whole else (), args)
+
+
+def keep(bench: Bench, every: Sequence[Mutant], judged: Sequence[Judged]) -> None:
+    """Write the evidence of the whole campaign."""
+    document, tools = bench.strength.document, bench.tools
+    folder = bench.folder
+    campaign = Record(
+        document=document,
+        what="spec",
+        command=f"modeproof mutate spec --document {document}",
+        judges=tuple(dict.fromkeys(name for tier in bench.strength.tiers for name in tier.run.properties)),
+        asked=lambda found: (name for answer in found["answers"] for name in answer.get("asked", ())),
+        rests_on=[
+            path_of(bench.place, document),
+            *(folder / f"{module}.tla" for module in bench.strength.rules),
+            *(folder / tier.run.cfg for tier in bench.strength.tiers),
+        ],
+        tools={
+            "tlc": {"version": PINNED if tools.pinned else OTHER, "sha256": tools.jar_sha256},
+            "java": evidence.tool(tools.java_version, tools.java),
+        },
+    )
+    record(bench.place, campaign, every, judged, bench.strength.explained)
 
 
 def _document(place: Path, named: str | None) -> str:

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 
+from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import documents
+from modeproof.strength.campaign import Judged
 from modeproof.strength.command import chosen_of, report
 from modeproof.strength.implementation import (
     Implementation,
@@ -16,6 +20,7 @@ from modeproof.strength.implementation import (
 )
 from modeproof.strength.implementation_page import page_path, render
 from modeproof.strength.mutant import Mutant, diff
+from modeproof.strength.recorded import Record, record
 from modeproof.strength.results import Results, read_results, results_path
 
 
@@ -44,12 +49,33 @@ def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
     if args.render:
         status = render(code, results)
         print(f"{page_path(code.document)} is written")
+        keep(code, code.known(results))
         return status
     with only_one(place):
         progress = Progress(quiet=args.quiet)
         judged = judge_implementation(code, chosen, results, progress, args.jobs or cores(), args.complete)
+    if len(chosen) == len(code.every):
+        keep(code, judged)
     register = str(register_path(place, code.document).relative_to(place))
     return report(code.register.explained, register, judged, len(chosen) == len(code.every), args)
+
+
+def keep(code: Implementation, judged: Sequence[Judged]) -> None:
+    """Write the evidence of the whole campaign."""
+    campaign = Record(
+        document=code.document,
+        what="impl",
+        command=f"modeproof mutate impl --document {code.document}",
+        judges=tuple(code.code.theorems(code.document)),
+        asked=lambda found: (answer["theorem"] for answer in found["answers"]),
+        rests_on=[
+            register_path(code.place, code.document),
+            *(file for file, _ in code.reached.values()),
+            *sorted((code.place / "proofs" / code.document).glob("*.py")),
+        ],
+        tools={"z3": evidence.tool(version("z3-solver"))},
+    )
+    record(code.place, campaign, code.every, judged, code.register.explained)
 
 
 def document_of(place: Path, named: str | None) -> str:
