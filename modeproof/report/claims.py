@@ -6,7 +6,7 @@ one whose evidence is of another text.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,14 +15,11 @@ from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.citations import Sources as Texts
 from modeproof.registers.python_source import PythonTheorem
 from modeproof.registers.rows import Document, Property, Run
-from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources, Trouble
+from modeproof.report.missing import LANE
+from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
+from modeproof.report.verdicts import ASIDE, POSITIVE
 
 NOT_THERE = "not there"
-ASIDE = "not in this lane"
-LANE = "full"
-"""The lane whose evidence is expected to be there."""
-POSITIVE = ("MC", "LIVE", "OPEN")
-"""Kinds of runs in which the listed properties must hold."""
 UNDECIDED = ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED")
 
 
@@ -200,17 +197,6 @@ def steps_of(one: Said) -> Figure | None:
     if one.evidence is None or not one.evidence.result.get("trace"):
         return None
     return Figure(int(one.evidence.result["trace_length"]) - 1, one.evidence.path)
-
-
-def holes(part: str, what: str, missing: Sequence[Said], command: str) -> list[Trouble]:
-    """One trouble for all that is missing or cannot be judged, one for each that is not as expected."""
-    bad = dict.fromkeys(f"{one.id} is {one.word}: {one.why}" for one in missing if one.status == DIFFERS)
-    found = [Trouble(DIFFERS, part, f"{what}: {one}", command) for one in bad]
-    gone = list(dict.fromkeys(f"{one.id}: {one.why}" for one in missing if one.status == HOLE))
-    if gone:
-        more = f" and {len(gone) - 1} more" if len(gone) > 1 else ""
-        found.append(Trouble(HOLE, part, f"{what}: not there: {gone[0]}{more}", command, tuple(gone)))
-    return found
 
 
 def proved(sources: Sources, document: Document, theorem: str) -> Said:

@@ -22,9 +22,6 @@ from modeproof.strength.recorded import Record, record
 from modeproof.strength.register import Explained, load_strength, path_of
 from modeproof.strength.results import Results, read_results, results_path
 
-PINNED, OTHER = "the pinned jar", "another jar"
-"""How the evidence of a campaign names the model checker; its version is in the evidence of runs."""
-
 
 def add_parser(commands: Any) -> None:
     """Add `mutate` to the commands of modeproof."""
@@ -126,7 +123,7 @@ def keep(bench: Bench, every: Sequence[Mutant], judged: Sequence[Judged]) -> Non
             *(folder / tier.run.cfg for tier in bench.strength.tiers),
         ],
         tools={
-            "tlc": {"version": PINNED if tools.pinned else OTHER, "sha256": tools.jar_sha256},
+            "tla2tools": {"version": "pinned" if tools.pinned else "not pinned", "sha256": tools.jar_sha256},
             "java": evidence.tool(tools.java_version, tools.java),
         },
     )

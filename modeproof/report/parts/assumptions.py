@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.registers.rows import Assumption, Document, Run
-from modeproof.report.claims import Said, holes, said, steps_of
+from modeproof.report.claims import Said, said, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
 
@@ -34,8 +34,6 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
                 f"{document.name}: {one.id}: neither a run shows what breaks without it, nor is it said why"
             )
             troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
-    command = f"modeproof verify --document {document.name}"
-    troubles += holes(ID, f"{document.name}: what breaks without an assumption", shown, command)
     return {
         "id": document.name,
         "title": document.about.title,

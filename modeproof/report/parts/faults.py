@@ -7,7 +7,7 @@ from typing import Any
 
 from modeproof.registers.fault_table import CELL
 from modeproof.registers.rows import Document, Fault, Run
-from modeproof.report.claims import Said, holes, said, steps_of
+from modeproof.report.claims import Said, said, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import Sources, Trouble
 
@@ -25,8 +25,6 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
     runs = {one.id: one for one in document.runs}
     shown: list[Said] = []
     rows = [_row(sources, document, one, runs, shown) for one in document.faults]
-    command = f"modeproof verify --document {document.name}"
-    troubles += holes(ID, f"{document.name}: runs of the fault table", shown, command)
     return {
         "id": document.name,
         "title": document.about.title,

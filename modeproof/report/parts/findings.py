@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.registers.rows import Document, Finding, Run
-from modeproof.report.claims import Said, holes, proved, said, steps_of, theorem_rows
+from modeproof.report.claims import Said, proved, said, steps_of, theorem_rows
 from modeproof.report.deviations import Deviation, deviations
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
@@ -42,8 +42,6 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
             troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
     every = deviations(sources, document)
     shown += [one.said for one in every]
-    command = f"modeproof verify --document {document.name}"
-    troubles += holes(ID, f"{document.name}: evidence that findings name", shown, command)
     return {
         "id": document.name,
         "title": document.about.title,

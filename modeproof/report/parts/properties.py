@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document, Property, Run
@@ -28,16 +27,10 @@ def part(sources: Sources) -> Part:
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
     every = claims(sources, document)
     killing = campaign(sources, document.name, "spec")
-    troubles += _holes(document, every)
     properties = [
         _property(sources, document, one, [c for c in every if c.of is one], killing, troubles)
         for one in document.properties
     ]
-    unwitnessed = [one["id"] for one in properties if one["witness"]["status"] == HOLE]
-    if unwitnessed:
-        what = f"{document.name}: no run of this text has reached the witness of {_named(unwitnessed)}"
-        command = f"modeproof verify --document {document.name}"
-        troubles.append(Trouble(HOLE, ID, what, command, tuple(unwitnessed)))
     return {
         "id": document.name,
         "title": document.about.title,
@@ -81,8 +74,6 @@ def _property(
     for what, text in (("sentence", one.sentence), ("hazard", one.hazard), ("clause", "".join(one.clauses))):
         if not text.strip():
             troubles.append(Trouble(HOLE, ID, f"{name} has no {what}", "modeproof registers"))
-    for claim in own:
-        troubles += _disagreements(document, claim)
     witness = _witness(sources, document, one)
     if witness["status"] == DIFFERS:
         troubles.append(Trouble(witness["status"], ID, f"{name}: {witness['why']}", witness["command"]))
@@ -105,45 +96,6 @@ def _property(
         "witness": witness,
         "kills": _kills(killing, one),
     }
-
-
-def _disagreements(document: Document, claim: Claim) -> list[Trouble]:
-    """What is not as expected, each by itself."""
-    name = f"{document.name}: {claim.of.id} ({claim.environment})"
-    if claim.disagreement:
-        return [Trouble(DIFFERS, ID, f"{name}: two engines disagree: {claim.disagreement}")]
-    command = f"modeproof verify --document {document.name}"
-    return [
-        Trouble(DIFFERS, ID, f"{name}: {one.id} is {one.word}: {one.why}", command)
-        for one in (claim.shown, *claim.theorems)
-        if one is not None and one.status == DIFFERS
-    ]
-
-
-def _holes(document: Document, every: Sequence[Claim]) -> list[Trouble]:
-    """What is not there, by its cause: one line a document and cause, with all that it concerns."""
-    found: dict[tuple[str, str], list[str]] = {}
-    command = f"modeproof verify --document {document.name}"
-    for claim in every:
-        name = f"{claim.of.id} ({claim.environment})"
-        for one in (claim.shown, *claim.theorems):
-            if one is None:
-                found.setdefault(("no run is declared that checks it", "modeproof registers"), []).append(
-                    name
-                )
-            elif one.status == HOLE:
-                cause = "no evidence" if one.evidence is None else one.word
-                cause = "evidence of another text" if one.evidence and one.evidence.changed else cause
-                found.setdefault((cause, command), []).append(f"{name}: {one.id}: {one.why}")
-    return [
-        Trouble(HOLE, ID, f"{document.name}: {cause} of {_named(names)}", remedy, tuple(names))
-        for (cause, remedy), names in found.items()
-    ]
-
-
-def _named(names: Sequence[str]) -> str:
-    head = names[0].split(": ")[0]
-    return head if len(names) == 1 else f"{head} and {len(names) - 1} more"
 
 
 def _environment(claim: Claim) -> dict[str, Any]:
