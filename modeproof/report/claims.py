@@ -15,11 +15,12 @@ from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.citations import Sources as Texts
 from modeproof.registers.python_source import PythonTheorem
 from modeproof.registers.rows import Document, Property, Run
-from modeproof.report.missing import LANE
 from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
 from modeproof.report.verdicts import ASIDE, POSITIVE
 
 NOT_THERE = "not there"
+LANE = "full"
+"""The lane that a report is about: what `verify` runs. What only another lane runs is no hole."""
 UNDECIDED = ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED")
 
 
