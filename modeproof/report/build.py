@@ -28,6 +28,8 @@ from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
 
 SCHEMA_VERSION = 1
+SCHEMA = Path(__file__).with_name("report.schema.json")
+"""What the JSON is; a test holds it against this."""
 STYLES = ("report.css", "tables.css", "explorer.css", "charts.css")
 SCRIPTS = ("report.js", "explorer.js", "charts.js")
 """Files of page/, in the order in which the page has them."""

@@ -147,7 +147,8 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
         try:
             found[name] = load_document(root, name)
         except Unjudged as error:
-            troubles.append(Trouble(HOLE, "scope", error.message, f"modeproof registers --document {name}"))
+            what = error.message.replace(f"{root}/", "")
+            troubles.append(Trouble(HOLE, "scope", what, f"modeproof registers --document {name}"))
             continue
         for path in sorted((root / "spec" / name).glob("*.toml")):
             shown = path.relative_to(root).as_posix()
@@ -158,7 +159,8 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
             try:
                 record = read(path)
             except Unjudged as error:
-                troubles.append(Trouble(HOLE, "verdict", error.message, "modeproof verify"))
+                what = error.message.replace(f"{root}/", "")
+                troubles.append(Trouble(HOLE, "verdict", what, "modeproof verify"))
                 continue
             before = {**record["inputs"], **record["result"].get("artefacts", {})}
             changed = tuple(one for one, digest in before.items() if hashes[one] not in (digest, None))
