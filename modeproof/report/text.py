@@ -15,6 +15,8 @@ def blocks(text: str) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     for block in re.split(r"\n\s*\n", text.strip()):
         lines = block.splitlines()
+        if not lines:
+            continue
         if found and found[-1]["kind"] == "code" and not found[-1].get("closed"):
             found[-1]["text"] += "\n\n" + block.removesuffix("```")
             found[-1]["closed"] = block.endswith("```")
