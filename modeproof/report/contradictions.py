@@ -1,12 +1,10 @@
-"""Evidence that contradicts other evidence: two solvers, two counts of one thing, two texts of one file.
-
-That a run and a theorem disagree on a property is said where the property is.
-"""
+"""Evidence that contradicts other evidence: two engines, two counts of one thing, two texts of one file."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from modeproof.report.claims import claims
 from modeproof.report.sources import DIFFERS, Sources, Trouble, few
 
 
@@ -14,6 +12,7 @@ def contradictions(sources: Sources) -> Iterator[Trouble]:
     """All of them; stale evidence, which is named elsewhere, is compared too."""
     yield from _two_texts(sources)
     for name in sources.documents:
+        yield from _engines(sources, name)
         yield from _solvers(sources, name)
         yield from _counts(sources, name)
 
@@ -33,6 +32,14 @@ def _two_texts(sources: Sources) -> Iterator[Trouble]:
         )
         what = f"the evidence is of different texts of {few(tuple(double))}"
         yield Trouble(DIFFERS, "verdict", what, "modeproof verify", items)
+
+
+def _engines(sources: Sources, name: str) -> Iterator[Trouble]:
+    """A property that one engine holds and another refutes."""
+    for one in claims(sources, sources.documents[name]):
+        if one.disagreement:
+            text = f"{name}: {one.of.id} ({one.environment}): two engines disagree: {one.disagreement}"
+            yield Trouble(DIFFERS, "properties", text, f"modeproof verify --document {name}")
 
 
 def _solvers(sources: Sources, name: str) -> Iterator[Trouble]:
