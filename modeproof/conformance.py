@@ -178,7 +178,7 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
             f"relation {found.relation}, suite {found.suite} over the adapter protocol: "
             f"{found.scans:,} scans, {done:,} of {total:,} merged transitions"
         )
-        result |= as_record(found)
+        result |= {**as_record(found), "says": suite.says}
         if found.word == "DIFFERS" and not reason:
             reason = f"the program differs: {found.difference}"
     except (Unjudged, KitUnjudged) as error:

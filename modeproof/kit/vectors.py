@@ -111,6 +111,11 @@ class Suite:
     scan_count: int
     member: str = ""
 
+    @property
+    def says(self) -> dict[str, str]:
+        """What its header says: what the suite guarantees, under which hypothesis, what it does not show."""
+        return {key: str(self.header.get(key, "")) for key in ("guarantees", "hypothesis", "does_not_show")}
+
     def cases(self) -> Iterator[Case]:
         """All cases in order. Raises Unjudged with line and cause for a line that cannot be used."""
         if any("rule" in graph for graph in self.header["graphs"]):

@@ -76,7 +76,7 @@ def _program(args: argparse.Namespace) -> int:
             started=started,
             seconds=verdict.seconds,
             inputs=evidence.hashes(place, [suite.path]),
-            result=as_record(verdict),
+            result={**as_record(verdict), "says": suite.says},
             reason="" if verdict.status == 0 else verdict.reason or "the program differs",
         )
         evidence.write(place, record)
