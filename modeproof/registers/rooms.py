@@ -107,7 +107,7 @@ def check_no_document_known(
     longest_first = "|".join(sorted(map(re.escape, names), key=len, reverse=True))
     form = re.compile(rf"(?<![A-Za-z0-9_])(?:{longest_first})(?![A-Za-z0-9_])")
     for path in sorted((root / "modeproof").rglob("*")):
-        if path.suffix not in (".py", ".json", ".toml", ".html", ".css", ".js"):
+        if path.suffix not in (".py", ".json", ".toml", ".html", ".j2", ".css", ".js"):
             continue
         for number, line in enumerate(read_text(root, path).splitlines(), 1):
             for found in dict.fromkeys(form.findall(line)):

@@ -140,7 +140,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
     ]
     payload = [(id, _packed(content)) for one in parts for id, content in one.payload.items()]
     payload += [(f"file-{name}", _packed(data)) for one in parts for name, data in one.attachments.items()]
-    payload += [(id, _packed(data)) for id, data in zip((SCRIPT, STYLE), tables(), strict=True)]
+    payload += _packed_tables()
     status = _status(troubles)
     return environment.get_template("report.html.j2").render(
         parts=shown,
@@ -168,6 +168,11 @@ def _folders(sources: Sources) -> dict[str, str]:
 
 def _file(name: str) -> str:
     return resources.files("modeproof.report").joinpath("page", name).read_text(encoding="utf-8")
+
+
+@cache
+def _packed_tables() -> tuple[tuple[str, str], ...]:
+    return tuple((id, _packed(data)) for id, data in zip((SCRIPT, STYLE), tables(), strict=True))
 
 
 def _packed(content: bytes) -> str:

@@ -69,13 +69,18 @@ def terms_of(sources: Sources) -> tuple[tuple[Term, ...], tuple[Trouble, ...]]:
     return tuple(sorted(terms, key=lambda one: one.word.lower())), ()
 
 
+def _key(word: str) -> str:
+    """Words in capitals are those of verdicts, and no others; all others are the same in any case."""
+    return word if word.isupper() else word.lower()
+
+
 class Terms:
     """Links the first use of each term in a part."""
 
     def __init__(self, sources: Sources) -> None:
-        self._terms = {form.lower(): one for one in terms_of(sources)[0] for form in (one.word, *one.forms)}
+        self._terms = {_key(form): one for one in terms_of(sources)[0] for form in (one.word, *one.forms)}
         longest_first = sorted(map(re.escape, self._terms), key=len, reverse=True)
-        self._form = re.compile(rf"(?<![\w-])(?:{'|'.join(longest_first)})(?![\w-])", re.IGNORECASE)
+        self._form = re.compile(rf"(?<![\w.-])(?:{'|'.join(longest_first)})(?![\w-]|\.\w)", re.IGNORECASE)
 
     def linked(self, part: str, html: str) -> str:
         """The HTML of a part, as a template made it: tags stay as they are, and all text but terms."""
@@ -85,8 +90,8 @@ class Terms:
         depth = 0
 
         def link(found: re.Match[str]) -> str:
-            term = self._terms[found.group().lower()]
-            if term.word in used:
+            term = self._terms.get(_key(found.group()))
+            if term is None or term.word in used:
                 return found.group()
             used.add(term.word)
             return f'<a class="term" href="#{term.anchor}">{found.group()}</a>'

@@ -119,6 +119,20 @@ def test_a_new_document_goes_from_clauses_to_verdicts_as_files_alone(done: dict[
     assert "OpensOverBeacon HOLDS   honest" in screen and "MotorOnlyOpen   HOLDS   arbitrary" in screen
 
 
+def test_the_report_of_verify_has_the_new_document_and_no_influence_on_its_status(
+    done: dict[str, Any], root: Path
+) -> None:
+    status, screen = done["verify --quiet"]
+    assert status == 0 and "report       build/report/report.html: not there: " in screen, screen
+    content = json.loads((root / "build/report/report.json").read_text(encoding="utf-8"))
+    (document,) = content["parts"]["verdict"]["documents"]
+    cells = {row["id"]: [cell and cell["verdict"] for cell in row["cells"]] for row in document["rows"]}
+    assert cells["OpensOverBeacon"] == ["HOLDS", None] or cells["OpensOverBeacon"] == [None, "HOLDS"]
+    assert [one["what"] for one in content["troubles"] if one["status"] == 1] == []
+    holes = {one["part"] for one in content["troubles"] if one["status"] == 2}
+    assert {"limits", "glossary"} <= holes and "verdict" not in holes  # their pages were not put there
+
+
 def test_its_verdicts_name_what_the_document_does_not_give(done: dict[str, Any]) -> None:
     assert done["conform beacon"][1].endswith("CONFORMS(exact, tour; not compared: LAMP_CODE)\n")
     assert done["conform beacon --codes"][1].endswith("CONFORMS(exact, tour)\n")

@@ -71,7 +71,9 @@ def test_what_is_allowed_is_not_reported(tree: Any, file: str, line: str) -> Non
         "MC_Latch",
     ],
 )
-@pytest.mark.parametrize("file", ["modeproof/kit/x.py", "modeproof/kit/x.json"])
+@pytest.mark.parametrize(
+    "file", ["modeproof/kit/x.py", "modeproof/kit/x.json", "modeproof/report/page/x.html.j2"]
+)
 def test_the_tool_may_not_know_a_declared_name(tree: Any, file: str, word: str) -> None:
     assert judge_tree(tree.root) == []
     tree.write(file, f'["{word}"]\n')

@@ -272,10 +272,19 @@ def test_the_first_use_of_a_word_in_a_part_leads_to_its_meaning(root: Path) -> N
         "<h3>door</h3>",
         "<svg><text>door</text></svg>",
         "<p>indoors</p>",
+        "<p>door.toml</p>",
+        "<p>holds</p>",
     ],
 )
 def test_names_headings_drawings_and_attributes_keep_their_text(root: Path, html: str) -> None:
     assert Terms(gather(root)).linked("scope", html) == html
+
+
+def test_a_verdict_word_is_one_in_capitals_only(root: Path) -> None:
+    with (root / "docs" / "glossary.toml").open("a") as file:
+        file.write('[[term]]\nword = "HOLDS"\nsays = "always"\n')
+    html = Terms(gather(root)).linked("scope", "<p>it holds a HOLDS</p>")
+    assert html == '<p>it holds a <a class="term" href="#term-holds">HOLDS</a></p>'
 
 
 def test_after_what_is_left_alone_words_are_found_again(root: Path) -> None:

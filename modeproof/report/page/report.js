@@ -89,6 +89,14 @@ const richTables = (() => {
   return { enrich, showAll };
 })();
 
+// What is wider than its place can be scrolled by keyboard.
+(() => {
+  const watch = new ResizeObserver((entries) => {
+    for (const { target } of entries) if (target.scrollWidth > target.clientWidth) target.tabIndex = 0; else target.removeAttribute("tabindex");
+  });
+  for (const one of document.querySelectorAll(".wide")) watch.observe(one);
+})();
+
 // A link into something closed opens it; a link to a row that a filter hides shows all rows.
 const reveal = (id) => {
   if (!id) return null;
