@@ -229,21 +229,27 @@ def code_names_the_cause(one: Scanned) -> Said:
     group = z3.If(on, 6, z3.If(on_time(one), 0, 3))
     found = z3.And(one.sends.Error, z3.Or(on, one.sent.SafetyDemand))
     code = z3.BV2Int(one.sends.DiagCode)
-    return TRUE, z3.Implies(found, code == 0xC000 + 16 * (group + which))
+    about_reset = z3.And(one.sends.Error, asked(one, False))
+    return TRUE, z3.And(
+        z3.Implies(found, code == 0xC000 + 16 * (group + which)),
+        z3.Implies(about_reset, code == z3.If(SEEN.reset, 0xC001, 0xC100)),
+    )
 
 
 @theorem(
     clauses=["EDM-OUT-DIAG", "EDM-OUT-ERROR", "EDM-IN-EDM-1"],
-    findings=["EDMF-01", "EDMF-06"],
+    findings=["EDMF-01", "EDMF-06", "EDMF-10", "EDMF-11"],
     properties=["CodeNamesTheCause"],
     slow=True,
 )
-def the_code_names_the_contactors_that_were_wrong() -> Queries:
+def the_code_names_the_cause() -> Queries:
     """The DiagCode of an error that a feedback causes says which of the two was wrong in that call, and
-    whether at the request, after the time to drop out, or after the time to pick up.
+    whether at the request, after the time to drop out, or after the time to pick up; that of an error at the
+    inhibit says whether Reset was held, or rose together with S_OutControl.
     """
     yield from JUDGE.in_every_scan(code_names_the_cause)
     yield JUDGE.without(code_names_the_cause, "OutputDisable", "TimeIsThatOnTheWires")
+    yield JUDGE.without(code_names_the_cause, "Init", "WiresAreRemembered")
 
 
 def keeps_the_code(one: Scanned) -> Said:

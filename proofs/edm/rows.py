@@ -48,13 +48,12 @@ def row_of_the_state(one: Scanned, seen: Any) -> z3.BoolRef:
         "EDM-OUT-REQUEST",
         "EDM-OUT-ERROR",
         "EDM-OUT-DIAG",
-        "EDM-SEQ-0",
     ],
     findings=["EDMF-01", "EDMF-02", "EDMF-03"],
-    properties=["OutputNeedsAll", "IdleShowsNothing", "PowerUpIsSafe"],
+    properties=["OutputNeedsAll", "IdleShowsNothing"],
 )
 def every_state_has_its_row() -> Queries:
-    """At power-up, which is inactive, and after every call, from any memory, the outputs are the row of the
+    """At power-up and after every call, from any memory, the outputs are the row of the
     state: S_EDM_Out is TRUE in one state alone, which shows neither error, nor inhibit, nor demand.
     """
     yield from FROM_ANYWHERE.after_every_scan(row_of_the_state)
@@ -63,6 +62,18 @@ def every_state_has_its_row() -> Queries:
         return TRUE, z3.Not(one.sends.S_EDM_Out)
 
     yield FROM_ANYWHERE.too_strong("the output is never on", never_on, "OutputDisable")
+
+
+def nothing_is_on(one: Scanned, seen: Any) -> z3.BoolRef:
+    return z3.And(one.sends.DiagCode == 0, *(z3.Not(getattr(one.sends, name)) for name in NAMES))
+
+
+@theorem(clauses=["EDM-OUT-READY-1", "EDM-SEQ-0"], findings=[], properties=["PowerUpIsSafe"])
+def before_the_first_call_nothing_is_on() -> Queries:
+    """Before the first call, with any parameters, the block is not ready and every output is FALSE or zero."""
+    yield from FROM_ANYWHERE.at_power_up(nothing_is_on)
+    always = FROM_ANYWHERE.after_a_scan(nothing_is_on)
+    yield FROM_ANYWHERE.too_strong("nothing is on after any call", always, "Idle")
 
 
 def code_tells_the_row(one: Scanned, seen: Any) -> z3.BoolRef:

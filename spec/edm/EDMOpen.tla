@@ -122,13 +122,15 @@ ErrorNeedsCause ==
         CASE S_EDM_Out -> ~OnTime /\ ~BothAre(FALSE)
           [] SafetyDemand -> ~BothAre(TRUE) /\ (~OnTime \/ (Scanned.S_OutControl /\ released))
           [] OTHER -> ~Scanned.S_StartReset /\ Scanned.Reset /\ (resetWas \/ (Scanned.S_OutControl /\ ~controlWas))]_beat
-\* EDM-OUT-DIAG, EDMF-01: the code of an error names the contactor that did not follow, and when
+\* EDM-OUT-DIAG, EDMF-01, EDMF-10, EDMF-11: the code of an error names the contactor that did not follow, and when; at the inhibit
+\* it says whether Reset was held, or rose with the request
 CodeNamesTheCause ==
-    [][Error' /\ (S_EDM_Out \/ SafetyDemand) =>
-        LET dropped == SafetyDemand
-            which == IF Scanned.S_EDM2 = dropped THEN 1 ELSE IF Scanned.S_EDM1 = dropped THEN 2 ELSE 3
-            group == IF S_EDM_Out THEN 6 ELSE IF OnTime THEN 0 ELSE 3
-        IN  DiagCode' = \hC000 + 16 * (group + which)]_beat
+    [][/\ Error' /\ (S_EDM_Out \/ SafetyDemand) =>
+            LET dropped == SafetyDemand
+                which == IF Scanned.S_EDM2 = dropped THEN 1 ELSE IF Scanned.S_EDM1 = dropped THEN 2 ELSE 3
+                group == IF S_EDM_Out THEN 6 ELSE IF OnTime THEN 0 ELSE 3
+            IN  DiagCode' = \hC000 + 16 * (group + which)
+       /\ Error' /\ ResetRequest /\ ~Error => DiagCode' = IF resetWas THEN \hC001 ELSE \hC100]_beat
 \* EDM-IN-RESET-1, EDMF-10: a reset error comes from its error and goes back to it
 ResetErrorKeepsTheCode ==
     [][DiagCode >= \hC010 /\ DiagCode # \hC100 /\ DiagCode' >= \hC000 =>
