@@ -70,7 +70,7 @@ def nothing_is_on(one: Scanned, seen: Any) -> z3.BoolRef:
 
 @theorem(clauses=["EDM-OUT-READY-1", "EDM-SEQ-0"], findings=[], properties=["PowerUpIsSafe"])
 def before_the_first_call_nothing_is_on() -> Queries:
-    """Before the first call, with any parameters, the block is not ready and every output is FALSE or zero."""
+    """Before the first call, with any parameters, the block is not ready and shows nothing."""
     yield from FROM_ANYWHERE.at_power_up(nothing_is_on)
     always = FROM_ANYWHERE.after_a_scan(nothing_is_on)
     yield FROM_ANYWHERE.too_strong("nothing is on after any call", always, "Idle")
