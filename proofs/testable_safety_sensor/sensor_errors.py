@@ -202,6 +202,8 @@ def a_reset_error_keeps_the_result_of_the_test() -> Queries:
 
 def external_test_is_complete(one: Scanned) -> Said:
     if one.was(*TEST_ERRORS):
+        if one.becomes(*MANUAL):
+            return TRUE, z3.Not(one.inputs.NoExternalTest)
         return TRUE, z3.Implies(rises(one, "S_OSSD_Out"), one.inputs.NoExternalTest)
     if not one.was(*MANUAL):
         return None
@@ -210,14 +212,15 @@ def external_test_is_complete(one: Scanned) -> Said:
 
 
 @theorem(
-    clauses=["TSS-IN-NOEXT-FALSE", "TSS-8002", "TSS-8804", "TSS-8404"],
+    clauses=["TSS-IN-NOEXT-FALSE", "TSS-IN-NOEXT-TRUE", "TSS-8002", "TSS-8804", "TSS-8404"],
     findings=["TSSF-14", "TSSF-16"],
     properties=["ExternalTestIsComplete"],
     slow=True,
 )
 def after_a_failed_test_the_manual_test_is_complete_or_there_is_none() -> Queries:
     """While Activate stays, after a failed test S_OSSD_Out rises only with NoExternalTest TRUE, or at the end
-    of a manual test in which the sensor was seen free, then dark, then free.
+    of a manual test in which the sensor was seen free, then dark, then free; a manual test begins only with
+    NoExternalTest FALSE.
     """
     yield from JUDGE.in_every_scan(external_test_is_complete)
     yield JUDGE.without(external_test_is_complete, "EndExternalTest", "CycleOfTheManualTest")

@@ -22,6 +22,7 @@ from proofs.testable_safety_sensor.invariants import (
     SENSOR_INVARIANT,
     TEST_ERRORS,
     sees,
+    valid,
 )
 from proofs.theorem import Queries, claim, theorem
 from proofs.theorem import control as control_query
@@ -331,6 +332,44 @@ def the_start_up_inhibit_outlives_an_interruption() -> Queries:
     yield JUDGE.without(start_inhibit_holds, "ESPEInterrupted2", "StartInhibitPending")
 
 
+def switched_off_inhibit_ends(one: Scanned) -> Said:
+    i, p, out = one.inputs, one.params, z3.And(one.sends.S_OSSD_Out, TRUE)
+    free = z3.And(i.Activate, i.S_OSSD_In)
+    if one.was("Init"):
+        return z3.And(free, i.S_StartReset, valid(p)), out
+    if one.was("ESPEInterrupted1"):
+        return z3.And(free, i.S_AutoReset, z3.Not(one.before.start_inhibit)), out
+    if one.was("ESPEInterrupted2"):
+        return z3.And(free, i.S_AutoReset), out
+    by_itself = z3.And(free, i.S_AutoReset, p.AUTO_RESET_ERRORS)
+    manual = TRUE if one.becomes("ExternalFunctionTest") else FALSE
+    if one.was("TestError1C410"):
+        return by_itself, z3.If(i.NoExternalTest, out, manual)
+    if one.was("TestError1C010"):
+        return z3.And(by_itself, z3.Not(i.NoExternalTest)), manual
+    return (by_itself, out) if one.was("EndExternalTest") else None
+
+
+@theorem(
+    clauses=["TSS-IN-STARTRESET", "TSS-IN-AUTORESET", "TSS-FN-2", "TSS-EB-3"],
+    findings=["TSSF-15", "TSSF-19"],
+    properties=["SwitchedOffInhibitEnds"],
+    slow=True,
+)
+def an_inhibit_that_is_switched_off_is_not_waited_for() -> Queries:
+    """With the sensor free an active call enables from Init with S_StartReset and a valid TestTime, and from
+    an interruption with S_AutoReset and no start-up inhibit left, whatever Reset is; with AUTO_RESET_ERRORS
+    S_AutoReset ends the manual test too, and a test error, by enabling or by asking for the manual test.
+    """
+    yield from JUDGE.in_every_scan(switched_off_inhibit_ends)
+
+    def with_the_other_value_too(one: Scanned) -> Said:
+        given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In, one.inputs.S_AutoReset)
+        return given, z3.And(one.sends.S_OSSD_Out, TRUE)
+
+    yield JUDGE.too_strong("without AUTO_RESET_ERRORS", with_the_other_value_too, "EndExternalTest")
+
+
 def reset_only_where_requested(one: Scanned) -> Said:
     kept = z3.Not(z3.Or(one.inputs.S_StartReset, one.inputs.S_AutoReset))
     return kept, z3.Implies(rises(one, "S_OSSD_Out"), one.sent.ResetRequest)
@@ -356,21 +395,22 @@ def a_reset_enables_only_where_it_was_asked_for() -> Queries:
 
 def demand_is_shown(one: Scanned) -> Said:
     judged = ("ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest")
-    if not one.was(*judged):
+    still = ("ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest")
+    if not one.was(*judged, *still):
         return None
     lost = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_OSSD_In))
     return lost, z3.Or(one.sends.SafetyDemand, one.sends.Error)
 
 
 @theorem(
-    clauses=["TSS-8802", "TSS-8806", "TSS-OUT-DEMAND", "TSS-OUT-OSSD"],
+    clauses=["TSS-8802", "TSS-8804", "TSS-8806", "TSS-OUT-DEMAND", "TSS-OUT-OSSD"],
     findings=["TSSF-31"],
     properties=["DemandIsShown"],
     slow=True,
 )
 def a_lost_sensor_is_shown_at_once() -> Queries:
     """Where the sensor was free, or is judged for the first time, and no test runs, a call that finds it dark
-    shows SafetyDemand or an error.
+    shows SafetyDemand or an error; where it was interrupted, every call that finds it still dark does.
     """
     yield from JUDGE.in_every_scan(demand_is_shown)
 

@@ -118,9 +118,22 @@ StartInhibitHolds ==
 \* TSS-OUT-REQUEST, TSSF-18: an edge enables only where the call before asked for it
 ResetOnlyWhereRequested ==
     [][Rise("S_OSSD_Out") /\ ~Scanned.S_StartReset /\ ~Scanned.S_AutoReset => Now("ResetRequest")]_beat
-\* TSS-8802, TSS-8806, TSS-OUT-DEMAND, TSS-OUT-OSSD: a lost sensor is shown as a demand in that very call
+\* TSS-IN-STARTRESET, TSS-IN-AUTORESET, TSS-FN-2, TSS-EB-3, TSSF-15, TSSF-19: where a constant switches the inhibit off, a free sensor
+\* enables in that call, whatever Reset is; so does the other value of AUTO_RESET_ERRORS with a failed test.  What waits for a reset
+\* already is not in this (TSSF-20)
+SwitchedOffInhibitEnds ==
+    [][Scanned.Activate /\ Scanned.S_OSSD_In =>
+        /\ state = "Init" /\ Scanned.S_StartReset /\ TestTimeValid => Then("S_OSSD_Out")
+        /\ state = "ESPEInterrupted1" /\ Scanned.S_AutoReset /\ ~startInhibit => Then("S_OSSD_Out")
+        /\ state = "ESPEInterrupted2" /\ Scanned.S_AutoReset => Then("S_OSSD_Out")
+        /\ Scanned.S_AutoReset /\ AUTO_RESET_ERRORS =>
+            /\ state = "EndExternalTest" => Then("S_OSSD_Out")
+            /\ state = "TestError1C410" /\ Scanned.NoExternalTest => Then("S_OSSD_Out")
+            /\ state \in TestErrors /\ ~Scanned.NoExternalTest => state' = "ExternalFunctionTest"]_beat
+\* TSS-8802, TSS-8804, TSS-8806, TSS-OUT-DEMAND, TSS-OUT-OSSD: a lost sensor is shown as a demand in that very call, and as long as it is lost
 DemandIsShown ==
-    [][(state \in {"ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest"}
+    [][(state \in {"ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest",
+                   "ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest"}
         /\ Scanned.Activate /\ ~Scanned.S_OSSD_In => Then("SafetyDemand") \/ Then("Error"))]_beat
 
 ----------------------------------------------------------------------------
@@ -185,10 +198,12 @@ StaticResetIsFound ==
 \* TSS-C051, TSS-OUT-EXECUTED, TSSF-02, TSSF-03: finding it changes neither what is known of the test nor where the block goes on
 ResetErrorKeepsTestExecuted ==
     [][(state' \in ResetErrors => state \in Watched[state'] \cup {state'} /\ Then("TestExecuted") = Now("TestExecuted"))]_beat
-\* TSS-IN-NOEXT-FALSE, TSS-8002, TSS-8804, TSS-8404, TSSF-14, TSSF-16: after a failed test no output without a manual test from free over dark to free, where there is one
+\* TSS-IN-NOEXT-FALSE, TSS-8002, TSS-8804, TSS-8404, TSSF-14, TSSF-16: after a failed test no output without a manual test from free over dark to free, where there is one; and
+\* TSS-IN-NOEXT-TRUE: none is asked for where there is none
 ExternalTestIsComplete ==
     [][/\ (state \in Manual /\ Rise("S_OSSD_Out") => cycle = 3 /\ state = "EndExternalTest")
-       /\ (state \in TestErrors /\ Rise("S_OSSD_Out") => Scanned.NoExternalTest)]_beat
+       /\ (state \in TestErrors /\ Rise("S_OSSD_Out") => Scanned.NoExternalTest)
+       /\ (state \in TestErrors /\ state' \in Manual => ~Scanned.NoExternalTest)]_beat
 \* TSS-C000, TSS-ERR-4, TSS-IN-TESTTIME, TSSF-11, TSSF-12: a TestTime out of its range never enables
 ParameterErrorStays ==
     [][~TestTimeValid /\ Scanned.Activate =>

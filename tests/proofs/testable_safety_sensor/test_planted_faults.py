@@ -136,6 +136,13 @@ FAULTS = [
         [("return i.S_AutoReset and not s.start_inhibit", "return i.S_AutoReset")],
     ),
     Planted(
+        "SwitchedOffInhibitEnds",
+        JUDGE,
+        "Init",
+        sensor_safety.switched_off_inhibit_ends,
+        [("if _reset_is_static(s, i) and not i.S_StartReset:", "if _reset_is_static(s, i):")],
+    ),
+    Planted(
         "ResetOnlyWhereRequested",
         JUDGE,
         "ESPEInterrupted2",

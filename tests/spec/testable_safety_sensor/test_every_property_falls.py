@@ -29,6 +29,10 @@ FAULTS = {
         "OutputRow(\\h8402, T, F, T, F, F, F, T, F)",
         "OutputRow(\\h8402, T, T, T, F, F, F, T, F)",
     ),
+    "SwitchedOffInhibitEnds": (
+        "StaticAtStart(i) == ResetStatic(i) /\\ ~i.S_StartReset",
+        "StaticAtStart(i) == ResetStatic(i)",
+    ),
     "DemandIsShown": (
         'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ESPEInterruptedExternalTest")',
         'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ExternalFunctionTest")',
