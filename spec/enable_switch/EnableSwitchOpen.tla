@@ -146,8 +146,8 @@ PatternTable ==
           [] s = "ResetError2" -> Always("PlausibilityErrorAtStage0")
           [] s = "ResetError3" -> Always("EquivalenceErrorAtStage0")
           [] OTHER -> Same]
-LOCAL Column == 1 + (in' % 8)
-LOCAL Plain ==
+Column == 1 + (in' % 8)
+Plain ==
     /\ Called.Activate /\ Called.S_SafetyActive /\ ~Called.Reset /\ ~Called.S_AutoReset
     /\ state \notin Timed \/ elapsed + Called.dt < DiscrepancyTimeCh1_Ch3
 \* ES-STAGE-0, ES-STAGE-1, ES-STAGE-2, ES-SEQ-6, ES-SEQ-7, ES-SEQ-8, ESF-04: every pattern in every state
