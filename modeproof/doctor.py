@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from modeproof.errors import Unjudged
@@ -44,6 +44,7 @@ def examine(place: Path) -> list[Finding]:
         lambda: _module("jsonschema", "jsonschema"),
         lambda: _program("make", "install make (Debian, Ubuntu: apt install make)"),
         lambda: _program("gcc", "install gcc (Debian, Ubuntu: apt install gcc)"),
+        _chromium,
         lambda: _disk(place),
         _memory,
         lambda: _writable(place),
@@ -117,6 +118,13 @@ def _program(name: str, mend: str) -> Finding:
         return Finding(name, False, f"{path} cannot be run: {error}", mend)
     lines = (done.stdout + done.stderr).strip().splitlines()
     return Finding(name, done.returncode == 0, lines[0] if lines else path, mend)
+
+
+def _chromium() -> Finding:
+    """For the tests of the report's page alone."""
+    name = os.environ.get("MODEPROOF_CHROMIUM") or "chromium"
+    mend = "only tests of the report's page use it: install chromium (Debian: apt install chromium)"
+    return replace(_program(name, mend), name="chromium", needed=False)
 
 
 def _disk(place: Path) -> Finding:

@@ -7,6 +7,8 @@ from pathlib import Path, PurePath
 ROOT = Path(__file__).resolve().parents[1]
 SHARING = frozenset({"proofs", "report", "spec", "strength", "trace"})
 """Rooms whose tests share explored devices, parse trees, runs of TLC or graphs, each document its own."""
+APART = frozenset({"report/browser"})
+"""Rooms within such a room that share nothing with the rest of it."""
 DOCUMENTS = frozenset(path.parent.name for path in ROOT.glob("spec/*/interface.toml"))
 
 
@@ -15,4 +17,4 @@ def group_of(file: PurePath, documents: frozenset[str] = DOCUMENTS) -> str:
     room, *rest = file.parts
     if room not in SHARING or not rest:
         return file.as_posix()
-    return f"{room}/{rest[0]}" if rest[0] in documents else room
+    return f"{room}/{rest[0]}" if rest[0] in documents or f"{room}/{rest[0]}" in APART else room

@@ -25,6 +25,8 @@ DOCUMENTS = frozenset({"lamp", "door"})
         ("proofs/explorer/test_a.py", "proofs"),
         ("proofs/test_a.py", "proofs"),
         ("trace/test_a.py", "trace"),
+        ("report/test_a.py", "report"),
+        ("report/browser/test_a.py", "report/browser"),
         ("kit/test_a.py", "kit/test_a.py"),
         ("test_a.py", "test_a.py"),
     ],

@@ -33,6 +33,13 @@ def test_little_memory_is_a_note_only(monkeypatch: pytest.MonkeyPatch) -> None:
     assert status == 0 and "note" in text and "MODEPROOF_HEAP_MB" in text
 
 
+def test_without_a_browser_nothing_needed_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MODEPROOF_CHROMIUM", "no-such-browser")
+    found = doctor._chromium()
+    text, status = doctor.report([found])
+    assert status == 0 and text.startswith("note     chromium  missing") and "apt install chromium" in text
+
+
 def test_a_package_that_is_missing_is_named() -> None:
     found = doctor._module("no_such_module", "no-such-package")
     assert not found.good and found.mend == "run `make venv`"

@@ -49,7 +49,7 @@ def test_a_property_without_evidence_shows_a_hole_in_its_place(root: Path) -> No
     row = shown(root)["environments"][0]
     assert (row["word"], row["good"], row["distinct"]) == ("not there", None, None)
     report = make(root)
-    assert '<span class="hole">not there</span>' in report.html
+    assert '<span class="hole">? not there</span>' in report.html
     assert report.status == HOLE
     assert any("MC_Box" in one.what for one in report.troubles if one.status == HOLE)
 
