@@ -6,7 +6,7 @@ import base64
 import gzip
 import hashlib
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib import resources
@@ -16,13 +16,14 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
+from modeproof.errors import Unjudged
 from modeproof.report.baseline import Baseline
 from modeproof.report.contradictions import contradictions
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page
 from modeproof.report.missing import missing, mixed, unexpected
-from modeproof.report.part import Part, plain
+from modeproof.report.part import Maker, Part, plain
 from modeproof.report.parts import makers
-from modeproof.report.sources import NOTE, Sources, Trouble, gather
+from modeproof.report.sources import HOLE, NOTE, Sources, Trouble, gather
 from modeproof.report.standing import standing
 from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
@@ -37,6 +38,12 @@ LAST = "changes"
 """The part that is made after all others, for what it is compared with rests on what they read."""
 SHOWN = 4
 """So many troubles of one part and kind stand on the first screen; the part has all."""
+UNMADE = "unmade"
+"""The key of a part's data that says why there is nothing else."""
+ODD = (Unjudged, LookupError, TypeError, ValueError, AttributeError, AssertionError, jinja2.TemplateError)
+"""What reading evidence of an unknown form raises."""
+CHECKS = (missing, unexpected, contradictions, mixed)
+NOTHING: dict[str, Any] = {"verdicts": {}, "results": {}, "mutants": {}, "pins": {}, "tools": {}}
 WORDS = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}
 
 
@@ -66,12 +73,15 @@ def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseli
     `baseline` gives, for the digest of all that was read, the earlier report to compare with.
     """
     sources = gather(root)
-    found = (*missing(sources), *unexpected(sources), *contradictions(sources), *mixed(sources))
+    found = [one for check in CHECKS for one in _checked(check, sources)]
     sources = replace(sources, troubles=(*sources.troubles, *found))
-    made = {id: maker(sources) for id, maker in makers() if id != LAST}
-    sources.shelf["standing"] = standing(sources)
+    made = {id: _made(id, maker, sources) for id, maker in makers() if id != LAST}
+    try:
+        sources.shelf["standing"] = standing(sources)
+    except ODD as error:
+        sources.shelf["standing"] = {**NOTHING, "verdicts": {"all": f"UNJUDGED: {_says(error)}"}}
     sources.shelf["baseline"] = baseline(sources.digest)
-    made |= {id: maker(sources) for id, maker in makers() if id == LAST}
+    made |= {id: _made(id, maker, sources) for id, maker in makers() if id == LAST}
     parts = _with_troubles([made[id] for id, _ in makers()], sources)
     troubles = tuple(dict.fromkeys(t for one in parts for t in one.troubles))
     text = seal_json(_as_json(sources, parts, troubles))
@@ -82,6 +92,46 @@ def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseli
         troubles,
         {name: content for one in parts for name, content in one.attachments.items()},
         sources.shelf["baseline"],
+    )
+
+
+def _made(id: str, maker: Maker, sources: Sources) -> Part:
+    """The part; where evidence of a valid form holds what it should not, a part that says so in its place."""
+    try:
+        part = maker(sources)
+        _rendered(part, ())
+        plain(part.data)
+        return part
+    except ODD as error:
+        what = (
+            f"the part {id} cannot be made: {_says(error)}; a register or evidence has not the form it should"
+        )
+        title = id.capitalize()
+        return Part(id, title, {UNMADE: what}, (Trouble(HOLE, id, what, "modeproof verify"),))
+
+
+def _checked(check: Callable[[Sources], Iterator[Trouble]], sources: Sources) -> Iterator[Trouble]:
+    """What a check finds; where evidence has not the form that it should have, that."""
+    try:
+        yield from check(sources)
+    except ODD as error:
+        what = (
+            f"not checked ({check.__name__}): {_says(error)}; evidence has not the form that it should have"
+        )
+        yield Trouble(HOLE, "verdict", what, "modeproof verify")
+
+
+def _says(error: BaseException) -> str:
+    return " ".join(f"{type(error).__name__}: {error}".split())
+
+
+def _rendered(part: Part, troubles: tuple[Trouble, ...]) -> str:
+    """The HTML of a part, as its template makes it."""
+    environment = _environment()
+    name = "unmade" if UNMADE in part.data else part.id
+    macros = environment.get_template("macros.html.j2").module
+    return environment.get_template(f"{name}.html.j2").render(
+        data=part.data, m=macros, troubles=troubles, shown=SHOWN
     )
 
 
@@ -127,14 +177,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
             "title": one.title,
             "troubles": one.troubles,
             "bad": sum(1 for trouble in one.troubles if trouble.status),
-            "html": Markup(
-                terms.linked(
-                    one.id,
-                    environment.get_template(f"{one.id}.html.j2").render(
-                        data=one.data, m=macros, troubles=troubles, shown=SHOWN
-                    ),
-                )
-            ),
+            "html": Markup(terms.linked(one.id, _rendered(one, troubles))),
         }
         for one in parts
     ]

@@ -15,7 +15,7 @@ from modeproof.errors import Unjudged
 from modeproof.report import build, parts
 from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
-from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Trouble, gather
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble, gather
 from tests.report.paper import change, put, without
 from tests.report.whole import make_whole, put_graph, stale
 
@@ -264,10 +264,53 @@ def test_a_part_has_the_troubles_that_concern_it_and_the_first_the_rest(root: Pa
 def test_a_report_of_the_largest_inputs_stays_under_ten_megabytes(root: Path) -> None:
     """Six hundred pieces of evidence of eighty inputs each: as many as five documents have."""
     inputs = {f"proofs/box/{number:04}.py": f"{number:064x}" for number in range(80)}
+    put(root, "it_shuts_over_the_door_only", inputs=inputs)
+    folder = root / "build" / "evidence" / "box"
+    text = (folder / "it_shuts_over_the_door_only.json").read_text()
     for number in range(600):
-        put(root, f"it_is_so_{number:04}", inputs=inputs)
+        name = f"it_shuts_over_the_door_only_{number:04}"
+        (folder / f"{name}.json").write_text(text.replace("it_shuts_over_the_door_only", name))
     report = make(root)
+    assert report.html.count("it_shuts_over_the_door_only_0599")
     assert len(report.html.encode()) < 10_000_000 and len(report.json.encode()) < 10_000_000
+
+
+@pytest.mark.parametrize(
+    ("name", "result"),
+    [
+        ("it_shuts_over_the_door_only", {"queries": 3}),
+        ("it_shuts_over_the_door_only", {"queries": [1], "unused": None}),
+        ("MC_Box", {"properties": None, "run": []}),
+        ("MC_Box", {"graph": {"states": "many"}, "distinct": "five"}),
+        ("NEG_Box_eager", {"trace": 1, "trace_length": "x"}),
+        ("coverage", {"devices": 1}),
+        ("strength_spec", {"mutants": {}}),
+        ("agreement", {"rows": [0]}),
+    ],
+)
+def test_evidence_of_a_strange_form_is_a_hole_in_its_place_and_no_crash(
+    root: Path, name: str, result: dict[str, Any]
+) -> None:
+    kinds = {"coverage": "coverage", "strength_spec": "strength", "agreement": "agreement"}
+    put(root, name, kind=kinds.get(name, ""), result=result)
+    report = make(root)
+    assert '<section id="review"' in report.html and json.loads(report.json)["parts"]
+    assert [one for one in report.troubles if one.status == HOLE] or name in ("MC_Box", "NEG_Box_eager")
+
+
+def test_a_part_that_cannot_be_made_says_so_and_the_others_are_there(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(sources: Sources) -> Part:
+        raise KeyError("planted")
+
+    monkeypatch.setattr(parts.scope, "part", broken)
+    report = make(root)
+    assert report.status == HOLE
+    assert "the part scope cannot be made: KeyError: &#39;planted&#39;" in report.html
+    assert '<section id="review"' in report.html
+    monkeypatch.setattr(parts.scope, "part", lambda sources: Part("scope", "Scope", {"documents": [1]}))
+    assert "the part scope cannot be made: UndefinedError" in make(root).html
 
 
 # ------------------------------------------------------------------------------------------ the command
