@@ -34,6 +34,8 @@ SCHEMA = Path(__file__).with_name("report.schema.json")
 STYLES = ("report.css", "tables.css", "explorer.css", "charts.css")
 SCRIPTS = ("report.js", "explorer.js", "charts.js")
 """Files of page/, in the order in which the page has them."""
+FIRST = "verdict"
+"""The part that shows the troubles of all."""
 LAST = "changes"
 """The part that is made after all others, for what it is compared with rests on what they read."""
 SHOWN = 4
@@ -99,8 +101,10 @@ def _made(id: str, maker: Maker, sources: Sources) -> Part:
     """The part; where evidence of a valid form holds what it should not, a part that says so in its place."""
     try:
         part = maker(sources)
-        _rendered(part, ())
+        html = _rendered(part, ())
         plain(part.data)
+        if id != FIRST:
+            sources.shelf[f"html of {id}"] = html
         return part
     except ODD as error:
         what = (
@@ -177,7 +181,9 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
             "title": one.title,
             "troubles": one.troubles,
             "bad": sum(1 for trouble in one.troubles if trouble.status),
-            "html": Markup(terms.linked(one.id, _rendered(one, troubles))),
+            "html": Markup(
+                terms.linked(one.id, sources.shelf.get(f"html of {one.id}") or _rendered(one, troubles))
+            ),
         }
         for one in parts
     ]
