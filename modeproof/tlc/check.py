@@ -301,6 +301,7 @@ def _result(
         "queue": log.counts.queue if log.counts else None,
         "initial": log.initial,
         "depth": log.depth,
+        "collision": log.collision,
         "printed": dict(sorted(log.tags.items())),
     }
     if outcome.how:

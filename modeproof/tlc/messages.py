@@ -49,6 +49,10 @@ _PLACE = re.compile(r"^(.*?) line \d+, col \d+ to line \d+, col \d+ of module (\
 _BACK = re.compile(r"(?:Back to state )?(\d+)(?:: Back to state)?")
 _VARIABLE = re.compile(r"^(?:/\\ )?([A-Za-z_]\w*) = (.*)$")
 _PARSED = re.compile(r"^Parsing file (.+)$")
+_COLLISION = {
+    "calculated": re.compile(r"calculated \(optimistic\):\s+val = (\S+)"),
+    "actual": re.compile(r"based on the actual fingerprints:\s+val = (\S+)"),
+}
 _EDGE = b'"<<\\"EDGE\\", '
 _TAG = re.compile(rb'^"<<\\"([A-Z_]+)\\"')
 
@@ -88,6 +92,8 @@ class Log:
     violations: list[tuple[str, str]] = field(default_factory=list)
     initially: bool = False
     """An initial state already violates something: TLC ends at once, and says no counts."""
+    collision: dict[str, float] = field(default_factory=dict)
+    """TLC's estimates of the probability that two states had one fingerprint: calculated, and actual."""
     trace: list[TraceState] = field(default_factory=list)
     loop: str = ""
     errors: list[tuple[int, str]] = field(default_factory=list)
@@ -209,6 +215,11 @@ class LogReader:
             self._counts(code, text)
         elif code == SUCCESS:
             log.success = True
+            log.collision = {
+                name: float(match.group(1))
+                for name, form in _COLLISION.items()
+                if (match := form.search(text))
+            }
         elif code == FINISHED:
             log.finished = True
         elif code == DEPTH:

@@ -2,7 +2,8 @@
 
 Most runs are small and spend most of their time on Java's start. `make venv` lets Java write what it loaded
 in one run (JEP 514) beside the packages; without the file, or with another Java or jar, TLC runs as before.
-Java refuses a cache that does not fit its version, or the size and date of the jar, or its own checksum.
+Java refuses a cache that does not fit its version or its own checksum. That it refuses one of another jar
+cannot be relied on (JDK-8377932), so the cache is made from the pinned jar alone, and used with it alone.
 """
 
 from __future__ import annotations
@@ -40,7 +41,9 @@ def start_up_options(tools: Toolchain, cache: Path = CACHE) -> list[str]:
 
 
 def write_cache(tools: Toolchain, cache: Path = CACHE) -> None:
-    """Write the cache, whole or not at all. Raises Unjudged when Java could not."""
+    """Write the cache, whole or not at all. Raises Unjudged when Java could not, or for another jar."""
+    if not tools.pinned:
+        raise Unjudged(f"no cache is made from {tools.jar.name}: it is not the pinned jar")
     with tempfile.TemporaryDirectory(dir=cache.parent) as room:
         (Path(room) / "Training.tla").write_text(_TRAINING, encoding="utf-8")
         (Path(room) / "Training.cfg").write_text(_CFG, encoding="utf-8")

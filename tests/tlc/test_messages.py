@@ -87,3 +87,16 @@ def test_an_error_inside_an_error_is_kept_with_its_code() -> None:
         b"@!@!@ENDMSG 1000 @!@!@\n",
     ]
     assert [code for code, _ in read_log(lines).errors] == [5006, 1000]
+
+
+def test_the_estimates_of_a_collision_of_fingerprints_are_read() -> None:
+    reader = LogReader()
+    for line in (
+        b"@!@!@STARTMSG 2193:0 @!@!@\n",
+        b"Model checking completed. No error has been found.\n",
+        b"  calculated (optimistic):  val = 2.5E-8\n",
+        b"  based on the actual fingerprints:  val = 9.6E-10\n",
+        b"@!@!@ENDMSG 2193 @!@!@\n",
+    ):
+        reader.feed(line)
+    assert reader.log.collision == {"calculated": 2.5e-8, "actual": 9.6e-10}

@@ -62,6 +62,14 @@ def test_without_a_cache_or_with_another_java_there_are_no_options(tools: Toolch
     assert start_up_options(dataclasses.replace(tools, java=Path("/usr/bin/java")), cache) == []
 
 
+def test_no_cache_is_made_from_another_jar_for_java_may_not_tell_them_apart(
+    tools: Toolchain, tmp_path: Path
+) -> None:
+    with pytest.raises(Unjudged, match="not the pinned jar"):
+        write_cache(dataclasses.replace(tools, pinned=False), tmp_path / "start.aot")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_nothing_half_written_is_left(tools: Toolchain, tmp_path: Path) -> None:
     with pytest.raises(Unjudged, match="Java wrote no cache"):
         write_cache(dataclasses.replace(tools, jar=tmp_path / "none.jar"), tmp_path / "start.aot")
