@@ -118,7 +118,7 @@ def _verify(args: argparse.Namespace, place: Path) -> int:
     for one in found.differences:
         print(f"{one.word:<8} {one.path}: {one.why}")
     words = {0: "as it was made", DIFFERS: "NOT as it was made", HOLE: "NOT complete"}[found.status]
-    print(f"{file}: {found.compared} files and what they rest on: {words}")
+    print(f"{file}: {found.compared} files: {words}")
     _write_json(args, found.status, report=str(file), differences=plain(found.differences))
     return found.status
 

@@ -8,7 +8,6 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.report.baseline import NAME
@@ -112,44 +111,20 @@ def _attachments(record: Path, text: str) -> Iterator[Difference]:
 
 
 def _compare(root: Path, files: Mapping[str, str]) -> Iterator[Difference]:
-    """The listed files, what lies beside them unlisted, and what the evidence among them rests on."""
-    rests: dict[str, dict[str, list[str]]] = {}
+    """The listed files, and registers and evidence that are not listed."""
     for path, digest in files.items():
         now = _sha256(root / path)
-        if now is None:
+        if now is None and path.startswith("build/") and not path.startswith("build/evidence/"):
+            yield Difference("gone", path, "it was made, and is made again by what used it", NOTE)
+        elif now is None:
             yield Difference("gone", path, f"the report has it as {digest[:12]}", HOLE)
         elif now != digest:
             yield Difference("differs", path, f"SHA-256 {now[:12]}, the report has {digest[:12]}", DIFFERS)
-        elif path.startswith("build/evidence/"):
-            for name, before in _inputs(root / path).items():
-                rests.setdefault(name, {}).setdefault(before, []).append(path)
     for place in ("build/evidence/*/*.json", "spec/*/*.toml"):
         for one in sorted(root.glob(place)):
             name = one.relative_to(root).as_posix()
             if name not in files:
                 yield Difference("new", name, "the report does not know it", DIFFERS)
-    for name, of in sorted(rests.items()):
-        now = _sha256(root / name)
-        for before, pieces in of.items():
-            if now == before:
-                continue
-            why = f"rests under {pieces[0]}" + (f" and {len(pieces) - 1} more" if len(pieces) > 1 else "")
-            if now is not None:
-                yield Difference(
-                    "differs", name, f"{why}: SHA-256 {now[:12]}, they have {before[:12]}", DIFFERS
-                )
-            elif name.startswith("build/"):
-                yield Difference("gone", name, f"{why}; their command makes it again", NOTE)
-            else:
-                yield Difference("gone", name, why, HOLE)
-
-
-def _inputs(path: Path) -> Mapping[str, str]:
-    try:
-        inputs: Any = json.loads(path.read_text(encoding="utf-8")).get("inputs", {})
-    except (OSError, ValueError, AttributeError):
-        return {}  # a damaged piece of evidence that the report knows as damaged
-    return inputs if isinstance(inputs, dict) else {}
 
 
 def _sha256(path: Path) -> str | None:

@@ -87,8 +87,8 @@ class Evidence:
 class Sources:
     """Registers and evidence of all documents.
 
-    `files` is the SHA-256 of every file that was read, by its path relative to the root; a part that reads
-    another file reads it by `content`, so that it is among them.
+    `files` is the SHA-256 of every file that was read, and of those that evidence rests on, by its path
+    relative to the root; a part that reads another file reads it by `content`, so that it is among them.
     """
 
     root: Path
@@ -162,19 +162,18 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
                 what = error.message.replace(f"{root}/", "")
                 troubles.append(Trouble(HOLE, "verdict", what, "modeproof verify"))
                 continue
-            before = {**record["inputs"], **record["result"].get("artefacts", {})}
+            artefacts = record["result"].get("artefacts", {})
+            before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
             changed = tuple(one for one, digest in before.items() if hashes[one] not in (digest, None))
             gone = tuple(one for one in before if hashes[one] is None)
             files[shown] = hashes[shown] or ""
-            for made in record["result"].get("artefacts", {}):
-                if digest := hashes[made]:
-                    files[made] = digest
+            files |= {one: digest for one in before if (digest := hashes[one]) is not None}
             evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
-    troubles += _stale(evidence)
     ordered = sorted(found.values(), key=lambda one: (one.about.seed, one.name))
+    troubles += _stale({one.name: evidence[one.name] for one in ordered})
     return Sources(
         root,
         {one.name: one for one in ordered},

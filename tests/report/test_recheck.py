@@ -9,7 +9,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_of_page, seal_page
-from tests.report.paper import put
+from tests.report.paper import change, put
 from tests.report.whole import make_whole
 
 
@@ -34,7 +34,7 @@ def test_a_report_that_was_just_made_is_as_it_was_made(
     root: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["report", "--verify"]) == 0
-    assert capsys.readouterr().out.endswith("files and what they rest on: as it was made\n")
+    assert capsys.readouterr().out.endswith("files: as it was made\n")
     assert main(["report", "--verify", str(root / "build" / "report" / "report.json")]) == 0
 
 
@@ -94,6 +94,14 @@ def test_page_and_json_of_two_reports_do_not_belong_together(
     capsys.readouterr()
     assert main(["report", "--verify"]) == 1
     assert "does not belong to report.json" in capsys.readouterr().out
+
+
+def test_what_was_stale_when_the_report_was_made_is_no_change_since(root: Path) -> None:
+    change(root / "spec" / "box" / "Box.tla", "The box: it shuts", "The box: it shuts now")
+    assert main(["report"]) == 2
+    assert main(["report", "--verify"]) == 0
+    flip(root / "spec" / "box" / "Box.tla", 40)
+    assert main(["report", "--verify"]) == 1
 
 
 def test_evidence_that_came_later_is_new(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
