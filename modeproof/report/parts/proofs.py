@@ -105,6 +105,7 @@ def _agreement(sources: Sources, document: Document) -> dict[str, Any] | None:
     one = found[0]
     record = as_it_counts(one)
     rows = one.result.get("rows", [])
+    findings = {each.id for each in document.findings}
     return {
         "word": one.record["verdict"],
         "verdict": one.figure("verdict"),
@@ -122,7 +123,10 @@ def _agreement(sources: Sources, document: Document) -> dict[str, Any] | None:
                 "theorem": row["theorem"],
                 "reason": row["reason"],
                 "note": row["note"],
-                "rests_on": list(row["rests_on"]),
+                "rests_on": [
+                    {"kind": "finding" if name in findings else "assumption", "id": name}
+                    for name in row["rests_on"]
+                ],
                 "good": _agrees(row),
             }
             for row in rows
