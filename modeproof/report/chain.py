@@ -141,7 +141,8 @@ def _vectors(sources: Sources, document: Document) -> Mapping[tuple[str, str], L
         status = status_of(as_it_counts(one))
         for step, (have, total) in one.result.get("covered", {}).items():
             good = False if status == DIFFERS else True if not status and have == total and total else None
-            word = str(one.record["verdict"]) if good is not None else "not in full"
+            open_word = "of another text" if one.changed else "not in full" if not status else "not judged"
+            word = str(one.record["verdict"]) if good is not None else open_word
             key = str(one.result.get("target", "")), str(step)
             before = found.get(key)
             if before is None or good is False or (good and before.good is None):

@@ -68,6 +68,33 @@ def test_a_result_that_is_missing_or_wrong_shows_in_the_row_of_its_clause(root: 
     assert (rows(root)["BX-1-2"]["word"], rows(root)["BX-1-2"]["good"]) == ("not as expected", False)
 
 
+GRAPH = '[run.graph]\ndevice = "box"\ntick_ms = 10\nstates = 2\nedges = 4\n'
+
+
+def test_a_vector_says_what_came_of_the_programs_that_took_its_step(root: Path) -> None:
+    change(root / "spec" / "box" / "interface.toml", "published = false", "published = true")
+    path = root / "spec" / "box" / "runs.toml"
+    path.write_text(path.read_text().replace("generated = 11\n", f"generated = 11\n{GRAPH}"))
+    assert rows(root)["BX-1-1"]["vector"][0]["text"] == "not there"
+    taken = {"Close": [2, 2], "Wait": [1, 2]}
+    result = {"target": "box", "suite": "brief", "covered": taken}
+    fields = {"kind": "conformance", "verdict": "CONFORMS", "expected": "CONFORMS"}
+    put(root, "adapter_box_brief", result=result, **fields)
+    found = {one["id"]: (one["text"], one["good"]) for one in rows(root)["BX-1-1"]["vector"]}
+    assert found == {
+        "box/tour:Close": ("CONFORMS (brief)", True),
+        "box/tour:Wait": ("not in full (brief)", None),
+        "box/tour:Stay": ("not there", None),
+    }
+    put(root, "adapter_box_tour", result={**result, "suite": "tour", "covered": {"Wait": [2, 2]}}, **fields)
+    assert rows(root)["BX-1-1"]["vector"][1]["text"] == "CONFORMS (tour)"
+    wrong = {**fields, "verdict": "DIFFERS", "as_expected": False, "reason": "scan 3"}
+    put(root, "adapter_box_wp", result={**result, "suite": "wp", "covered": {"Close": [1, 2]}}, **wrong)
+    assert rows(root)["BX-1-1"]["vector"][0]["text"] == "DIFFERS (wp)"
+    change(root / "spec" / "box" / "Box.tla", "The box: it shuts", "The box: it shuts now")
+    assert rows(root)["BX-1-1"]["vector"][0]["text"] == "of another text (brief)"
+
+
 def test_the_csv_has_a_row_a_clause_and_no_cell_that_a_spreadsheet_takes_for_a_formula(root: Path) -> None:
     change(root / "spec" / "box" / "clauses.toml", 'title = "the box shuts"', 'title = "=1+1"')
     content = part(gather(root)).attachments["matrix.csv"].decode()

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from modeproof import evidence
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.graph.implementation import Implementation as Implemented
 from modeproof.kit.vectors import open_suite
@@ -18,6 +19,7 @@ from modeproof.progress import Progress
 from modeproof.registers.adequacy_page import adequacy_page, check_adequacy_page
 from modeproof.strength import replay
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors
+from modeproof.strength.adequacy_command import keep
 from modeproof.strength.adequacy_page import render
 from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.campaign import Judged
@@ -27,7 +29,7 @@ from modeproof.strength.published import contents, published
 from modeproof.strength.replay import Played, Vectors
 from modeproof.strength.results import Results, read_results
 from proofs.mutants import copies
-from tests.strength.gates import GATE, Room, build_place, unload, write_vectors
+from tests.strength.gates import GATE, PACKAGE, Room, build_place, unload, write_vectors
 
 SHORT = [[True, False]]
 LONG = [[False], [True, True, True, True, False, True]]
@@ -398,6 +400,16 @@ def test_complete_asks_every_suite_of_every_mutant(place: Path) -> None:
 
 
 # ---------------------------------------------------------------- the page
+
+
+def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
+    adequacy, _, judged = campaign(place, names=("short",), definitions=())
+    keep(adequacy, judged, ())
+    found = evidence.read(evidence.evidence_path(place, "toy", "strength_vectors"))
+    assert (found["verdict"], found["as_expected"]) == ("SURVIVED", False), "survivors are not explained"
+    assert set(found["result"]["judges"]) == {"short"} and found["result"]["judges"]["short"] > 0
+    assert found["result"]["out_of_scope"] == len(adequacy.out_of_scope) > 0
+    assert {"short.jsonl", f"{PACKAGE}/toy/gate.py"} <= set(found["inputs"])
 
 
 def test_the_page_is_of_all_mutants_and_drift_is_found(place: Path) -> None:

@@ -11,11 +11,13 @@ from typing import Any
 
 import pytest
 
+from modeproof import evidence
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.places import documents, root
 from modeproof.progress import Progress
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.implementation import Implementation, judge_implementation, read_register
+from modeproof.strength.implementation_command import keep
 from modeproof.strength.implementation_page import page, page_path, render
 from modeproof.strength.page import stamp_of
 from modeproof.strength.results import Results, read_results
@@ -111,6 +113,15 @@ def test_every_mutant_is_judged_and_kept(place: Path) -> None:
     assert len(judged) == len(code.every) == len(read_results(place / "impl.jsonl").records)
     assert [one.mutant.new for one in unexplained((), judged)] == ["count <= LIMIT"]
     assert "**all** |" in page(code, judged)
+
+
+def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
+    code, _, judged = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED"}))
+    keep(code, judged)
+    found = evidence.read(evidence.evidence_path(place, "toy", "strength_impl"))
+    assert (found["verdict"], found["as_expected"]) == ("SURVIVED", False)
+    assert list(found["result"]["judges"])[:2] == ["counts", "ends"]
+    assert "refimpl/toy/gate.py" in found["inputs"] and "proofs/toy/strength.toml" in found["inputs"]
 
 
 def test_what_is_known_is_not_judged_again_and_an_interrupted_campaign_goes_on(place: Path) -> None:
