@@ -151,6 +151,20 @@ def test_a_figure_shows_its_source_and_the_page_knows_its_hash(root: Path) -> No
     assert "build/evidence/box/MC_Box.json" in used and "build/evidence/box/" in folders
 
 
+def test_every_link_within_the_page_leads_somewhere_and_no_id_is_there_twice(root: Path) -> None:
+    put_graph(root, 4, 4)
+    html = make(root).html
+    assert lost_links(html) == set()
+    assert lost_links(f'{html}<a href="#nowhere">x</a><p id="scope">') == {"nowhere", "scope twice"}
+
+
+def lost_links(html: str) -> set[str]:
+    """What a link leads to and is not there, or is there twice."""
+    ids = re.findall(r'\sid="([^"]+)"', html)
+    lost = {target for target in re.findall(r'href="#([^"]+)"', html) if target not in ids}
+    return lost | {f"{one} twice" for one in ids if ids.count(one) > 1}
+
+
 def test_missing_evidence_is_a_hole_in_its_place(root: Path) -> None:
     without(root, "NEG_Box_eager")
     report = make(root)
