@@ -86,7 +86,7 @@ def standing(sources: Sources) -> dict[str, Any]:
     pins: dict[str, Any] = {}
     for name, document in sources.documents.items():
         for line in lines_of(sources, document):
-            verdicts[f"{name}: {line.property} ({line.environment})"] = line.verdict
+            verdicts[f"{name}: {line.property} ({line.environment})"] = line.verdict.rstrip("?")
         for one in sources.evidence[name].values():
             results[f"{name}/{one.id}"] = {"verdict": one.record["verdict"], "counts": _counts(one.result)}
         mutants |= {f"{name}, by {judge}": of for judge, of in mutants_of(sources, name).items()}

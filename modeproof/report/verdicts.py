@@ -9,6 +9,8 @@ from typing import Any
 Record = Mapping[str, Any]
 
 ASIDE = "not in this lane"
+NOT_AS_DECLARED = "HOLDS?"
+"""It held, but the run is not the one that was declared: a count or a name differs."""
 POSITIVE = ("MC", "LIVE", "OPEN")
 """Kinds of runs in which every property must hold."""
 
@@ -85,7 +87,7 @@ def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere:
             "INCONCLUSIVE"  # another property of the same run failed first: nothing is known of this one
         )
     elif status == 1 and verdict == "HOLDS":
-        verdict = "HOLDS?"  # held, but not the run that was declared: a count or a name differs
+        verdict = NOT_AS_DECLARED
     seconds = sum(float(r["seconds"]) for r in runs)
     distinct = worst["result"].get("distinct")
     return Line(row.id, verdict, environment, worst["strength"], distinct, seconds, status, str(worst["id"]))

@@ -73,6 +73,20 @@ def test_the_weakest_of_several_runs_counts(root: Path) -> None:
     assert (cell["verdict"], cell["status"], cell["run"]) == ("INCONCLUSIVE", HOLE, "MC_Box_lazy")
 
 
+def test_a_run_that_held_with_other_counts_is_not_as_declared_and_no_word_is_invented(root: Path) -> None:
+    put(root, "MC_Box", as_expected=False, reason="distinct states: 5, pinned 6")
+    (cell,) = glance(root)["rows"][0]["cells"]
+    assert (cell["verdict"], cell["status"]) == ("HOLDS", 1)
+    assert cell["why"] == "not as declared: distinct states: 5, pinned 6"
+    assert "HOLDS?" not in make(root).html
+
+
+def test_why_a_property_fell_stands_in_its_cell(root: Path) -> None:
+    put(root, "MC_Box", verdict="INCONCLUSIVE", as_expected=False, reason="out of memory")
+    assert glance(root)["rows"][0]["cells"][0]["why"] == "out of memory"
+    assert "INCONCLUSIVE</span> out of memory" in make(root).html
+
+
 def test_stale_evidence_counts_nowhere(root: Path) -> None:
     stale(root, "it_shuts_over_the_door_only")
     stale(root, "MC_Box")

@@ -10,7 +10,7 @@ from modeproof.report.campaigns import KINDS, id_of
 from modeproof.report.part import Part
 from modeproof.report.sources import Evidence, Figure, Sources
 from modeproof.report.standing import as_it_counts, lines_of, mutants_of
-from modeproof.report.verdicts import ASIDE, Line, status_of
+from modeproof.report.verdicts import ASIDE, NOT_AS_DECLARED, Line, status_of
 
 GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (
     ("theorems", "PROVED", lambda one: one.record["kind"] == "proof"),
@@ -129,14 +129,23 @@ def _cell(sources: Sources, name: str, line: Line | None, marks: dict[str, int])
     source = sources.evidence[name].get(line.run)
     return {
         "environment": line.environment,
-        "verdict": line.verdict,
+        "verdict": line.verdict.rstrip("?"),
         "status": line.status,
         "aside": line.verdict == ASIDE,
         "strength": line.strength,
+        "why": _why(line, source),
         "mark": marks.get(line.strength) if not line.status else None,
         "run": line.run,
         "distinct": Figure(line.distinct, source.path) if source and line.distinct is not None else None,
     }
+
+
+def _why(line: Line, source: Evidence | None) -> str:
+    """Why a property is not as expected: the reason that its evidence gives."""
+    if not line.status:
+        return ""
+    reason = "" if source is None or source.changed else str(source.record["reason"])
+    return f"not as declared: {reason}" if line.verdict == NOT_AS_DECLARED else reason or line.strength
 
 
 def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
