@@ -3,6 +3,7 @@
 Replay: every transition of a device graph, from power-up, on the reference implementation in this process, on
 one core; outputs and states are compared in every scan. Missing graphs are made first, by TLC. Then the first
 cases of a fast suite, on the statement-list program: behind its adapter, and in its simulated PLC over S7.
+Last the report: how long it takes to be made, and its first paint in Chromium.
 """
 
 from __future__ import annotations
@@ -165,6 +166,9 @@ def main() -> int:
     from tests.bench_kit import show_kit
 
     show_kit(place)
+    from tests.bench_page import show_page
+
+    show_page(place)
     return 0
 
 

@@ -34,6 +34,8 @@ _APART = frozenset(
     )
 )
 """Elements whose text is left as it is: links within links, headings, names, drawings."""
+FIGURE = 'class="figure"'
+"""What stands in the tag of a figure: it is a button by itself, and no link can be in it."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +104,6 @@ class Terms:
                 name = _NAME.match(piece)
                 if name and name.group(1).lower() in _APART and not piece.endswith("/>"):
                     depth += -1 if piece.startswith("</") else 1
-            elif not depth and piece.strip():
+            elif not depth and piece.strip() and FIGURE not in pieces[place - 1]:
                 pieces[place] = self._form.sub(link, piece)
         return "".join(pieces)

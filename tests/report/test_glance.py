@@ -284,6 +284,7 @@ def test_the_first_use_of_a_word_in_a_part_leads_to_its_meaning(root: Path) -> N
         "<code>door</code>",
         '<p title="door">x</p>',
         "<h3>door</h3>",
+        '<span class="figure" role="button">door</span>',
         "<svg><text>door</text></svg>",
         "<p>indoors</p>",
         "<p>door.toml</p>",
