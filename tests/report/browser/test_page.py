@@ -83,6 +83,15 @@ def test_what_cannot_be_read_or_named_would_be_noticed(faulty: Opened) -> None:
     assert {"color-contrast", "button-name", "label"} <= rules
 
 
+def test_every_link_in_the_page_leads_somewhere(anyone: Opened) -> None:
+    """But for those to traces: a page has only the traces that were recorded."""
+    assert [one for one in anyone.wrong("lost") if not one.startswith("#trace-")] == []
+
+
+def test_a_link_that_leads_nowhere_would_be_noticed(faulty: Opened) -> None:
+    assert "#no-such-place" in faulty.wrong("lost")
+
+
 def test_a_figure_says_by_keyboard_where_it_comes_from(box: Opened) -> None:
     box.page.locator("#explorer-graphs").scroll_into_view_if_needed()
     figure = box.page.locator("#explorer-graphs.dataTable .figure").first
