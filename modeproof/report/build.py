@@ -31,8 +31,8 @@ from modeproof.report.vendored import SCRIPT, STYLE, tables
 SCHEMA_VERSION = 1
 SCHEMA = Path(__file__).with_name("report.schema.json")
 """What the JSON is; a test holds it against this."""
-STYLES = ("report.css", "tables.css", "explorer.css", "charts.css")
-SCRIPTS = ("report.js", "explorer.js", "charts.js")
+STYLES = ("report.css", "tables.css", "explorer.css", "charts.css", "traces.css")
+SCRIPTS = ("report.js", "explorer.js", "charts.js", "traces.js")
 """Files of page/, in the order in which the page has them."""
 FIRST = "verdict"
 """The part that shows the troubles of all."""

@@ -1,0 +1,181 @@
+"""Traces for people: every counterexample as a sequence diagram and as a scan table, step by step."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+from modeproof.errors import Unjudged
+from modeproof.registers.replay import Traces, has_replay, load_replay
+from modeproof.registers.rows import Document, Run
+from modeproof.report.part import Part
+from modeproof.report.sources import HOLE, NOTE, Evidence, Figure, Sources, Trouble
+from modeproof.report.story import Story, digest_of, from_variables, from_walk, is_trace
+
+ID = "traces"
+
+
+def part(sources: Sources) -> Part:
+    """An index of all traces, the shortest of each finding as a table, and all of them for the viewer."""
+    troubles: list[Trouble] = []
+    stories: dict[str, Any] = {}
+    documents = [_document(sources, one, troubles, stories) for one in sources.documents.values()]
+    text = json.dumps(stories, ensure_ascii=False, separators=(",", ":"), sort_keys=True)
+    return Part(
+        ID,
+        "Traces",
+        {"documents": documents},
+        tuple(troubles),
+        {"trace-stories": text.encode("utf-8")} if stories else {},
+    )
+
+
+def anchor(document: str, run: str) -> str:
+    """The link of a trace."""
+    return f"trace-{document}-{run}"
+
+
+def _document(
+    sources: Sources, document: Document, troubles: list[Trouble], stories: dict[str, Any]
+) -> dict[str, Any]:
+    traces = _traces(document)
+    rows: list[dict[str, Any]] = []
+    told: dict[str, Story] = {}
+    without, cut = [], []
+    for run in document.runs:
+        one = sources.evidence[document.name].get(run.id)
+        if run.kind != "NEG" and (one is None or not one.result.get("trace")):
+            continue
+        if one is None:
+            cut.append(run.id)
+            continue
+        trace: Any = one.result.get("trace")
+        if not is_trace(trace) or len(trace) != one.result.get("trace_length", len(trace)):
+            cut.append(run.id)
+            continue
+        story = _story(sources, document, traces, one)
+        if not story.full:
+            without.append(run.id)
+        told[run.id] = story
+        rows.append(_index_row(document, run, one, story))
+        stories[anchor(document.name, run.id)] = _told(rows[-1], story)
+    if cut:
+        what = f"{document.name}: {len(cut)} negative runs without a whole counterexample in their evidence"
+        remedy = f"modeproof verify --document {document.name}"
+        troubles.append(Trouble(HOLE, ID, f"{what}: {', '.join(cut)}", remedy, tuple(cut)))
+    if without:
+        what = f"{document.name}: {len(without)} traces show variables, not what stands on the wires"
+        remedy = f"modeproof walks --document {document.name}"
+        troubles.append(Trouble(NOTE, ID, what, remedy, tuple(without)))
+    return {
+        "id": document.name,
+        "title": document.about.title,
+        "traces": rows,
+        "witnesses": [
+            {"run": run.id, "reached": len(run.witnesses)} for run in document.runs if run.kind == "WIT"
+        ],
+        "shortest": _shortest(document, told),
+    }
+
+
+def _traces(document: Document) -> Traces | None:
+    if not has_replay(document.root, document.name):
+        return None
+    try:
+        return load_replay(document.root, document.name)
+    except Unjudged:
+        return None
+
+
+def _story(sources: Sources, document: Document, traces: Traces | None, one: Evidence) -> Story:
+    trace = one.result["trace"]
+    walk = None if traces is None else _walk(sources, document, one)
+    if traces is not None and walk is not None and walk["module"] in traces.tops:
+        return from_walk(document, traces, walk)
+    return from_variables(document, traces, trace)
+
+
+def _walk(sources: Sources, document: Document, one: Evidence) -> dict[str, Any] | None:
+    """The walk of this very trace, made with the specification as it is, else None."""
+    path = f"build/walks/{document.name}/{one.id}.json"
+    try:
+        content = (sources.root / path).read_bytes()
+        walk = json.loads(content)
+    except (OSError, ValueError):
+        return None
+    whole = {"module", "rows", "decided", "departures", "tables", "inputs", "trace_sha256"}
+    if not isinstance(walk, dict) or not whole <= set(walk):
+        return None
+    if walk["trace_sha256"] != digest_of(one.result["trace"]):
+        return None
+    if len(walk["rows"]) != len(one.result["trace"]):
+        return None
+    for name, digest in walk["inputs"].items():
+        if one.record["inputs"].get(name, digest) != digest:
+            return None
+    sources.content(path)  # from now on one of the files that the report rests on
+    return walk
+
+
+def _index_row(document: Document, run: Run, one: Evidence, story: Story) -> dict[str, Any]:
+    findings = [
+        found.id for found in document.findings if run.id in found.evidence or found.id in run.findings
+    ]
+    return {
+        "id": anchor(document.name, run.id),
+        "document": document.name,
+        "run": run.id,
+        "property": str(one.result.get("violated") or run.property),
+        "verdict": one.figure("verdict"),
+        "steps": Figure(len(story.rows) - 1, one.path),
+        "findings": findings,
+        "assumptions": [row.id for row in document.assumptions if run.id in row.breaks],
+        "clauses": list(run.clauses),
+        "environment": run.environment,
+        "loop": str(one.result.get("loop") or ""),
+        "wires": story.full,
+    }
+
+
+def _told(row: Mapping[str, Any], story: Story) -> dict[str, Any]:
+    """What the viewer reads of one trace."""
+    kept = ("document", "run", "property", "findings", "assumptions", "environment", "loop", "wires")
+    told: dict[str, Any] = {key: row[key] for key in kept}
+    return told | {
+        "lanes": [asdict(one) for one in story.lanes],
+        "columns": story.columns,
+        "constant": story.constant,
+        "rows": [asdict(one) for one in story.rows],
+    }
+
+
+def _shortest(document: Document, told: Mapping[str, Story]) -> list[dict[str, Any]]:
+    """For each finding the shortest trace that shows it, each trace once with all its findings."""
+    of_run: dict[str, list[str]] = {}
+    for finding in document.findings:
+        shown = [run for run in finding.evidence if run in told]
+        if shown:
+            of_run.setdefault(min(shown, key=lambda run: (len(told[run].rows), run)), []).append(finding.id)
+    return [
+        {
+            "id": anchor(document.name, run),
+            "run": run,
+            "findings": findings,
+            "columns": told[run].columns,
+            "constant": told[run].constant,
+            "rows": [
+                {
+                    "step": row.step,
+                    "by": row.by,
+                    "cells": [
+                        {"text": text, "changed": n in row.changed} for n, text in enumerate(row.cells)
+                    ],
+                    "instead": row.instead,
+                }
+                for row in told[run].rows
+            ],
+        }
+        for run, findings in of_run.items()
+    ]
