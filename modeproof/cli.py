@@ -137,6 +137,7 @@ def make_parser() -> argparse.ArgumentParser:
     _plug_in(commands, "trace", "modeproof.trace.command")
     _plug_in(commands, "registers", "modeproof.registers.command")
     _plug_in(commands, "findings", "modeproof.findings")
+    _plug_in(commands, "walks", "modeproof.walks")
     _plug_in(commands, "report", "modeproof.report.command")
     _plug_in(commands, "mutate", "modeproof.strength.command")
     _plug_in(commands, "scale", "modeproof.scale")
@@ -833,7 +834,10 @@ def _verify(args: argparse.Namespace) -> int:
             evidence.read_document(place, name)
         if args.lane == "full" and args.document is None:
             from modeproof.report.command import made_by_verify
+            from modeproof.walks import walk_evidence
 
+            progress.say("-- walks of the counterexamples")
+            walk_evidence(place, names, progress)
             for line in made_by_verify(place):
                 progress.say(line)
     _write_json(args, status, records=records)

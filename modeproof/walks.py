@@ -1,0 +1,101 @@
+"""The command `modeproof walks`: what stood on the wires in every recorded counterexample.
+
+The evidence of a counterexample holds the variables of the specification. A walk (modeproof.tlc.walk) adds
+the words on the wires, who executed each step, and what the decided device does in its place; the report and
+the pages of the findings show it. A walk that is there and of this very trace and specification is kept.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from modeproof import evidence
+from modeproof.errors import EXIT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.places import documents
+from modeproof.places import root as repository_root
+from modeproof.processes import Task, in_processes
+from modeproof.progress import Progress
+from modeproof.registers.replay import has_replay, load_replay
+from modeproof.registers.schema import suggestion
+from modeproof.tlc.runs import load_runs
+from modeproof.tlc.toolchain import find_toolchain
+from modeproof.tlc.walk import Recorded, read_walk, recorded, walk_all
+
+if TYPE_CHECKING:
+    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
+
+
+def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+    """Add the command; `args.run(args)` returns 0, or 2 where a trace could not be followed."""
+    parser = subparsers.add_parser(
+        "walks",
+        help="follow every recorded counterexample once more: what stood on the wires, for the report",
+        description="Follows the counterexamples in build/evidence/ with TLC, one start for each module, and "
+        "writes build/walks/. Exit status: 0 all followed, 2 some could not be; the report then shows their "
+        "variables alone.",
+    )
+    parser.add_argument("--document", metavar="NAME", help="only this document of spec/")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    place = repository_root()
+    known = documents(place)
+    if args.document is not None and args.document not in known:
+        raise Unjudged(f"unknown document {args.document!r}; {suggestion(args.document, known)}")
+    names = [one for one in known if args.document in (None, one)]
+    found = walk_evidence(place, names, Progress(quiet=args.quiet))
+    for one in found:
+        print(line_of(one))
+    return EXIT_UNJUDGED if any(one["reason"] for one in found) else EXIT_AS_EXPECTED
+
+
+def line_of(walked: dict[str, Any]) -> str:
+    """One line about the traces of one module."""
+    head = f"{walked['document']}/{walked['module']}: {walked['traces']} traces"
+    return f"{head}: UNJUDGED: {walked['reason']}" if walked["reason"] else f"{head} followed"
+
+
+def walk_evidence(place: Path, names: Sequence[str], progress: Progress) -> list[dict[str, Any]]:
+    """Walk every counterexample in the evidence of these documents, each module by itself.
+
+    One entry for each module that has a counterexample: `document`, `module`, `traces`, and `reason`, which
+    is empty unless they could not be followed.
+    """
+    tasks: list[Task[dict[str, Any]]] = []
+    for document in names:
+        if not has_replay(place, document):
+            continue
+        groups: dict[str, list[Recorded]] = {}
+        for one in load_runs(place, document):
+            try:
+                record = evidence.read(evidence.evidence_path(place, document, one.id))
+                if record["result"].get("trace"):
+                    trace = recorded(record)
+                    groups.setdefault(trace.module, []).append(trace)
+            except Unjudged:
+                continue  # without evidence there is nothing to follow; the report says that it is missing
+        tasks += [(_walk, (place, document, module, traces)) for module, traces in groups.items()]
+    return sorted(
+        in_processes("walks", tasks, progress, lambda one: progress.say(line_of(one))),
+        key=lambda one: (names.index(one["document"]), one["module"]),
+    )
+
+
+def _walk(place: Path, document: str, module: str, traces: Sequence[Recorded]) -> dict[str, Any]:
+    reason = ""
+    try:
+        missing = [one for one in traces if read_walk(place, document, one) is None]
+        if missing and module not in load_replay(place, document).tops:
+            raise Unjudged(f"spec/{document}/replay.toml declares no top {module}")
+        if missing:
+            walk_all(place, document, missing, find_toolchain())
+    except Unjudged as error:
+        reason = error.message
+    return {"document": document, "module": module, "traces": len(traces), "reason": reason}

@@ -1,0 +1,60 @@
+"""`modeproof walks` follows every counterexample once, and says which it could not follow."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from modeproof.cli import main
+from modeproof.report.parts.traces import part
+from modeproof.report.sources import gather
+from tests.report.paper import change
+
+
+def test_every_counterexample_is_walked_once_and_the_report_shows_its_wires(
+    checked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = checked / "build/walks/box"
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert set(before) == {"NEG_Box_eager.json", "NEG_Box_hasty.json"}
+    (folder / "NEG_Box_eager.json").unlink()
+    kept = (folder / "NEG_Box_hasty.json").stat().st_mtime_ns
+    assert main(["walks", "--quiet"]) == 0
+    assert "box/BoxOpen: 2 traces followed" in capsys.readouterr().out
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+    assert (folder / "NEG_Box_hasty.json").stat().st_mtime_ns == kept
+    told = json.loads(part(gather(checked)).payload["trace-stories"])["trace-box-NEG_Box_eager"]
+    assert told["wires"] and told["rows"][1]["messages"][0]["signals"] == ["LAMP 1", "WORD 0F10 = code 1"]
+    assert told["rows"][1]["instead"] == [
+        "box, as decided: Wait instead of Close; LAMP 0, not 1; WORD 0, not 0F10 = code 1"
+    ]
+
+
+def test_a_module_that_the_register_does_not_declare_is_named(
+    checked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    replay = checked / "spec/box/replay.toml"
+    replay.write_text(replay.read_text().replace("tops.BoxOpen", "tops.BoxShut"))
+    assert main(["walks", "--quiet", "--document", "box"]) == 2
+    assert "box/BoxOpen: 2 traces: UNJUDGED: spec/box/replay.toml declares no top BoxOpen" in (
+        capsys.readouterr().out
+    )
+
+
+def test_a_trace_that_the_specification_does_not_allow_is_not_followed(
+    checked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(
+        checked / "spec/box/Box.tla",
+        "boxState' = \"Shut\" /\\ shut' = 1",
+        "boxState' = \"Shut\" /\\ shut' = 0",
+    )
+    assert main(["walks", "--quiet"]) == 2
+    assert "UNJUDGED: " in capsys.readouterr().out
+
+
+def test_an_unknown_document_is_one_line(checked: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["walks", "--document", "bax"]) == 2
+    assert "unknown document 'bax'; did you mean 'box'?" in capsys.readouterr().err
