@@ -837,7 +837,10 @@ def _verify(args: argparse.Namespace) -> int:
             from modeproof.walks import walk_evidence
 
             progress.say("-- walks of the counterexamples")
-            walk_evidence(place, names, progress)
+            try:
+                walk_evidence(place, names, progress)
+            except Unjudged as error:  # the report then shows variables, and says so
+                progress.say(f"walks: UNJUDGED: {error.message}")
             for line in made_by_verify(place):
                 progress.say(line)
     _write_json(args, status, records=records)
