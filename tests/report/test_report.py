@@ -12,6 +12,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.errors import Unjudged
+from modeproof.registers.load import documents, load_document
 from modeproof.report import build, parts
 from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
@@ -61,6 +62,19 @@ def test_every_part_is_there_in_the_order_of_the_page(root: Path) -> None:
     assert names == [id for id in parts.ORDER if id in names]
     sections = re.findall(r'<section id="([a-z]+)"', make(root).html)
     assert sections == names and sections[:3] == ["verdict", "review", "scope"]
+
+
+def test_no_part_of_the_order_is_missing_and_none_stands_outside(real_root: Path) -> None:
+    folder = real_root / "modeproof" / "report"
+    modules = {path.stem for path in (folder / "parts").glob("*.py")} - {"__init__"}
+    assert modules == set(parts.ORDER)
+    assert [id for id in parts.ORDER if not (folder / "page" / f"{id}.html.j2").is_file()] == []
+
+
+def test_every_property_of_this_repository_has_sentence_hazard_and_clause(real_root: Path) -> None:
+    properties = [one for name in documents(real_root) for one in load_document(real_root, name).properties]
+    assert len(properties) > 100
+    assert [one.id for one in properties if not (one.sentence and one.hazard and one.clauses)] == []
 
 
 def test_text_of_logs_and_adapters_is_escaped_everywhere(root: Path) -> None:
