@@ -134,7 +134,12 @@ def sender_off_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
     return z3.Or(seen.phase == 0, seen.phase < one.params.TestTime_ms)
 
 
-@theorem(clauses=["TSS-FN-7", "TSS-OUT-TESTOUT", "TSS-NOTE-1"], findings=["TSSF-06"], slow=True)
+@theorem(
+    clauses=["TSS-FN-7", "TSS-OUT-TESTOUT", "TSS-NOTE-1"],
+    findings=["TSSF-06"],
+    properties=["SenderOffIsBounded"],
+    slow=True,
+)
 def the_sender_is_off_for_less_than_test_time_and_one_call() -> Queries:
     """After every call that leaves S_TestOut FALSE less than TestTime has passed since the call that made it
     so; the first call that finds TestTime over makes it TRUE.

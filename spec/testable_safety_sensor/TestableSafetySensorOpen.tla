@@ -95,6 +95,8 @@ EnableNeedsFreeSensor ==
     [][Then("S_OSSD_Out") /\ ~Scanned.S_OSSD_In => state' = "TestActive"]_beat
 \* TSS-TEST-0, TSS-FN-7, TSSF-06, TSSF-09: and for less than TestTime; a test ends within twice TestTime
 MaskedTimeIsBounded == dark < TEST_TIME /\ (tested >= 0 => (tested < 2 * TEST_TIME \/ tested = 0))
+\* TSS-FN-7, TSS-OUT-TESTOUT, TSS-NOTE-1, TSSF-06: the sender is off for less than TestTime; the call that finds it over switches it on again
+SenderOffIsBounded == ~Row.S_TestOut => tested = 0 \/ tested < TEST_TIME
 \* TSS-IN-ACTIVATE, TSS-0000: without Activate the call ends in the row of Idle
 InactiveAtOnce == [][~Scanned.Activate => Row' = Rows["Idle"] /\ ~Then("S_OSSD_Out")]_beat
 \* TSS-OUT-OSSD, TSS-OUT-ERROR, TSS-OUT-DEMAND, TSS-OUT-REQUEST, TSS-EB-1: nothing is pending while it is TRUE

@@ -75,7 +75,12 @@ class Block:
         (folder / base.cfg).write_text(text)
         digest = hashlib.sha256(text.encode()).hexdigest()
         run = replace(base, properties=(name,), cfg_sha256=digest)
-        return list(run_tlc(place, run, find_toolchain()).log.violations)
+        log = run_tlc(place, run, find_toolchain()).log
+        assert log.violations or log.success, (
+            log.errors,
+            log.broken,
+        )  # a copy that does not parse shows nothing
+        return list(log.violations)
 
     def falls(self, name: str) -> list[tuple[str, str]]:
         """What TLC says when this property falls and no other is checked; it does not name a liveness."""

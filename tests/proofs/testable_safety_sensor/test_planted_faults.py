@@ -103,6 +103,18 @@ FAULTS = [
         [("s.elapsed_ms + i.dt_ms >= s.params.TestTime_ms", "s.elapsed_ms + i.dt_ms > s.params.TestTime_ms")],
     ),
     Planted(
+        "SenderOffIsBounded",
+        JUDGE,
+        "TestRequest",
+        _state(sensor_safety.sender_off_bounded),
+        [
+            (
+                "    if _time_is_over(s, i):\n        return _to(s, i, _test_error(i))  # ExpireRequest\n",
+                "    if _time_is_over(s, i) and not i.S_OSSD_In:\n        return _to(s, i, _test_error(i))\n",
+            )
+        ],
+    ),
+    Planted(
         "InactiveAtOnce",
         JUDGE,
         "WaitForReset1",

@@ -33,6 +33,10 @@ FAULTS = {
         "StaticAtStart(i) == ResetStatic(i) /\\ ~i.S_StartReset",
         "StaticAtStart(i) == ResetStatic(i)",
     ),
+    "SenderOffIsBounded": (
+        'Fails(i, ~Free(i)) /\\ To(TestErrorShown(i)) /\\ Did("ExpireRequest")',
+        'Fails(i, ~Free(i)) /\\ UNCHANGED <<state, startInhibit, elapsed>> /\\ Did("ExpireRequest")',
+    ),
     "DemandIsShown": (
         'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ESPEInterruptedExternalTest")',
         'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ExternalFunctionTest")',
