@@ -124,7 +124,7 @@ def module_text(
     samples: bool,
     show: Sequence[int] | None,
 ) -> str:
-    """The text of the module."""
+    """The text of the module. Its own names begin with Log, so that none is one of the specification's."""
     rows: dict[str, int] = {}
     logs = []
     for reading in readings:
@@ -135,7 +135,7 @@ def module_text(
         logs.append("<<" + ", ".join(map(str, numbers)) + ">>")
     scans = " \\/ ".join(f'(w.device = "{device}" /\\ {part.scan})' for device, part in target.parts.items())
     after = " [] ".join(
-        f'w.device = "{device}" -> Fits({part.row}\', out)' for device, part in target.parts.items()
+        f'w.device = "{device}" -> LogFits({part.row}\', out)' for device, part in target.parts.items()
     )
     views = ", ".join(part.view for part in target.parts.values())
     parts = [
@@ -143,39 +143,39 @@ def module_text(
         f"EXTENDS {target.module}, Naturals, Sequences, TLC",
         "VARIABLES log, line",
         *constant_definitions(target, readings),
-        "Rows == <<\n  " + ",\n  ".join(rows) + ">>",
-        "Logs == <<\n  " + ",\n  ".join(logs) + ">>",
-        "Row(n) == Rows[Logs[log][n]]",
-        "Fits(row, out) == \\A name \\in DOMAIN out : row[name] = out[name]",
-        f"Scan(w) == {scans}",
+        "LogRows == <<\n  " + ",\n  ".join(rows) + ">>",
+        "LogLines == <<\n  " + ",\n  ".join(logs) + ">>",
+        "LogRow(n) == LogRows[LogLines[log][n]]",
+        "LogFits(row, out) == \\A name \\in DOMAIN out : row[name] = out[name]",
+        f"LogScan(w) == {scans}",
         f"LogView == <<log, line, {views}>>",
-        "Says(what) == PrintT(ToString(what))",
+        "LogTells(what) == PrintT(ToString(what))",
     ]
     init = target.anywhere if anywhere else target.init
     reset = f"\\A n \\in 1..{len(readings)} : TLCSet(n, -1)"
     parts.append(f"LogInit == {reset} /\\ log \\in 1..{len(readings)} /\\ line = 0 /\\ ({init})")
     if samples:
-        fits = f"Fits({target.only.row}, Row(line + 1).out)"
+        fits = f"LogFits({target.only.row}, LogRow(line + 1).out)"
         parts += [
-            "Near == {n \\in {line, line + 1} : n \\in 1..Len(Logs[log])}",
-            "Between == \\E n \\in Near : \\E w \\in Row(n).in : Scan(w) /\\ UNCHANGED <<log, line>>",
-            f"Sampled == line < Len(Logs[log]) /\\ Row(line + 1).in # {{}} /\\ {fits}",
-            f"Arrive == Sampled /\\ line' = line + 1 /\\ step' = step /\\ UNCHANGED <<log, {views}>>",
-            "LogNext == Between \\/ Arrive",
+            "LogNear == {n \\in {line, line + 1} : n \\in 1..Len(LogLines[log])}",
+            "LogBetween == \\E n \\in LogNear : \\E w \\in LogRow(n).in : LogScan(w) /\\ UNCHANGED <<log, line>>",
+            f"LogSampled == line < Len(LogLines[log]) /\\ LogRow(line + 1).in # {{}} /\\ {fits}",
+            f"LogArrive == LogSampled /\\ line' = line + 1 /\\ step' = step /\\ UNCHANGED <<log, {views}>>",
+            "LogNext == LogBetween \\/ LogArrive",
         ]
     else:
         parts += [
-            f"FitsAfter(w, out) == CASE {after}",
+            f"LogFitsAfter(w, out) == CASE {after}",
             "LogNext ==",
-            "    /\\ line < Len(Logs[log])",
-            "    /\\ \\E w \\in Row(line + 1).in : Scan(w) /\\ FitsAfter(w, Row(line + 1).out)",
+            "    /\\ line < Len(LogLines[log])",
+            "    /\\ \\E w \\in LogRow(line + 1).in : LogScan(w) /\\ LogFitsAfter(w, LogRow(line + 1).out)",
             "    /\\ line' = line + 1 /\\ log' = log",
         ]
     shown = "TRUE" if show is None else f"line = <<{', '.join(map(str, show))}>>[log]"
     parts += [
         "LogSays ==",
-        '    /\\ line > TLCGet(log) => TLCSet(log, line) /\\ Says(<<"LINE", log, line>>)',
-        f'    /\\ {shown} => Says(<<"STATE", log, line, <<{views}>>>>)',
+        '    /\\ line > TLCGet(log) => TLCSet(log, line) /\\ LogTells(<<"LINE", log, line>>)',
+        f'    /\\ {shown} => LogTells(<<"STATE", log, line, <<{views}>>>>)',
         "====",
         "",
     ]

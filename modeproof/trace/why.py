@@ -269,28 +269,28 @@ class _Question:
         device, target = self.part.device, self.target
         variables = self.guards.view(self.part.view)
         records = [input_record(device, values, dt) for values, dt in self.inputs]
-        state = " /\\ ".join(f"{name} = Views[at][{n}]" for n, name in enumerate(variables, 1))
+        state = " /\\ ".join(f"{name} = LogViews[at][{n}]" for n, name in enumerate(variables, 1))
         parts = [
             f"---- MODULE {self.name} ----",
             f"EXTENDS {target.module}, Naturals, Sequences, TLC",
             "VARIABLES at, of",
             *constant_definitions(target, [self.reading]),
-            f"Views == <<{', '.join(self.views)}>>",
-            f"Inputs == <<{', '.join(records)}>>",
+            f"LogViews == <<{', '.join(self.views)}>>",
+            f"LogInputs == <<{', '.join(records)}>>",
             *self.guards.made,
             *(_chain(number, path) for number, (_, path) in enumerate(self.paths, 1)),
-            f"Which == at \\in 1..{len(self.views)} /\\ of \\in 1..{len(records)}",
-            f'LogInit == Which /\\ step = "" /\\ {state}',
-            f"Scan == \\E w \\in {{Inputs[of]}} : {self.part.scan}",
-            'LogNext == step = "" /\\ Scan /\\ UNCHANGED <<at, of>>',
+            f"LogWhich == at \\in 1..{len(self.views)} /\\ of \\in 1..{len(records)}",
+            f'LogInit == LogWhich /\\ step = "" /\\ {state}',
+            f"LogScan == \\E w \\in {{LogInputs[of]}} : {self.part.scan}",
+            'LogNext == step = "" /\\ LogScan /\\ UNCHANGED <<at, of>>',
             f"LogView == <<at, of, step, {self.part.view}>>",
-            "Says(what) == PrintT(ToString(what))",
-            f"Takes == Says(<<\"TAKES\", at, of, step', {self.part.row}'>>)",
-            'LogSays == step # "" \\/ LET w == Inputs[of] IN',
-            '    /\\ Says(<<"ASKED", at, of>>)',
+            "LogTells(what) == PrintT(ToString(what))",
+            f"LogTakes == LogTells(<<\"TAKES\", at, of, step', {self.part.row}'>>)",
+            'LogSays == step # "" \\/ LET w == LogInputs[of] IN',
+            '    /\\ LogTells(<<"ASKED", at, of>>)',
         ]
         parts += [
-            f'    /\\ Says(<<"PATH", at, of, {number}>> \\o Path_{number}(w))'
+            f'    /\\ LogTells(<<"PATH", at, of, {number}>> \\o Path_{number}(w))'
             for number in range(1, len(self.paths) + 1)
         ]
         return "\n".join([*parts, "====", ""])
@@ -298,7 +298,7 @@ class _Question:
     def _cfg(self) -> str:
         lines = ["CONSTANTS", *(f"    {name} <- Log_{name}" for name in self.target.constants)]
         lines += ["INIT LogInit", "NEXT LogNext", "VIEW LogView", "INVARIANT LogSays"]
-        return "\n".join([*lines, "ACTION_CONSTRAINT Takes", ""])
+        return "\n".join([*lines, "ACTION_CONSTRAINT LogTakes", ""])
 
 
 def _chain(number: int, path: Sequence[Conjunct]) -> str:
