@@ -30,7 +30,7 @@ CUT = 20
 
 @dataclass(frozen=True)
 class Judged:
-    """A walk of a block, the same with one wrong output in scan `at`, and the rest of both after CUT scans."""
+    """A walk of a block, the same with one wrong output in scan `at`, and the rest of both from CUT on."""
 
     good: Judgement
     bad: Judgement
