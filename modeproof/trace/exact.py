@@ -158,7 +158,8 @@ def module_text(
         fits = f"LogFits({target.only.row}, LogRow(line + 1).out)"
         parts += [
             "LogNear == {n \\in {line, line + 1} : n \\in 1..Len(LogLines[log])}",
-            "LogBetween == \\E n \\in LogNear : \\E w \\in LogRow(n).in :\n    LogScan(w) /\\ UNCHANGED <<log, line>>",
+            "LogBetween == \\E n \\in LogNear :",
+            "    \\E w \\in LogRow(n).in : LogScan(w) /\\ UNCHANGED <<log, line>>",
             f"LogSampled == line < Len(LogLines[log]) /\\ LogRow(line + 1).in # {{}} /\\ {fits}",
             f"LogArrive == LogSampled /\\ line' = line + 1 /\\ step' = step /\\ UNCHANGED <<log, {views}>>",
             "LogNext == LogBetween \\/ LogArrive",
