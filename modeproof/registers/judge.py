@@ -17,6 +17,7 @@ from modeproof.registers.rows import Document, Problem
 from modeproof.registers.stamps import check_findings_pages
 from modeproof.registers.switches import check_switches
 from modeproof.registers.tables import check_pages
+from modeproof.registers.vector_files import check_vectors
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,7 @@ def judge_tree(root: Path) -> list[Problem]:
         *check_imports(root),
         *check_no_document_known(root, [one.interface for one in loaded], loaded),
         *check_pages(root, loaded),
+        *check_vectors(root),
     ]
 
 

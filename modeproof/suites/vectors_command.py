@@ -1,4 +1,4 @@
-"""The command `modeproof vectors`: build, lint, stats, show, pack."""
+"""The command `modeproof vectors`: build, lint, stats, show, pack, publish."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from modeproof.suites.build import find_target, published, ready_suite, suite_fi
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
+from modeproof.suites.publish import publish
 from modeproof.suites.write import SUITES, NoCases
 
 WITHIN = 1.05
@@ -59,6 +60,12 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     packer.add_argument("--to", type=Path, metavar="FILE", help=f"another file than build/{NAME}")
     packer.add_argument("--all", action="store_true", help="the slow suites too: building them takes long")
     packer.set_defaults(run=run, targets=[], suite=None, anew=False)
+    publisher = actions.add_parser(
+        "publish",
+        help="bring vectors/ up to date: the fast suites, as files of the project",
+        description="Builds the fast suites of all published targets and puts what changed into vectors/.",
+    )
+    publisher.set_defaults(run=run, targets=[], suite=None, anew=False)
     show = actions.add_parser("show", help="show one case", description="Show one case.")
     show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
     form = show.add_mutually_exclusive_group()
@@ -71,8 +78,15 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     place = root()
-    action = {"build": _build, "lint": _lint, "stats": _stats, "show": _show, "pack": _pack}[args.action]
-    return action(place, args)
+    actions = {
+        "build": _build,
+        "lint": _lint,
+        "stats": _stats,
+        "show": _show,
+        "pack": _pack,
+        "publish": _publish,
+    }
+    return actions[args.action](place, args)
 
 
 def _build(place: Path, args: argparse.Namespace) -> int:
@@ -121,6 +135,19 @@ def _pack(place: Path, args: argparse.Namespace) -> int:
             print(f"    without {name}: {why}")
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     print(f"{path}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}")
+    return EXIT_AS_EXPECTED
+
+
+def _publish(place: Path, args: argparse.Namespace) -> int:
+    targets = published(place)
+    if not targets:
+        raise Unjudged("no published target has graphs, so there is nothing to publish")
+    _make(place, targets, [name for name, kind in SUITES.items() if kind.fast], leave_out=True)
+    done = publish(place, targets)
+    for name in done.removed:
+        print(f"{name}: removed, it is no suite of a published target")
+    size = sum((place / name).stat().st_size for name in (*done.written, *done.kept))
+    print(f"{len(done.written)} files written, {len(done.kept)} as they were; {size:,} bytes in vectors/")
     return EXIT_AS_EXPECTED
 
 

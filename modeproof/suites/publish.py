@@ -1,0 +1,61 @@
+"""The room vectors/: the fast suites of every published target, as files that are kept with the project.
+
+A developer needs neither TLC nor this tool to read them: JSON Lines, packed by gzip, and the schema beside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from modeproof.evidence.files import write_whole
+from modeproof.kit.vectors import FILE_NAME, read_lines
+from modeproof.registers.vector_files import ROOM
+from modeproof.suites.build import suite_file
+from modeproof.suites.write import SUITES
+
+SCHEMA = "vectors.schema.json"
+
+
+@dataclass(frozen=True)
+class Published:
+    """What happened to the files of the room, by their paths relative to the root."""
+
+    written: tuple[str, ...]
+    kept: tuple[str, ...]
+    removed: tuple[str, ...]
+
+
+def publish(place: Path, targets: Mapping[str, str]) -> Published:
+    """Bring the room up to date with the suites of `targets` (target to document), which have been built.
+
+    A file with the same lines is left as it is: what packs them may pack otherwise on another machine. Raises
+    Unjudged where a file cannot be written.
+    """
+    wanted: dict[Path, Path] = {Path(__file__).with_name(SCHEMA): place / ROOM / SCHEMA}
+    for target, document in sorted(targets.items()):
+        for name, about in SUITES.items():
+            source = suite_file(place, document, target, name)
+            if about.fast and source.is_file():
+                wanted[source] = place / ROOM / target / FILE_NAME.format(suite=name)
+    written, kept = [], []
+    for source, path in wanted.items():
+        shown = path.relative_to(place).as_posix()
+        if path.is_file() and _same(source, path):
+            kept.append(shown)
+        else:
+            write_whole(path, source.read_bytes())
+            written.append(shown)
+    removed = []
+    for path in sorted((place / ROOM).rglob(FILE_NAME.format(suite="*"))):
+        if path not in wanted.values():
+            path.unlink()
+            removed.append(path.relative_to(place).as_posix())
+    return Published(tuple(written), tuple(kept), tuple(removed))
+
+
+def _same(one: Path, other: Path) -> bool:
+    if one.name == SCHEMA:
+        return one.read_bytes() == other.read_bytes()
+    return list(read_lines(one)) == list(read_lines(other))

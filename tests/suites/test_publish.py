@@ -1,0 +1,79 @@
+"""The room vectors/: what is published is what is built, and says which specification it was made from."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+import pytest
+
+from modeproof.cli import main
+from modeproof.kit.vectors import open_suite
+from modeproof.places import root
+from modeproof.registers.load import documents, load_interface
+from modeproof.registers.vector_files import check_vectors
+from modeproof.suites.write import SUITES
+from tests.suites.test_command import toy as toy  # the fixture
+
+
+def test_what_is_published_is_what_was_built_and_is_left_alone_when_it_is_the_same(
+    toy: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["vectors", "publish"]) == 0
+    files = sorted((toy / "vectors/lamp").glob("*"))
+    assert {one.name.split(".")[0] for one in files} >= {"brief", "words"}
+    for one in files:
+        assert one.read_bytes() == (toy / "build/vectors/toy/lamp" / one.name).read_bytes()
+    assert (toy / "vectors/vectors.schema.json").is_file()
+    (toy / "vectors/lamp/old.jsonl.gz").write_bytes(b"")
+    packed_otherwise = gzip.compress(gzip.decompress(files[0].read_bytes()), 1)
+    files[0].write_bytes(packed_otherwise)
+    capsys.readouterr()
+    assert main(["vectors", "publish"]) == 0
+    said = capsys.readouterr().out
+    assert "vectors/lamp/old.jsonl.gz: removed" in said and "0 files written" in said
+    assert files[0].read_bytes() == packed_otherwise
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        ("register", "spec/toy/classes.toml is another one now; run modeproof vectors publish"),
+        ("cut", "is no file of vectors"),
+        ("header", "is no file of vectors"),
+        ("sources", "does not say which specification"),
+    ],
+)
+def test_a_published_file_of_another_text_is_found_without_making_it_again(
+    toy: Path, spoil: str, said: str
+) -> None:
+    assert main(["vectors", "publish"]) == 0
+    assert check_vectors(toy) == []
+    path = toy / "vectors/lamp/brief.jsonl.gz"
+    if spoil == "register":
+        (toy / "spec/toy/classes.toml").write_text("")
+    elif spoil == "cut":
+        path.write_bytes(path.read_bytes()[:40])
+    else:
+        path.write_bytes(gzip.compress(b"[]\n" if spoil == "header" else b'{"sources":{}}\n'))
+    problems = check_vectors(toy)
+    assert problems and any(
+        said in str(one) and one.file == "vectors/lamp/brief.jsonl.gz" for one in problems
+    )
+
+
+def test_every_published_target_has_its_fast_suites() -> None:
+    place = root()
+    missing = [
+        f"{target} {suite}"
+        for document in documents(place)
+        for target, device in load_interface(place, document).devices.items()
+        if device.published
+        for suite, about in SUITES.items()
+        if about.fast and about.always and not (place / f"vectors/{target}/{suite}.jsonl.gz").is_file()
+    ]
+    assert missing == []
+    assert check_vectors(place) == []
+    for path in (place / "vectors").glob("*/*.jsonl.gz"):
+        suite = open_suite(path)
+        assert (suite.target, f"{suite.name}.jsonl.gz") == (path.parent.name, path.name)
