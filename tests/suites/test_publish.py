@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import re
 from pathlib import Path
 
 import pytest
@@ -77,3 +78,17 @@ def test_every_published_target_has_its_fast_suites() -> None:
     for path in (place / "vectors").glob("*/*.jsonl.gz"):
         suite = open_suite(path)
         assert (suite.target, f"{suite.name}.jsonl.gz") == (path.parent.name, path.name)
+
+
+def test_the_lines_of_python_in_the_readme_read_a_file(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(root())
+    code = re.search(r"```python\n(.*?)```", Path("vectors/README.md").read_text(), re.DOTALL)
+    assert code is not None
+    found: dict[str, object] = {}
+    exec(code[1], found)
+    header = found["header"]
+    assert isinstance(header, dict)
+    assert capsys.readouterr().out.count(f"{header['target']}-") == header["cases"]
+    assert isinstance(found["outputs"], dict) and len(found["outputs"]) > 1
