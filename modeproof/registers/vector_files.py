@@ -1,4 +1,6 @@
-"""The published vectors say which files they were made from: drift shows without making them again."""
+"""The published vectors: what a file holds, and which files it says that it was made from. So drift shows
+without making them again.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +8,58 @@ import gzip
 import hashlib
 import json
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
+from modeproof.errors import Unjudged
 from modeproof.registers.rows import Problem
 
 ROOM = "vectors"
 REMEDY = "run modeproof vectors publish"
 DECIDING = ("interface.toml", "classes.toml", "contracts.toml", "sequences.toml")
 """Registers that decide what a vector holds, besides the specification. Others give its sentences."""
+_ERRORS = (OSError, EOFError, ValueError, zlib.error, LookupError, TypeError, AttributeError)
+"""What reading a file that is none of vectors may raise."""
+
+
+@dataclass(frozen=True)
+class VectorFile:
+    """One file of the room, its lines as the schema says; `sources`: the SHA-256 of what it was made from."""
+
+    header: Mapping[str, Any]
+    cases: tuple[Mapping[str, Any], ...]
+    sources: Mapping[str, str]
+
+
+def vectors_path(target: str, suite: str) -> str:
+    """The file of a suite, relative to the root."""
+    return f"{ROOM}/{target}/{suite}.jsonl.gz"
+
+
+def read_vectors(packed: bytes) -> VectorFile:
+    """A whole file. Raises Unjudged where it is damaged, or does not hold the cases that it counts."""
+    try:
+        header, *cases = map(json.loads, gzip.decompress(packed).decode("utf-8").rstrip("\n").split("\n"))
+        counted, sources = int(header["cases"]), _sources(header)
+    except _ERRORS as error:
+        raise Unjudged(_no_file(error)) from None
+    if len(cases) != counted:
+        raise Unjudged(f"holds {len(cases)} cases and says {counted}")
+    return VectorFile(header, tuple(cases), sources)
+
+
+def drift(sources: Mapping[str, str], digest: Callable[[str], str]) -> Iterator[str]:
+    """In what a file was made from another text, if in anything; `digest` gives the SHA-256 of a file now."""
+    deciding = [name for name in sources if name.startswith("spec/") and _decides(name)]
+    if not deciding:
+        yield "does not say which specification it was made from"
+    for name in deciding:
+        if digest(name) != sources[name]:
+            yield f"{name} is another one now"
+            return
 
 
 def check_vectors(root: Path) -> list[Problem]:
@@ -35,18 +79,19 @@ def check_vectors(root: Path) -> list[Problem]:
 def _faults(path: Path, digest: Callable[[str], str]) -> Iterator[str]:
     try:
         with gzip.open(path, "rt", encoding="utf-8") as lines:
-            header = json.loads(next(lines, ""))
-        sources = {str(name): str(value) for name, value in header["sources"].items()}
-    except (OSError, EOFError, ValueError, zlib.error, LookupError, TypeError, AttributeError) as error:
-        yield f"is no file of vectors ({type(error).__name__})"
+            sources = _sources(json.loads(next(lines, "")))
+    except _ERRORS as error:
+        yield _no_file(error)
         return
-    deciding = [name for name in sources if name.startswith("spec/") and _decides(name)]
-    if not deciding:
-        yield "does not say which specification it was made from"
-    for name in deciding:
-        if digest(name) != sources[name]:
-            yield f"{name} is another one now"
-            return
+    yield from drift(sources, digest)
+
+
+def _sources(header: Any) -> dict[str, str]:
+    return {str(name): str(value) for name, value in header["sources"].items()}
+
+
+def _no_file(error: BaseException) -> str:
+    return f"is no file of vectors ({type(error).__name__})"
 
 
 def _decides(name: str) -> bool:

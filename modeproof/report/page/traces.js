@@ -23,11 +23,16 @@
   const many = (value) => (Array.isArray(value) ? value : [value]);
 
   // ------------------------------------------------------------------------------------------------ the picker
+  const SENTENCE = 90;
+  const named = (story) => {
+    const why = story.why ?? "";
+    return `${story.document}: ${story.run}${why && ` · ${why.length > SENTENCE ? `${why.slice(0, SENTENCE)}…` : why}`}`;
+  };
   const matching = () => Object.keys(stories).filter((id) => filters.every(
     (one) => one.value === "" || many(stories[id][one.dataset.filter]).includes(one.value)));
   const fill = () => {
     const ids = matching();
-    pick.replaceChildren(...ids.map((id) => make("option", { value: id }, `${stories[id].document}: ${stories[id].run}`)));
+    pick.replaceChildren(...ids.map((id) => make("option", { value: id }, named(stories[id]))));
     by("trace-count").textContent = `${ids.length} of ${Object.keys(stories).length}`;
     if (ids.length) show(ids.includes(shown) ? shown : ids[0]);
   };
@@ -44,16 +49,27 @@
     const story = stories[id];
     pick.value = id;
     by("trace-title").textContent = `${story.document}: ${story.run}`;
-    const findings = [...story.findings, ...story.assumptions];
-    by("trace-about").textContent = `Breaks ${story.property}; environment ${story.environment || "not named"}`
-      + (findings.length ? `; shown for ${findings.join(", ")}` : "")
-      + (story.loop ? `; at the end: ${story.loop}` : "")
-      + (story.wires ? "." : ". There is no walk of this trace here, so it shows the variables of the specification.")
-      + (story.constant ? ` The same in every row: ${story.constant}.` : "");
+    by("trace-about").replaceChildren(...(story.kind === "sequence" ? ofSequence(story) : [ofCounterexample(story)]));
     by("trace-link").href = `#${id}`;
     by("trace-table").replaceChildren(table(story));
     by("trace-diagram").replaceChildren(...diagram(story));
     go(0);
+  };
+  const ends = (text) => (/[.!?]$/.test(text) ? text : `${text}.`);
+  const link = (kind, id) => make("a", { class: "id", href: `#${kind}-${id}` }, id);
+  const ofSequence = (story) => [
+    `${ends(story.why)} The answer is demanded by `,
+    ...(story.findings.length ? ["our decision ", ...story.findings.map((id) => link("finding", id))] : [`the ${story.basis}`]),
+    "; clauses ", ...story.clauses.flatMap((id, n) => [n ? ", " : "", link("clause", id)]), ".",
+    story.parameters ? ` Parameters: ${story.parameters}.` : "",
+    story.constant ? ` The same in every scan: ${story.constant}.` : ""];
+  const ofCounterexample = (story) => {
+    const findings = [...story.findings, ...story.assumptions];
+    return `Breaks ${story.property}; environment ${story.environment || "not named"}`
+      + (findings.length ? `; shown for ${findings.join(", ")}` : "")
+      + (story.loop ? `; at the end: ${story.loop}` : "")
+      + (story.wires ? "." : ". There is no walk of this trace here, so it shows the variables of the specification.")
+      + (story.constant ? ` The same in every row: ${story.constant}.` : "");
   };
   const table = (story) => {
     const head = make("tr", {}, ...["", "step", "who", "executes", ...story.columns].map((text) => make("th", { scope: "col" }, text)));

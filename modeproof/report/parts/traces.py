@@ -1,4 +1,6 @@
-"""Traces for people: every counterexample as a sequence diagram and as a scan table, step by step."""
+"""Traces for people: every counterexample, and every sequence of the documents, as a sequence diagram and as
+a scan table, step by step.
+"""
 
 from __future__ import annotations
 
@@ -11,10 +13,13 @@ from modeproof.errors import Unjudged
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Run
 from modeproof.report.part import Part
+from modeproof.report.sequences import REMEDY, Published, Sequence, published
 from modeproof.report.sources import HOLE, NOTE, Evidence, Figure, Sources, Trouble
 from modeproof.report.story import Story, digest_of, from_variables, from_walk, is_trace
 
 ID = "traces"
+COUNTEREXAMPLE, SEQUENCE = "counterexample", "sequence"
+"""The kinds of traces, as the page offers them."""
 
 
 def part(sources: Sources) -> Part:
@@ -22,7 +27,7 @@ def part(sources: Sources) -> Part:
     troubles: list[Trouble] = []
     stories: dict[str, Any] = {}
     documents = [_document(sources, one, troubles, stories) for one in sources.documents.values()]
-    text = json.dumps(stories, ensure_ascii=False, separators=(",", ":"), sort_keys=True)
+    text = json.dumps(stories, ensure_ascii=False, separators=(",", ":"))
     return Part(
         ID,
         "Traces",
@@ -77,6 +82,67 @@ def _document(
             {"run": run.id, "reached": len(run.witnesses)} for run in document.runs if run.kind == "WIT"
         ],
         "shortest": _shortest(document, told),
+        "sequences": [_published(document, one, troubles, stories) for one in published(sources, document)],
+    }
+
+
+def _published(
+    document: Document, of: Published, troubles: list[Trouble], stories: dict[str, Any]
+) -> dict[str, Any]:
+    """The sequences of one target as rows, the first of them as a table."""
+    if of.hole:
+        what = f"{document.name}: the sequences of {of.target} cannot be shown: {of.hole}"
+        troubles.append(Trouble(HOLE, ID, what, REMEDY))
+    for one in of.sequences:
+        stories[anchor(document.name, one.id)] = _told_sequence(document, one)
+    return {
+        "target": of.target,
+        "guarantees": of.guarantees,
+        "does_not_show": of.does_not_show,
+        "hole": of.hole,
+        "remedy": REMEDY if of.hole else "",
+        "cases": [
+            {
+                "id": anchor(document.name, one.id),
+                "case": one.id,
+                "why": one.why,
+                "basis": one.basis,
+                "finding": one.finding,
+                "clauses": list(one.clauses),
+                "parameters": one.parameters,
+                "scans": Figure(len(one.story.rows) - 1, of.path),
+            }
+            for one in of.sequences
+        ],
+        "first": [
+            {"id": anchor(document.name, one.id), "case": one.id, "why": one.why, **_on_paper(one.story)}
+            for one in of.sequences[:1]
+        ],
+    }
+
+
+def _told_sequence(document: Document, one: Sequence) -> dict[str, Any]:
+    """What the viewer reads of one sequence."""
+    return {
+        "kind": SEQUENCE,
+        "document": document.name,
+        "run": one.id,
+        "property": [],
+        "findings": [one.finding] if one.finding else [],
+        "why": one.why,
+        "basis": one.basis,
+        "clauses": list(one.clauses),
+        "parameters": one.parameters,
+        **_drawn(one.story),
+    }
+
+
+def _drawn(story: Story) -> dict[str, Any]:
+    return {
+        "lanes": [asdict(one) for one in story.lanes],
+        "columns": story.columns,
+        "constant": story.constant,
+        "rows": [asdict(one) for one in story.rows],
     }
 
 
@@ -142,13 +208,7 @@ def _index_row(document: Document, run: Run, one: Evidence, story: Story) -> dic
 def _told(row: Mapping[str, Any], story: Story) -> dict[str, Any]:
     """What the viewer reads of one trace."""
     kept = ("document", "run", "property", "findings", "assumptions", "environment", "loop", "wires")
-    told: dict[str, Any] = {key: row[key] for key in kept}
-    return told | {
-        "lanes": [asdict(one) for one in story.lanes],
-        "columns": story.columns,
-        "constant": story.constant,
-        "rows": [asdict(one) for one in story.rows],
-    }
+    return {"kind": COUNTEREXAMPLE, **{key: row[key] for key in kept}, **_drawn(story)}
 
 
 def _shortest(document: Document, told: Mapping[str, Story]) -> list[dict[str, Any]]:
@@ -163,19 +223,24 @@ def _shortest(document: Document, told: Mapping[str, Story]) -> list[dict[str, A
             "id": anchor(document.name, run),
             "run": run,
             "findings": findings,
-            "columns": told[run].columns,
-            "constant": told[run].constant,
-            "rows": [
-                {
-                    "step": row.step,
-                    "by": row.by,
-                    "cells": [
-                        {"text": text, "changed": n in row.changed} for n, text in enumerate(row.cells)
-                    ],
-                    "instead": row.instead,
-                }
-                for row in told[run].rows
-            ],
+            **_on_paper(told[run]),
         }
         for run, findings in of_run.items()
     ]
+
+
+def _on_paper(story: Story) -> dict[str, Any]:
+    """A story as a table that needs no script."""
+    return {
+        "columns": story.columns,
+        "constant": story.constant,
+        "rows": [
+            {
+                "step": row.step,
+                "by": row.by,
+                "cells": [{"text": text, "changed": n in row.changed} for n, text in enumerate(row.cells)],
+                "instead": row.instead,
+            }
+            for row in story.rows
+        ],
+    }

@@ -17,6 +17,7 @@ from playwright.sync_api import Browser, expect, sync_playwright
 
 from modeproof.report.build import make
 from tests.report.box_graph import add_graph
+from tests.report.box_vectors import put_vectors
 from tests.report.browser.opened import ARGUMENTS, WAIT_MS, Opened, open_page
 from tests.report.paper import make_paper, put, without
 
@@ -48,6 +49,7 @@ def box_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page of the box: what is as expected, one thing that is not, and one that is missing."""
     root = make_paper(tmp_path_factory.mktemp("box"))
     add_graph(root)
+    put_vectors(root)
     put(root, "MC_Box_lazy", verdict="VIOLATED", expected="HOLDS", as_expected=False, reason="it falls")
     without(root, "WIT_Box")
     return write(root / "report.html", make(root).html)
