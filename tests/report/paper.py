@@ -27,11 +27,15 @@ TOOLS = {
     "tlc": {"version": "TLC2 Version 2.15 of Day Month 20?? (rev: d5b5a7f)", "sha256": "5" * 64},
     "z3": {"version": "5.4.0.0", "sha256": None},
 }
+TRACE = [
+    {"number": 1, "action": "", "variables": {"boxState": '"Open"', "shut": "FALSE"}},
+    {"number": 2, "action": "Close", "variables": {"boxState": '"Shut"', "shut": "TRUE"}},
+]
 RESULT: dict[str, dict[str, Any]] = {
     "MC_Box": {"run": "MC", "properties": ["ShutsOverDoor"], "distinct": 5, "generated": 11},
     "MC_Box_lazy": {"run": "MC", "properties": ["ShutsOverDoor"], "distinct": 3, "generated": 5},
-    "NEG_Box_eager": {"run": "NEG", "violated": "ShutsOverDoor", "trace_length": 2, "trace": [{"number": 1}]},
-    "NEG_Box_hasty": {"run": "NEG", "violated": "ShutsOverDoor", "trace_length": 2, "trace": [{"number": 1}]},
+    "NEG_Box_eager": {"run": "NEG", "violated": "ShutsOverDoor", "trace_length": 2, "trace": TRACE},
+    "NEG_Box_hasty": {"run": "NEG", "violated": "ShutsOverDoor", "trace_length": 2, "trace": TRACE},
     "WIT_Box": {"run": "WIT", "reached": ["Close"], "witnesses": ["Close"]},
     "it_shuts_over_the_door_only": {
         "sentence": "It shuts only over the door, whatever happens.",

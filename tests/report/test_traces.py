@@ -219,9 +219,22 @@ def test_lanes_stand_so_that_signals_run_short_ways(root: Path) -> None:
 
 def test_without_any_trace_the_page_says_so(tmp_path: Path) -> None:
     make_paper(tmp_path)
-    assert RESULT["NEG_Box_eager"]["trace"] == [{"number": 1}]
+    for run in ("NEG_Box_eager", "NEG_Box_hasty"):
+        put(tmp_path, run, result={"trace": RESULT[run]["trace"][:1]})
     found = part(gather(tmp_path))
     assert found.payload == {} and [one.status for one in found.troubles] == [HOLE]
     html = make(tmp_path).html
     assert "There is no counterexample in the evidence of this document." in html
     assert 'id="trace-viewer"' not in html
+
+
+def test_a_counterexample_that_only_another_lane_runs_is_no_hole(root: Path) -> None:
+    (root / "build/evidence/box/NEG_Box_eager.json").unlink()
+    holes = [one for one in part(gather(root)).troubles if one.status == HOLE]
+    assert [one.items for one in holes] == [("NEG_Box_eager",)]
+    runs = root / "spec/box/runs.toml"
+    text = runs.read_text()
+    at = text.index("lane", text.index('id = "NEG_Box_eager"'))
+    end = text.index("\n", at)
+    runs.write_text(f'{text[:at]}lanes = ["exhaustive"]{text[end:]}')
+    assert [one for one in part(gather(root)).troubles if one.status == HOLE] == []

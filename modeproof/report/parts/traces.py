@@ -12,6 +12,7 @@ from typing import Any
 from modeproof.errors import Unjudged
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Run
+from modeproof.report.claims import LANE
 from modeproof.report.part import Part
 from modeproof.report.sequences import REMEDY, Published, Sequence, published
 from modeproof.report.sources import HOLE, NOTE, Evidence, Figure, Sources, Trouble
@@ -54,7 +55,8 @@ def _document(
         if run.kind != "NEG" and (one is None or not one.result.get("trace")):
             continue
         if one is None:
-            cut.append(run.id)
+            if LANE in run.lanes:
+                cut.append(run.id)
             continue
         trace: Any = one.result.get("trace")
         if not is_trace(trace) or len(trace) != one.result.get("trace_length", len(trace)):
