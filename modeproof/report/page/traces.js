@@ -102,7 +102,8 @@
     }
     const xs = [LEFT + widths[0] / 2];
     for (let k = 1; k < story.lanes.length; k++) xs.push(xs[k - 1] + Math.max(apart[k - 1], (widths[k - 1] + widths[k]) / 2 + GAP));
-    const width = xs[xs.length - 1] + widths[widths.length - 1] / 2 + 200;
+    const longest = Math.max(0, ...story.rows.flatMap((row) => row.instead).map((text) => text.length + 2));
+    const width = Math.max(xs[xs.length - 1] + widths[widths.length - 1] / 2 + 200, LEFT + longest * CHAR + 20);
     const picture = draw("svg", { width, role: "img", "aria-label": `sequence diagram of ${story.run}; the table below says the same` });
     const marks = draw("defs");
     const marker = draw("marker", { id: "trace-head", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 8, markerHeight: 8, markerUnits: "userSpaceOnUse", orient: "auto" });
