@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
@@ -97,6 +97,20 @@ class Watched:
                 if broken is not None:
                     return broken, watch.counts
         return None, watch.counts
+
+    def falls(self, name: str, edits: Sequence[Edit], params: Mapping[str, Any]) -> bool:
+        """A copy with the edits breaks this property, judged alone."""
+        broken, _ = self.watch(*edits, only=name, **params)
+        return broken is not None and broken.id == name
+
+    def put_to_it(self, kept: Sequence[Mapping[str, Any]]) -> set[str]:
+        """The properties that are put to the block, which keeps its contract, with any of these parameters."""
+        put: set[str] = set()
+        for params in kept:
+            broken, counts = self.watch(**params)
+            assert broken is None, (params, broken)
+            put |= {name for name, scans in counts.items() if scans}
+        return put
 
     @contextmanager
     def _program(self, *edits: Edit) -> Iterator[ModuleType]:

@@ -5,7 +5,6 @@ template of the same name in `page/`.
 from __future__ import annotations
 
 import importlib
-import importlib.util
 from collections.abc import Iterator
 
 from modeproof.report.part import Maker
@@ -37,5 +36,4 @@ ORDER = (
 def makers() -> Iterator[tuple[str, Maker]]:
     """Each part's id and how it is made."""
     for name in ORDER:
-        if importlib.util.find_spec(f"{__name__}.{name}") is not None:
-            yield name, importlib.import_module(f"{__name__}.{name}").part
+        yield name, importlib.import_module(f"{__name__}.{name}").part

@@ -50,17 +50,11 @@ FAULTS: dict[str, list[Edit]] = {
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_property_falls_to_the_fault(name: str) -> None:
-    broken, _ = BLOCK.watch(*FAULTS[name], only=name, **KEPT[0])
-    assert broken is not None and broken.id == name
+    assert BLOCK.falls(name, FAULTS[name], KEPT[0])
 
 
 def test_the_block_keeps_its_contract_and_puts_each_property_to_it() -> None:
-    put: set[str] = set()
-    for params in KEPT:
-        broken, counts = BLOCK.watch(**params)
-        assert broken is None, (params, broken)
-        put |= {name for name, scans in counts.items() if scans}
-    assert put == set(BLOCK.properties)
+    assert BLOCK.put_to_it(KEPT) == set(BLOCK.properties)
 
 
 def test_a_program_that_acts_a_call_late_keeps_it_where_inputs_are_held() -> None:
