@@ -104,7 +104,7 @@ class Watched:
         return broken is not None and broken.id == name
 
     def put_to_it(self, kept: Sequence[Mapping[str, Any]]) -> set[str]:
-        """The properties that are put to the block, which keeps its contract, with any of these parameters."""
+        """The properties put to the block, which keeps its contract with each of these parameters."""
         put: set[str] = set()
         for params in kept:
             broken, counts = self.watch(**params)
