@@ -20,7 +20,7 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
-from modeproof.places import build, documents, root
+from modeproof.places import add_document_option, build, chosen_documents, root
 
 LANES = ("smoke", "full", "exhaustive")
 
@@ -81,7 +81,7 @@ def make_parser() -> argparse.ArgumentParser:
     verify.add_argument(
         "--lane", choices=LANES, default="full", help="smoke: under a minute; full: the default"
     )
-    verify.add_argument("--document", metavar="NAME", help="only this document of spec/")
+    add_document_option(verify)
 
     check = _command(commands, "check", _check, "run TLC on declared runs and judge them")
     check.add_argument(
@@ -117,7 +117,7 @@ def make_parser() -> argparse.ArgumentParser:
         commands, "prove", _prove, "prove the theorems of a document with Z3, re-checked by cvc5"
     )
     prove.add_argument("theorems", nargs="*", metavar="THEOREM", help="name or pattern (default: all)")
-    prove.add_argument("--document", metavar="NAME", help="only this document")
+    add_document_option(prove)
     prove.add_argument(
         "--limit", type=int, default=20_000, metavar="MS", help="time limit a query (default 20000)"
     )
@@ -208,15 +208,6 @@ def _write_json(args: argparse.Namespace, status: int, **content: Any) -> None:
 
     text = json.dumps({"command": args.command, "status": status, **content}, indent=1, ensure_ascii=False)
     write_whole(args.json, (text + "\n").encode("utf-8"))
-
-
-def _chosen(place: Path, document: str | None) -> tuple[str, ...]:
-    known = documents(place)
-    if document is None:
-        return known
-    if document not in known:
-        raise Unjudged(f"no document {document!r} in spec/; there are: {', '.join(known) or 'none'}")
-    return (document,)
 
 
 # ------------------------------------------------------------------------------------------------ check
@@ -379,7 +370,8 @@ def _prove(args: argparse.Namespace) -> int:
 
     place = root()
     progress = Progress(quiet=args.quiet)
-    names = [name for name in _chosen(place, args.document) if args.document or _has_proofs(place, name)]
+    chosen = chosen_documents(place, args.document)
+    names = [name for name in chosen if args.document or _has_proofs(place, name)]
     if not names:
         raise Unjudged("no document has proofs (proofs/<document>/)")
     if args.coverage:
@@ -827,7 +819,7 @@ def _verify(args: argparse.Namespace) -> int:
         ("TLC", check_lane),
         ("conformance", compare_reference),
     ]
-    names = _chosen(place, args.document)
+    names = chosen_documents(place, args.document)
     with only_one(place):
         status, records = verify(place, names, args.lane, stages, progress)
         for name in names:  # everything that was written can be read back

@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING, Any
 from modeproof import evidence
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
+from modeproof.places import add_document_option, chosen_documents
 from modeproof.places import root as repository_root
 from modeproof.registers.citations import read_sources
-from modeproof.registers.load import documents, load_document
+from modeproof.registers.load import load_document
 from modeproof.registers.models import read_constants, restored
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document
-from modeproof.registers.schema import suggestion
 from modeproof.registers.stamps import REMEDY, folder_of
 from modeproof.report.findings import Material, render
 from modeproof.tlc.runs import Run, load_runs
@@ -47,7 +47,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
         "Needs the evidence of every run and theorem that a finding names (modeproof verify makes it). "
         "Exit status: 0 as expected, 1 a page has drifted, 2 could not be judged.",
     )
-    parser.add_argument("--document", metavar="NAME", help="only this document of spec/")
+    add_document_option(parser)
     parser.add_argument("--render", action="store_true", help="write the pages (all of them, or none)")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
@@ -58,10 +58,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     place = repository_root()
-    known = documents(place)
-    if args.document is not None and args.document not in known:
-        raise Unjudged(f"unknown document {args.document!r}; {suggestion(args.document, known)}")
-    chosen = [name for name in known if args.document in (None, name) and has_replay(place, name)]
+    chosen = [name for name in chosen_documents(place, args.document) if has_replay(place, name)]
     if not chosen:
         raise Unjudged("no document has a replay.toml, so there is no page to render")
     pages: dict[str, str] = {}

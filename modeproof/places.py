@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import argparse
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from modeproof.errors import Unjudged
@@ -27,6 +29,29 @@ def documents(place: Path) -> tuple[str, ...]:
         folder.name
         for folder in folders
         if any((folder / f"{register}.toml").is_file() for register in ("document", "interface", "runs"))
+    )
+
+
+def chosen_documents(place: Path, names: Sequence[str] | None) -> tuple[str, ...]:
+    """The documents that a command is about, in the order of `documents`: all, or those named.
+
+    Raises Unjudged when there is none, or when a name is no document's.
+    """
+    known = documents(place)
+    if not known:
+        raise Unjudged(f"{place / 'spec'} holds no document; there is nothing to do")
+    for name in names or ():
+        if name not in known:
+            from modeproof.registers.schema import suggestion  # only for the complaint
+
+            raise Unjudged(f"unknown document {name!r}; {suggestion(name, known)}")
+    return tuple(one for one in known if not names or one in names)
+
+
+def add_document_option(parser: argparse.ArgumentParser) -> None:
+    """Add --document, which may be repeated; `chosen_documents` reads `args.document`."""
+    parser.add_argument(
+        "--document", action="append", metavar="NAME", help="only this document of spec/ (may be repeated)"
     )
 
 

@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from modeproof import evidence
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
-from modeproof.places import documents
+from modeproof.places import add_document_option, chosen_documents
 from modeproof.places import root as repository_root
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
 from modeproof.registers.replay import has_replay, load_replay
-from modeproof.registers.schema import suggestion
 from modeproof.tlc.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import Recorded, read_walk, recorded, walk_all
@@ -37,7 +36,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
         "writes build/walks/. Exit status: 0 all followed, 2 some could not be; the report then shows their "
         "variables alone.",
     )
-    parser.add_argument("--document", metavar="NAME", help="only this document of spec/")
+    add_document_option(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
     return parser
@@ -46,10 +45,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     place = repository_root()
-    known = documents(place)
-    if args.document is not None and args.document not in known:
-        raise Unjudged(f"unknown document {args.document!r}; {suggestion(args.document, known)}")
-    names = [one for one in known if args.document in (None, one)]
+    names = chosen_documents(place, args.document)
     found = walk_evidence(place, names, Progress(quiet=args.quiet))
     for one in found:
         print(line_of(one))

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.places import add_document_option, chosen_documents
 from modeproof.places import root as repository_root
 from modeproof.registers.files import read_text, shown, write_text
 from modeproof.registers.judge import Judgement, judge, judge_tree
 from modeproof.registers.load import documents, load_document
 from modeproof.registers.rows import Problem
-from modeproof.registers.schema import suggestion
 from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text, pages, render_blocks
 
 if TYPE_CHECKING:
@@ -28,9 +28,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
         description="Judges the registers of every document: schemas, contradictions, citations, orphans, "
         "names. Exit status: 0 as expected, 1 not as expected, 2 could not be judged.",
     )
-    parser.add_argument(
-        "--document", action="append", metavar="NAME", help="only this document (may be repeated)"
-    )
+    add_document_option(parser)
     parser.add_argument("--matrix", action="store_true", help="print the matrix, one clause a line")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write matrix and problems as JSON")
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write the matrix of one document as CSV")
@@ -44,13 +42,7 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     root = repository_root()
-    known = documents(root)
-    chosen = tuple(args.document or known)
-    for name in chosen:
-        if name not in known:
-            raise Unjudged(f"unknown document {name!r}; {suggestion(name, known)}")
-    if not chosen:
-        raise Unjudged("no folder of spec has a document.toml, so there is nothing to judge")
+    chosen = chosen_documents(root, args.document)
     if args.csv and len(chosen) != 1:
         raise Unjudged(f"--csv writes one document; choose it with --document ({', '.join(chosen)})")
     if args.render:

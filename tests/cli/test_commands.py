@@ -63,7 +63,8 @@ def test_a_count_that_differs_ends_with_1_and_a_repin_mends_it(
         (["check", "--repin"], "--repin needs the runs by name"),
         (["check", "MC_toy", "--reason", "x"], "--reason belongs to --repin"),
         (["prove", "--document", "toy"], "proofs of toy"),
-        (["verify", "--document", "none"], "no document 'none'"),
+        (["verify", "--document", "none"], "unknown document 'none'"),
+        (["verify", "--document", "toy", "--document", "none"], "unknown document 'none'"),
     ],
 )
 def test_what_cannot_be_judged_is_one_line_and_status_2(
