@@ -40,6 +40,10 @@ from modeproof.tlc.toolchain import Toolchain, sha256
 
 DUMMY = "<<>>"
 """Given to a constant that no operator asked for here depends on."""
+AT_ONCE = "TLCEval"
+"""TLC's operator that evaluates a value whole. TLC keeps the constants of a module that it checks, but
+evaluates those of an instance whenever they are asked for: whole then costs more than what is asked for.
+"""
 SHADOW = "d_"
 """Before the name of a variable of the decided device."""
 HEAP_MB = 512
@@ -203,8 +207,14 @@ class Plan:
         return own[0] if len(own) == 1 else ""
 
 
-def generate(plan: Plan, traces: Sequence[tuple[Recorded, Mapping[str, Constant]]]) -> str:
-    """The text of the module that walks through the traces of one top module."""
+def generate(
+    plan: Plan,
+    traces: Sequence[tuple[Recorded, Mapping[str, Constant]]],
+    definitions: Sequence[tuple[str, str]] = (),
+) -> str:
+    """The text of the module that walks through the traces of one top module; `definitions` are those that
+    every cfg replaces, each with what takes its place.
+    """
     name = module_name(plan.module)
     shadows = [SHADOW + one for one in plan.all_shadows]
     lines = [
@@ -215,7 +225,7 @@ def generate(plan: Plan, traces: Sequence[tuple[Recorded, Mapping[str, Constant]
     ]
     firsts, nexts, tables = [], [], []
     for number, (one, constants) in enumerate(traces, 1):
-        lines += _instances(plan, number, constants)
+        lines += _instances(plan, number, one, constants, named=bool(definitions) and number == 1)
         lines += _states(plan, number, one)
         first, following = _behaviour(plan, number, one, constants)
         lines += following
@@ -230,6 +240,8 @@ def generate(plan: Plan, traces: Sequence[tuple[Recorded, Mapping[str, Constant]
             f'PrintT(ToString(<<"TABLE", "{words.table}", {{<<k, {table}[k]>> : k \\in DOMAIN {table}}}>>))'
         )
     lines += [
+        *[f"{replacement(old)} == A1!{new}" for old, new in definitions],
+        f"{replacement(AT_ONCE)}(value) == value",
         "Begin ==",
         *[f"    \\/ {one}" for one in firsts],
         "Follow ==",
@@ -250,8 +262,20 @@ def module_name(module: str) -> str:
     return f"Walk_{module}"
 
 
-def _instances(plan: Plan, number: int, constants: Mapping[str, Constant]) -> list[str]:
-    """The top module with the constants of one run, and each device with no reading restored."""
+def replacement(name: str) -> str:
+    """The name in the generated module of what takes the place of a definition."""
+    return f"walk_{name}"
+
+
+def _instances(
+    plan: Plan, number: int, one: Recorded, constants: Mapping[str, Constant], named: bool
+) -> list[str]:
+    """The top module with the constants of one run, and each device with no reading restored.
+
+    TLC evaluates the constants of every instance at its start, so there is none that is not used: A where a
+    constant has the value of one of the module's own names (`named`: also where a definition has), G where
+    it is asked what the decided system does after the last state.
+    """
 
     def given(modules: Sequence[Module], last: bool, decided: bool = False) -> list[str]:
         parts = []
@@ -271,13 +295,15 @@ def _instances(plan: Plan, number: int, constants: Mapping[str, Constant]) -> li
         return parts
 
     whole = extended(plan.modules, plan.module)
+    instances = {"L": given(whole, last=True)}
+    if named or any(one.named for one in constants.values()):
+        instances = {"A": given(whole, last=False), **instances}
+    if one.stops:
+        instances["G"] = given(whole, last=True, decided=True)
     lines = [
-        f"A{number} == INSTANCE {plan.module} WITH {', '.join(given(whole, last=False))}",
-        f"L{number} == INSTANCE {plan.module} WITH {', '.join(given(whole, last=True))}",
+        f"{letter}{number} == INSTANCE {plan.module} WITH {', '.join(parts)}"
+        for letter, parts in instances.items()
     ]
-    lines.append(
-        f"G{number} == INSTANCE {plan.module} WITH {', '.join(given(whole, last=True, decided=True))}"
-    )
     for device in plan.replayed:
         parts = given(extended(plan.modules, device.module), last=True, decided=True)
         parts += [f"{name} <- {SHADOW}{name}" for name in plan.shadows(device)]
@@ -394,11 +420,13 @@ def _walk(
     folder = build(place) / "walk" / document / module
     shutil.rmtree(folder, ignore_errors=True)
     name = module_name(module)
-    text, cfg = generate(plan, given), "INIT Begin\nNEXT Follow\nINVARIANT Shown\n"
-    for old, new in definitions:
+    text, cfg = generate(plan, given, definitions), "INIT Begin\nNEXT Follow\nINVARIANT Shown\n"
+    for old, _ in definitions:
         owner = next((one.name for one in extended(plan.modules, module) if old in one.defined), module)
-        text = text.replace("\nBegin ==", f"\nwalk_{old} == A1!{new}\nBegin ==", 1)
-        cfg += f"CONSTANT {old} <- [{owner}]walk_{old}\n"
+        cfg += f"CONSTANT {old} <- [{owner}]{replacement(old)}\n"
+    for used in extended(plan.modules, module):
+        if AT_ONCE in used.words:
+            cfg += f"CONSTANT {AT_ONCE} <- [{used.name}]{replacement(AT_ONCE)}\n"
     write_whole(folder / f"{name}.tla", text.encode("utf-8"))
     write_whole(folder / f"{name}.cfg", cfg.encode("utf-8"))
     run = Run(

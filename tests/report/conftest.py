@@ -17,7 +17,7 @@ CONSTANTS LITERAL, RECORD
 VARIABLES boxState, shut, step
 Did(name) == step' = IF RECORD THEN name ELSE ""
 Readings == {"EAGER", "LAZY"}
-CODE == [m \in 0..1 |-> 3855 + m]
+CODE == TLCEval([m \in 0..1 |-> 3855 + m])
 BoxInit == boxState = "Open" /\ shut = 0
 Out == [WORD |-> IF shut = 1 THEN CODE[1] ELSE 0, LAMP |-> boxState = "Shut", SPARE |-> FALSE]
 Needed == TRUE

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+import shutil
 from pathlib import Path
 
 import pytest
@@ -30,6 +32,16 @@ def test_every_counterexample_is_walked_once_and_the_report_shows_its_wires(
     assert told["rows"][1]["instead"] == [
         "box, as decided: Wait instead of Close; LAMP 0, not 1; WORD 0, not 0F10 = code 1"
     ]
+
+
+def test_a_walk_asks_only_for_what_it_needs(checked: Path) -> None:
+    """What TLC would evaluate anew wherever it is named: instances that nothing uses, and whole tables."""
+    folder = checked / "build/walk/box/BoxOpen"
+    shutil.rmtree(checked / "build/walks")
+    assert main(["walks", "--quiet"]) == 0
+    text = (folder / "Walk_BoxOpen.tla").read_text()
+    assert re.findall(r"^(\w+) == INSTANCE", text, re.MULTILINE) == ["A1", "L1", "D1_box"]
+    assert "CONSTANT TLCEval <- [Box]walk_TLCEval\n" in (folder / "Walk_BoxOpen.cfg").read_text()
 
 
 def test_a_module_that_the_register_does_not_declare_is_named(
