@@ -32,9 +32,10 @@ AnyCall == calm = "no" /\ (\E i \in AnyInput : EDMCall(i)) /\ UNCHANGED calm
 CalmDown == calm = "no" /\ calm' = "first" /\ UNCHANGED <<edm, step>>
 CalmCall == calm # "no" /\ (\E i \in CalmInput : EDMCall(i)) /\ calm' = "on"
 
+LiveNext == AnyCall \/ CalmDown \/ CalmCall
 LiveSpec ==
     /\ EDMInit /\ step = "" /\ calm = "no"
-    /\ [][AnyCall \/ CalmDown \/ CalmCall]_<<liveVars, step>>
+    /\ [][LiveNext]_<<liveVars, step>>
     /\ WF_<<liveVars, step>>(CalmCall)
 
 \* EDM-IN-START-2, EDM-IN-RESET-1, EDM-IN-RESET-2, EDM-OUT-EDM-2, EDM-SEQ-2, EDM-SEQ-3, EDM-SEQ-6

@@ -135,7 +135,7 @@ def test_each_planted_fault_is_found(switched: Any, file: str, old: str, new: st
 def test_a_counterexample_of_a_module_that_nothing_can_walk_is_found(switched: Any) -> None:
     text = (switched.root / SPEC / "replay.toml").read_text(encoding="utf-8")
     switched.write(SPEC + "replay.toml", text.replace("tops.Latch", "tops.Lock"))
-    expected = "tops.Latch: missing; NEG_Latch, which a finding shows"
+    expected = "tops.Latch: missing; NEG_Latch checks that module"
     assert any(expected in one for one in problems(switched))
 
 
