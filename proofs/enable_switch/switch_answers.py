@@ -160,7 +160,12 @@ def resets_lead_back(one: Scanned) -> Said:
     return i.Activate, z3.Not(z3.And(kept))
 
 
-@theorem(clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-06", "ESF-08", "ESF-10"], slow=True)
+@theorem(
+    clauses=["ES-SEQ-5", "ES-RESTART"],
+    findings=["ESF-06", "ESF-08", "ESF-10"],
+    properties=["ResetEndsTheError"],
+    slow=True,
+)
 def a_reset_at_stage_0_ends_the_error_in_that_call() -> Queries:
     """From any memory: where a reset is waited for, a call that sees stage 0 with a rising edge of Reset, or
     with S_AutoReset, leads to Stage0 in the mode and to BasicMode without it; and to a reset error, which is
@@ -292,7 +297,7 @@ def parameter_ends_errors(one: Scanned) -> Said:
     return off, TRUE if one.becomes("BasicMode") else FALSE
 
 
-@theorem(clauses=["ES-RESTART"], findings=["ESF-08"], slow=True)
+@theorem(clauses=["ES-RESTART"], findings=["ESF-08"], properties=["EndOfModeEndsErrors"], slow=True)
 def the_parameter_lets_the_end_of_the_mode_end_every_error() -> Queries:
     """From any memory: with MODE_ENDS_ERROR set, a call of an active block without the mode leads from every
     error to BasicMode.

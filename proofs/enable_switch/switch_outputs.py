@@ -48,7 +48,9 @@ def row_of_the_state(one: Scanned, seen: Any) -> z3.BoolRef:
 
 
 @theorem(
-    clauses=["ES-SEQ-0", "ES-SEQ-1", "ES-SEQ-3", "ES-SEQ-4", "ES-SEQ-6", "ES-SEQ-7"], findings=["ESF-01"]
+    clauses=["ES-SEQ-0", "ES-SEQ-1", "ES-SEQ-3", "ES-SEQ-4", "ES-SEQ-6", "ES-SEQ-7", "ES-NOTE-3"],
+    findings=["ESF-01"],
+    properties=["EveryStateHasItsRow"],
 )
 def every_state_has_its_row_of_outputs() -> Queries:
     """Before the first call and after every call the outputs are the row of the state that the call led to:

@@ -36,7 +36,7 @@ Faulty == {"OperationError", "PlausibilityError", "EquivalenceError"}
 \* The same with stage 0 back: a reset is possible, ESF-06
 Released == {"OperationErrorAtStage0", "PlausibilityErrorAtStage0", "EquivalenceErrorAtStage0"}
 ResetErrors == {"ResetError1", "ResetError2", "ResetError3"}
-Errors == Faulty \cup Released \cup ResetErrors
+Errors == (Faulty \cup Released) \cup ResetErrors
 \* The operating mode is on, and there is no error
 Operating == {"SafeMode", "Stage0", "Stage1", "Stage2"} \cup Timed
 States == {"Idle", "BasicMode"} \cup Operating \cup Errors

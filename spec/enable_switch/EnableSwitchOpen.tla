@@ -44,6 +44,29 @@ CodeBit(weight) == ((DiagCode \div weight) % 2) = 1
 OutputsFollowTheCode ==
     /\ Ready = CodeBit(32768) /\ Error = CodeBit(16384) /\ SafetyDemand = CodeBit(2048) /\ ResetRequest = CodeBit(1024)
     /\ S_EnableSwitchOut = (DiagCode = 32768)
+\* ESF-01, ES-NOTE-3: the code of each state, and the outputs that are TRUE in it
+RowOf == [
+    Idle                      |-> <<\h0000, {}>>,
+    BasicMode                 |-> <<\h8002, {"Ready"}>>,
+    SafeMode                  |-> <<\h8004, {"Ready"}>>,
+    Stage0                    |-> <<\h8802, {"Ready", "SafetyDemand"}>>,
+    ChangeToStage1            |-> <<\h8812, {"Ready", "SafetyDemand"}>>,
+    Stage1                    |-> <<\h8000, {"Ready", "S_EnableSwitchOut"}>>,
+    ChangeToStage0            |-> <<\h8822, {"Ready", "SafetyDemand"}>>,
+    Stage2                    |-> <<\h8832, {"Ready", "SafetyDemand"}>>,
+    OperationError            |-> <<\hC020, {"Ready", "Error"}>>,
+    OperationErrorAtStage0    |-> <<\hC420, {"Ready", "Error", "ResetRequest"}>>,
+    PlausibilityError         |-> <<\hC030, {"Ready", "Error"}>>,
+    PlausibilityErrorAtStage0 |-> <<\hC440, {"Ready", "Error", "ResetRequest"}>>,
+    EquivalenceError          |-> <<\hC050, {"Ready", "Error"}>>,
+    EquivalenceErrorAtStage0  |-> <<\hC450, {"Ready", "Error", "ResetRequest"}>>,
+    ResetError1               |-> <<\hC001, {"Ready", "Error"}>>,
+    ResetError2               |-> <<\hC011, {"Ready", "Error"}>>,
+    ResetError3               |-> <<\hC021, {"Ready", "Error"}>>]
+\* ESF-01, ES-SEQ-0, ES-SEQ-1, ES-SEQ-3, ES-SEQ-4, ES-SEQ-6, ES-SEQ-7: the outputs are the row of the state
+EveryStateHasItsRow ==
+    /\ DiagCode = RowOf[state][1]
+    /\ \A name \in DOMAIN BlockOutputs \ {"DiagCode"} : BlockOutputs[name] = (name \in RowOf[state][2])
 \* ES-SEQ-0: not active, every output is FALSE
 IdleIsSilent ==
     state = "Idle" => BlockOutputs = [Ready |-> FALSE, S_EnableSwitchOut |-> FALSE, SafetyDemand |-> FALSE,
@@ -78,6 +101,22 @@ ErrorNeedsResetInTheMode ==
     [][(Error /\ ~Error' /\ Called.Activate /\ Called.S_SafetyActive) =>
         /\ SeesStage0(Called) /\ ResetRequest
         /\ Called.S_AutoReset \/ (Called.Reset /\ ~resetBefore)]_beat
+\* The three channels as the call found them
+Shown == <<Called.S_EnableSwitchCh1, Called.S_EnableSwitchCh2, Called.S_EnableSwitchCh3>>
+\* ES-SEQ-5, ES-RESTART, ESF-06, ESF-08: where a reset is waited for, it ends the error in that very call
+ResetEndsTheError ==
+    [][/\ ResetRequest /\ Called.Activate /\ Shown = <<FALSE, TRUE, FALSE>>
+       /\ Called.S_AutoReset \/ (Called.Reset /\ ~resetBefore)
+       /\ MODE_ENDS_ERROR => Called.S_SafetyActive
+       => state' = IF Called.S_SafetyActive THEN "Stage0" ELSE "BasicMode"]_beat
+\* ES-RESTART, ESF-08: what the parameter is for
+EndOfModeEndsErrors ==
+    [][(MODE_ENDS_ERROR /\ Error /\ Called.Activate /\ ~Called.S_SafetyActive) => state' = "BasicMode"]_beat
+\* ES-SEQ-3, ESF-05, ESF-07: a change that is too late ends in the error of its cause
+LateChangeHasItsError ==
+    [][/\ state \in {"ChangeToStage1", "ChangeToStage0"} /\ elapsed + Called.dt >= DiscrepancyTimeCh1_Ch3
+       /\ Called.Activate /\ Called.S_SafetyActive
+       => state' = IF Shown = <<TRUE, TRUE, TRUE>> THEN "PlausibilityError" ELSE "EquivalenceError"]_beat
 \* ESF-10: a Reset that is held where its edge is waited for is an error of its own, until it is released
 HeldResetIsAnError ==
     [][Called.Activate =>

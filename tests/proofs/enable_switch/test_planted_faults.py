@@ -210,7 +210,7 @@ FAULTS = [
         [REMEMBERED],
     ),
     Planted(
-        "the row",
+        "EveryStateHasItsRow",
         JUDGE,
         "Stage2",
         _state(switch_outputs.row_of_the_state),
@@ -224,14 +224,14 @@ FAULTS = [
         [("s.elapsed_ms + i.dt_ms)  # AwaitChange", "i.dt_ms)")],
     ),
     Planted(
-        "the cause",
+        "LateChangeHasItsError",
         JUDGE,
         "ChangeToStage0",
         switch_safety.ends_by_its_cause,
         [("if all_true(i):", "if i.S_EnableSwitchCh2:")],
     ),
     Planted(
-        "the reset",
+        "ResetEndsTheError",
         ANYWHERE,
         "PlausibilityErrorAtStage0",
         switch_answers.resets_lead_back,
@@ -257,7 +257,7 @@ FAULTS = [
         ],
     ),
     Planted(
-        "the parameter",
+        "EndOfModeEndsErrors",
         ANYWHERE,
         "EquivalenceError",
         switch_answers.parameter_ends_errors,

@@ -12,12 +12,14 @@ BLOCK = Block(
     "enable_switch",
     "EnableSwitch.tla",
     "MC_SF_EnableSwitch_arbitrary",
+    others={"EndOfModeEndsErrors": "MC_SF_EnableSwitch_mode_ends_error"},
     small={
         "EnableSwitchOpen.tla": ("N == 2 * 2 * 8 * 2 * 2 * 3", "N == 2 * 2 * 8 * 2 * 2 * 2")
     },  # 0 or 1 tick a call
 )
 FAULTS = {
     "OutputsFollowTheCode": ("Error == state \\in Errors", "Error == state \\in Errors \\ ResetErrors"),
+    "EveryStateHasItsRow": ('state = "Stage0" -> 34818', 'state = "Stage0" -> 34819'),
     "IdleIsSilent": ('Ready == state # "Idle"', 'Ready == state # "Stage2"'),
     "EnableStandsAlone": (
         'SafetyDemand == state \\in {"Stage0", ',
@@ -33,6 +35,15 @@ FAULTS = {
     "ErrorNeedsResetInTheMode": (
         "~(ResetStatic(i) /\\ ~i.S_AutoReset) /\\ Resets(i)",
         "~(ResetStatic(i) /\\ ~i.S_AutoReset)",
+    ),
+    "ResetEndsTheError": (
+        '~Resets(i) /\\ Stay(i) /\\ Did("AwaitReset")',
+        'Stay(i) /\\ Did("AwaitReset")',
+    ),
+    "EndOfModeEndsErrors": ("i.Activate /\\ (MODE_ENDS_ERROR => i.S_SafetyActive)", "i.Activate"),
+    "LateChangeHasItsError": (
+        'To("PlausibilityError", i)\n    /\\ Did("FindContradiction")',
+        'To("EquivalenceError", i)\n    /\\ Did("FindContradiction")',
     ),
     "HeldResetIsAnError": ("/\\ Held(ResetErrors, i) /\\ ~i.Reset\n", "/\\ Held(ResetErrors, i)\n"),
     "OneTransitionACall": (
@@ -52,7 +63,7 @@ def test_the_property_falls_to_the_fault(name: str, tmp_path: Path) -> None:
 
 
 def test_nothing_planted_nothing_falls(tmp_path: Path) -> None:
-    assert BLOCK.checked(tmp_path, "PatternsDecide", ("Errors == Faulty", "Errors == Faulty")) == []
+    assert BLOCK.checked(tmp_path, "PatternsDecide", ("Errors == (Faulty", "Errors == (Faulty")) == []
 
 
 def test_every_property_falls_to_something() -> None:
