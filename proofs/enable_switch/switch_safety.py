@@ -339,9 +339,7 @@ def ends_by_its_cause(one: Scanned) -> Said:
     return in_the_mode(one), z3.Not(late)
 
 
-@theorem(
-    clauses=["ES-SEQ-3"], findings=["ESF-05", "ESF-07"], properties=["LateChangeHasItsError"], slow=True
-)
+@theorem(clauses=["ES-SEQ-3"], findings=["ESF-05", "ESF-07"], properties=["LateChangeHasItsError"], slow=True)
 def a_change_that_is_too_late_ends_in_the_error_of_its_cause() -> Queries:
     """In the mode, a call that finds the time of a change over ends in PlausibilityError if all three
     channels are TRUE, and in EquivalenceError with any other pattern; no other call does the latter.
