@@ -58,9 +58,9 @@ OpenInit ==
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 Manual == {"ExternalFunctionTest", "ESPEInterruptedExternalTest", "EndExternalTest", "ResetError4"}
-\* What the outputs are in this state, and after this call
-Now(name) == Rows[state][name]
-Then(name) == Rows[state'][name]
+\* Whether this output is TRUE in this state, and after this call; in a state without a row nothing is
+Now(name) == state \in DOMAIN Rows /\ Rows[state][name]
+Then(name) == state' \in DOMAIN Rows /\ Rows[state'][name]
 Rise(name) == ~Now(name) /\ Then(name)
 Observe(i) ==
     /\ dark' = IF i.S_OSSD_In \/ ~Then("S_OSSD_Out") THEN -1 ELSE IF dark < 0 THEN 0 ELSE dark + i.dt
@@ -102,6 +102,8 @@ InactiveAtOnce == [][~Scanned.Activate => Row' = Rows["Idle"] /\ ~Then("S_OSSD_O
 \* TSS-OUT-OSSD, TSS-OUT-ERROR, TSS-OUT-DEMAND, TSS-OUT-REQUEST, TSS-EB-1: nothing is pending while it is TRUE
 EnableMeansNothingPending ==
     Row.S_OSSD_Out => Row.Ready /\ ~Row.Error /\ ~Row.SafetyDemand /\ ~Row.ResetRequest
+\* TSS-IN-TESTTIME
+InRange == 0 <= TEST_TIME /\ TEST_TIME <= 150
 \* A reset, as an observer of the wires sees it
 Edge == Scanned.Reset /\ ~Before.Reset
 \* TSS-REL-1, TSS-FN-2, TSS-FN-3, TSS-EB-3, TSS-EB-4, TSS-EB-5, TSS-IN-STARTRESET, TSS-IN-AUTORESET, TSSF-15, TSSF-24: never by itself
@@ -125,7 +127,7 @@ ResetOnlyWhereRequested ==
 \* already is not in this (TSSF-20)
 SwitchedOffInhibitEnds ==
     [][Scanned.Activate /\ Scanned.S_OSSD_In =>
-        /\ state = "Init" /\ Scanned.S_StartReset /\ TestTimeValid => Then("S_OSSD_Out")
+        /\ state = "Init" /\ Scanned.S_StartReset /\ InRange => Then("S_OSSD_Out")
         /\ state = "ESPEInterrupted1" /\ Scanned.S_AutoReset /\ ~startInhibit => Then("S_OSSD_Out")
         /\ state = "ESPEInterrupted2" /\ Scanned.S_AutoReset => Then("S_OSSD_Out")
         /\ Scanned.S_AutoReset /\ AUTO_RESET_ERRORS =>
@@ -137,6 +139,14 @@ DemandIsShown ==
     [][(state \in {"ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest",
                    "ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest"}
         /\ Scanned.Activate /\ ~Scanned.S_OSSD_In => Then("SafetyDemand") \/ Then("Error"))]_beat
+\* TSS-8802, TSS-8804, TSS-8806, TSS-OUT-DEMAND: and never longer: a call that finds the sensor free shows none
+DemandNeedsDarkSensor == [][Then("SafetyDemand") => ~Scanned.S_OSSD_In]_beat
+\* TSS-OUT-REQUEST, TSS-EB-2, TSS-EB-4, TSS-EB-5, TSS-C410, TSS-IN-NOEXT-FALSE, TSSF-13, TSSF-18: an edge where it is asked for, with the
+\* sensor free, enables in that call; where there is a manual test, one in the test error asks for that
+ResetEndsAtOnce ==
+    [][Scanned.Activate /\ Edge =>
+        /\ Now("ResetRequest") /\ Scanned.S_OSSD_In /\ InRange /\ (state = "TestError1C410" => Scanned.NoExternalTest) => Then("S_OSSD_Out")
+        /\ state \in {"TestError1C410", "TestError1C010"} /\ ~Scanned.NoExternalTest => state' = "ExternalFunctionTest"]_beat
 
 ----------------------------------------------------------------------------
 (* The test.                                                               *)
@@ -177,18 +187,18 @@ ReactionIsSeen ==
 \* TSS-CX10, TSS-C410, TSS-C010, TSSF-17: x is 4 exactly if the sensor is free and there is no manual test, now
 CodeTellsResettable ==
     [][(state' \in TestErrors =>
-        (Then("DiagCode") = (IF Scanned.S_OSSD_In /\ Scanned.NoExternalTest THEN \hC410 ELSE \hC010)))]_beat
+        (Row'.DiagCode = (IF Scanned.S_OSSD_In /\ Scanned.NoExternalTest THEN \hC410 ELSE \hC010)))]_beat
 \* TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051: where each reset error was found
 Watched == [ResetError1 |-> {"Init"}, ResetError2 |-> {"WaitForReset1"}, ResetError3 |-> TestErrors, ResetError4 |-> {"EndExternalTest"},
             ResetError5 |-> {"ParameterError"}, ResetError6 |-> {"WaitForReset2"}]
 \* TSS-EB-1, TSS-EB-2, TSS-ERR-3, TSSF-12, TSSF-13, TSSF-24: a test error ends by an edge, a reset error by the end of Reset, a parameter error not at all
 ErrorLeftOnlyAsDocumented ==
     [][(Now("Error") /\ Scanned.Activate /\ state' # state =>
-        IF state \in ResetErrors THEN ~Scanned.Reset /\ state' \in Watched[state]
-        ELSE \/ state' \in ResetErrors /\ state \in Watched[state'] /\ Scanned.Reset /\ Before.Reset
+        IF state \in DOMAIN Watched THEN ~Scanned.Reset /\ state' \in Watched[state]
+        ELSE \/ state' \in DOMAIN Watched /\ state \in Watched[state'] /\ Scanned.Reset /\ Before.Reset
              \/ state \in TestErrors /\ (state' \in TestErrors \/ Edge \/ (AUTO_RESET_ERRORS /\ Scanned.S_AutoReset)))]_beat
 \* TSS-IN-STARTRESET, TSS-IN-AUTORESET, TSS-EB-3: whether the inhibit or the error that this reset error watches is kept in this call
-Kept(e) == CASE e = "ResetError1" -> ~Scanned.S_StartReset /\ TestTimeValid
+Kept(e) == CASE e = "ResetError1" -> ~Scanned.S_StartReset /\ InRange
              [] e = "ResetError2" -> ~Scanned.S_AutoReset \/ startInhibit
              [] e = "ResetError6" -> ~Scanned.S_AutoReset
              [] e = "ResetError5" -> TRUE
@@ -196,19 +206,33 @@ Kept(e) == CASE e = "ResetError1" -> ~Scanned.S_StartReset /\ TestTimeValid
 \* TSS-ERR-3, TSS-IN-RESET, TSSF-01, TSSF-02, TSSF-03, TSSF-24: a static Reset where a reset is waited for is found, and found to be an error
 StaticResetIsFound ==
     [][(Scanned.Activate /\ Scanned.Reset /\ Before.Reset =>
-        (\A e \in ResetErrors : state \in Watched[e] /\ Kept(e) => state' = e))]_beat
+        (\A e \in DOMAIN Watched : state \in Watched[e] /\ Kept(e) => state' = e))]_beat
+\* TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSS-ERR-3, TSSF-24: only a Reset that is held is one, and only while it is
+\* held; not where the constants leave nothing to reset.  What S_AutoReset does to a reset that is waited for already, and a TestTime out of
+\* its range in Init, are not in this (TSSF-20, TSSF-11)
+ResetErrorNeedsHeldReset ==
+    [][state' \in DOMAIN Watched =>
+        /\ Scanned.Reset /\ (state' # state => Before.Reset)
+        /\ state' # state /\ state' = "ResetError1" => ~Scanned.S_StartReset
+        /\ state' # state /\ state' \in {"ResetError3", "ResetError4"} => Kept(state')]_beat
 \* TSS-C051, TSS-OUT-EXECUTED, TSSF-02, TSSF-03: finding it changes neither what is known of the test nor where the block goes on
 ResetErrorKeepsTestExecuted ==
-    [][(state' \in ResetErrors => state \in Watched[state'] \cup {state'} /\ Then("TestExecuted") = Now("TestExecuted"))]_beat
+    [][(state' \in DOMAIN Watched => state \in Watched[state'] \cup {state'} /\ Then("TestExecuted") = Now("TestExecuted"))]_beat
 \* TSS-IN-NOEXT-FALSE, TSS-8002, TSS-8804, TSS-8404, TSSF-14, TSSF-16: after a failed test no output without a manual test from free over dark to free, where there is one; and
 \* TSS-IN-NOEXT-TRUE: none is asked for where there is none
 ExternalTestIsComplete ==
     [][/\ (state \in Manual /\ Rise("S_OSSD_Out") => cycle = 3 /\ state = "EndExternalTest")
        /\ (state \in TestErrors /\ Rise("S_OSSD_Out") => Scanned.NoExternalTest)
        /\ (state \in TestErrors /\ state' \in Manual => ~Scanned.NoExternalTest)]_beat
+\* TSS-8002, TSS-8804, TSS-IN-NOEXT-FALSE, TSSF-16: where a manual test is awaited, a sensor that was free and is dark begins it in that call
+ManualTestIsSeen ==
+    [][state = "ExternalFunctionTest" /\ Scanned.Activate /\ Before.S_OSSD_In /\ ~Scanned.S_OSSD_In =>
+        state' = "ESPEInterruptedExternalTest"]_beat
+\* TSS-C000, TSS-ERR-4, TSS-IN-TESTTIME: only a TestTime out of its range is a parameter error
+ParameterErrorNeedsCause == [][state' = "ParameterError" => ~InRange]_beat
 \* TSS-C000, TSS-ERR-4, TSS-IN-TESTTIME, TSSF-11, TSSF-12: a TestTime out of its range never enables
 ParameterErrorStays ==
-    [][~TestTimeValid /\ Scanned.Activate =>
+    [][~InRange /\ Scanned.Activate =>
         /\ ~Then("S_OSSD_Out")
         /\ (state \notin {"Idle", "ResetError1"} => Then("Error"))]_beat
 
@@ -220,8 +244,17 @@ CodeTellsItsOutputs ==
     LET bit(b) == (Row.DiagCode \div b) % 2 = 1
     IN  /\ bit(32768) = Row.Ready /\ bit(2048) = Row.SafetyDemand /\ bit(1024) = Row.ResetRequest
         /\ (bit(32768) /\ bit(16384)) = Row.Error
-\* TSS-OUT-DIAG: no two states have one code
-ASSUME \A s, t \in States : s # t => Rows[s].DiagCode # Rows[t].DiagCode
+\* TSS-OUT-DIAG: the code that the document prints for each state; no two have one
+CodeOf ==
+    [Idle |-> \h0000, Init |-> \h8401, ESPEInterrupted1 |-> \h8802, WaitForReset1 |-> \h8402, ExternalFunctionTest |-> \h8002,
+     ESPEInterruptedExternalTest |-> \h8804, EndExternalTest |-> \h8404, ESPEFreeNoTest |-> \h8010, ESPEInterrupted2 |-> \h8806,
+     WaitForReset2 |-> \h8406, TestRequest |-> \h8020, TestActive |-> \h8030, ESPEFreeTestOk |-> \h8000, ParameterError |-> \hC000,
+     ResetError1 |-> \hC001, ResetError2 |-> \hC011, ResetError3 |-> \hC021, ResetError4 |-> \hC031, ResetError5 |-> \hC041,
+     ResetError6 |-> \hC051, TestError1C410 |-> \hC410, TestError1C010 |-> \hC010]
+ASSUME \A s, t \in DOMAIN CodeOf : s # t => CodeOf[s] # CodeOf[t]
+\* TSS-OUT-DIAG, TSS-0000, TSS-8401, TSS-8802, TSS-8402, TSS-8002, TSS-8804, TSS-8404, TSS-8010, TSS-8806, TSS-8406, TSS-8020, TSS-8030, TSS-8000,
+\* TSS-C000, TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSS-C410, TSS-C010, TSSF-02, TSSF-03: every state shows its own
+CodeIsThePrintedOne == Row.DiagCode = CodeOf[state]
 \* TSS-IN-RESET, TSS-IN-STARTTEST: edges count from the call before, active or not
 EdgesAreRemembered ==
     [][/\ resetBefore' = Scanned.Reset /\ startTestBefore' = Scanned.StartTest /\ sensorBefore' = Scanned.S_OSSD_In
@@ -239,10 +272,12 @@ Transitions == TLCEval(
      <<"EndExternalTest", "ResetError4">>, <<"EndExternalTest", "ESPEInterruptedExternalTest">>, <<"EndExternalTest", "ESPEFreeNoTest">>,
      <<"TestError1C410", "ESPEFreeNoTest">>, <<"ParameterError", "ResetError5">>}
     \cup (Testing \X TestErrors) \cup (TestErrors \X {"ExternalFunctionTest", "ResetError3"}) \cup (TestErrors \X TestErrors)
-    \cup UNION {{e} \X Watched[e] : e \in ResetErrors} \cup (States \X {"Idle"}) \cup {<<s, s>> : s \in States})
+    \cup UNION {{e} \X Watched[e] : e \in DOMAIN Watched} \cup (States \X {"Idle"}) \cup {<<s, s>> : s \in States})
 OneTransitionPerCall == [][(<<state, state'>> \in Transitions)]_beat
 \* TSS-IN-ACTIVATE: there is no input to which a call has no answer
 EveryCallIsAnswered == \A n \in InputsToTry : ENABLED SensorScan(Alphabet[n])
+\* TSS-IN-ACTIVATE, TSS-OUT-READY, TSS-8401: a call with Activate ends in a state that is active
+ActiveAtOnce == [][Scanned.Activate => Then("Ready")]_beat
 \* TSS-0000, TSS-IN-ACTIVATE: before the first call the block is inactive
 PowerUpIsSafe == step = "" => Row = Rows["Idle"] /\ ~Row.S_OSSD_Out
 =============================================================================

@@ -16,7 +16,7 @@ Code(n) == Digit[(n \div 4096) + 1] \o Digit[((n \div 256) % 16) + 1] \o Digit[(
 
 Mark ==
     /\ Report(step')
-    /\ Report("DiagCode" \o Code(Then("DiagCode")))
+    /\ Report("DiagCode" \o Code(Row'.DiagCode))
     /\ (state # state' => Report(state \o "To" \o state'))
     \* TSSF-15: what the parameter changes
     /\ (step' = "ResetTestError" /\ ~Scanned.Reset => Report("TestErrorEndsByItself"))

@@ -71,6 +71,28 @@ FAULTS = {
         "~i.NoExternalTest /\\ ~Free(i) /\\ (ErrorEnds(i)",
     ),
     "TestedAgain": NEVER_FREE,
+    "CodeIsThePrintedOne": ("OutputRow(\\hC051,", "OutputRow(\\hC061,"),
+    "DemandNeedsDarkSensor": (
+        'At("ESPEInterruptedExternalTest", i) /\\ ~Free(i) /\\ Stay',
+        'At("ESPEInterruptedExternalTest", i) /\\ Stay',
+    ),
+    "ResetEndsAtOnce": (
+        "Waiting2(i) /\\ ~LostAgain(i) /\\ ~RestartAllowed(i) /\\ Stay",
+        "Waiting2(i) /\\ ~LostAgain(i) /\\ Stay",
+    ),
+    "ResetErrorNeedsHeldReset": (
+        "state \\in ResetErrors /\\ i.Activate /\\ i.Reset /\\ Stay",
+        "state \\in ResetErrors /\\ i.Activate /\\ Stay",
+    ),
+    "ManualTestIsSeen": (
+        'At("ExternalFunctionTest", i) /\\ ~Falls(i) /\\ Stay',
+        'At("ExternalFunctionTest", i) /\\ Stay',
+    ),
+    "ParameterErrorNeedsCause": ("TEST_TIME \\in 0..150", "TEST_TIME \\in 3..150"),
+    "ActiveAtOnce": (
+        '~i.Activate /\\ state = "Idle" /\\ Stay',
+        'state = "Idle" /\\ Stay',
+    ),
     "PersonStopsMachine": (
         "elapsed' = Counted(elapsed, i.dt, TEST_TIME)",
         "elapsed' = Counted(elapsed, IF Free(i) THEN i.dt ELSE 0, TEST_TIME)",
