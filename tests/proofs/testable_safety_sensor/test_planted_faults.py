@@ -12,6 +12,7 @@ from modeproof.registers import load_document
 from proofs.sentences import Sentence
 from proofs.testable_safety_sensor import (
     rows,
+    sensor_answers,
     sensor_errors,
     sensor_response,
     sensor_safety,
@@ -295,6 +296,80 @@ FAULTS = [
         ],
     ),
     Planted(
+        "CodeIsThePrintedOne",
+        JUDGE,
+        "ESPEInterrupted1",
+        _state(sensor_answers.code_is_the_printed_one),
+        [(ROW_8402, ROW_8402.replace("0x8402", "0x8442"))],
+    ),
+    Planted(
+        "DemandNeedsDarkSensor",
+        JUDGE,
+        "ESPEInterrupted2",
+        sensor_answers.demand_needs_dark_sensor,
+        [
+            (
+                "return _to(s, i, Step.WAIT_FOR_RESET_2)  # BecomeFree2",
+                "return _to(s, i, Step.ESPE_INTERRUPTED_2)",
+            )
+        ],
+    ),
+    Planted(
+        "ResetEndsAtOnce",
+        JUDGE,
+        "WaitForReset2",
+        sensor_answers.reset_ends_at_once,
+        [
+            (
+                "if _reset_rises(s, i) or i.S_AutoReset:\n        return _to(s, i, Step.ESPE_FREE_TEST_OK)",
+                "if i.S_AutoReset:\n        return _to(s, i, Step.ESPE_FREE_TEST_OK)",
+            )
+        ],
+    ),
+    Planted(
+        "ResetErrorNeedsHeldReset",
+        JUDGE,
+        "Init",
+        sensor_answers.reset_error_needs_held_reset,
+        [
+            (
+                "if _reset_is_static(s, i) and not i.S_StartReset:",
+                "if s.reset_before and not i.S_StartReset:",
+            )
+        ],
+    ),
+    Planted(
+        "ManualTestIsSeen",
+        JUDGE,
+        "ExternalFunctionTest",
+        sensor_answers.manual_test_is_seen,
+        [
+            (
+                "if s.sensor_before and not i.S_OSSD_In:",
+                "if s.sensor_before and not i.S_OSSD_In and not i.Reset:",
+            )
+        ],
+    ),
+    Planted(
+        "ParameterErrorNeedsCause",
+        JUDGE,
+        "Init",
+        sensor_answers.parameter_error_needs_cause,
+        [("return s.params.TestTime_ms >= 0 and", "return s.params.TestTime_ms > 0 and")],
+    ),
+    Planted(
+        "ActiveAtOnce",
+        JUDGE,
+        "Idle",
+        sensor_answers.active_at_once,
+        [
+            (
+                "return _to(s, i, Step.INIT)  # BecomeActive",
+                "return _to(s, i, Step.IDLE if i.Reset else Step.INIT)",
+            )
+        ],
+    ),
+    Planted(
         "EnablesAgain",
         ANYWHERE,
         "ExternalFunctionTest",
@@ -324,7 +399,9 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted)
 
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
-    proved = named(rows, sensor_safety, sensor_test, sensor_errors, sensor_response, step_paths)
+    proved = named(
+        *(rows, sensor_answers, sensor_safety, sensor_test, sensor_errors, sensor_response, step_paths)
+    )
     assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
     beyond_the_block = {"PersonStopsMachine", "EveryPersonIsShown", "StuckSenderFails", "FailedTestIsMended"}
     known = {one.id for one in load_document(root(), "testable_safety_sensor").properties}
