@@ -59,6 +59,9 @@ GuardLockingStates ==
 GuardLockingTypeOK ==
     /\ state \in GuardLockingStates
     /\ {resetBefore, unlockRequestBefore, requestPending, startUpInhibit} \subseteq BOOLEAN
+    \* What only one parameter needs is remembered only with it, and only where it counts
+    /\ requestPending => UNLOCK_ON = "latched" /\ state = "GuardClosedAndLocked" /\ unlockRequestBefore
+    /\ startUpInhibit => START_UP_INHIBIT = "until_reset" /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"}
 
 \* GL-OUT-READY, GL-IN-DEFAULT, GL-SEQ-0: before the first call nothing is active and nothing is remembered
 GuardLockingInit ==
@@ -108,7 +111,7 @@ LOCAL RequestRises(i) == Rises(i.UnlockRequest, unlockRequestBefore)
 LOCAL Requested(i) ==
     CASE UNLOCK_ON = "edge" -> RequestRises(i)
       [] UNLOCK_ON = "latched" -> i.UnlockRequest /\ (RequestRises(i) \/ requestPending)
-      [] UNLOCK_ON = "level" -> i.UnlockRequest
+      [] OTHER -> i.UnlockRequest
 LOCAL UnlocksNow(i) == Requested(i) /\ ZoneAllows(i)
 \* GL-OUT-ERROR, GLF-05: the guard or its lock is lost although nobody asked for it; one reading wants a safe zone besides
 LOCAL LockLost(i) == ~(Secured(i) /\ (Literal("ZONE_MUST_STAY_SAFE") => i.S_SafetyActive))

@@ -76,6 +76,8 @@ Wires == Alphabet[in] @@ GuardLockingOutputs
 Secure == Scanned.S_GuardMonitoring /\ Scanned.S_GuardLock
 Enables == ~S_GuardLocked /\ S_GuardLocked'
 Unlocks == ~S_UnlockGuard /\ S_UnlockGuard'
+\* GL-IN-STARTRESET, GLF-08: the start-up inhibit is still to be removed, after a start-up that found the guard not locked too
+StartUpInhibited == starting /\ START_UP_INHIBIT = "until_reset"
 
 \* GL-IN-ACTIVATE, GL-OUT-READY, GL-SEQ-0: in the call without Activate every output is FALSE, and only then is Ready
 InactiveAtOnce ==
@@ -105,7 +107,7 @@ StaticResetNeverResets ==
 \* GL-IN-RESET, GL-IN-STARTRESET, GL-IN-AUTORESET, GLF-07, GLF-08: where an edge of Reset is waited for
 EdgeAwaited ==
     CASE DiagCode = \h8001 -> ~Scanned.S_StartReset
-      [] DiagCode = \h8003 -> ~Scanned.S_AutoReset \/ startUpInhibit
+      [] DiagCode = \h8003 -> ~Scanned.S_AutoReset \/ StartUpInhibited
       [] OTHER -> DiagCode = \h8014
 
 \* GL-IN-RESET, GLF-07: where an edge is waited for, a Reset that does not move is an error in that call
@@ -217,10 +219,30 @@ AnswersAtOnce ==
           [] DiagCode = \h8013 -> Scanned.S_GuardMonitoring /\ Scanned.UnlockRequest
           [] DiagCode = \h8012 -> ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive
           [] DiagCode = \h8011 -> Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
-          [] DiagCode = \h8003 -> Secure /\ ~Scanned.Reset /\ (~Scanned.S_AutoReset \/ startUpInhibit)
+          [] DiagCode = \h8003 -> Secure /\ ~Scanned.Reset /\ (~Scanned.S_AutoReset \/ StartUpInhibited)
           [] DiagCode = \h8014 -> (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
           [] DiagCode = \hC004 -> ~Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> Scanned.Reset]_beat
+
+\* GL-SEQ-2, GL-SEQ-3, GL-SEQ-4, GL-SEQ-5, GLF-04, GLF-11, GLF-12, GLF-14: and a call that leaves its state has seen why (why an error
+\* is shown, ErrorNeedsCause says)
+LeavesForACause ==
+    [][DiagCode' # DiagCode /\ Scanned.Activate /\ DiagCode' < \hC000 =>
+        CASE DiagCode = \h8001 -> IF S_GuardLocked' THEN Secure /\ (Scanned.S_StartReset \/ ResetEdge(Scanned)) ELSE ~Secure
+          [] DiagCode = \h8000 -> Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive
+          [] DiagCode = \h8013 ->
+                /\ Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated"
+                /\ IF S_UnlockGuard' THEN ~Scanned.S_GuardMonitoring ELSE Scanned.S_GuardMonitoring /\ ~Scanned.UnlockRequest
+          [] DiagCode = \h8012 -> Scanned.S_GuardMonitoring /\ (Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated")
+          [] DiagCode = \h8011 ->
+                IF S_UnlockGuard' THEN Scanned.S_SafetyActive /\ (Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring)
+                                  ELSE Secure /\ ~(Scanned.UnlockRequest /\ Scanned.S_SafetyActive)
+          [] DiagCode = \h8003 ->
+                IF S_GuardLocked' THEN Secure /\ (ResetEdge(Scanned) \/ (Scanned.S_AutoReset /\ ~StartUpInhibited)) ELSE ~Secure
+          [] DiagCode = \h8014 -> ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (CAUSE_OF_LOSS = "guard_and_zone" => Secure)
+          [] DiagCode = \hC004 -> Scanned.S_SafetyActive
+          [] DiagCode \in {\hC001, \hC002, \hC003} -> ~Scanned.Reset
+          [] OTHER -> ~Ready]_beat
 
 \* GL-SEQ-NOTE: there is no input to which a call has no answer
 EveryCallIsAnswered == \A n \in Inputs : ENABLED GuardLockingCall(Alphabet[n])
