@@ -1,4 +1,4 @@
-"""How soon the block does what its inputs ask for: at once where it waits, else within five calls."""
+"""How soon the block does what its inputs ask for, and for what alone: at once, or within five calls."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ import z3
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.guard_locking.block_safety import secure
+from proofs.guard_locking.block_safety import secure, start_up_inhibited
 from proofs.guard_locking.devices import BLOCK, chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
-from proofs.guard_locking.observer import request_edge
+from proofs.guard_locking.observer import request_edge, reset_edge
 from proofs.sentences import Judge, Said
 from proofs.theorem import Queries, claim, theorem
 
@@ -41,7 +41,7 @@ def answers_at_once(one: Scanned) -> Said:
     i = one.inputs
     guard, zone, request, reset = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest, i.Reset
     guard_too = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
-    due = z3.And(i.S_AutoReset, z3.Not(one.before.start_up_inhibit))
+    due = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(one)))
     waits = {
         "Init": z3.And(secure(one), z3.Not(i.S_StartReset), z3.Not(reset)),
         LOCKED: z3.And(secure(one), z3.Not(z3.And(request_edge(one), zone))),
@@ -76,6 +76,66 @@ def a_call_that_stays_has_not_seen_what_it_waits_for() -> Queries:
         return one.inputs.Activate, FALSE if one.becomes("WaitForReset") else TRUE
 
     yield JUDGE.too_strong("it never stays", leaves, "WaitForReset")
+
+
+ERRORS: Final = ("SafetyLost", "ResetError1", "ResetError2", "ResetError3")
+"""Why a call ends in one of them, `an_error_has_a_cause_in_that_call` says."""
+
+
+def leaves_for_a_cause(one: Scanned) -> Said:
+    """A call that leaves its state without an error has seen why."""
+    state = control(BLOCK, one.before)
+    if one.becomes(state, *ERRORS):
+        return None
+    i, edge, secured = one.inputs, reset_edge(one), secure(one)
+    guard, zone, request = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest
+    opened = z3.Not(guard)
+    kept = z3.Or(zone, chosen(one.params, "ZONE_LOST", "tolerated"))
+    guard_too = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    alone = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(one)))
+    locked, unlocked = one.sends.S_GuardLocked, one.sends.S_UnlockGuard
+    causes = {
+        "Init": z3.If(locked, z3.And(secured, z3.Or(i.S_StartReset, edge)), z3.Not(secured)),
+        LOCKED: z3.And(secured, request, zone),
+        "GuardClosedButUnlocked": z3.And(kept, z3.If(unlocked, opened, z3.And(guard, z3.Not(request)))),
+        "GuardOpenAndUnlocked": z3.And(guard, kept),
+        "WaitForOperator": z3.If(
+            unlocked,
+            z3.And(zone, z3.Or(request, opened)),
+            z3.And(secured, z3.Not(z3.And(request, zone))),
+        ),
+        "WaitForReset": z3.If(locked, z3.And(secured, z3.Or(edge, alone)), z3.Not(secured)),
+        "SafetyReturn": z3.And(edge, zone, z3.Implies(guard_too, secured)),
+        "SafetyLost": zone,
+        "ResetError1": z3.Not(i.Reset),
+        "ResetError2": z3.Not(i.Reset),
+        "ResetError3": z3.Not(i.Reset),
+        "Idle": TRUE,
+    }
+    return i.Activate, causes[state]
+
+
+@theorem(
+    clauses=[
+        *["GL-SEQ-2", "GL-SEQ-3", "GL-SEQ-4", "GL-SEQ-5"],
+        *["GL-IN-RESET", "GL-IN-UNLOCKREQUEST", "GL-OUT-UNLOCKGUARD"],
+    ],
+    findings=["GLF-04", "GLF-11", "GLF-12", "GLF-14"],
+    properties=["LeavesForACause"],
+    slow=True,
+)
+def a_call_that_leaves_its_state_has_seen_why() -> Queries:
+    """An active call that ends in another state, and in no error, has seen what that step is for: the guard
+    open, closed or not secured, the request or its end, the edge of Reset or that none is needed, the zone
+    safe again, Reset released.
+    """
+    yield from JUDGE.in_every_scan(leaves_for_a_cause)
+
+    def by_edge(one: Scanned) -> Said:
+        said = leaves_for_a_cause(one)
+        return None if said is None else (said[0], reset_edge(one))
+
+    yield JUDGE.too_strong("only by an edge of Reset", by_edge, "WaitForReset")
 
 
 def calls_left(one: Scanned, before: bool) -> z3.ArithRef:

@@ -209,9 +209,14 @@ def nothing_is_enabled_without_an_edge_of_reset_unless_an_input_allows_it() -> Q
     yield JUDGE.without(no_automatic_restart, "Init", "WiresAreRemembered")
 
 
+def start_up_inhibited(one: Scanned) -> z3.BoolRef:
+    """The start-up inhibit is still to be removed."""
+    return z3.And(SEEN.starting, chosen(one.params, "START_UP_INHIBIT", "until_reset"))
+
+
 def start_up_inhibit_needs_reset(one: Scanned) -> Said:
     free = z3.And(one.sent.DiagCode == 0x8001, one.inputs.S_StartReset)
-    given = z3.And(enables(one), SEEN.starting, chosen(one.params, "START_UP_INHIBIT", "until_reset"))
+    given = z3.And(enables(one), start_up_inhibited(one))
     return TRUE, z3.Implies(given, z3.Or(reset_edge(one), free))
 
 
@@ -366,7 +371,7 @@ def edge_awaited(one: Scanned) -> z3.BoolRef:
     if one.was("Init"):
         return z3.Not(one.inputs.S_StartReset)
     if one.was("WaitForReset"):
-        return z3.Or(z3.Not(one.inputs.S_AutoReset), one.before.start_up_inhibit)
+        return z3.Or(z3.Not(one.inputs.S_AutoReset), start_up_inhibited(one))
     return TRUE if one.was("SafetyReturn") else FALSE
 
 

@@ -16,6 +16,8 @@ from proofs.theorem import Queries, theorem
 LOCKED: Final = "GuardClosedAndLocked"
 BEFORE_OPENING: Final = frozenset({"Idle", "Init", "ResetError1", LOCKED})
 """The states in which no start-up inhibit is carried along."""
+AT_START_UP: Final = frozenset({"Init", "ResetError1"})
+"""The states of a start-up whose inhibit, if it has one, nothing has removed yet."""
 AFTER_A_LOSS: Final = frozenset({"SafetyLost", "SafetyReturn", "ResetError2"})
 
 
@@ -31,8 +33,9 @@ def _pending_was_asked(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
 
 def _inhibit_is_carried(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c in BEFORE_OPENING:
-        return z3.Not(s.start_up_inhibit)
-    kept = z3.Implies(seen.starting, s.start_up_inhibit)
+        starts = seen.starting if c in AT_START_UP else TRUE
+        return z3.And(z3.Not(s.start_up_inhibit), starts)
+    kept = seen.starting == s.start_up_inhibit
     return z3.Implies(chosen(p, "START_UP_INHIBIT", "until_reset"), kept)
 
 
@@ -57,7 +60,9 @@ def _guard_comes_back(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
 INVARIANT: Final = (
     Conjunct("WiresAreRemembered", "what the call before read is what stood there", _wires_are_remembered),
     Conjunct("PendingWasAsked", "a pending request rose at this locked guard", _pending_was_asked),
-    Conjunct("InhibitIsCarried", "what started with an inhibit still has it", _inhibit_is_carried),
+    Conjunct(
+        "InhibitIsCarried", "what started with an inhibit still has it, and nothing else", _inhibit_is_carried
+    ),
     Conjunct("InhibitIsWanted", "an inhibit is carried only where it is to be", _inhibit_is_wanted),
     Conjunct("NothingStartsWhereEnabled", "the start-up is over", _nothing_starts_where_enabled),
     Conjunct("LossIsWaitedOut", "a loss is acknowledged before anything else", _loss_is_waited_out),

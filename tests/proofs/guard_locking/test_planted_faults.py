@@ -278,6 +278,18 @@ FAULTS = [
         ],
     ),
     Planted(
+        "LeavesForACause",
+        JUDGE,
+        "WaitForReset",
+        block_response.leaves_for_a_cause,
+        [
+            (
+                "if not (i.S_GuardMonitoring and i.S_GuardLock):\n        return Step.WAIT_FOR_OPERATOR",
+                "if not i.S_SafetyActive:\n        return Step.WAIT_FOR_OPERATOR",
+            )
+        ],
+    ),
+    Planted(
         "EnablesAgain",
         ANYWHERE,
         "ResetError2",

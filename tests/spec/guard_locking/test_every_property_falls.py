@@ -63,8 +63,8 @@ FAULTS = {
     ),
     "ErrorEndsWithCause": ('[] OTHER -> "WaitForReset"', '[] OTHER -> "GuardClosedAndLocked"'),
     "LatchedRequestUnlocks": (
-        'i.UnlockRequest /\\ (RequestRises(i) \\/ requestPending)\n      [] UNLOCK_ON = "level"',
-        'i.UnlockRequest /\\ RequestRises(i)\n      [] UNLOCK_ON = "level"',
+        "i.UnlockRequest /\\ (RequestRises(i) \\/ requestPending)\n      [] OTHER",
+        "i.UnlockRequest /\\ RequestRises(i)\n      [] OTHER",
     ),
     "CodeTellsTheGuard": (
         '"WaitForOperator" ELSE "GuardOpenAndUnlocked")',
@@ -77,6 +77,10 @@ FAULTS = {
     "AnswersAtOnce": (
         'GoTo("SafetyReturn") /\\ Did("SeeZoneSafe")',
         'GoTo("SafetyLost") /\\ Did("SeeZoneSafe")',
+    ),
+    "LeavesForACause": (
+        'At("WaitForOperator", i) /\\ ~GoesOnRequest(i) /\\ Secured(i)',
+        'At("WaitForOperator", i) /\\ Secured(i)',
     ),
     "EnablesAgain": (
         'GoTo(ReturnsTo) /\\ Did("ReleaseReset")',
