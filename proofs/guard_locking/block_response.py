@@ -117,8 +117,13 @@ def leaves_for_a_cause(one: Scanned) -> Said:
 
 @theorem(
     clauses=[
-        *["GL-SEQ-2", "GL-SEQ-3", "GL-SEQ-4", "GL-SEQ-5"],
-        *["GL-IN-RESET", "GL-IN-UNLOCKREQUEST", "GL-OUT-UNLOCKGUARD"],
+        "GL-SEQ-2",
+        "GL-SEQ-3",
+        "GL-SEQ-4",
+        "GL-SEQ-5",
+        "GL-IN-RESET",
+        "GL-IN-UNLOCKREQUEST",
+        "GL-OUT-UNLOCKGUARD",
     ],
     findings=["GLF-04", "GLF-11", "GLF-12", "GLF-14"],
     properties=["LeavesForACause"],
