@@ -202,7 +202,7 @@ def _by_property(judged: Sequence[Judged], stated: Sequence[str], negatives: Map
         "a literal reading or a fault breaks it.",
         f"Kill nothing: {names_of(nothing)}.",
         f"Kill nothing alone, but with others: {names_of(not_alone)}.",
-        f"Not asked here (the runs that check them are not among the tiers): {names_of(never)}.",
+        f"Put to no mutant (no tier has a run that checks them, or none was left for it): {names_of(never)}.",
         f"Broken by no mutant and no negative: {names_of(neither)}. These fall to faults planted in the tests, as every property does.",
     ]
     head = ["property", "asked", "killed", "first", "alone", "negatives"]
