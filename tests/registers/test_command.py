@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 from collections.abc import Callable
 from typing import Any
 
@@ -46,7 +47,10 @@ def test_an_unknown_document_and_an_empty_tree_are_refused(tree: Any, registers_
     with pytest.raises(Unjudged, match="did you mean 'door'"):
         registers_command(tree.root, "--document", "dooor")
     (tree.root / "spec/door/document.toml").unlink()
-    with pytest.raises(Unjudged, match="nothing to judge"):
+    with pytest.raises(Unjudged, match="spec/door/document.toml: not found"):
+        registers_command(tree.root)
+    shutil.rmtree(tree.root / "spec/door")
+    with pytest.raises(Unjudged, match="holds no document; there is nothing to do"):
         registers_command(tree.root)
 
 
