@@ -47,7 +47,7 @@ def test_an_unknown_document_and_an_empty_tree_are_refused(tree: Any, registers_
     with pytest.raises(Unjudged, match="did you mean 'door'"):
         registers_command(tree.root, "--document", "dooor")
     (tree.root / "spec/door/document.toml").unlink()
-    with pytest.raises(Unjudged, match="spec/door/document.toml: not found"):
+    with pytest.raises(Unjudged, match=r"spec/door/document\.toml: not found"):
         registers_command(tree.root)
     shutil.rmtree(tree.root / "spec/door")
     with pytest.raises(Unjudged, match="holds no document; there is nothing to do"):
