@@ -14,10 +14,13 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Job:
-    """One thing to run: how many cores and MiB it takes, and how long it may last in seconds."""
+    """One thing to run: how many cores and MiB it takes, and how long it may last in seconds.
+
+    `cores` need not be whole: what waits now and then leaves a part of a core to others.
+    """
 
     name: str
-    cores: int
+    cores: float
     memory_mb: int
     seconds: float
 

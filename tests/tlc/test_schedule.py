@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from modeproof.tlc.check import SMALL_SHARE
 from modeproof.tlc.schedule import Job, fits, memory_mb, order, run_all
 
 jobs = st.lists(
@@ -48,6 +49,14 @@ def test_a_job_that_is_too_big_runs_alone() -> None:
     assert not fits(big, [small], 2, 4000)
     assert not fits(small, [big], 2, 4000)
     assert fits(small, [small], 2, 4000)
+
+
+def test_three_small_runs_share_two_cores_and_leave_a_core_to_a_big_one() -> None:
+    small, big = Job("small", SMALL_SHARE, 100, 1), Job("big", 1, 100, 9)
+    assert fits(small, [small, small], 2, 4000)
+    assert not fits(small, [small, small, small], 2, 4000)
+    assert fits(small, [big], 2, 4000) and not fits(small, [big, small], 2, 4000)
+    assert fits(small, [], 1, 4000) and not fits(small, [small], 1, 4000)
 
 
 def test_the_longest_job_starts_first() -> None:
