@@ -6,7 +6,7 @@ import os
 import re
 import signal
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,8 +15,10 @@ import pytest
 from modeproof import evidence
 from modeproof.progress import Progress
 from modeproof.tlc import children, process
-from modeproof.tlc.check import Checked, check_all, check_one, select
+from modeproof.tlc.check import SMALL_SHARE, Checked, check_all, check_one, select
+from modeproof.tlc.process import SMALL_HEAP_MB
 from modeproof.tlc.repin import moves
+from modeproof.tlc.schedule import Job
 from modeproof.tlc.toolchain import find_toolchain
 from tests.any_machine import until
 from tests.toy_tree import CFGS, declaration, sha256, toy_tree
@@ -27,6 +29,25 @@ ALL = [name for name in CFGS if name != "MC_big"]
 def check(root: Path, *names: str) -> dict[str, Checked]:
     done = check_all(root, select(root, names), find_toolchain(), Progress(quiet=True))
     return {one.run.id: one for one in done}
+
+
+def test_a_small_run_leaves_a_part_of_its_core_to_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = toy_tree(tmp_path, "MC_toy")
+    (small,) = select(root, ["MC_toy"])
+    big, wide = replace(small, heap_mb=SMALL_HEAP_MB + 1), replace(small, workers=2)
+    asked: list[float] = []
+
+    def jobs_only(jobs: Sequence[Job], *others: object) -> list[Checked]:
+        asked.extend(job.cores for job in jobs)
+        return []
+
+    monkeypatch.setattr("modeproof.tlc.check.run_all", jobs_only)
+    check_all(
+        root, [replace(small, heap_mb=SMALL_HEAP_MB), big, wide], find_toolchain(), Progress(quiet=True)
+    )
+    assert asked == [SMALL_SHARE, 1, 2]
 
 
 def edit(root: Path, old: str, new: str) -> None:

@@ -87,7 +87,6 @@ def test_every_state_step_code_and_transition_is_witnessed() -> None:
     joined = {(one[1], one[2]) for one in pairs if one}
     assert {(one, "Idle") for one in device.states if one != "Idle"} <= joined
     assert {entered for _, entered in joined} == set(device.states)
-    ended = (
-        16 + 16
-    )  # to Idle, from all others; to BasicMode, from Idle, from 6 states of the mode, from 9 errors
+    # To Idle, from all others; to BasicMode, from Idle, from 6 states of the mode, from 9 errors
+    ended = 16 + 16
     assert len(joined) == ended + (1 + 2) + (3 + 5 + 3 + 4 + 3) + 3 * (1 + 3 + 1)
