@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import functools
 import importlib
 import importlib.util
 import json
@@ -14,7 +15,7 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 from typing import Any, NoReturn
@@ -429,12 +430,24 @@ def prove_documents(
     proved: there is no theorem, or the proofs cannot be imported.
     """
     from modeproof import agreement
-    from modeproof.processes import Task, in_processes
+    from modeproof.processes import Task, in_processes, meanwhile
 
     whole = not patterns and lane != "smoke"
     troubles: dict[str, str] = {}
-    tasks: list[tuple[bool, Task[dict[str, Any]]]] = []
+    theorems: dict[str, list[Any]] = {}
     inputs: dict[str, dict[str, str]] = {}
+    for document in names:
+        try:
+            theorems[document], inputs[document] = _theorems_to_prove(place, document, patterns, lane)
+        except Unjudged as error:
+            troubles[document] = error.message
+
+    def slow_first(documents: Iterable[str]) -> list[Task[dict[str, Any]]]:
+        every = [(one.slow, document, one.name) for document in documents for one in theorems[document]]
+        return [
+            (prove_theorem, (place, document, name, inputs[document], limit_ms, shared[document]))
+            for _, document, name in sorted(every, key=lambda one: not one[0])
+        ]
 
     def done(record: dict[str, Any]) -> None:
         progress.say(
@@ -443,18 +456,24 @@ def prove_documents(
             + (f"; {record['reason']}" if record["reason"] else "")
         )
 
+    shared: dict[str, float] = {}
+    records: list[dict[str, Any]] = []
     with contextlib.ExitStack() as stack:
-        for document in names:
-            try:
-                theorems, inputs[document] = _theorems_to_prove(place, document, patterns, lane)
-            except Unjudged as error:
-                troubles[document] = error.message
-                continue
-            shared_s = stack.enter_context(_prepared(document)) if whole else 0.0
-            given = (inputs[document], limit_ms, shared_s)
-            tasks += [(one.slow, (prove_theorem, (place, document, one.name, *given))) for one in theorems]
-        tasks.sort(key=lambda task: not task[0])
-        records = in_processes("proofs", [task for _, task in tasks], progress, done, knowing=whole)
+
+        def prepare(document: str) -> None:
+            shared[document] = stack.enter_context(_prepared(document)) if whole else 0.0
+
+        *fewer, most = sorted(theorems, key=lambda name: len(theorems[name])) or [""]
+        for document in fewer:
+            prepare(document)
+        if most:  # of all it takes longest to prepare; meanwhile the theorems of the others are proved
+            first = slow_first(fewer) if whole else []
+            records += meanwhile("proofs", first, functools.partial(prepare, most))
+        for record in records:
+            done(record)
+        proved = {(record["document"], record["id"]) for record in records}
+        tasks = [task for task in slow_first(theorems) if task[1][1:3] not in proved]
+        records += in_processes("proofs", tasks, progress, done, knowing=whole)
     for document in names:
         if whole and document not in troubles and _has_agreement(place, document):
             module = importlib.import_module(f"proofs.{document}.agreement")

@@ -70,6 +70,52 @@ def in_processes(
             child.terminate()
 
 
+def meanwhile(name: str, tasks: Sequence[Task[T]], work: Callable[[], None]) -> list[T]:
+    """Call `work` here, while a copy of this process does the tasks one after another; the results so far.
+
+    The copy ends with the task that it is at when `work` returns: the results are those of the first tasks,
+    perhaps of all. With one core there is no copy. The first exception of a task is raised; Unjudged when
+    the copy dies. However this ends, no process is left behind.
+    """
+    if cores() < 2 or not tasks:
+        work()
+        return []
+    context = get_context("fork")
+    enough = context.Event()
+    read, write = context.Pipe(duplex=False)
+    process = context.Process(target=_until, args=(tasks, enough, write, os.getpid()), daemon=True)
+    process.start()
+    write.close()
+    try:
+        work()
+        enough.set()
+        results, error = read.recv()
+    except EOFError:
+        raise Unjudged(f"{name}: a process died") from None
+    finally:
+        read.close()
+        process.terminate()
+        process.join()
+    if error is not None:
+        raise error
+    return list(results)
+
+
+def _until(tasks: Sequence[Task[T]], enough: Any, out: Any, parent: int) -> None:
+    _begin(parent)
+    results: list[T] = []
+    error: Exception | None = None
+    try:
+        for work, given in tasks:
+            if enough.is_set():
+                break
+            results.append(work(*given))
+    except Exception as one:  # raised by who asked
+        error = one
+    out.send((results, error))
+    out.close()
+
+
 def _begin(parent: int) -> None:
     """In a new process: the parent alone hears Ctrl-C, and none outlives it, even if it is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
