@@ -49,6 +49,7 @@ def check_switches(document: Document, sources: Sources) -> list[Problem]:
     models = models_of(document, traces)
     return [
         *_readings(document, traces, sources, readings, models),
+        *_misnamed(document, traces, sources),
         *_findings(document, sources, readings, models),
         *_idle(document, models),
         *_tops(document, traces, sources),
@@ -134,15 +135,34 @@ def _readings(
 
 
 def _asked(traces: Traces, sources: Sources) -> set[str]:
-    """The texts that occur in a definition other than the lists themselves."""
+    """The readings that a definition asks for, in quotes or by the name of a definition that does.
+
+    Such a definition is called as the reading is. Alone it asks for nothing, and neither do the lists.
+    """
     lists = _lists(traces, sources)
-    return {
-        text
-        for module in sources.modules.values()
-        for definition in module.definitions
-        if definition not in lists
-        for text in _TEXT.findall(definition.body)
-    }
+    every = [one for module in sources.modules.values() for one in module.definitions if one not in lists]
+    readings = set(readings_of(traces, sources))
+    named = {one.name for one in every if one.name in readings and _TEXT.findall(one.body) == [one.name]}
+    asked: set[str] = set()
+    for one in every:
+        if one.name not in named:
+            asked |= set(_TEXT.findall(one.body)) | (named & set(_NAME.findall(_TEXT.sub("", one.body))))
+    return asked
+
+
+def _misnamed(document: Document, traces: Traces, sources: Sources) -> Iterator[Problem]:
+    """A definition that is called as a reading is asks for that one."""
+    readings = readings_of(traces, sources)
+    lists = _lists(traces, sources)
+    for module in sources.modules.values():
+        for one in module.definitions:
+            found = [text for text in _TEXT.findall(one.body) if text in readings]
+            if one.name in readings and one not in lists and found != [one.name]:
+                what = " and ".join(found) or "no reading"
+                text = (
+                    f"the definition of {one.name} asks for {what}; it is to ask for the reading of its name"
+                )
+                yield Problem(f"spec/{document.name}/replay.toml", one.name, text)
 
 
 def _findings(

@@ -58,10 +58,11 @@ class Rule:
     """What is edited, and into what, besides the operators.
 
     `behaviour`: the names of the module that make up its behaviour; all that they reach in it is edited.
-    `off`: switches, and the constant behind them: false in the model as decided. `leave`: operators whose
-    use is never edited. `kinds`: lists of strings; a string becomes the next one of its list. `cycles`: the
-    same for names (the last entry may be any text). `groups`: definitions that only sort actions by the
-    states in which they can fire; of these nothing but whole actions is removed.
+    `off`: switches, and the constant behind them: false in the model as decided; so is what another module
+    defines as one of them. `leave`: operators whose use is never edited. `kinds`: lists of strings; a string
+    becomes the next one of its list. `cycles`: the same for names (the last entry may be any text). `groups`:
+    definitions that only sort actions by the states in which they can fire; of these nothing but whole
+    actions is removed.
     """
 
     behaviour: tuple[str, ...]
@@ -111,6 +112,7 @@ class _Editor:
         self._variables = frozenset(tree.variables.get(module, ()))
         self._lines: Sequence[str] = tree.texts[module]
         self._off: dict[str, bool | None] = {}
+        self._switches = rule.off | self._switches_elsewhere()
         self._next_string = _successors(rule.kinds)
         self._next_name = _successors(rule.cycles, open_end=True)
         self._initial = self._initial_values()
@@ -167,7 +169,17 @@ class _Editor:
         return list(reached.values())
 
     def _left_alone(self, name: str) -> bool:
-        return name in self._rule.off or name in self._rule.leave
+        return name in self._switches or name in self._rule.leave
+
+    def _switches_elsewhere(self) -> frozenset[str]:
+        """What the other modules define to ask for one reading, as in `EARLY == Literal("EARLY")`."""
+        return frozenset(
+            one.name
+            for module, definitions in self._tree.definitions.items()
+            if module != self._module
+            for one in definitions.values()
+            if not one.params and one.body.operator in self._rule.off
+        )
 
     def _live(self, node: Node) -> Iterator[Node]:
         """The node and all below it that matters while every switch is off."""
@@ -197,7 +209,7 @@ class _Editor:
     def _value(self, node: Node) -> bool | None:
         """What a guard is worth when every switch is off; None where no switch decides it."""
         if node.kind == "defined":
-            if node.operator in self._rule.off:
+            if node.operator in self._switches:
                 return False
             if node.operator in self._own and not self._left_alone(node.operator):
                 name = node.operator

@@ -63,6 +63,15 @@ class _Scope:
         return call if self.outer is None else self.outer.lift(call)
 
 
+@dataclass(frozen=True)
+class _Condition:
+    """What must hold on the way to a step; `denied`: what must not, as beyond an ELSE."""
+
+    node: Node
+    scope: _Scope
+    denied: bool = False
+
+
 class Guards:
     """The guards and effects of the steps of one scan action, such as `Scan(Read(w))`.
 
@@ -84,7 +93,7 @@ class Guards:
             return []
         scope = _Scope(self.made, self._root.params, [self._argument], None)
         return [
-            tuple(conjunct for node, own in found for conjunct in self._open(node, own, (), 0))
+            tuple(conjunct for one in found for conjunct in self._conjuncts(one))
             for found in self._walk(self._root.body, scope, step, ())
         ]
 
@@ -120,8 +129,8 @@ class Guards:
     # -------------------------------------------------------------------------------------- from scan to step
 
     def _walk(
-        self, node: Node, scope: _Scope, step: str, context: tuple[tuple[Node, _Scope], ...]
-    ) -> Iterator[tuple[tuple[Node, _Scope], ...]]:
+        self, node: Node, scope: _Scope, step: str, context: tuple[_Condition, ...]
+    ) -> Iterator[tuple[_Condition, ...]]:
         if not self._leads_to(node, step):
             return
         if node.kind == "builtin" and node.operator in OR:
@@ -132,14 +141,24 @@ class Guards:
                 if self._leads_to(one, step):
                     yield from self._walk(one, scope, step, context)
                 elif one.level <= 1:
-                    context = (*context, (one, scope))
+                    context = (*context, _Condition(one, scope))
+        elif node.operator == "$IfThenElse":
+            condition, then, other = node.operands
+            yield from self._walk(then, scope, step, (*context, _Condition(condition, scope)))
+            yield from self._walk(other, scope, step, (*context, _Condition(condition, scope, denied=True)))
+        elif node.operator == "$Case":
+            guards = [arm.operands[0] for arm in node.operands]
+            named = tuple(_Condition(one, scope, denied=True) for one in guards if one.place.module)
+            for guard, arm in zip(guards, node.operands, strict=True):
+                own = (_Condition(guard, scope),) if guard.place.module else named
+                yield from self._walk(arm.operands[1], scope, step, (*context, *own))
         elif node.kind == "defined":
             definition = self.tree.find(node.operator)
             assert definition is not None
             inner = self._inside(node, definition, scope)
             if node.operator == step:
-                own = [(one, inner) for one in conjuncts(definition.body) if one.level <= 1]
-                yield (*context, *own)
+                last = [_Condition(one, inner) for one in conjuncts(definition.body) if one.level <= 1]
+                yield (*context, *last)
             else:
                 yield from self._walk(definition.body, inner, step, context)
 
@@ -160,6 +179,16 @@ class Guards:
         return False
 
     # --------------------------------------------------------------------------------------------- conditions
+
+    def _conjuncts(self, one: _Condition) -> Iterator[Conjunct]:
+        if not one.denied:
+            yield from self._open(one.node, one.scope, (), 0)
+            return
+        definition = self.tree.find(one.node.operator) if one.node.kind == "defined" else None
+        text = f"~({self.tree.text(one.node.place)})"
+        meaning = "" if definition is None else self.tree.text(definition.place)
+        expression = one.scope.lift(f"~(\n{self._laid_out(one.node)}\n)")
+        yield Conjunct(text, one.node.place, (), meaning, expression, ())
 
     def _open(self, node: Node, scope: _Scope, chain: tuple[str, ...], depth: int) -> Iterator[Conjunct]:
         for one in conjuncts(node):

@@ -173,8 +173,11 @@ def the_fplc_takes_back_a_selection_that_no_longer_stands() -> Queries:
 
 
 def acknowledgment_is_judged(one: Scanned) -> Said:
-    if not one.was("CheckAcknowledgment", "Match", "Switch"):
+    if not one.was("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"):
         return None
+    stands = z3.And(signalled(one), selection_stands(one))
+    if one.was("AwaitAcknowledgment"):
+        return stands, z3.BoolVal(not one.becomes("Error"))
     MW07 = one.inputs.MW07
     settles = one.after.mode == one.before.mode if one.becomes("Settle") else FALSE
     refused, matched = z3.BoolVal(one.becomes("Error")), z3.BoolVal(one.becomes("Match"))
@@ -183,19 +186,19 @@ def acknowledgment_is_judged(one: Scanned) -> Said:
         other = z3.If(mode("SW", MW07) != NONE, matched, refused)
     own = MW07 == code("SW", one.before.selection)
     answer = z3.If(MW07 == 0, settles, z3.If(own, z3.Not(refused), other))
-    return z3.And(signalled(one), selection_stands(one)), answer
+    return stands, answer
 
 
 @theorem(
-    clauses=["EKS-2-27", "EKS-2-28", "EKS-7-12"],
+    clauses=["EKS-2-20", "EKS-2-27", "EKS-2-28", "EKS-7-12"],
     findings=["E-11", "E-13", "E-21", "E-66"],
     properties=["AcknowledgmentIsJudged"],
     slow=True,
 )
 def the_fplc_has_one_answer_to_each_acknowledgment() -> Queries:
-    """While key and selection stand, after the echo: zero in MW07 leads to Settle with the mode as it was;
-    the word of the selection to no error; the word of another mode from step 27 to step 28, and there to the
-    error mode; and what is no code at once to the error mode.
+    """While key and selection stand, after the echo: nothing in MW07 is an error before step 27; from there on
+    zero leads to Settle with the mode as it was; the word of the selection to no error; the word of another
+    mode from step 27 to step 28, and there to the error mode; and what is no code to the error mode.
     """
     yield from JUDGE.in_every_scan(acknowledgment_is_judged)
 

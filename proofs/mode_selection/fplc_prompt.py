@@ -82,7 +82,7 @@ def error_needs_cause(one: Scanned) -> Said:
     c = control(one.device, one.before)
     if c == "Error" or not one.becomes("Error"):
         return None
-    causes = [several_set(vector(one.inputs))]
+    causes = [] if one.was("PulseOnes", "PulseZeros") else [several_set(vector(one.inputs))]
     if c in TIMED:
         late = now(one) >= deadline(c, one.params)
         causes.append(late if c in REMOVAL else z3.And(late, one.inputs.LA))
@@ -93,13 +93,13 @@ def error_needs_cause(one: Scanned) -> Said:
 
 @theorem(
     clauses=["EKS-KS-6", "EKS-2-8", "EKS-2-11", "EKS-2-19", "EKS-2-27", "EKS-4-4", "EKS-8-11"],
-    findings=[],
+    findings=["E-07"],
     properties=["ErrorNeedsCause"],
     slow=True,
 )
 def the_fplc_enters_the_error_mode_only_for_a_cause() -> Queries:
-    """A scan that leads to the error mode has seen two outputs or more, or a deadline that passed while LA
-    stood or in the removal, or a word in MW03 or MW07 beside LA and the accepted output.
+    """A scan that leads to the error mode has seen two outputs or more outside the pulse, or a deadline that
+    passed while LA stood or in the removal, or a word in MW03 or MW07 beside LA and the accepted output.
     """
     yield from JUDGE.in_every_scan(error_needs_cause)
 

@@ -29,7 +29,7 @@ eks == <<eksState, key, eksElapsed>>
 
 Working == {"Read", "CheckChecksum", "CheckLevel", "SetLA", "StartTest", "TestOnes", "TestZeros", "Signal", "Rejected"}
 EksStates == {"Empty", "ClearOutputs", "CheckRegisters", "Fault"} \cup Working
-             \cup (IF Literal("PULSE_RUNS_ON") THEN {"PulseRunsOn"} ELSE {})
+             \cup (IF PULSE_RUNS_ON THEN {"PulseRunsOn"} ELSE {})
 
 EksTypeOK == eksState \in EksStates /\ key \in DOMAIN KEY \cup {None} /\ eksElapsed \in 0..T_PULSE
 
@@ -37,7 +37,7 @@ EksInit == eksState = "Empty" /\ key = None /\ eksElapsed = 0
 
 ----------------------------------------------------------------------------
 \* EKS-2-5, EKS-8-2, EKS-SD-2
-LA == eksState \in (IF Literal("PULSE_BEFORE_LA") THEN {"Signal"} ELSE {"StartTest", "TestOnes", "TestZeros", "Signal"})
+LA == eksState \in (IF PULSE_BEFORE_LA THEN {"Signal"} ELSE {"StartTest", "TestOnes", "TestZeros", "Signal"})
 KeyLevel(k) == ModeOf(RE, KEY[k].authorization_level)
 \* EKS-2-7, EKS-2-10, EKS-KS-5, EKS-T2, EKS-SD-1, E-02: all in the pulse, then the one of the level
 Vector == CASE eksState \in {"TestOnes", "PulseRunsOn"} -> MSO
@@ -60,8 +60,8 @@ Accepted(k) ==
 \* E-25e: a key without a level goes on; E-67: operating state and access code are not looked at
 Admitted(k) ==
     \/ Accepted(k)
-    \/ Literal("NO_LEVEL_CHECK") /\ KeyLevel(k) = None
-    \/ Literal("NO_ACCESS_CHECK") /\ KeyLevel(k) # None
+    \/ NO_LEVEL_CHECK /\ KeyLevel(k) = None
+    \/ NO_ACCESS_CHECK /\ KeyLevel(k) # None
 
 LOCAL Taken(i) == eksState \in Working /\ i.key # key
 LOCAL At(s, i) == eksState = s /\ ~Taken(i)
@@ -108,12 +108,12 @@ StayRejected(i) == At("Rejected", i) /\ Stay /\ Did("StayRejected")
 SeeRemoval(i) ==
     /\ Taken(i)
     /\ IF eksState = "Signal" THEN GoTo("ClearOutputs")
-       ELSE IF eksState = "TestOnes" /\ Literal("PULSE_RUNS_ON") THEN GoTo("PulseRunsOn")
+       ELSE IF eksState = "TestOnes" /\ PULSE_RUNS_ON THEN GoTo("PulseRunsOn")
        ELSE eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None
     /\ Did("SeeRemoval")
 \* EKS-8-5, EKS-SD-8, E-26, E-62: first cleared, then checked
 ResetOutputs(i) ==
-    /\ eksState \in {"ClearOutputs", "PulseRunsOn"} /\ ~Literal("CHECK_BEFORE_CLEAR")
+    /\ eksState \in {"ClearOutputs", "PulseRunsOn"} /\ ~CHECK_BEFORE_CLEAR
     /\ eksState' = "CheckRegisters" /\ eksElapsed' = 0 /\ key' = None
     /\ Did("ResetOutputs")
 \* EKS-8-4, E-26
@@ -121,7 +121,7 @@ PassRegisterCheck(i) == eksState = "CheckRegisters" /\ i.registers_zero /\ GoTo(
 \* EKS-8-4, E-22, E-26
 LatchFault(i) ==
     /\ \/ eksState = "CheckRegisters" /\ ~i.registers_zero
-       \/ eksState = "ClearOutputs" /\ Literal("CHECK_BEFORE_CLEAR")
+       \/ eksState = "ClearOutputs" /\ CHECK_BEFORE_CLEAR
     /\ GoTo("Fault")
     /\ Did("LatchFault")
 \* EKS-8-4

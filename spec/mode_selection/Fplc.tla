@@ -67,9 +67,9 @@ FplcInit ==
 
 \* EKS-2-12, EKS-8-6, E-05: the level is published from AwaitSelection to Switch and is zero in every other state.
 \* E-59: also in Settle, so that the panel closes and the next selection cannot overtake the return to zero.
-MW01 == IF fplcState \in Authorized \/ (fplcState = "Settle" /\ Literal("SETTLE_KEEPS_MW01")) THEN RE[authority] ELSE 0
+MW01 == IF fplcState \in Authorized \/ (fplcState = "Settle" /\ SETTLE_KEEPS_MW01) THEN RE[authority] ELSE 0
 \* EKS-8-15, E-27: as read, no step takes the last echo back
-LOCAL KeptEcho == Literal("MW05_KEPT") /\ fplcState \notin Transaction /\ fplcSelection # None
+LOCAL KeptEcho == MW05_KEPT /\ fplcState \notin Transaction /\ fplcSelection # None
 \* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-16, E-27: the echo is there only while an acknowledgment may come
 MW05 == IF fplcState \in Transaction \ {"EchoSelection"} \/ KeptEcho THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
@@ -85,23 +85,23 @@ LOCAL Now(i) == fplcElapsed + i.dt
 LOCAL Min(a, b) == IF a < b THEN a ELSE b
 
 \* EKS-SD-1, EKS-SD-8, EKS-SD-9, E-06b: the safety description names four outputs
-LOCAL Outputs(i) == IF Literal("STR_LEFT_OUT") THEN i.vec \ {4} ELSE i.vec
+LOCAL Outputs(i) == IF STR_LEFT_OUT THEN i.vec \ {4} ELSE i.vec
 \* EKS-KS-6, EKS-2-11, E-09, E-06b: A, B, C, D and STR alike, in every scan outside the test pulse
 Many(i) == Cardinality(Outputs(i)) >= 2
 \* EKS-3-1-FPLC, EKS-9-1-FPLC, E-28, E-29
 LOCAL NoSignal(i) ==
-    /\ ~i.LA \/ Literal("LA_NOT_CHECKED")
-    /\ Outputs(i) = {} \/ Literal("LA_ENDS_REMOVAL")
+    /\ ~i.LA \/ LA_NOT_CHECKED
+    /\ Outputs(i) = {} \/ LA_ENDS_REMOVAL
 LOCAL NoWords(i) == i.MW03 = 0 /\ i.MW07 = 0
 LOCAL NoDwellHere ==
-    \/ Literal("NO_DWELL")
-    \/ fplcState = "Start" /\ Literal("NO_DWELL_AT_START")
-    \/ fplcState = "Settle" /\ Literal("NO_DWELL_IN_SETTLE")
-    \/ fplcState = "AwaitZeros" /\ Literal("NO_DWELL_IN_REMOVAL")
-    \/ fplcState = "Error" /\ Literal("NO_DWELL_IN_ERROR")
+    \/ NO_DWELL
+    \/ fplcState = "Start" /\ NO_DWELL_AT_START
+    \/ fplcState = "Settle" /\ NO_DWELL_IN_SETTLE
+    \/ fplcState = "AwaitZeros" /\ NO_DWELL_IN_REMOVAL
+    \/ fplcState = "Error" /\ NO_DWELL_IN_ERROR
 LOCAL Dwelt(i) == Now(i) >= T_DWELL \/ NoDwellHere
 \* EKS-8-12, EKS-8-13, EKS-8-14, E-31: as read, these three are tested first, and step 18 then looks at MW07 alone
-LOCAL FirstZeros(i) == Literal("ZEROS_ONE_BY_ONE") /\ fplcState = "AwaitZeros"
+LOCAL FirstZeros(i) == ZEROS_ONE_BY_ONE /\ fplcState = "AwaitZeros"
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-52: one conjunction, not before the dwell time is over
 LOCAL ZerosReturned(i) == ((NoSignal(i) /\ NoWords(i)) \/ (FirstZeros(i) /\ i.MW07 = 0)) /\ Dwelt(i)
 
@@ -116,30 +116,30 @@ LOCAL Awaited(i) ==
       [] OTHER -> FALSE
 
 \* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority (E-63)
-UnguardedSwitch == fplcState = "Switch" /\ Literal("NO_LA_AT_SWITCH")
+UnguardedSwitch == fplcState = "Switch" /\ NO_LA_AT_SWITCH
 \* EKS-3-1-FPLC, E-07: as printed, no output at 1 is a removal also while the pulse runs
-LOCAL NoneInPulse(i) == Literal("CHECK_IN_PULSE") /\ fplcState \in Inserting /\ i.vec = {}
+LOCAL NoneInPulse(i) == CHECK_IN_PULSE /\ fplcState \in Inserting /\ i.vec = {}
 IsGone(i) ==
     (~i.LA \/ NoneInPulse(i)) /\ fplcState \notin OwnRules /\ fplcState \notin Removing /\ ~UnguardedSwitch
 \* E-62: as read, an output without LA is a fault
-LOCAL OutputAlone(i) == Literal("OUTPUT_NEEDS_LA") /\ ~i.LA /\ i.vec # {}
+LOCAL OutputAlone(i) == OUTPUT_NEEDS_LA /\ ~i.LA /\ i.vec # {}
 IsMany(i) ==
-    /\ Many(i) \/ OutputAlone(i)
     /\ fplcState \notin OwnRules
-    /\ fplcState \notin Pulse \/ Literal("ONE_OUTPUT_ALWAYS")
-    /\ (Literal("ONE_OUTPUT_CHECKED_ONCE") => fplcState = "OneOutput")
-    /\ ~(Literal("KEY_BEFORE_FAULTS") /\ IsGone(i))
+    /\ fplcState \notin Pulse \/ ONE_OUTPUT_ALWAYS
+    /\ Many(i) \/ OutputAlone(i)
+    /\ (ONE_OUTPUT_CHECKED_ONCE => fplcState = "OneOutput")
+    /\ ~(KEY_BEFORE_FAULTS /\ IsGone(i))
 \* EKS-3-1-FPLC, E-68: as printed, only the loss of the output counts
-LOCAL Lost(i) == IF Literal("ONLY_NONE_IS_REMOVAL") THEN i.vec = {} ELSE i.vec # {accepted}
+LOCAL Lost(i) == IF ONLY_NONE_IS_REMOVAL THEN i.vec = {} ELSE i.vec # {accepted}
 IsChanged(i) == fplcState \in Holding /\ Lost(i) /\ ~UnguardedSwitch
 \* Timers that a reading leaves out (E-06, E-25d, E-30), and endings that it puts before the expiry (E-03, E-64)
 LOCAL Expirable(i) ==
-    /\ ~(Literal("NO_REMOVAL_TIMER") /\ fplcState \in Removing)
-    /\ ~(Literal("NO_INSERTION_TIMER") /\ fplcState \in Inserting)
-    /\ ~(Literal("EXPIRY_IS_SUCCESS") /\ fplcState \in {"PulseZeros", "OneOutput"} /\ Cardinality(i.vec) = 1)
-    /\ ~(Literal("SUCCESS_BEFORE_EXPIRY") /\ Awaited(i))
+    /\ ~(NO_REMOVAL_TIMER /\ fplcState \in Removing)
+    /\ ~(NO_INSERTION_TIMER /\ fplcState \in Inserting)
+    /\ ~(EXPIRY_IS_SUCCESS /\ fplcState \in {"PulseZeros", "OneOutput"} /\ Cardinality(i.vec) = 1)
+    /\ ~(SUCCESS_BEFORE_EXPIRY /\ Awaited(i))
 IsExpired(i) == fplcState \in Timed /\ Now(i) >= Deadline /\ Expirable(i)
-CheckPasses(i) == ~IsMany(i) /\ ~IsGone(i) /\ ~IsChanged(i) /\ ~IsExpired(i)
+CheckPasses(i) == ~IsGone(i) /\ ~IsMany(i) /\ ~IsChanged(i) /\ ~IsExpired(i)
 
 ----------------------------------------------------------------------------
 (* What a scan does.                                                       *)
@@ -152,12 +152,12 @@ LOCAL DropKey == accepted' = None /\ authority' = None /\ fplcSelection' = None
 
 LOCAL EnterError ==
     /\ GoTo("Error")
-    /\ IF Literal("RECOVER_INTO_TRANSACTION") /\ fplcSelection # None THEN KeepKey /\ UNCHANGED fplcSelection ELSE DropKey
+    /\ IF RECOVER_INTO_TRANSACTION /\ fplcSelection # None THEN KeepKey /\ UNCHANGED fplcSelection ELSE DropKey
     /\ mode' = IF ON_ERROR = "none" THEN {} ELSE mode
 LOCAL EnterClear ==
     /\ GoTo("Clear")
     /\ accepted' = None /\ authority' = None
-    /\ fplcSelection' = IF Literal("MW05_KEPT") THEN fplcSelection ELSE None
+    /\ fplcSelection' = IF MW05_KEPT THEN fplcSelection ELSE None
     /\ UNCHANGED mode
 LOCAL EnterSettle == GoTo("Settle") /\ KeepKey /\ fplcSelection' = None /\ UNCHANGED mode
 LOCAL Proceed(s) == GoTo(s) /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
@@ -167,8 +167,8 @@ LOCAL Proceed(s) == GoTo(s) /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
 
 \* E-73: as read, no output may be set when LA comes; E-09: at every moment, the pulse included
 LOCAL OutputBeforeLA(i) ==
-    \/ Literal("NO_OUTPUT_BEFORE_LA") /\ i.vec # {}
-    \/ Literal("ONE_OUTPUT_ALWAYS") /\ Many(i)
+    \/ NO_OUTPUT_BEFORE_LA /\ i.vec # {}
+    \/ ONE_OUTPUT_ALWAYS /\ Many(i)
 \* EKS-KS-6, EKS-2-11, E-09: more than one output outside the pulse is a fault of the EKS, also without LA
 TooManyOutputs(i) ==
     /\ \/ IsMany(i)
@@ -180,26 +180,26 @@ TooManyOutputs(i) ==
 
 \* EKS-3-1-FPLC, EKS-3-4-FPLC, EKS-8-3, E-06, E-07, E-42: LA is enough while the pulse runs
 KeyGone(i) ==
-    /\ ~IsMany(i) /\ IsGone(i)
+    /\ IsGone(i) /\ ~IsMany(i)
     /\ EnterClear
     /\ Did("KeyGone")
 
 \* EKS-3-1-FPLC, EKS-3-4-FPLC, E-28, E-41, E-68: once an output is accepted it must stay
 VectorChanged(i) ==
-    /\ ~IsMany(i) /\ ~IsGone(i) /\ IsChanged(i)
+    /\ IsChanged(i) /\ ~IsGone(i) /\ ~IsMany(i)
     /\ EnterClear
     /\ Did("VectorChanged")
 
 \* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-25d, E-30, E-32, E-64: expiry is tested before success
 DeadlineExpired(i) ==
-    /\ ~IsMany(i) /\ ~IsGone(i) /\ IsExpired(i)
+    /\ IsExpired(i) /\ ~IsGone(i) /\ ~IsMany(i)
     /\ EnterError
     /\ Did("DeadlineExpired")
 
 ----------------------------------------------------------------------------
 (* Power-up, waiting for a key.                                            *)
 
-LOCAL ReadyAtStart(i) == ZerosReturned(i) \/ Literal("KEY_AT_POWER_UP")
+LOCAL ReadyAtStart(i) == ZerosReturned(i) \/ KEY_AT_POWER_UP
 \* EKS-GP-5, E-25c, E-56: power-up; a key in the reader must be taken out first
 LeaveStart(i) == fplcState = "Start" /\ ~Many(i) /\ ReadyAtStart(i) /\ Proceed("Idle") /\ Did("LeaveStart")
 \* E-25c
@@ -215,10 +215,10 @@ DetectKey(i) == fplcState = "Idle" /\ i.LA /\ ~OutputBeforeLA(i) /\ Proceed("Pul
 (* The test pulse, Figure 4.                                               *)
 
 \* EKS-2-6, EKS-2-7, E-10: as read, one output within the time is enough
-LOCAL OneAtOnce(i) == Literal("NO_PULSE_NEEDED") /\ fplcState = "PulseOnes" /\ Cardinality(i.vec) = 1
+LOCAL OneAtOnce(i) == NO_PULSE_NEEDED /\ fplcState = "PulseOnes" /\ Cardinality(i.vec) = 1
 \* EKS-4-6, EKS-4-8, E-03: as printed, the sequence has two good endings, expiry included
 LOCAL EndedByExpiry(i) ==
-    Literal("EXPIRY_IS_SUCCESS") /\ fplcState = "PulseZeros" /\ Now(i) >= Deadline /\ Cardinality(i.vec) = 1
+    EXPIRY_IS_SUCCESS /\ fplcState = "PulseZeros" /\ Now(i) >= Deadline /\ Cardinality(i.vec) = 1
 \* EKS-2-6, EKS-2-10, EKS-4-1, E-10: patterns between are waited out
 AwaitOnes(i) == fplcState = "PulseOnes" /\ i.vec # MSO /\ ~OneAtOnce(i) /\ Stay(i, T_ON) /\ Did("AwaitOnes")
 \* EKS-2-6, EKS-2-10, EKS-4-1, EKS-4-2, E-38: the sequence timer goes on from LA, or is started here
@@ -249,9 +249,9 @@ AcceptOutput(i) ==
 ----------------------------------------------------------------------------
 (* Authorization and selection.                                            *)
 
-LOCAL EarlyWord(i) == ~NoWords(i) /\ ~Literal("EARLY_WORDS_ACCEPTED")
+LOCAL EarlyWord(i) == ~NoWords(i) /\ ~EARLY_WORDS_ACCEPTED
 \* EKS-T2-3, E-02: the example after Table 2 gives level 3 the output C
-LOCAL LevelOf(output) == IF Literal("OUTPUT_C_IS_LEVEL_3") /\ output = 2 THEN 3 ELSE output
+LOCAL LevelOf(output) == IF OUTPUT_C_IS_LEVEL_3 /\ output = 2 THEN 3 ELSE output
 \* E-54: a word that is there before anything was offered answers nothing
 RefuseEarlyWord(i) == fplcState = "Authorize" /\ EarlyWord(i) /\ EnterError /\ Did("RefuseEarlyWord")
 \* EKS-2-12, EKS-SD-1, E-05, E-18: the level comes from the outputs and is kept in private memory
@@ -263,7 +263,7 @@ PublishAuthority(i) ==
     /\ Did("PublishAuthority")
 
 \* EKS-2-17, EKS-2-20, E-65: nothing is acknowledged before the echo
-LOCAL Silent(i) == i.MW07 = 0 \/ Literal("EARLY_ACKNOWLEDGMENT_IGNORED")
+LOCAL Silent(i) == i.MW07 = 0 \/ EARLY_ACKNOWLEDGMENT_IGNORED
 \* EKS-2-17
 AwaitMW03(i) == fplcState = "AwaitSelection" /\ Silent(i) /\ i.MW03 = 0 /\ Untimed /\ Did("AwaitMW03")
 \* EKS-2-17
@@ -273,8 +273,8 @@ SeeSelection(i) ==
 \* E-16: the selection must stand unchanged until the switchover
 LOCAL Stands(i) ==
     \/ i.MW03 = SE[fplcSelection]
-    \/ Literal("LIVE_MW03") /\ ModeOf(SE, i.MW03) # None
-    \/ Literal("SPLIT_CHECK") /\ fplcState = "EchoSelection" /\ ModeOf(SE, i.MW03) # None
+    \/ LIVE_MW03 /\ ModeOf(SE, i.MW03) # None
+    \/ SPLIT_CHECK /\ fplcState = "EchoSelection" /\ ModeOf(SE, i.MW03) # None
 LOCAL Unchanged(s, i) == fplcState = s /\ Stands(i)
 
 \* E-11, E-15, E-65: an acknowledgment that nobody asked for
@@ -296,13 +296,13 @@ ASSUME PERMITS # TotalOrder \/ \A level \in MSO : \A word \in WordClasses :
     (Figure5(level, word) /\ ModeOf(SE, word) # None) = Permitted(level, ModeOf(SE, word))
 \* EKS-2-12, EKS-5-1, E-12, E-18: as read, the level is what stands in the flag word MW01, which something else may have overwritten
 LOCAL LevelUsed(i) ==
-    IF Literal("AUTHORITY_FROM_MW01") \/ Literal("FIG5_READS_MW01") THEN ModeOf(RE, i.MW01) ELSE authority
+    IF AUTHORITY_FROM_MW01 \/ FIG5_READS_MW01 THEN ModeOf(RE, i.MW01) ELSE authority
 LOCAL MayBeSelected(i) ==
-    IF Literal("FIG5_FALLS_THROUGH") \/ Literal("FIG5_READS_MW01")
+    IF FIG5_FALLS_THROUGH \/ FIG5_READS_MW01
     THEN Figure5(LevelUsed(i), i.MW03) /\ ModeOf(SE, i.MW03) # None
     ELSE Permitted(LevelUsed(i), ModeOf(SE, i.MW03))
 \* E-71: as read, there is nothing to do for the mode that is active
-LOCAL Skipped(i) == Literal("ACTIVE_MODE_SKIPPED") /\ ModeOf(SE, i.MW03) \in mode
+LOCAL Skipped(i) == ACTIVE_MODE_SKIPPED /\ ModeOf(SE, i.MW03) \in mode
 \* EKS-2-18, EKS-2-19, EKS-5-1 to the end of Figure 5, EKS-5-9, EKS-6-1, EKS-6-3, EKS-6-5, EKS-6-7, EKS-6-9, EKS-6-11,
 \* EKS-5-3, EKS-5-5, EKS-5-7, E-12, E-14, E-16, E-47: range and authority in one scan, then the selection is latched
 AcceptSelection(i) ==
@@ -313,7 +313,7 @@ AcceptSelection(i) ==
     /\ KeepKey /\ UNCHANGED mode
     /\ Did("AcceptSelection")
 \* E-61: as read, a word that is no code is an error also after the selection was accepted
-LOCAL LaterNoCode(i) == Literal("LATER_NO_CODE_IS_ERROR") /\ i.MW03 # 0 /\ ModeOf(SE, i.MW03) = None
+LOCAL LaterNoCode(i) == LATER_NO_CODE_IS_ERROR /\ i.MW03 # 0 /\ ModeOf(SE, i.MW03) = None
 \* EKS-2-18, EKS-2-19, EKS-5-2, EKS-5-4, EKS-5-6, EKS-5-8, EKS-5-10, EKS-6-12, E-12, E-14
 RefuseSelection(i) ==
     /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 # 0 /\ ~MayBeSelected(i)
@@ -334,26 +334,26 @@ WithdrawSelection(i) ==
 \* EKS-2-20
 PublishEcho(i) ==
     /\ Unchanged("EchoSelection", i) /\ Silent(i)
-    /\ fplcSelection' = IF Literal("SPLIT_CHECK") THEN ModeOf(SE, i.MW03) ELSE fplcSelection   \* E-14: read once more
+    /\ fplcSelection' = IF SPLIT_CHECK THEN ModeOf(SE, i.MW03) ELSE fplcSelection   \* E-14: read once more
     /\ GoTo("AwaitAcknowledgment") /\ KeepKey /\ UNCHANGED mode
     /\ Did("PublishEcho")
 \* EKS-2-20, E-11: the wait that the text does not have
 AwaitMW07(i) ==
-    Unchanged("AwaitAcknowledgment", i) /\ i.MW07 = 0 /\ ~Literal("NO_WAIT_FOR_MW07") /\ Untimed /\ Did("AwaitMW07")
+    Unchanged("AwaitAcknowledgment", i) /\ i.MW07 = 0 /\ ~NO_WAIT_FOR_MW07 /\ Untimed /\ Did("AwaitMW07")
 \* EKS-2-27, E-11
 SeeAcknowledgment(i) ==
     Unchanged("AwaitAcknowledgment", i) /\ i.MW07 # 0 /\ Proceed("CheckAcknowledgment") /\ Did("SeeAcknowledgment")
 
 \* Figure 7 as printed has the word of MSO 3 in the row of MSO 2; in a chain that falls through, MSO 3 confirms MSO 2 (E-01)
-LOCAL PrintedRow5 == Literal("LITERAL_FIG7") \/ Literal("FIG7_EXCLUSIVE")
+LOCAL PrintedRow5 == LITERAL_FIG7 \/ FIG7_EXCLUSIVE
 LOCAL PrintedMatch(i) == i.MW07 = SW[3] /\ fplcSelection = 2
 LOCAL Matches(i) ==
     \/ i.MW07 = SW[fplcSelection] /\ ~(PrintedRow5 /\ fplcSelection = 2)
-    \/ Literal("LITERAL_FIG7") /\ PrintedMatch(i)
-    \/ Literal("FIG7_GOES_ON") /\ \E m \in MSO : i.MW07 = SW[m] /\ fplcSelection = m       \* E-13: with the words of Table 2
-    \/ Literal("LIVE_MW03") /\ ModeOf(SW, i.MW07) # None /\ ModeOf(SW, i.MW07) = ModeOf(SE, i.MW03)
+    \/ LITERAL_FIG7 /\ PrintedMatch(i)
+    \/ FIG7_GOES_ON /\ \E m \in MSO : i.MW07 = SW[m] /\ fplcSelection = m       \* E-13: with the words of Table 2
+    \/ LIVE_MW03 /\ ModeOf(SW, i.MW07) # None /\ ModeOf(SW, i.MW07) = ModeOf(SE, i.MW03)
 \* E-66: as read, MW07 is judged in step 27 and not looked at again
-LOCAL ReadOnce == Literal("ACKNOWLEDGMENT_READ_ONCE")
+LOCAL ReadOnce == ACKNOWLEDGMENT_READ_ONCE
 LOCAL Confirmed(i) == Matches(i) \/ ReadOnce
 
 \* EKS-2-27, EKS-7-1, EKS-7-3, EKS-7-5, EKS-7-7, EKS-7-9, E-01, E-13
@@ -366,7 +366,7 @@ AcceptAcknowledgment(i) ==
 RefuseAcknowledgment(i) ==
     /\ \/ /\ Unchanged("CheckAcknowledgment", i)
           /\ i.MW07 # 0 /\ (ModeOf(SW, i.MW07) = None \/ (ReadOnce /\ ~Matches(i)))
-       \/ Literal("NO_WAIT_FOR_MW07") /\ Unchanged("AwaitAcknowledgment", i) /\ i.MW07 = 0
+       \/ NO_WAIT_FOR_MW07 /\ Unchanged("AwaitAcknowledgment", i) /\ i.MW07 = 0
     /\ EnterError
     /\ Did("RefuseAcknowledgment")
 
@@ -389,10 +389,10 @@ RefuseMatch(i) ==
 \* EKS-2-29, EKS-SD-2, E-01, E-16, E-18, E-42, E-71: every guard is evaluated again in the scan that switches
 SwitchMode(i) ==
     /\ Unchanged("Switch", i) /\ Confirmed(i)
-    /\ mode' = {IF Literal("LITERAL_FIG7") \/ Literal("LIVE_MW03") THEN ModeOf(SW, i.MW07) ELSE fplcSelection}
+    /\ mode' = {IF LITERAL_FIG7 \/ LIVE_MW03 THEN ModeOf(SW, i.MW07) ELSE fplcSelection}
     /\ fplcSelection' = None
     /\ KeepKey
-    /\ GoTo(IF Literal("NO_SETTLE") THEN "AwaitSelection" ELSE "Settle")
+    /\ GoTo(IF NO_SETTLE THEN "AwaitSelection" ELSE "Settle")
     /\ Did("SwitchMode")
 
 \* EKS-GP-5, E-15: before the next selection both words must have been zero
@@ -404,20 +404,20 @@ LeaveSettle(i) == fplcState = "Settle" /\ NoWords(i) /\ Dwelt(i) /\ Proceed("Awa
 (* Removal, Figures 8 and 9, and the way out of the error mode.            *)
 
 \* EKS-8-12, EKS-8-13, EKS-8-14, E-31
-LOCAL StaysInClear(i) == Literal("ZEROS_ONE_BY_ONE") /\ ~(i.MW03 = 0 /\ NoSignal(i))
+LOCAL StaysInClear(i) == ZEROS_ONE_BY_ONE /\ ~(i.MW03 = 0 /\ NoSignal(i))
 \* EKS-8-3, EKS-8-6, E-27: the words fell to zero in the scan that saw the key go; the timer goes on
 ClearWords(i) ==
     /\ fplcState = "Clear" /\ ~StaysInClear(i)
     \* E-34: Figure 9 as printed goes on with the first step of the insertion
-    /\ fplcState' = IF Literal("REMOVAL_RUNS_INSERT_STEPS") THEN "PulseOnes" ELSE "AwaitZeros"
-    /\ fplcElapsed' = IF Literal("REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE Now(i)
+    /\ fplcState' = IF REMOVAL_RUNS_INSERT_STEPS THEN "PulseOnes" ELSE "AwaitZeros"
+    /\ fplcElapsed' = IF REMOVAL_RUNS_INSERT_STEPS THEN 0 ELSE Now(i)
     /\ KeepKey /\ UNCHANGED <<fplcSelection, mode>>
     /\ Did("ClearWords")
 
-LOCAL Reinserted(i) == Literal("INSERT_DURING_REMOVAL") /\ i.LA
+LOCAL Reinserted(i) == INSERT_DURING_REMOVAL /\ i.LA
 \* EKS-8-18, E-32: as printed, MW07 is tested once
-LOCAL LateMW07(i) == Literal("MW07_TESTED_ONCE") /\ NoSignal(i) /\ i.MW03 = 0 /\ i.MW07 # 0 /\ Dwelt(i)
-LOCAL Bounced(i) == Literal("BOUNCE_RESTARTS_TIMER") /\ i.LA      \* EKS-9-4-FPLC, E-36
+LOCAL LateMW07(i) == MW07_TESTED_ONCE /\ NoSignal(i) /\ i.MW03 = 0 /\ i.MW07 # 0 /\ Dwelt(i)
+LOCAL Bounced(i) == BOUNCE_RESTARTS_TIMER /\ i.LA      \* EKS-9-4-FPLC, E-36
 \* EKS-8-11, EKS-8-12, E-30, E-31, E-36
 AwaitReturnedZeros(i) ==
     /\ \/ fplcState = "AwaitZeros" /\ ~ZerosReturned(i) /\ ~Reinserted(i) /\ ~LateMW07(i)
@@ -434,8 +434,8 @@ InsertDuringRemoval(i) ==
     fplcState = "AwaitZeros" /\ ~ZerosReturned(i) /\ Reinserted(i) /\ Proceed("PulseOnes") /\ Did("InsertDuringRemoval")
 
 \* EKS-GP-4, E-23: as read, the same key goes on where it was;  EKS-3-0, EKS-9-0, E-23b: as read, into the removal, whose timer leads back
-LOCAL Recovered(i) == Literal("RECOVER_INTO_TRANSACTION") /\ fplcSelection # None /\ i.LA /\ i.vec = {accepted}
-LOCAL Removed(i) == Literal("ERROR_INTO_REMOVAL") /\ NoSignal(i)
+LOCAL Recovered(i) == RECOVER_INTO_TRANSACTION /\ fplcSelection # None /\ i.LA /\ i.vec = {accepted}
+LOCAL Removed(i) == ERROR_INTO_REMOVAL /\ NoSignal(i)
 \* EKS-3-0, EKS-9-0, EKS-SD-9, E-22, E-23
 StayInError(i) ==
     /\ fplcState = "Error" /\ ~ZerosReturned(i) /\ ~Recovered(i) /\ ~Removed(i)
@@ -457,29 +457,36 @@ LeaveError(i) ==
 ----------------------------------------------------------------------------
 \* The steps, grouped by the states in which they can fire
 FplcStep(i) ==
-    \/ fplcState = "Start" /\ (LeaveStart(i) \/ AwaitPowerUpZeros(i))
-    \/ fplcState = "Idle" /\ (AwaitKey(i) \/ DetectKey(i))
-    \/ fplcState = "PulseOnes" /\ (AwaitOnes(i) \/ SeeOnes(i) \/ AcceptOutput(i))
-    \/ fplcState = "PulseZeros" /\ (AwaitPulseZeros(i) \/ SeePulseZeros(i) \/ AcceptOutput(i))
-    \/ fplcState = "OneOutput" /\ (AwaitOneOutput(i) \/ AcceptOutput(i))
-    \/ fplcState = "Authorize" /\ (RefuseEarlyWord(i) \/ PublishAuthority(i))
-    \/ fplcState = "AwaitSelection" /\ (AwaitMW03(i) \/ SeeSelection(i) \/ UnexpectedAcknowledgment(i))
-    \/ fplcState = "CheckSelection" /\
-        \/ AcceptSelection(i) \/ RefuseSelection(i) \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i)
-    \/ fplcState \in Transaction /\
-        \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i) \/ PublishEcho(i) \/ AwaitMW07(i)
-        \/ RefuseSelection(i) \/ SeeAcknowledgment(i) \/ AcceptAcknowledgment(i) \/ RefuseAcknowledgment(i) \/ WithdrawAcknowledgment(i)
-        \/ MatchWords(i) \/ RefuseMatch(i) \/ SwitchMode(i)
-    \/ fplcState = "Settle" /\ (AwaitSettled(i) \/ LeaveSettle(i))
-    \/ fplcState = "Clear" /\ (ClearWords(i) \/ AwaitReturnedZeros(i))
-    \/ fplcState = "AwaitZeros" /\
-        \/ AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i) \/ InsertDuringRemoval(i) \/ RefuseLateZero(i)
-    \/ fplcState = "Error" /\ (StayInError(i) \/ LeaveError(i) \/ ResumeTransaction(i) \/ ErrorIntoRemoval(i))
+    CASE fplcState = "Start" -> LeaveStart(i) \/ AwaitPowerUpZeros(i) \/ TooManyOutputs(i)
+      [] fplcState = "Idle" -> AwaitKey(i) \/ DetectKey(i) \/ TooManyOutputs(i)
+      [] fplcState = "PulseOnes" -> AwaitOnes(i) \/ SeeOnes(i) \/ AcceptOutput(i)
+      [] fplcState = "PulseZeros" -> AwaitPulseZeros(i) \/ SeePulseZeros(i) \/ AcceptOutput(i)
+      [] fplcState = "OneOutput" -> AwaitOneOutput(i) \/ AcceptOutput(i)
+      [] fplcState = "Authorize" -> RefuseEarlyWord(i) \/ PublishAuthority(i)
+      [] fplcState = "AwaitSelection" -> AwaitMW03(i) \/ SeeSelection(i) \/ UnexpectedAcknowledgment(i)
+      [] fplcState = "CheckSelection" ->
+            AcceptSelection(i) \/ RefuseSelection(i) \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i)
+      [] fplcState = "EchoSelection" ->
+            PublishEcho(i) \/ UnexpectedAcknowledgment(i) \/ RefuseSelection(i) \/ WithdrawSelection(i)
+      [] fplcState = "AwaitAcknowledgment" ->
+            AwaitMW07(i) \/ SeeAcknowledgment(i) \/ RefuseAcknowledgment(i) \/ RefuseSelection(i) \/ WithdrawSelection(i)
+      [] fplcState = "CheckAcknowledgment" ->
+            \/ AcceptAcknowledgment(i) \/ RefuseAcknowledgment(i) \/ WithdrawAcknowledgment(i)
+            \/ RefuseSelection(i) \/ WithdrawSelection(i)
+      [] fplcState = "Match" ->
+            MatchWords(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i) \/ RefuseSelection(i) \/ WithdrawSelection(i)
+      [] fplcState = "Switch" ->
+            SwitchMode(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i) \/ RefuseSelection(i) \/ WithdrawSelection(i)
+      [] fplcState = "Settle" -> AwaitSettled(i) \/ LeaveSettle(i)
+      [] fplcState = "Clear" -> ClearWords(i) \/ AwaitReturnedZeros(i)
+      [] fplcState = "AwaitZeros" ->
+            AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i) \/ InsertDuringRemoval(i) \/ RefuseLateZero(i)
+      [] fplcState = "Error" -> StayInError(i) \/ LeaveError(i) \/ ResumeTransaction(i) \/ ErrorIntoRemoval(i)
 
 \* EKS-GP-3, EKS-GP-4, EKS-3-2, EKS-3-3, EKS-9-2, EKS-9-3: first the check, then at most one step
 FplcScan(i) ==
-    \/ TooManyOutputs(i) \/ KeyGone(i) \/ VectorChanged(i) \/ DeadlineExpired(i)
-    \/ CheckPasses(i) /\ FplcStep(i)
+    IF CheckPasses(i) THEN FplcStep(i)
+    ELSE TooManyOutputs(i) \/ KeyGone(i) \/ VectorChanged(i) \/ DeadlineExpired(i)
 
 ----------------------------------------------------------------------------
 (* What the F-PLC promises whatever its inputs do.  `i` is the scan's.     *)

@@ -53,7 +53,7 @@ Alphabet == [n \in 0..N - 1 |->
      dt   |-> Times[(n \div (2 * NV * NW * NW)) + 1]]]
 
 \* E-12, E-18: two readings take the level from the flag word MW01; by then it may have been overwritten with one of these
-MW01IsRead == Literal("AUTHORITY_FROM_MW01") \/ Literal("FIG5_READS_MW01")
+MW01IsRead == AUTHORITY_FROM_MW01 \/ FIG5_READS_MW01
 Overwritten == <<0, OtherWord, RE[4]>>
 FlagMW01(o) == IF o = 0 THEN MW01 ELSE Overwritten[o]
 Overwriting == IF MW01IsRead /\ fplcState = "CheckSelection" THEN 0..Len(Overwritten) ELSE {0}
@@ -79,20 +79,24 @@ OpenInit ==
 \* The stretches that have one deadline as a whole
 Stretch(s) == IF s \in Pulse \cup {"OneOutput"} THEN "insertion" ELSE IF s \in Removing THEN "removal" ELSE "none"
 \* The observer reads the wires i of a scan, and MW05 and the state as they stood before it and after it
-Observe(i) ==
-    LET present == i.LA /\ Cardinality(i.vec) = 1
-        zeros   == present /\ i.MW03 = 0 /\ i.MW07 = 0
-        chosen  == ModeOf(SE, i.MW03)
-        ended   == MW05 # 0 /\ MW05' = 0          \* a transaction is over: the next one needs zeros of its own
-        standing == present /\ selected # None /\ i.MW03 = SE[selected]
-        goes_on == /\ Stretch(fplcState') = Stretch(fplcState) /\ Stretch(fplcState) # "none"
+LOCAL Waits(i) ==
+    LET goes_on == /\ fplcState \in Timed /\ Stretch(fplcState') = Stretch(fplcState)
                    /\ T_SEQ_FROM = "ones" => ~(fplcState = "PulseOnes" /\ fplcState' # "PulseOnes")
-    IN  /\ cleared' = (~ended /\ (zeros \/ (present /\ cleared)))
-        /\ pulse' = IF ~i.LA THEN 0 ELSE IF i.vec = MSO THEN 1 ELSE IF pulse = 1 /\ i.vec = {} THEN 2 ELSE pulse
-        /\ selected' = IF ended THEN None ELSE IF standing THEN selected
-                       ELSE IF cleared /\ present /\ i.MW07 = 0 THEN chosen ELSE None
-        /\ echoed' = (~ended /\ standing /\ (echoed \/ MW05 = CH[selected]))
-        /\ waited' = IF ~goes_on THEN 0 ELSE IF waited + i.dt > T_SEQ + T_REM THEN T_SEQ + T_REM ELSE waited + i.dt
+    IN  waited' = IF ~goes_on THEN 0 ELSE IF waited + i.dt > T_SEQ + T_REM THEN T_SEQ + T_REM ELSE waited + i.dt
+LOCAL SeesPulse(i) ==
+    pulse' = IF ~i.LA THEN 0 ELSE IF i.vec = MSO THEN 1 ELSE IF pulse = 1 /\ i.vec = {} THEN 2 ELSE pulse
+\* With LA and one output
+LOCAL SeesWords(i) ==
+    LET ended    == MW05 # 0 /\ MW05' = 0          \* a transaction is over: the next one needs zeros of its own
+        standing == selected # None /\ i.MW03 = SE[selected]
+    IN  IF ended THEN cleared' = FALSE /\ selected' = None /\ echoed' = FALSE
+        ELSE /\ cleared' = (cleared \/ (i.MW03 = 0 /\ i.MW07 = 0))
+             /\ selected' = IF standing THEN selected ELSE IF cleared /\ i.MW07 = 0 THEN ModeOf(SE, i.MW03) ELSE None
+             /\ echoed' = (standing /\ (echoed \/ MW05 = CH[selected]))
+Observe(i) ==
+    /\ Waits(i) /\ SeesPulse(i)
+    /\ IF i.LA /\ Cardinality(i.vec) = 1 THEN SeesWords(i)
+       ELSE cleared' = FALSE /\ selected' = None /\ echoed' = FALSE
 
 \* The graph tries every time in every state; the properties need only those that the state can tell apart
 LongestTime == IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Removing THEN T_REM ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
@@ -179,7 +183,7 @@ EchoNeedsSelection ==
         (\E a, m \in MSO : MW05' = CH[m] /\ Scanned.MW03 = SE[m] /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
 
 \* EKS-2-10, EKS-4-1, EKS-4-3, E-10: no level is published without the test pulse of this insertion
-LevelNeedsPulse == [][(MW01 = 0 /\ MW01' # 0) => pulse = 2]_beat
+LevelNeedsPulse == [][(MW01' # 0 /\ MW01 = 0) => pulse = 2]_beat
 
 \* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11, E-03, E-30: no wait outlasts its deadline
 NoWaitBeyondDeadline == fplcState \in Timed => fplcElapsed < Deadline

@@ -41,12 +41,16 @@ AcknowledgmentNeedsEcho ==
 ChangedSelectionIsWithdrawn ==
     [][Signalled /\ fplcState \in Transaction /\ ~Kept => fplcState' = "Settle" /\ mode' = mode]_beat
 
-\* EKS-2-27, EKS-2-28, EKS-7-12, E-11, E-13, E-21, E-66: zero takes the acknowledgment back, the word of the selection goes on, the
-\* word of another mode passes step 27 and is refused from step 28 on, and what is no code is refused in each
+WordIsJudged ==
+    CASE Scanned.MW07 = 0 -> fplcState' = "Settle" /\ mode' = mode
+      [] Scanned.MW07 = SW[fplcSelection] -> ~ERROR'
+      [] fplcState = "CheckAcknowledgment" /\ Scanned.MW07 # SW[fplcSelection] /\ ModeOf(SW, Scanned.MW07) # None -> fplcState' = "Match"
+      [] OTHER -> ERROR'
+\* EKS-2-27, EKS-2-28, EKS-7-12, E-11, E-13, E-21, E-66: nothing is judged before step 27; then zero takes the acknowledgment back, the
+\* word of the selection goes on, the word of another mode passes step 27 and is refused from step 28 on, and what is no code is refused
+\* in each
 AcknowledgmentIsJudged ==
-    [][Signalled /\ Kept /\ fplcState \in {"CheckAcknowledgment", "Match", "Switch"} =>
-        CASE Scanned.MW07 = 0 -> fplcState' = "Settle" /\ mode' = mode
-          [] Scanned.MW07 = SW[fplcSelection] -> ~ERROR'
-          [] fplcState = "CheckAcknowledgment" /\ ModeOf(SW, Scanned.MW07) # None -> fplcState' = "Match"
-          [] OTHER -> ERROR']_beat
+    [][Signalled /\ Kept =>
+        /\ fplcState = "AwaitAcknowledgment" => ~ERROR'
+        /\ fplcState \in {"CheckAcknowledgment", "Match", "Switch"} => WordIsJudged]_beat
 =============================================================================

@@ -25,10 +25,11 @@ NoNeedlessWait ==
           [] fplcState = "AwaitAcknowledgment" -> Scanned.MW07 = 0
           [] OTHER -> FALSE]_beat
 
-\* EKS-KS-6, EKS-2-8, EKS-2-11, EKS-2-19, EKS-2-27, EKS-4-4, EKS-8-11: two outputs, a deadline that passed while LA stood, or a word
+\* EKS-KS-6, EKS-2-8, EKS-2-11, EKS-2-19, EKS-2-27, EKS-4-4, EKS-8-11, E-07: two outputs outside the pulse, a deadline that passed while
+\* LA stood, or a word
 ErrorNeedsCause ==
     [][~ERROR /\ ERROR' =>
-        \/ Cardinality(Scanned.vec) >= 2
+        \/ Cardinality(Scanned.vec) >= 2 /\ fplcState \notin Pulse
         \/ fplcState \in Timed /\ Time >= Deadline /\ (fplcState \in Removing \/ Scanned.LA)
         \/ fplcState \in Holding /\ Scanned.LA /\ Scanned.vec = {accepted} /\ ~NoWord]_beat
 

@@ -39,7 +39,7 @@ LOCAL Refused == hmiState = "Withdrawn" /\ hmiSelection # None
 SelectMSO == IF hmiState \in Pending \/ Refused THEN SE[hmiSelection] ELSE 0
 \* EKS-2-24, EKS-8-16, E-19: the acknowledged word is made from the echo, which equals the selection in this state
 SwitchMSO == IF hmiState = "AwaitSwitch" THEN SW[hmiSelection]
-             ELSE IF Refused /\ Literal("REJECT_IS_A_WORD") THEN OtherWord ELSE 0
+             ELSE IF Refused /\ REJECT_IS_A_WORD THEN OtherWord ELSE 0
 \* EKS-2-14, EKS-8-8, EKS-SD-3
 Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "select" [] hmiState = "Confirm" -> "confirm"
             [] OTHER -> "waiting"
@@ -54,17 +54,18 @@ HmiOutputs == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Scre
 LOCAL Level(i) == ModeOf(RE, i.RA)
 \* EKS-3-1-HMI, EKS-9-1-HMI, EKS-GP-4, E-46, E-55: enabled means a code word, and the same one as when the screen was opened
 LOCAL Enable(i) ==
-    \/ Level(i) # None /\ (Level(i) = offered \/ Literal("STAYS_OPEN_AT_NEW_LEVEL"))
-    \/ Literal("ENABLED_BY_ANY_WORD") /\ i.RA # 0 /\ Level(i) = None
+    \/ offered # None /\ i.RA = RE[offered]
+    \/ STAYS_OPEN_AT_NEW_LEVEL /\ Level(i) # None
+    \/ ENABLED_BY_ANY_WORD /\ i.RA # 0 /\ Level(i) = None
 LOCAL At(s, i) == hmiState = s /\ Enable(i)
 LOCAL Echoed(i) == i.CM = CH[hmiSelection]
 \* E-19: the answer comes from the panel's own memory, whatever CheckMSO shows by then
-LOCAL Answerable(i) == Echoed(i) \/ Literal("ACKNOWLEDGES_OWN_SELECTION")
+LOCAL Answerable(i) == Echoed(i) \/ ACKNOWLEDGES_OWN_SELECTION
 \* E-20, E-60: any echo is shown
 LOCAL ShowsOther(i) ==
     /\ ModeOf(CH, i.CM) # None
-    /\ \/ Literal("USER_COMPARES_ALONE") /\ At("AwaitEcho", i) /\ ~Echoed(i)
-       \/ Literal("SHOWS_ANY_ECHO") /\ At("Select", i)
+    /\ \/ USER_COMPARES_ALONE /\ At("AwaitEcho", i) /\ ~Echoed(i)
+       \/ SHOWS_ANY_ECHO /\ At("Select", i)
 LOCAL GoTo(s) == hmiState' = s /\ UNCHANGED <<offered, hmiSelection>>
 LOCAL Stay == UNCHANGED hmi
 LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
@@ -77,8 +78,8 @@ InhibitScreen(i) ==
     /\ Did("InhibitScreen")
 \* E-46, E-57
 LOCAL Opens(i) ==
-    /\ Level(i) # None \/ (Literal("ENABLED_BY_ANY_WORD") /\ i.RA # 0)
-    /\ i.CM = 0 \/ Literal("OPENS_OVER_ECHO")
+    /\ Level(i) # None \/ (ENABLED_BY_ANY_WORD /\ i.RA # 0)
+    /\ i.CM = 0 \/ OPENS_OVER_ECHO
 \* EKS-2-14, EKS-9-4-HMI, EKS-SD-3, E-46, E-57: opened by a code word, and only when the old echo is gone
 EnableScreen(i) ==
     /\ hmiState = "Inhibited" /\ Opens(i)
@@ -101,7 +102,7 @@ OfferModes(i) ==
 AwaitCheckMSO(i) == At("AwaitEcho", i) /\ i.CM = 0 /\ Stay /\ Did("AwaitCheckMSO")
 \* E-20: nobody is asked; E-69: the finger was faster than the screen
 LOCAL NobodyAsked(i) ==
-    Literal("PANEL_COMPARES_ALONE") \/ (Literal("TOUCH_BEFORE_ECHO_COUNTS") /\ i.touch = "confirm")
+    PANEL_COMPARES_ALONE \/ (TOUCH_BEFORE_ECHO_COUNTS /\ i.touch = "confirm")
 \* EKS-2-22, E-20: the panel compares by itself, then asks
 ShowEcho(i) ==
     At("AwaitEcho", i) /\ Echoed(i) /\ GoTo(IF NobodyAsked(i) THEN "AwaitSwitch" ELSE "Confirm") /\ Did("ShowEcho")
@@ -125,11 +126,11 @@ AskConfirmation(i) ==
 TouchConfirm(i) ==
     At("Confirm", i) /\ Answerable(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
 \* E-53: the panel goes on offering the withdrawal
-LOCAL LateReject(i) == Literal("WITHDRAWS_AFTER_CONFIRM") /\ At("AwaitSwitch", i) /\ Echoed(i) /\ i.touch = "reject"
+LOCAL LateReject(i) == WITHDRAWS_AFTER_CONFIRM /\ At("AwaitSwitch", i) /\ Echoed(i) /\ i.touch = "reject"
 \* EKS-2-25, E-21, E-53: the negative acknowledgment takes the selection back; after the confirmation there is none
 TouchReject(i) ==
     /\ (At("Confirm", i) /\ Answerable(i) /\ i.touch = "reject") \/ LateReject(i)
-    /\ IF LITERAL \cap {"REJECT_IS_SILENT", "REJECT_IS_A_WORD"} # {} THEN GoTo("Withdrawn") ELSE Drop("Withdrawn")
+    /\ IF REJECT_IS_SILENT \/ REJECT_IS_A_WORD THEN GoTo("Withdrawn") ELSE Drop("Withdrawn")
     /\ Did("TouchReject")
 
 \* E-15, E-53

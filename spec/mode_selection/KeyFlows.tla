@@ -29,10 +29,13 @@ ASSUME LEVELS \subseteq MSO
 
 BadKey == 9       \* a key whose checksum is wrong
 Keys == LEVELS \cup (IF BAD_KEY THEN {BadKey} ELSE {})
-KeyTable == [k \in Keys |->
+\* As in CodeTables: evaluated once, and named a second time for the cfg
+LOCAL Written == [k \in Keys |->
     [operating_state |-> 6, authorization_level |-> RE[IF k = BadKey THEN 4 ELSE k], access_code |-> 1,
      KEYCRC |-> IF k = BadKey THEN 0 ELSE 1, KeyID |-> k]]
-Calculated == [k \in Keys |-> 1]
+LOCAL Ones == [k \in Keys |-> 1]
+KeyTable == Written
+Calculated == Ones
 
 history == <<touched, seen, confirmed, remembered>>
 View == <<reader, eks, fplc, plc, hmi, history>>
@@ -87,8 +90,8 @@ ReadInOneStep ==
     /\ key' = reader /\ UNCHANGED eksElapsed
     /\ Did("ReadInOneStep")
 Clears ==
-    \/ eksState \in {"ClearOutputs", "PulseRunsOn"} /\ ~Literal("CHECK_BEFORE_CLEAR")
-    \/ eksState \in Working \ {"Signal"} /\ reader # key /\ ~(eksState = "TestOnes" /\ Literal("PULSE_RUNS_ON"))
+    \/ eksState \in {"ClearOutputs", "PulseRunsOn"} /\ ~CHECK_BEFORE_CLEAR
+    \/ eksState \in Working \ {"Signal"} /\ reader # key /\ ~(eksState = "TestOnes" /\ PULSE_RUNS_ON)
 ClearInOneStep == Clears /\ eksState' = "Empty" /\ key' = None /\ eksElapsed' = 0 /\ Did("ClearInOneStep")
 CanMerge == (eksState = "Empty" /\ reader # None) \/ Clears
 EksRuns ==
@@ -126,7 +129,7 @@ AtomicCopy ==
     /\ UNCHANGED turn
     /\ Did("AtomicCopy")
 PlcRuns ==
-    /\ IF "ATOMIC_COPY" \in LITERAL THEN AtomicCopy ELSE PlcScan(PlcInput)
+    /\ IF ATOMIC_COPY THEN AtomicCopy ELSE PlcScan(PlcInput)
     /\ Took(0)
     /\ UNCHANGED <<reader, eks, fplc, hmi, history>>
 
@@ -136,17 +139,18 @@ PlcRuns ==
 HmiInput(touch) == [RA |-> ReadAuthorization, CM |-> CheckMSO, touch |-> touch]
 \* A finger can only meet a field that is on the screen, unless the screen changes in this very scan
 Fields == {""} \cup {Field(m) : m \in Enabled} \cup (IF hmiState = "Confirm" THEN {"confirm", "reject"} ELSE {})
-          \cup (IF hmiState = "AwaitEcho" /\ Literal("TOUCH_BEFORE_ECHO_COUNTS") THEN {"confirm"} ELSE {})
-          \cup (IF hmiState = "AwaitSwitch" /\ Literal("WITHDRAWS_AFTER_CONFIRM") THEN {"reject"} ELSE {})
+          \cup (IF hmiState = "AwaitEcho" /\ TOUCH_BEFORE_ECHO_COUNTS THEN {"confirm"} ELSE {})
+          \cup (IF hmiState = "AwaitSwitch" /\ WITHDRAWS_AFTER_CONFIRM THEN {"reject"} ELSE {})
 
 \* EKS-2-14, EKS-2-22, EKS-2-23: what this user did and saw, recorded beside the panel's own memory.
 \* An echo of what somebody touched before this key went in is not seen as an answer, and confirming it confirms nothing.
 Remember ==
+    IF hmiState' = hmiState /\ hmiState # "Confirm" THEN UNCHANGED history ELSE
     LET begins == hmiState = "Select" /\ hmiState' = "AwaitEcho"
         shown == hmiState' = "Confirm" /\ touched = Shown'
         confirms == hmiState = "Confirm" /\ hmiState' = "AwaitSwitch"
-        withdraws == Literal("WITHDRAWS_AFTER_CONFIRM") /\ hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn"
-        believes == Literal("PANEL_REMEMBERS_MODE") /\ hmiState = "AwaitSwitch" /\ hmiState' = "Select"
+        withdraws == WITHDRAWS_AFTER_CONFIRM /\ hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn"
+        believes == PANEL_REMEMBERS_MODE /\ hmiState = "AwaitSwitch" /\ hmiState' = "Select"
     IN  /\ touched' = IF begins THEN hmiSelection' ELSE touched
         /\ seen' = IF begins THEN None ELSE IF shown THEN touched ELSE seen
         /\ confirmed' = IF begins \/ withdraws THEN None ELSE IF confirms THEN seen ELSE confirmed
@@ -171,18 +175,18 @@ PanelRead ==
 (* A device that restarts alone (E-70, breaks A-19); the others go on.     *)
 
 RestartPlc ==
-    /\ Literal("PLC_RESTARTS")
+    /\ PLC_RESTARTS
     /\ ReadAuthorization' = 0 /\ MW03' = 0 /\ CheckMSO' = 0 /\ MW07' = 0
     /\ UNCHANGED <<turn, reader, eks, fplc, hmi, history>>
     /\ Took(0) /\ Did("RestartPlc")
 RestartPanel ==
-    /\ Literal("PANEL_RESTARTS")
+    /\ PANEL_RESTARTS
     /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
     /\ UNCHANGED <<reader, eks, fplc, plc, history>>
     /\ Took(0) /\ Did("RestartPanel")
 
 ----------------------------------------------------------------------------
-User == (\E k \in DOMAIN KEY : SwapNoticed /\ InsertKey(k)) \/ RemoveKey
+User == (SwapNoticed /\ \E k \in DOMAIN KEY : InsertKey(k)) \/ RemoveKey
 Next == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ RestartPlc \/ RestartPanel
 Spec == Init /\ [][Next]_vars
 
@@ -194,16 +198,16 @@ Signalled == IF LA /\ Cardinality(Vector) = 1 THEN CHOOSE l \in Vector : TRUE EL
 Switched(m) == step' = "SwitchMode" /\ mode' = {m}      \* also where the mode was active before
 
 \* EKS-2-28, EKS-2-29: here the pair alone; that it came after zeros and an echo is judged in FplcOpen, for any inputs
-SwitchNeedsMatchingPair == [][\A m \in MSO : Switched(m) => MW03 = SE[m] /\ MW07 = SW[m]]_View
+SwitchNeedsMatchingPair == [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => MW03 = SE[m] /\ MW07 = SW[m]]_View
 \* EKS-2-18, EKS-T2-2: by the level signalled, which is the one written on the key that the EKS has read
 AuthorizationRespected ==
-    [][\A m \in MSO : Switched(m) => Permitted(Signalled, m) /\ KEY[key].authorization_level = RE[Signalled]]_View
+    [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => Permitted(Signalled, m) /\ KEY[key].authorization_level = RE[Signalled]]_View
 \* EKS-SD-2, E-42
 NoChangeWithoutLA == [][step' = "SwitchMode" \/ mode' # mode => LA]_View
 \* EKS-8-8, EKS-SD-7, E-24
 NoChangeBesideSwitchover == [][mode' # mode => step' = "SwitchMode"]_View
 \* EKS-2-14, EKS-2-22, EKS-2-23, EKS-SD-5: what the user touched, saw and confirmed, since this key went in
-UserIntent == [][\A m \in MSO : Switched(m) => touched = m /\ seen = m /\ confirmed = m]_View
+UserIntent == [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => touched = m /\ seen = m /\ confirmed = m]_View
 \* EKS-2-20, EKS-2-22: the echo is of this user's touch, in this insertion
 EchoIsTheTouch == MW05 # 0 /\ LA => MW05 = CH[touched]
 \* EKS-8-6 to EKS-8-18, E-17, E-27: a new insertion begins with zero in every word of every device
@@ -214,7 +218,7 @@ IdleMeansZeros ==
 
 \* EKS-8-8, EKS-8-16, E-25: what the panel displays as the active mode while no key is in; our panel displays an input of its own
 ActiveMSO == IF mode = {} THEN None ELSE CHOOSE m \in mode : TRUE
-Displayed == IF Literal("PANEL_REMEMBERS_MODE") THEN remembered ELSE ActiveMSO
+Displayed == IF PANEL_REMEMBERS_MODE THEN remembered ELSE ActiveMSO
 DisplayIsTheMode == fplcState = "Idle" => Displayed = ActiveMSO
 \* EKS-FD-1, EKS-FD-2: the contract that an assessor reads
 Contract == INSTANCE ModeSelection WITH level <- Signalled, mode <- ActiveMSO

@@ -41,7 +41,8 @@ ASSUME FAULT_CLASSES \subseteq WordClassesOfFaults \cup WireClasses \cup {Regist
 Class(c) == c \in FAULT_CLASSES
 AllWordClasses == WordClassesOfFaults
 \* Crossed wires are found by nothing (A-20)
-AllButCrossedWires == (WireClasses \ {"crossed wires"}) \cup {RegisterClass}
+LOCAL Uncrossed == (WireClasses \ {"crossed wires"}) \cup {RegisterClass}
+AllButCrossedWires == Uncrossed
 \* With these every word can be anywhere, and no memory of old words is needed
 EveryWord == {"corruption", "loss", "masquerade"} \subseteq FAULT_CLASSES
 
@@ -108,7 +109,7 @@ FplcCares(r) ==
 PanelCares(r) == hmiState = "Inhibited" => ModeOf(RE, r[1]) # None /\ r[2] = 0
 Wrong(p, q, r) == (IF r[1] # Stands(p) THEN {p} ELSE {}) \cup (IF r[2] # Stands(q) THEN {q} ELSE {})
 \* Liveness runs record nothing
-WrongWas(p, q, r) == wrong' = IF RECORD_STEPS THEN Wrong(p, q, r) ELSE {}
+WrongWas(p, q, r) == wrong' = IF RECORD_STEPS /\ r[3] > 0 THEN Wrong(p, q, r) ELSE {}
 
 ----------------------------------------------------------------------------
 (* Wires: what the F-PLC sees of LA and the five outputs.                  *)

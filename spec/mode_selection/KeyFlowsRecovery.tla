@@ -12,7 +12,8 @@
 EXTENDS KeyFlowsLive, KeyFlowsFaults
 
 \* One element at a time; an extra wire and a crossed pair show only while an output that they touch is on
-SingleElements == WireClasses \ {"extra wire", "crossed wires"}
+LOCAL Single == WireClasses \ {"extra wire", "crossed wires"}
+SingleElements == Single
 
 recoveryVars == <<liveVars, faultVars>>
 Whole == wrong' = {} /\ UNCHANGED faultVars

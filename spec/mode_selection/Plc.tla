@@ -27,7 +27,7 @@ plc == <<turn, ReadAuthorization, MW03, CheckMSO, MW07>>
 PlcOutputs == [ReadAuthorization |-> ReadAuthorization, CheckMSO |-> CheckMSO, MW03 |-> MW03, MW07 |-> MW07]
 
 LOCAL Turns == {"CopyReadAuthorization", "CopyMW03", "CopyCheckMSO", "CopyMW07"}
-               \cup (IF Literal("PLC_COUNTS_STEPS") THEN {"Done"} ELSE {})
+               \cup (IF PLC_COUNTS_STEPS THEN {"Done"} ELSE {})
 
 PlcTypeOK ==
     /\ turn \in Turns
@@ -41,15 +41,15 @@ PlcInit ==
 LOCAL Turn(this, next) == IF ANY_ORDER THEN UNCHANGED turn ELSE turn = this /\ turn' = next
 
 \* E-08: as printed, an insert step only with ReadAuthorization as MW01, a removal step only with MW01 zero
-LOCAL Checked(i) == Literal("PLC_CHECKS_FIRST") => ReadAuthorization = i.MW01 \/ i.MW01 = 0
+LOCAL Checked(i) == PLC_CHECKS_FIRST => ReadAuthorization = i.MW01 \/ i.MW01 = 0
 \* E-43: the step is taken once in an insertion, in its turn, and waits for a word; while MW01 is zero the removal steps run
 LOCAL Counted(this, next, word, i) ==
     IF i.MW01 = 0 THEN turn' = "CopyReadAuthorization" ELSE turn = this /\ word # 0 /\ turn' = next
 \* EKS-8-7, EKS-8-15, E-78: as printed, the removal sends the two words to the panel once more and does not fetch them anew
-LOCAL Fetched(i) == Literal("REMOVAL_FETCHES_NOTHING") => i.MW01 # 0
+LOCAL Fetched(i) == REMOVAL_FETCHES_NOTHING => i.MW01 # 0
 LOCAL Begin(this, next, word, i) ==
     /\ Checked(i)
-    /\ IF Literal("PLC_COUNTS_STEPS") THEN Counted(this, next, word, i) ELSE Turn(this, next)
+    /\ IF PLC_COUNTS_STEPS THEN Counted(this, next, word, i) ELSE Turn(this, next)
 
 \* EKS-2-13, EKS-3-1-PLC, EKS-3-2, EKS-3-3, EKS-3-4-PLC, EKS-8-7, EKS-9-1-PLC, EKS-9-2, EKS-9-3, EKS-9-4-PLC, E-05, E-08
 CopyReadAuthorization(i) ==
@@ -61,7 +61,7 @@ CopyReadAuthorization(i) ==
 \* EKS-2-16, EKS-8-10, E-33: copied as it is; the F-PLC judges it
 CopyMW03(i) ==
     /\ Begin("CopyMW03", "CopyCheckMSO", i.SelectMSO, i)
-    /\ Literal("PLC_CHECKS_ZERO") => i.MW01 # 0 \/ i.SelectMSO = 0
+    /\ PLC_CHECKS_ZERO => i.MW01 # 0 \/ i.SelectMSO = 0
     /\ MW03' = i.SelectMSO
     /\ UNCHANGED <<ReadAuthorization, CheckMSO, MW07>>
     /\ Did("CopyMW03")
@@ -74,7 +74,7 @@ CopyCheckMSO(i) ==
     /\ Did("CopyCheckMSO")
 \* EKS-2-26, EKS-8-17
 CopyMW07(i) ==
-    /\ Begin("CopyMW07", IF Literal("PLC_COUNTS_STEPS") THEN "Done" ELSE "CopyReadAuthorization", i.SwitchMSO, i)
+    /\ Begin("CopyMW07", IF PLC_COUNTS_STEPS THEN "Done" ELSE "CopyReadAuthorization", i.SwitchMSO, i)
     /\ MW07' = i.SwitchMSO
     /\ UNCHANGED <<ReadAuthorization, MW03, CheckMSO>>
     /\ Did("CopyMW07")

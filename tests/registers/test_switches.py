@@ -176,3 +176,40 @@ def test_readings_that_a_shared_list_holds_count_as_listed_and_are_tried_too(swi
     found = problems(switched)
     assert any("SLOW: the switch changes nothing: it is in Readings" in one for one in found), found
     assert any("SLOW: no run restores this reading alone" in one for one in found), found
+
+
+BY_NAME = 'SLAM == "SLAM" \\in LITERAL\nSLOW == "SLOW" \\in LITERAL\nAsked == SLAM \\/ SLOW\nInit =='
+
+
+@pytest.fixture
+def by_name(switched: Any) -> Any:
+    """The readings are asked for by definitions that are called as they are."""
+    switched.edit(
+        SPEC + "Latch.tla", 'Asked == "SLAM" \\in LITERAL \\/ "SLOW" \\in LITERAL\nInit ==', BY_NAME
+    )
+    return switched
+
+
+def test_readings_may_be_asked_for_by_name(by_name: Any) -> None:
+    assert problems(by_name) == []
+
+
+def test_a_step_that_records_its_name_asks_as_well(by_name: Any) -> None:
+    by_name.edit(SPEC + "Latch.tla", "Asked == SLAM \\/ SLOW", 'Asked == SLAM \\/ SLOW /\\ Did("Asked")')
+    assert problems(by_name) == []
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("SLAM \\/ SLOW", "SLAM", "SLOW: the switch changes nothing: it is in Readings, and no definition"),
+        ('SLOW == "SLOW"', 'SLOW == "SLAM"', "SLOW: the definition of SLOW asks for SLAM; it is to ask for"),
+        ('SLOW == "SLOW" \\in LITERAL', "SLOW == FALSE", "SLOW: the definition of SLOW asks for no reading"),
+    ],
+)
+def test_a_name_that_asks_for_nothing_or_for_another_is_found(
+    by_name: Any, old: str, new: str, expected: str
+) -> None:
+    by_name.edit(SPEC + "Latch.tla", old, new)
+    found = problems(by_name)
+    assert any(expected in one for one in found), found

@@ -106,6 +106,33 @@ def test_a_switch_that_is_not_declared_is_edited_like_anything_else(tree: ParseT
     assert "Switch" in {one.definition for one in mutants(tree, "Every", without, frozenset())}
 
 
+SWITCHES = """
+---- MODULE Switches ----
+CONSTANT LITERAL
+Literal(reading) == reading \\in LITERAL
+LATE == Literal("LATE")
+====
+"""
+
+
+def test_a_switch_that_another_module_names_is_a_switch(tmp_path: Path, made: tuple[Mutant, ...]) -> None:
+    """`LATE`, defined elsewhere, is left alone as `Literal("LATE")` is, and so is what it alone executes."""
+    (tmp_path / "Switches.tla").write_text(SWITCHES.lstrip())
+    text = EVERY_OPERATOR.replace(
+        "EXTENDS Integers\nCONSTANTS LITERAL, ", "EXTENDS Integers, Switches\nCONSTANTS "
+    )
+    text = text.replace("Literal(reading) == reading \\in LITERAL\n", "")
+    text = text.replace('Late == Literal("LATE")\n', "").replace("== Late /\\", "== LATE /\\")
+    text = text.replace("/\\ ~i.b\n", "/\\ ~i.b \\/ LATE\n")
+    assert "Late " not in text and "LATE" in text
+    moved = mutants(tree_of(tmp_path, text), "Every", RULE, frozenset())
+    assert {one.id for one in made} == {one.id for one in moved}
+    without = Rule(behaviour=RULE.behaviour, kinds=RULE.kinds, groups=RULE.groups)
+    assert "Switch" in {
+        one.definition for one in mutants(tree_of(tmp_path, text), "Every", without, frozenset())
+    }
+
+
 def test_a_property_is_not_edited(tree: ParseTree, made: tuple[Mutant, ...]) -> None:
     assert any(one.definition == "All" for one in made)
     assert not any(one.definition == "All" for one in mutants(tree, "Every", RULE, frozenset({"All"})))

@@ -73,7 +73,10 @@ def test_a_step_that_was_left_out_is_named_and_one_scan_is_missing(
 ) -> None:
     why, _ = explained["fplc_skipped_step.jsonl"]
     assert [one.step for one in why.missed] == ["SwitchMode"] and why.taken[0].step == "MatchWords"
-    assert (why.missed[0].conjunct.text, why.missed[0].sides) == ("fplcState = s", ('"Match"', '"Switch"'))
+    assert (why.missed[0].conjunct.text, why.missed[0].sides) == (
+        'fplcState = "Switch"',
+        ('"Match"', '"Switch"'),
+    )
     assert "E-42" in why.missed[0].cites
     assert why.lost == 1
 
@@ -99,3 +102,16 @@ def test_every_step_of_every_device_has_a_guard_that_ends_with_its_own() -> None
             assert any(one.sets for one in guards.effects(step)), step
         assert set(guards.row(target.only.row)) == set(target.only.device.outputs)
         assert len(guards.view(target.only.view)) == len(target.only.device.memory)
+
+
+def test_beyond_an_else_the_condition_is_denied() -> None:
+    """IF CheckPasses(i) THEN FplcStep(i) ELSE ...: a step of the ELSE rests on the failed check."""
+    spec = root() / "spec"
+    (target,) = (one for one in targets_of(root(), DOCUMENT) if one.id == "fplc" and not one.system)
+    tree = read_tree(spec / DOCUMENT, target.module, find_toolchain(), spec / "common")
+    guards = Guards(tree, target.only.scan, target.only.device.steps)
+    (way,) = guards.paths("KeyGone")
+    assert way[0].text == "~(CheckPasses(i))" and way[0].meaning.startswith("CheckPasses(i) ==")
+    assert all(one[0].text != way[0].text for one in guards.paths("SwitchMode"))
+    made = next(text for text in guards.made if "~(" in text)
+    assert made.split("==", 1)[1].split() == ["~(", "CheckPasses(i)", ")"]

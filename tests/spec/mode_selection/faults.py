@@ -162,7 +162,7 @@ FAULTS = (
         Fault(
             "the screen opens over an old echo",
             "Hmi.tla",
-            '    /\\ i.CM = 0 \\/ Literal("OPENS_OVER_ECHO")\n',
+            "    /\\ i.CM = 0 \\/ OPENS_OVER_ECHO\n",
             "",
         ),
     ),
@@ -273,8 +273,8 @@ FAULTS = (
         Fault(
             "the new mode is set and the old one stays",
             "Fplc.tla",
-            "mode' = {IF Literal",
-            "mode' = mode \\cup {IF Literal",
+            "mode' = {IF LITERAL_FIG7",
+            "mode' = mode \\cup {IF LITERAL_FIG7",
         ),
     ),
     Falls(
@@ -383,7 +383,7 @@ FAULTS = (
         Fault(
             "removal drops the mode",
             "Fplc.tla",
-            'fplcSelection\' = IF Literal("MW05_KEPT") THEN fplcSelection ELSE None\n    /\\ UNCHANGED mode',
+            "fplcSelection' = IF MW05_KEPT THEN fplcSelection ELSE None\n    /\\ UNCHANGED mode",
             "fplcSelection' = None\n    /\\ mode' = {}",
         ),
     ),
@@ -433,7 +433,7 @@ FAULTS = (
         Fault(
             "a forgotten output does not keep the error mode",
             "Fplc.tla",
-            '    /\\ Outputs(i) = {} \\/ Literal("LA_ENDS_REMOVAL")\n',
+            "    /\\ Outputs(i) = {} \\/ LA_ENDS_REMOVAL\n",
             "",
         ),
     ),
@@ -453,8 +453,8 @@ FAULTS = (
         Fault(
             "while MW07 is awaited MW03 is not looked at",
             "Fplc.tla",
-            '    Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = 0 /\\ ~Literal',
-            '    fplcState = "AwaitAcknowledgment" /\\ i.MW07 = 0 /\\ ~Literal',
+            '    Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = 0 /\\ ~NO_WAIT_FOR_MW07',
+            '    fplcState = "AwaitAcknowledgment" /\\ i.MW07 = 0 /\\ ~NO_WAIT_FOR_MW07',
         ),
     ),
     Falls(
@@ -534,7 +534,7 @@ FAULTS = (
         Fault(
             "zeros never count as returned after power-up",
             "Fplc.tla",
-            "(LeaveStart(i) \\/ AwaitPowerUpZeros(i))",
+            "LeaveStart(i) \\/ AwaitPowerUpZeros(i)",
             "AwaitPowerUpZeros(i)",
         ),
     ),
@@ -555,8 +555,8 @@ FAULTS = (
         Fault(
             "the resting acknowledgment is not zero",
             "Hmi.tla",
-            'Literal("REJECT_IS_A_WORD") THEN OtherWord ELSE 0',
-            'Literal("REJECT_IS_A_WORD") THEN OtherWord ELSE OtherWord',
+            "REJECT_IS_A_WORD THEN OtherWord ELSE 0",
+            "REJECT_IS_A_WORD THEN OtherWord ELSE OtherWord",
         ),
     ),
     Falls(
@@ -565,7 +565,7 @@ FAULTS = (
         Fault(
             "another level on the bus leaves the screen open",
             "Hmi.tla",
-            'Level(i) # None /\\ (Level(i) = offered \\/ Literal("STAYS_OPEN_AT_NEW_LEVEL"))',
+            "offered # None /\\ i.RA = RE[offered]",
             "Level(i) # None",
         ),
     ),
@@ -585,7 +585,7 @@ FAULTS = (
         Fault(
             "any word but zero keeps the screen open",
             "Hmi.tla",
-            'Level(i) # None /\\ (Level(i) = offered \\/ Literal("STAYS_OPEN_AT_NEW_LEVEL"))',
+            "offered # None /\\ i.RA = RE[offered]",
             "i.RA # 0",
         ),
     ),
@@ -718,8 +718,8 @@ FAULTS = (
         Fault(
             "the removal timer starts again when the words are cleared",
             "Fplc.tla",
-            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE Now(i)',
-            '"REMOVAL_RUNS_INSERT_STEPS") THEN 0 ELSE 0',
+            "REMOVAL_RUNS_INSERT_STEPS THEN 0 ELSE Now(i)",
+            "REMOVAL_RUNS_INSERT_STEPS THEN 0 ELSE 0",
         ),
     ),
     Falls(
@@ -738,7 +738,7 @@ FAULTS = (
         Fault(
             "a key that is refused in Idle has no step",
             "Fplc.tla",
-            "(AwaitKey(i) \\/ DetectKey(i))",
+            "AwaitKey(i) \\/ DetectKey(i)",
             "DetectKey(i)",
         ),
     ),
@@ -922,8 +922,18 @@ FAULTS = (
         Fault(
             "a key that went leaves an error when the deadline passed too",
             "Fplc.tla",
-            "~IsMany(i) /\\ ~IsGone(i) /\\ IsExpired(i)",
-            "~IsMany(i) /\\ IsExpired(i)",
+            "IsExpired(i) /\\ ~IsGone(i) /\\ ~IsMany(i)",
+            "IsExpired(i) /\\ ~IsMany(i)",
+        ),
+    ),
+    Falls(
+        "ErrorNeedsCause",
+        ANSWERS,
+        Fault(
+            "a key that went in the test pulse leaves an error when two outputs stand",
+            "Fplc.tla",
+            'fplcState = "Idle" /\\ ~i.LA /\\ Many(i)',
+            "~i.LA /\\ Many(i)",
         ),
     ),
     Falls(
@@ -1035,6 +1045,16 @@ FAULTS = (
             "Fplc.tla",
             "    /\\ ModeOf(SW, i.MW07) # None /\\ (ReadOnce => Matches(i))\n",
             "    /\\ (ReadOnce => Matches(i))\n",
+        ),
+    ),
+    Falls(
+        "AcknowledgmentIsJudged",
+        ORDER,
+        Fault(
+            "an acknowledgment that is no code is refused before step 27",
+            "Fplc.tla",
+            'NO_WAIT_FOR_MW07 /\\ Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = 0',
+            'Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = OtherWord',
         ),
     ),
     Falls(
