@@ -66,7 +66,12 @@ def test_a_missing_export_is_a_hole_with_the_command_that_fills_it(root: Path) -
     assert f"{EXPORT} is not there" in found.troubles[0].what
 
 
-@pytest.mark.parametrize("text", [b"no gzip", gzip.compress(b"{"), gzip.compress(b'{"format": 99}')])
+PACKED = [b"no gzip", gzip.compress(b"{"), gzip.compress(b'{"format": 99}')]
+
+
+@pytest.mark.parametrize(
+    "text", PACKED, ids=["no gzip", "no JSON", "another format"]
+)  # the bytes name the time
 def test_an_export_that_is_not_understood_is_a_hole(root: Path, text: bytes) -> None:
     (root / EXPORT).write_bytes(text)
     compared(root)
