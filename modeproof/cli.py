@@ -18,10 +18,13 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from types import FrameType
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
 from modeproof.places import add_document_option, build, chosen_documents, root
+
+if TYPE_CHECKING:
+    from modeproof.processes import Task
 
 LANES = ("smoke", "full", "exhaustive")
 
@@ -422,15 +425,18 @@ def prove_documents(
     patterns: tuple[str, ...] = (),
     limit_ms: int = 20_000,
     lane: str = "full",
+    beside: Sequence[Task[dict[str, Any]]] = (),
+    on_beside: Callable[[dict[str, Any]], None] = lambda record: None,
 ) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Prove the theorems of documents and write one piece of evidence for each, and for all theorems of one
     document together one on their agreement with the model checker. Those of all documents are one queue.
 
     The lane smoke leaves out the slow ones, and so does not compare. By document comes why nothing was
-    proved: there is no theorem, or the proofs cannot be imported.
+    proved: there is no theorem, or the proofs cannot be imported. `beside` are other tasks that go first in
+    the queue, so that no core waits for the longest of them; `on_beside` gets each of their results.
     """
     from modeproof import agreement
-    from modeproof.processes import Task, in_processes, meanwhile
+    from modeproof.processes import in_processes, meanwhile
 
     whole = not patterns and lane != "smoke"
     troubles: dict[str, str] = {}
@@ -450,6 +456,9 @@ def prove_documents(
         ]
 
     def done(record: dict[str, Any]) -> None:
+        if record["kind"] != "proof":
+            on_beside(record)
+            return
         progress.say(
             f"{'ok ' if record['as_expected'] else 'NOT'} {record['document']}/{record['id']}: "
             f"{record['verdict']}; {record['seconds']:.1f} s"
@@ -473,7 +482,8 @@ def prove_documents(
             done(record)
         proved = {(record["document"], record["id"]) for record in records}
         tasks = [task for task in slow_first(theorems) if task[1][1:3] not in proved]
-        records += in_processes("proofs", tasks, progress, done, knowing=whole)
+        made = in_processes("proofs", [*beside, *tasks], progress, done, knowing=whole)
+        records += made[len(beside) :]
     for document in names:
         if whole and document not in troubles and _has_agreement(place, document):
             module = importlib.import_module(f"proofs.{document}.agreement")
@@ -819,7 +829,7 @@ def _version(package: str) -> str:
 
 def _verify(args: argparse.Namespace) -> int:
     from modeproof import evidence
-    from modeproof.conformance import compare_reference
+    from modeproof.conformance import compare_reference, comparisons, say
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.verify import Stage, check_lane, check_registers, verify
@@ -827,16 +837,33 @@ def _verify(args: argparse.Namespace) -> int:
     place = root()
     progress = Progress(quiet=args.quiet)
 
+    compared: list[tuple[list[dict[str, Any]], dict[str, str]]] = []
+
     def prove(
         place: Path, names: Sequence[str], lane: str, progress: Progress
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
-        return prove_documents(place, names, progress, lane=lane)
+        """The theorems, and the comparisons of the next stage: the longest keeps one core, they the other."""
+        tasks, missing = comparisons(place, names, lane)
+        found: list[dict[str, Any]] = []
+
+        def take(record: dict[str, Any]) -> None:
+            found.append(record)
+            say(record, progress)
+
+        result = prove_documents(place, names, progress, lane=lane, beside=tasks, on_beside=take)
+        compared.append((found, missing))
+        return result
+
+    def compare(
+        place: Path, names: Sequence[str], lane: str, progress: Progress
+    ) -> tuple[list[dict[str, Any]], dict[str, str]]:
+        return compared.pop() if compared else compare_reference(place, names, lane, progress)
 
     stages: list[tuple[str, Stage]] = [
         ("registers", check_registers),
-        ("proofs", prove),
         ("TLC", check_lane),
-        ("conformance", compare_reference),
+        ("proofs", prove),
+        ("conformance", compare),
     ]
     names = chosen_documents(place, args.document)
     with only_one(place):

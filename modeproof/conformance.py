@@ -36,6 +36,14 @@ def compare_reference(
     A graph that is missing or incomplete, or an implementation that cannot be loaded, is UNJUDGED, and so is
     a document that has no graph in the lane.
     """
+    work, troubles = comparisons(place, names, lane)
+    return in_processes("conformance", work, progress, lambda record: say(record, progress)), troubles
+
+
+def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task[Record]], dict[str, str]]:
+    """What `compare_reference` has to do, each task by itself, what takes longest first; by document, why
+    there is nothing to do.
+    """
     troubles: dict[str, str] = {}
     tasks: list[tuple[int, Task[Record]]] = []
     for document in names:
@@ -51,9 +59,8 @@ def compare_reference(
             task: Task[Record] = (_over_protocol, (place, document, one, SUITES[lane]))
             tasks.append((max(_edges(run) for run in runs if _is_of(run, one)), task))
         tasks += [(_edges(run), (_one, (place, run, lane))) for run in runs]
-    tasks.sort(key=lambda task: -task[0])  # what takes longest comes first
-    work = [task for _, task in tasks]
-    return in_processes("conformance", work, progress, lambda record: _say(record, progress)), troubles
+    tasks.sort(key=lambda task: -task[0])
+    return [task for _, task in tasks], troubles
 
 
 def _edges(run: Run) -> int:
@@ -64,7 +71,8 @@ def _is_of(run: Run, device: str) -> bool:
     return run.graph is not None and run.graph.device == device
 
 
-def _say(record: Record, progress: Progress) -> None:
+def say(record: Record, progress: Progress) -> None:
+    """One line on a comparison."""
     line = f"{record['document']}/{record['id']}: {record['verdict']}; {record['strength']}"
     reason = f"; {record['reason']}" if record["reason"] else ""
     progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")

@@ -1,4 +1,4 @@
-"""`modeproof verify`: registers, proofs, TLC and conformance of every document, then one screen."""
+"""`modeproof verify`: registers, TLC, proofs and conformance of every document, then one screen."""
 
 from __future__ import annotations
 

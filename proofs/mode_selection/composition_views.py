@@ -75,8 +75,10 @@ def none_of(flags: Flags) -> z3.BoolRef:
     return z3.Not(z3.Or(*flags))
 
 
-def permits(rows: tuple[Flags, ...], level: Mode, mode: Mode) -> z3.BoolRef:
+def permits(rows: tuple[Flags, ...], level: Mode, mode: Mode | int) -> z3.BoolRef:
     """The level permits the mode on this machine; no level permits nothing. E-47"""
+    if isinstance(mode, int):
+        return z3.Or(*[z3.And(level == one, rows[one][mode]) for one in LEVELS])
     return z3.Or(*[z3.And(level == one, mode == two, rows[one][two]) for one in LEVELS for two in LEVELS])
 
 

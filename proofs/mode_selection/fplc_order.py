@@ -196,9 +196,9 @@ def acknowledgment_is_judged(one: Scanned) -> Said:
     slow=True,
 )
 def the_fplc_has_one_answer_to_each_acknowledgment() -> Queries:
-    """While key and selection stand, after the echo: nothing in MW07 is an error before step 27; from there on
-    zero leads to Settle with the mode as it was; the word of the selection to no error; the word of another
-    mode from step 27 to step 28, and there to the error mode; and what is no code to the error mode.
+    """While key and selection stand, after the echo: nothing in MW07 is an error before step 27; from there
+    on zero leads to Settle with the mode as it was; the word of the selection to no error; the word of
+    another mode from step 27 to step 28, and there to the error mode; and what is no code to the error mode.
     """
     yield from JUDGE.in_every_scan(acknowledgment_is_judged)
 
