@@ -25,6 +25,8 @@ from modeproof.places import add_document_option, build, chosen_documents, root
 
 if TYPE_CHECKING:
     from modeproof.processes import Task
+    from modeproof.progress import Progress
+    from modeproof.verify import Stage
 
 LANES = ("smoke", "full", "exhaustive")
 
@@ -827,22 +829,21 @@ def _version(package: str) -> str:
 # ------------------------------------------------------------------------------------------------ verify
 
 
-def _verify(args: argparse.Namespace) -> int:
-    from modeproof import evidence
-    from modeproof.conformance import compare_reference, comparisons, say
-    from modeproof.lock import only_one
-    from modeproof.progress import Progress
-    from modeproof.verify import Stage, check_lane, check_registers, verify
+def stages_of_verify() -> list[tuple[str, Stage]]:
+    """The stages of `verify`, each with its title, in their order.
 
-    place = root()
-    progress = Progress(quiet=args.quiet)
+    The comparisons with the implementation go first in the queue of the theorems: the longest of them keeps
+    one core for half a minute. Their stage tells what came of them; where the theorems could not be asked it
+    makes them itself.
+    """
+    from modeproof.conformance import compare_reference, comparisons, say
+    from modeproof.verify import check_lane, check_registers
 
     compared: list[tuple[list[dict[str, Any]], dict[str, str]]] = []
 
     def prove(
         place: Path, names: Sequence[str], lane: str, progress: Progress
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
-        """The theorems, and the comparisons of the next stage: the longest keeps one core, they the other."""
         tasks, missing = comparisons(place, names, lane)
         found: list[dict[str, Any]] = []
 
@@ -859,15 +860,25 @@ def _verify(args: argparse.Namespace) -> int:
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
         return compared.pop() if compared else compare_reference(place, names, lane, progress)
 
-    stages: list[tuple[str, Stage]] = [
+    return [
         ("registers", check_registers),
         ("TLC", check_lane),
         ("proofs", prove),
         ("conformance", compare),
     ]
+
+
+def _verify(args: argparse.Namespace) -> int:
+    from modeproof import evidence
+    from modeproof.lock import only_one
+    from modeproof.progress import Progress
+    from modeproof.verify import verify
+
+    place = root()
+    progress = Progress(quiet=args.quiet)
     names = chosen_documents(place, args.document)
     with only_one(place):
-        status, records = verify(place, names, args.lane, stages, progress)
+        status, records = verify(place, names, args.lane, stages_of_verify(), progress)
         for name in names:  # everything that was written can be read back
             evidence.read_document(place, name)
         if args.lane == "full" and args.document is None:
