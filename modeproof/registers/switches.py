@@ -49,7 +49,7 @@ def check_switches(document: Document, sources: Sources) -> list[Problem]:
     models = models_of(document, traces)
     return [
         *_readings(document, traces, sources, readings, models),
-        *_misnamed(document, traces, sources),
+        *_misnamed(document, traces, sources, readings),
         *_findings(document, sources, readings, models),
         *_idle(document, models),
         *_tops(document, traces, sources),
@@ -110,7 +110,7 @@ def _readings(
 ) -> Iterator[Problem]:
     """Every reading is asked for, tried alone in exactly one run, and named by a finding."""
     file = document.source("runs")
-    asked = _asked(traces, sources)
+    asked = _asked(traces, sources, readings)
     named = {name for one in document.findings for name in one.switches}
     for name in readings:
         alone = [model.run.id for model in models if model.restored == {name}]
@@ -134,14 +134,13 @@ def _readings(
             yield Problem(file, model.run.id, text + suggestion(name, readings))
 
 
-def _asked(traces: Traces, sources: Sources) -> set[str]:
+def _asked(traces: Traces, sources: Sources, readings: Sequence[str]) -> set[str]:
     """The readings that a definition asks for, in quotes or by the name of a definition that does.
 
     Such a definition is called as the reading is. Alone it asks for nothing, and neither do the lists.
     """
     lists = _lists(traces, sources)
     every = [one for module in sources.modules.values() for one in module.definitions if one not in lists]
-    readings = set(readings_of(traces, sources))
     named = {one.name for one in every if one.name in readings and _TEXT.findall(one.body) == [one.name]}
     asked: set[str] = set()
     for one in every:
@@ -150,9 +149,10 @@ def _asked(traces: Traces, sources: Sources) -> set[str]:
     return asked
 
 
-def _misnamed(document: Document, traces: Traces, sources: Sources) -> Iterator[Problem]:
+def _misnamed(
+    document: Document, traces: Traces, sources: Sources, readings: Sequence[str]
+) -> Iterator[Problem]:
     """A definition that is called as a reading is asks for that one."""
-    readings = readings_of(traces, sources)
     lists = _lists(traces, sources)
     for module in sources.modules.values():
         for one in module.definitions:
