@@ -186,6 +186,9 @@ class _Walk:
         given = tuple(device.passed.values())
         rows = []
         for state in range(len(device.rows)):
+            if not given:
+                rows.append([self._outputs(device.expected(state, {}))] * len(device.alphabet))
+                continue
             made: dict[tuple[Any, ...], Any] = {}
             row = []
             for values in device.alphabet:
@@ -231,6 +234,7 @@ class _Walk:
         """All inputs at one pair of states. The hot loop of the whole comparison."""
         step, pairs, of_spec = self.code.step, self.pairs, self.pairs.of_spec
         rows = self.rows
+        met: dict[int, Any] = {}  # by state of the graph, the one met last: cheaper to compare than to hash
         afters: list[Any] = [None] * len(self.letters)
         outs: list[Any] = [None] * len(self.letters)
         nexts = self.device.graph.next_of[spec]
@@ -245,12 +249,14 @@ class _Walk:
             if out != wanted and self._unlike(out, wanted):
                 self._outputs_differ("outputs", n, spec, letter, None, wanted, out)
                 continue
-            known = of_spec.get(to)
-            if known is None or after not in known:
-                if not self._same_types(out, wanted):
-                    self._outputs_differ("type", n, spec, letter, None, wanted, out)
-                    continue
-                pairs.add(to, after, (n, self.device.alphabet[letter]))
+            if to not in met or met[to] != after:
+                known = of_spec.get(to)
+                if known is None or after not in known:
+                    if not self._same_types(out, wanted):
+                        self._outputs_differ("type", n, spec, letter, None, wanted, out)
+                        continue
+                    pairs.add(to, after, (n, self.device.alphabet[letter]))
+                met[to] = after
             afters[letter], outs[letter] = after, out
         self.scans += len(self.letters)
         for one, letters in enumerate(self.class_letters):

@@ -57,23 +57,23 @@ LOCAL Enable(i) ==
     \/ offered # None /\ i.RA = RE[offered]
     \/ STAYS_OPEN_AT_NEW_LEVEL /\ Level(i) # None
     \/ ENABLED_BY_ANY_WORD /\ i.RA # 0 /\ Level(i) = None
-LOCAL At(s, i) == hmiState = s /\ Enable(i)
 LOCAL Echoed(i) == i.CM = CH[hmiSelection]
 \* E-19: the answer comes from the panel's own memory, whatever CheckMSO shows by then
 LOCAL Answerable(i) == Echoed(i) \/ ACKNOWLEDGES_OWN_SELECTION
 \* E-20, E-60: any echo is shown
 LOCAL ShowsOther(i) ==
     /\ ModeOf(CH, i.CM) # None
-    /\ \/ USER_COMPARES_ALONE /\ At("AwaitEcho", i) /\ ~Echoed(i)
-       \/ SHOWS_ANY_ECHO /\ At("Select", i)
+    /\ \/ USER_COMPARES_ALONE /\ hmiState = "AwaitEcho" /\ ~Echoed(i)
+       \/ SHOWS_ANY_ECHO /\ hmiState = "Select"
 LOCAL GoTo(s) == hmiState' = s /\ UNCHANGED <<offered, hmiSelection>>
 LOCAL Stay == UNCHANGED hmi
 LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
 
-\* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55, E-60; from Select also when an echo shows that nobody asked for
+\* E-55, E-60: the check before every step; from Select the screen closes also over an echo that nobody asked for
+StaysOpen(i) == Enable(i) /\ (hmiState = "Select" => i.CM = 0 \/ ShowsOther(i))
+\* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55, E-60
 InhibitScreen(i) ==
-    /\ \/ hmiState # "Inhibited" /\ ~Enable(i)
-       \/ At("Select", i) /\ i.CM # 0 /\ ~ShowsOther(i)
+    /\ hmiState # "Inhibited" /\ ~StaysOpen(i)
     /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
     /\ Did("InhibitScreen")
 \* E-46, E-57
@@ -90,22 +90,22 @@ StayInhibited(i) == hmiState = "Inhibited" /\ ~Opens(i) /\ Stay /\ Did("StayInhi
 
 \* EKS-2-14, EKS-2-15, EKS-3-2
 TouchSelection(i) ==
-    /\ At("Select", i) /\ i.CM = 0
+    /\ hmiState = "Select" /\ i.CM = 0
     /\ \E m \in Enabled : i.touch = Field(m) /\ hmiSelection' = m
     /\ hmiState' = "AwaitEcho" /\ UNCHANGED offered
     /\ Did("TouchSelection")
 \* EKS-2-14, EKS-SD-4: a field that is not enabled does nothing
 OfferModes(i) ==
-    At("Select", i) /\ i.CM = 0 /\ (\A m \in Enabled : i.touch # Field(m)) /\ Stay /\ Did("OfferModes")
+    hmiState = "Select" /\ i.CM = 0 /\ (\A m \in Enabled : i.touch # Field(m)) /\ Stay /\ Did("OfferModes")
 
 \* EKS-2-22
-AwaitCheckMSO(i) == At("AwaitEcho", i) /\ i.CM = 0 /\ Stay /\ Did("AwaitCheckMSO")
+AwaitCheckMSO(i) == hmiState = "AwaitEcho" /\ i.CM = 0 /\ Stay /\ Did("AwaitCheckMSO")
 \* E-20: nobody is asked; E-69: the finger was faster than the screen
 LOCAL NobodyAsked(i) ==
     PANEL_COMPARES_ALONE \/ (TOUCH_BEFORE_ECHO_COUNTS /\ i.touch = "confirm")
 \* EKS-2-22, E-20: the panel compares by itself, then asks
 ShowEcho(i) ==
-    At("AwaitEcho", i) /\ Echoed(i) /\ GoTo(IF NobodyAsked(i) THEN "AwaitSwitch" ELSE "Confirm") /\ Did("ShowEcho")
+    hmiState = "AwaitEcho" /\ Echoed(i) /\ GoTo(IF NobodyAsked(i) THEN "AwaitSwitch" ELSE "Confirm") /\ Did("ShowEcho")
 \* E-20, E-60: what is on the bus is shown, and what is shown is what is asked for
 ShowOtherEcho(i) ==
     /\ ShowsOther(i)
@@ -113,46 +113,48 @@ ShowOtherEcho(i) ==
     /\ Did("ShowOtherEcho")
 \* EKS-2-22, EKS-2-25, E-20, E-21: an echo of something else, or an echo that goes away
 AbandonSelection(i) ==
-    /\ \/ At("AwaitEcho", i) /\ i.CM # 0 /\ ~Echoed(i) /\ ~ShowsOther(i)
-       \/ At("Confirm", i) /\ ~Answerable(i)
-       \/ At("AwaitSwitch", i) /\ i.CM # 0 /\ ~Echoed(i)
+    /\ \/ hmiState = "AwaitEcho" /\ i.CM # 0 /\ ~Echoed(i) /\ ~ShowsOther(i)
+       \/ hmiState = "Confirm" /\ ~Answerable(i)
+       \/ hmiState = "AwaitSwitch" /\ i.CM # 0 /\ ~Echoed(i)
     /\ Drop("Withdrawn")
     /\ Did("AbandonSelection")
 
 \* EKS-2-22, EKS-2-23
 AskConfirmation(i) ==
-    At("Confirm", i) /\ Answerable(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
+    hmiState = "Confirm" /\ Answerable(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
 \* EKS-2-23, EKS-2-24, EKS-SD-5, E-69
 TouchConfirm(i) ==
-    At("Confirm", i) /\ Answerable(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
+    hmiState = "Confirm" /\ Answerable(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
 \* E-53: the panel goes on offering the withdrawal
-LOCAL LateReject(i) == WITHDRAWS_AFTER_CONFIRM /\ At("AwaitSwitch", i) /\ Echoed(i) /\ i.touch = "reject"
+LOCAL LateReject(i) == WITHDRAWS_AFTER_CONFIRM /\ hmiState = "AwaitSwitch" /\ Echoed(i) /\ i.touch = "reject"
 \* EKS-2-25, E-21, E-53: the negative acknowledgment takes the selection back; after the confirmation there is none
 TouchReject(i) ==
-    /\ (At("Confirm", i) /\ Answerable(i) /\ i.touch = "reject") \/ LateReject(i)
+    /\ (hmiState = "Confirm" /\ Answerable(i) /\ i.touch = "reject") \/ LateReject(i)
     /\ IF REJECT_IS_SILENT \/ REJECT_IS_A_WORD THEN GoTo("Withdrawn") ELSE Drop("Withdrawn")
     /\ Did("TouchReject")
 
 \* E-15, E-53
-AwaitCleared(i) == At("AwaitSwitch", i) /\ Echoed(i) /\ ~LateReject(i) /\ Stay /\ Did("AwaitCleared")
+AwaitCleared(i) == hmiState = "AwaitSwitch" /\ Echoed(i) /\ ~LateReject(i) /\ Stay /\ Did("AwaitCleared")
 \* E-15: both words go back to zero when the echo does, then the next selection may begin
 FinishSelection(i) ==
-    /\ At("AwaitSwitch", i) \/ At("Withdrawn", i)
+    /\ hmiState = "AwaitSwitch" \/ hmiState = "Withdrawn"
     /\ i.CM = 0
     /\ Drop("Select")
     /\ Did("FinishSelection")
 \* E-15, E-21
-AwaitWithdrawn(i) == At("Withdrawn", i) /\ i.CM # 0 /\ Stay /\ Did("AwaitWithdrawn")
+AwaitWithdrawn(i) == hmiState = "Withdrawn" /\ i.CM # 0 /\ Stay /\ Did("AwaitWithdrawn")
 
-\* EKS-GP-3, EKS-3-2, EKS-9-2: grouped by the states in which the steps can fire
-HmiScan(i) ==
-    \/ InhibitScreen(i)
-    \/ hmiState = "Inhibited" /\ (EnableScreen(i) \/ StayInhibited(i))
-    \/ hmiState = "Select" /\ (TouchSelection(i) \/ OfferModes(i) \/ ShowOtherEcho(i))
-    \/ hmiState = "AwaitEcho" /\ (AwaitCheckMSO(i) \/ ShowEcho(i) \/ ShowOtherEcho(i) \/ AbandonSelection(i))
-    \/ hmiState = "Confirm" /\ (AbandonSelection(i) \/ AskConfirmation(i) \/ TouchConfirm(i) \/ TouchReject(i))
-    \/ hmiState = "AwaitSwitch" /\ (AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i) \/ TouchReject(i))
-    \/ hmiState = "Withdrawn" /\ (FinishSelection(i) \/ AwaitWithdrawn(i))
+\* The steps, grouped by the states in which they can fire
+HmiStep(i) ==
+    CASE hmiState = "Inhibited" -> EnableScreen(i) \/ StayInhibited(i)
+      [] hmiState = "Select" -> TouchSelection(i) \/ OfferModes(i) \/ ShowOtherEcho(i)
+      [] hmiState = "AwaitEcho" -> AwaitCheckMSO(i) \/ ShowEcho(i) \/ ShowOtherEcho(i) \/ AbandonSelection(i)
+      [] hmiState = "Confirm" -> AbandonSelection(i) \/ AskConfirmation(i) \/ TouchConfirm(i) \/ TouchReject(i)
+      [] hmiState = "AwaitSwitch" -> AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i) \/ TouchReject(i)
+      [] hmiState = "Withdrawn" -> FinishSelection(i) \/ AwaitWithdrawn(i)
+
+\* EKS-GP-3, EKS-GP-4, EKS-3-2, EKS-9-2: first the check, then one step
+HmiScan(i) == IF hmiState = "Inhibited" \/ StaysOpen(i) THEN HmiStep(i) ELSE InhibitScreen(i)
 
 ----------------------------------------------------------------------------
 (* What the panel promises whatever the bus shows.                         *)

@@ -128,8 +128,10 @@ AtomicCopy ==
     /\ ReadAuthorization' = MW01 /\ MW03' = SelectMSO /\ CheckMSO' = MW05 /\ MW07' = SwitchMSO
     /\ UNCHANGED turn
     /\ Did("AtomicCopy")
+\* A copy of what is there already changes nothing, and is no step here
 PlcRuns ==
     /\ IF ATOMIC_COPY THEN AtomicCopy ELSE PlcScan(PlcInput)
+    /\ plc' # plc
     /\ Took(0)
     /\ UNCHANGED <<reader, eks, fplc, hmi, history>>
 
@@ -145,16 +147,16 @@ Fields == {""} \cup {Field(m) : m \in Enabled} \cup (IF hmiState = "Confirm" THE
 \* EKS-2-14, EKS-2-22, EKS-2-23: what this user did and saw, recorded beside the panel's own memory.
 \* An echo of what somebody touched before this key went in is not seen as an answer, and confirming it confirms nothing.
 Remember ==
-    IF hmiState' = hmiState /\ hmiState # "Confirm" THEN UNCHANGED history ELSE
-    LET begins == hmiState = "Select" /\ hmiState' = "AwaitEcho"
-        shown == hmiState' = "Confirm" /\ touched = Shown'
-        confirms == hmiState = "Confirm" /\ hmiState' = "AwaitSwitch"
-        withdraws == WITHDRAWS_AFTER_CONFIRM /\ hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn"
-        believes == PANEL_REMEMBERS_MODE /\ hmiState = "AwaitSwitch" /\ hmiState' = "Select"
-    IN  /\ touched' = IF begins THEN hmiSelection' ELSE touched
-        /\ seen' = IF begins THEN None ELSE IF shown THEN touched ELSE seen
-        /\ confirmed' = IF begins \/ withdraws THEN None ELSE IF confirms THEN seen ELSE confirmed
-        /\ remembered' = IF believes THEN hmiSelection ELSE remembered
+    CASE hmiState' = hmiState -> UNCHANGED history
+      [] hmiState = "Select" /\ hmiState' = "AwaitEcho" ->
+            touched' = hmiSelection' /\ seen' = None /\ confirmed' = None /\ UNCHANGED remembered
+      [] hmiState' = "Confirm" -> seen' = (IF touched = Shown' THEN touched ELSE seen) /\ UNCHANGED <<touched, confirmed, remembered>>
+      [] hmiState = "Confirm" /\ hmiState' = "AwaitSwitch" -> confirmed' = seen /\ UNCHANGED <<touched, seen, remembered>>
+      [] WITHDRAWS_AFTER_CONFIRM /\ hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn" ->
+            confirmed' = None /\ UNCHANGED <<touched, seen, remembered>>
+      [] PANEL_REMEMBERS_MODE /\ hmiState = "AwaitSwitch" /\ hmiState' = "Select" ->
+            remembered' = hmiSelection /\ UNCHANGED <<touched, seen, confirmed>>
+      [] OTHER -> UNCHANGED history
 
 PanelRuns ==
     /\ \E touch \in Fields : HmiScan(HmiInput(touch))

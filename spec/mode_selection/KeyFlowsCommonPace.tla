@@ -14,12 +14,14 @@ VARIABLE pace    \* whose scan is next
 PaceView == <<View, pace>>
 
 Turn(this, next) == pace = this /\ pace' = next
+\* In its turn the PLC copies whether or not a word is new
+Copies == AtomicCopy /\ Took(0) /\ UNCHANGED <<reader, eks, fplc, hmi, history>>
 \* EKS-3-0, EKS-9-0, EKS-GP-3: one step of each in each cycle
 PaceNext ==
     \/ (User \/ EksRuns) /\ UNCHANGED pace
     \/ Turn("F-PLC", "to the panel") /\ FplcRuns
-    \/ Turn("to the panel", "panel") /\ PlcRuns
+    \/ Turn("to the panel", "panel") /\ Copies
     \/ Turn("panel", "to the F-PLC") /\ PanelRuns
-    \/ Turn("to the F-PLC", "F-PLC") /\ PlcRuns
+    \/ Turn("to the F-PLC", "F-PLC") /\ Copies
 PaceSpec == Init /\ pace = "F-PLC" /\ [][PaceNext]_<<vars, pace>>
 =============================================================================

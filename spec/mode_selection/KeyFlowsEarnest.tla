@@ -21,8 +21,8 @@ EarnestInit == Init /\ goal \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)}
 EarnestNext == WantMore \/ ((EarnestUser \/ EarnestPanel \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same)
 EarnestSpec ==
     /\ EarnestInit /\ [][EarnestNext]_<<liveVars, step, took>> /\ FairPlc
-    /\ WF_liveVars(EarnestUser /\ Same) /\ WF_liveVars(EarnestPanel /\ Same)
-    /\ WF_liveVars(PromptFplc /\ Same) /\ WF_liveVars(PromptEks /\ Same)
+    /\ WF_reader(EarnestUser /\ Same) /\ WF_panel(EarnestPanel /\ Same)
+    /\ WF_fplc(PromptFplc /\ Same) /\ WF_eks(PromptEks /\ Same)
 
 \* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of a fault, and of nothing that an honest machine and a patient user do
 NoErrorWithoutFault == ~ERROR

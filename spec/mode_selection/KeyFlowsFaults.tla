@@ -98,7 +98,8 @@ Reads(p, q) ==
         two == {<<v, w, 2>> : v \in Instead(p), w \in Instead(q)}
         exchanged == IF Class("wrong sequence") /\ <<Sent(q), Sent(p)>> # <<Stands(p), Stands(q)>>
                      THEN {<<Sent(q), Sent(p), 1>>} ELSE {}
-    IN  {<<Stands(p), Stands(q), 0>>}
+    IN  IF left = 0 THEN {<<Stands(p), Stands(q), 0>>} ELSE
+        {<<Stands(p), Stands(q), 0>>}
         \cup (IF left >= 1 THEN one \cup exchanged ELSE {}) \cup (IF left >= 2 THEN two ELSE {})
 
 \* A wrong word that makes a device wait is a delay, which is there anyway
@@ -130,6 +131,7 @@ Crossed(b, l) ==
     LET c == {e \in b : e[1] = "crossed" /\ l \in {e[2], e[3]}}
     IN  IF c = {} THEN l ELSE LET e == CHOOSE e \in c : TRUE IN IF e[2] = l THEN e[3] ELSE e[2]
 SeenVector(b) ==
+    IF b = {} THEN Vector ELSE
     LET sent == IF <<"no pulse", 0, 0>> \in b /\ eksState = "TestOnes" THEN {} ELSE {Crossed(b, l) : l \in Vector}
         extra == {e[3] : e \in {e \in b : e[1] = "extra" /\ e[2] \in sent}}
         on == {e[2] : e \in {e \in b : e[1] = "on"}}
@@ -143,7 +145,7 @@ Wirings ==
         more == IF left >= 1 THEN {broken \cup {e} : e \in Elements} ELSE {}
         most == IF left >= 2 THEN {broken \cup {e, f} : e, f \in Elements} ELSE {}
         less == {broken \ {e} : e \in broken}
-    IN  {broken} \cup {b \in more \cup most \cup less : Seen(b) # Seen(broken)}
+    IN  IF Elements = {} THEN {broken} ELSE {broken} \cup {b \in more \cup most \cup less : Seen(b) # Seen(broken)}
 
 ----------------------------------------------------------------------------
 (* The devices, with what is broken.                                       *)

@@ -15,6 +15,7 @@ VARIABLE
     goal            \* the mode that the user wants, or None while the user does anything
 
 liveVars == <<View, goal>>
+panel == <<hmi, history>>
 
 LiveInit == Init /\ goal = None
 
@@ -70,19 +71,19 @@ AnyNext == GoalNext \/ (Next /\ Same)
 \* Each of the four copies is made again and again
 Copied(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history>> /\ Same
 FairPlc ==
-    /\ WF_liveVars(Copied(CopyReadAuthorization(PlcInput))) /\ WF_liveVars(Copied(CopyMW03(PlcInput)))
-    /\ WF_liveVars(Copied(CopyCheckMSO(PlcInput))) /\ WF_liveVars(Copied(CopyMW07(PlcInput)))
+    /\ WF_plc(Copied(CopyReadAuthorization(PlcInput))) /\ WF_plc(Copied(CopyMW03(PlcInput)))
+    /\ WF_plc(Copied(CopyCheckMSO(PlcInput))) /\ WF_plc(Copied(CopyMW07(PlcInput)))
 
 GoalSpec ==
     /\ LiveInit /\ [][GoalNext]_<<liveVars, step, took>> /\ FairPlc
-    /\ WF_liveVars(goal # None /\ EarnestUser /\ Same) /\ WF_liveVars(goal # None /\ EarnestPanel /\ Same)
-    /\ WF_liveVars(goal # None /\ PromptFplc /\ Same) /\ WF_liveVars(goal # None /\ PromptEks /\ Same)
+    /\ WF_reader(goal # None /\ EarnestUser /\ Same) /\ WF_panel(goal # None /\ EarnestPanel /\ Same)
+    /\ WF_fplc(goal # None /\ PromptFplc /\ Same) /\ WF_eks(goal # None /\ PromptEks /\ Same)
 
 \* EKS-2-29, EKS-FD-2, EKS-T2-2: every permitted mode can be activated, from whatever state
 GoalReached == (goal # None) ~> (mode = {goal})
 
 FairDevices ==
-    FairPlc /\ WF_liveVars(EksRuns /\ Same) /\ WF_liveVars(FplcRuns /\ Same) /\ WF_liveVars(PanelRuns /\ Same)
+    FairPlc /\ WF_eks(EksRuns /\ Same) /\ WF_fplc(FplcRuns /\ Same) /\ WF_panel(PanelRuns /\ Same)
 RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step, took>> /\ FairDevices
 
 \* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle stays

@@ -15,19 +15,20 @@ EXTENDS KeyFlowsLive, KeyFlowsFaults
 LOCAL Single == WireClasses \ {"extra wire", "crossed wires"}
 SingleElements == Single
 
-recoveryVars == <<liveVars, faultVars>>
+\* Each fairness condition has as its subscript what the steps that it is about may change; a scan that meets a fault changes these too
+met == <<plc, faultVars>>
 Whole == wrong' = {} /\ UNCHANGED faultVars
 RecoveryInit == FaultInit /\ goal = None
 
 CopiedOn(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history, goal>> /\ Took(0) /\ Whole
 FairPlcOn ==
-    /\ WF_recoveryVars(CopiedOn(CopyReadAuthorization(PlcInput))) /\ WF_recoveryVars(CopiedOn(CopyMW03(PlcInput)))
-    /\ WF_recoveryVars(CopiedOn(CopyCheckMSO(PlcInput))) /\ WF_recoveryVars(CopiedOn(CopyMW07(PlcInput)))
+    /\ WF_plc(CopiedOn(CopyReadAuthorization(PlcInput))) /\ WF_plc(CopiedOn(CopyMW03(PlcInput)))
+    /\ WF_plc(CopiedOn(CopyCheckMSO(PlcInput))) /\ WF_plc(CopiedOn(CopyMW07(PlcInput)))
 
 RecoverySpec ==
     /\ RecoveryInit /\ [][FaultNext /\ Same]_<<everything, goal>>
-    /\ FairPlcOn /\ WF_recoveryVars(EksRunsFaulty /\ Same) /\ WF_recoveryVars(FplcRunsFaulty /\ Same)
-    /\ WF_recoveryVars(PanelRunsFaulty /\ Same)
+    /\ FairPlcOn /\ WF_eks(EksRunsFaulty /\ Same) /\ WF_<<fplc, met>>(FplcRunsFaulty /\ Same)
+    /\ WF_<<panel, met>>(PanelRunsFaulty /\ Same)
 
 \* EKS-8-6 to EKS-8-18: nothing is left of an insertion
 AsBefore ==
@@ -46,8 +47,8 @@ AfterFaultNext ==
     \/ Steered(EarnestUser) \/ Steered(EarnestPanel) \/ Steered(PromptFplc) \/ Steered(PromptEks) \/ Steered(PlcRuns)
 AfterFaultSpec ==
     /\ RecoveryInit /\ [][AfterFaultNext]_<<everything, goal>> /\ FairPlcOn
-    /\ WF_recoveryVars(Steered(EarnestUser)) /\ WF_recoveryVars(Steered(EarnestPanel))
-    /\ WF_recoveryVars(Steered(PromptFplc)) /\ WF_recoveryVars(Steered(PromptEks))
+    /\ WF_reader(Steered(EarnestUser)) /\ WF_panel(Steered(EarnestPanel))
+    /\ WF_fplc(Steered(PromptFplc)) /\ WF_eks(Steered(PromptEks))
 
 \* EKS-2-29, EKS-8-18, E-23: from whatever state the last fault left
 GoalReachedAfterFault == (goal # None) ~> (mode = {goal})

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 import z3
 
+from modeproof import cli
 from proofs import runner, solvers
 from proofs.runner import TheoremResult, prove, prove_all, unused_premises
 from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3, core_of
@@ -122,6 +123,49 @@ def test_a_theorem_that_raises_is_unjudged_and_the_others_still_run(tmp_path: Pa
         ["UNJUDGED", "a_theorem_cannot_be_built"],
         ["PROVED", "small_numbers_are_less_than_twenty"],
     ]
+
+
+B, Y = z3.Bool("b"), z3.BitVec("y", 8)
+F = z3.Function("f", z3.BitVecSort(16), z3.BoolSort())
+OF_WRONG_SORTS: dict[str, Callable[[], object]] = {
+    "a word in And": lambda: z3.And(B, X),
+    "a word in Or": lambda: z3.Or(X, B),
+    "a word is denied": lambda: z3.Not(X),
+    "a word implies": lambda: z3.Implies(X, B),
+    "a word decides": lambda: z3.If(X, B, B),
+    "arms of two lengths": lambda: z3.If(B, X, Y) == X,
+    "words of two lengths are compared": lambda: X == Y,
+    "and ordered": lambda: z3.ULT(X, Y),
+    "and told apart": lambda: z3.Distinct(X, Y),
+    "and put in the place of one another": lambda: z3.substitute(X == 1, (X, Y)),
+    "a function of another length": lambda: F(Y),
+    "a function of too many": lambda: F(X, X),
+    "bits that a word does not have": lambda: z3.Extract(20, 3, X) == 1,
+    "no truth value": lambda: X,
+}
+
+
+def test_prove_leaves_the_second_look_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("z3.z3.Z3_DEBUG", True)
+    assert cli._theorems_of("edm")
+    assert not z3.z3_debug()
+
+
+@pytest.mark.parametrize("twice", [False, True])
+@pytest.mark.parametrize("wrong", OF_WRONG_SORTS.values(), ids=OF_WRONG_SORTS)
+def test_a_formula_of_wrong_sorts_is_unjudged_whether_or_not_the_python_layer_looks_too(
+    wrong: Callable[[], object], twice: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """libz3 refuses it; `modeproof prove` leaves out the second look of the Python layer."""
+    monkeypatch.setattr("z3.z3.Z3_DEBUG", twice)
+
+    def of_wrong_sorts() -> Queries:
+        yield from claim("planted", SMALL, wrong())  # type: ignore[arg-type]
+
+    result = _one(replace(a_theorem_cannot_be_built, build=of_wrong_sorts), tmp_path)
+    assert result.verdict == "UNJUDGED" and result.reason
+    right = replace(a_theorem_cannot_be_built, build=small_numbers_are_less_than_twenty.build)
+    assert _one(right, tmp_path).verdict == "PROVED"
 
 
 @pytest.mark.parametrize(

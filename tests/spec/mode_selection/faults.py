@@ -172,8 +172,8 @@ FAULTS = (
         Fault(
             "the panel may miss that the level is gone while it waits for the echo (no state changes)",
             "Hmi.tla",
-            'AwaitCheckMSO(i) == At("AwaitEcho", i)',
-            'AwaitCheckMSO(i) == hmiState = "AwaitEcho"',
+            'IF hmiState = "Inhibited" \\/ StaysOpen(i)',
+            'IF hmiState \\in {"Inhibited", "AwaitEcho"} \\/ StaysOpen(i)',
         ),
     ),
     Falls(
@@ -748,7 +748,7 @@ FAULTS = (
         Fault(
             "a touch beside the fields has no answer",
             "Hmi.tla",
-            "(TouchSelection(i) \\/ OfferModes(i) \\/ ShowOtherEcho(i))",
+            "TouchSelection(i) \\/ OfferModes(i) \\/ ShowOtherEcho(i)",
             "TouchSelection(i)",
         ),
     ),
@@ -1083,18 +1083,18 @@ FAULTS = (
         Fault(
             "a selection is given up before the screen closes",
             "Hmi.tla",
-            'At("AwaitEcho", i) /\\ i.CM # 0 /\\ ~Echoed(i) /\\ ~ShowsOther(i)',
-            'hmiState = "AwaitEcho" /\\ i.CM # 0 /\\ ~Echoed(i) /\\ ~ShowsOther(i)',
+            'IF hmiState = "Inhibited" \\/ StaysOpen(i)',
+            'IF hmiState = "Inhibited" \\/ StaysOpen(i) \\/ (hmiState = "AwaitEcho" /\\ i.CM # 0)',
         ),
     ),
     Falls(
         "ClosesOverAnEcho",
         HMI_PROMPT,
         Fault(
-            "a field can be touched over an echo",
+            "an echo that nobody asked for is shown",
             "Hmi.tla",
-            '/\\ At("Select", i) /\\ i.CM = 0\n',
-            '/\\ At("Select", i)\n',
+            'SHOWS_ANY_ECHO /\\ hmiState = "Select"',
+            'hmiState = "Select"',
         ),
     ),
     Falls(
@@ -1103,8 +1103,8 @@ FAULTS = (
         Fault(
             "an echo that is gone counts as another echo",
             "Hmi.tla",
-            'At("AwaitSwitch", i) /\\ i.CM # 0 /\\ ~Echoed(i)',
-            'At("AwaitSwitch", i) /\\ ~Echoed(i)',
+            'hmiState = "AwaitSwitch" /\\ i.CM # 0 /\\ ~Echoed(i)',
+            'hmiState = "AwaitSwitch" /\\ ~Echoed(i)',
         ),
     ),
     Falls(
@@ -1113,8 +1113,8 @@ FAULTS = (
         Fault(
             "an echo may be waited for that is there",
             "Hmi.tla",
-            'At("AwaitEcho", i) /\\ i.CM = 0 /\\ Stay',
-            'At("AwaitEcho", i) /\\ Stay',
+            'hmiState = "AwaitEcho" /\\ i.CM = 0 /\\ Stay',
+            'hmiState = "AwaitEcho" /\\ Stay',
         ),
     ),
     Falls(

@@ -68,7 +68,7 @@ def test_unchanged_it_is_as_expected(trial: Trial, trials: Run) -> None:
 
 DELETED = {
     "TouchReject": Fault(
-        "nobody can reject", "Hmi.tla", "TouchConfirm(i) \\/ TouchReject(i))", "TouchConfirm(i))"
+        "nobody can reject", "Hmi.tla", "TouchConfirm(i) \\/ TouchReject(i)", "TouchConfirm(i)"
     ),
     "LeaveError": Fault(
         "no way out of the error mode", "Fplc.tla", "StayInError(i) \\/ LeaveError(i)", "StayInError(i)"
