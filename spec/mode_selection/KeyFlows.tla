@@ -150,7 +150,8 @@ Remember ==
     CASE hmiState' = hmiState -> UNCHANGED history
       [] hmiState = "Select" /\ hmiState' = "AwaitEcho" ->
             touched' = hmiSelection' /\ seen' = None /\ confirmed' = None /\ UNCHANGED remembered
-      [] hmiState' = "Confirm" -> seen' = (IF touched = Shown' THEN touched ELSE seen) /\ UNCHANGED <<touched, confirmed, remembered>>
+      [] hmiState # "Confirm" /\ hmiState' = "Confirm" ->
+            seen' = (IF touched = Shown' THEN touched ELSE seen) /\ UNCHANGED <<touched, confirmed, remembered>>
       [] hmiState = "Confirm" /\ hmiState' = "AwaitSwitch" -> confirmed' = seen /\ UNCHANGED <<touched, seen, remembered>>
       [] WITHDRAWS_AFTER_CONFIRM /\ hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn" ->
             confirmed' = None /\ UNCHANGED <<touched, seen, remembered>>
