@@ -21,6 +21,7 @@ _CHECKS = re.compile(
 )
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize(
     ("device", "run", "module", "extra"),
     [
