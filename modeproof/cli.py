@@ -146,7 +146,6 @@ def make_parser() -> argparse.ArgumentParser:
     _plug_in(commands, "walks", "modeproof.walks")
     _plug_in(commands, "report", "modeproof.report.command")
     _plug_in(commands, "mutate", "modeproof.strength.command")
-    _plug_in(commands, "scale", "modeproof.scale")
 
     _command(commands, "doctor", _doctor, "tell what this machine lacks, and how to mend it")
     return parser

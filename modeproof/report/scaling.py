@@ -1,53 +1,70 @@
-"""The page and the chart of how a model grows, from the evidence of measured points.
+"""The chart of how a model grows, from the figures in spec/<document>/scaling.toml.
 
-The law stated is the one of three (exponential, power, straight line) that fits best; how well is the share
-of the variance of log y that it explains, the same measure for all three.
+    python -m modeproof.report.scaling DOCUMENT
+
+writes docs/<document>/scaling.svg and scaling.md. The law stated is the one of three (exponential, power,
+straight line) that fits best: R squared is the share of the variance of log y that it explains.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import sys
+import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
 from xml.sax.saxutils import escape
+
+from modeproof.errors import Unjudged
+from modeproof.evidence.files import write_whole
+from modeproof.places import root
 
 LEAST = 3
 """With fewer points no law is stated."""
+FIGURES = {"distinct": "distinct states", "cpu_s": "CPU seconds"}
 _COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e44ad", "#b9770e")
 _WIDTH, _HEIGHT = 380, 300
 _LEFT, _RIGHT, _TOP, _BOTTOM = 70, 12, 34, 44
 
 
 @dataclass(frozen=True)
-class Measured:
-    """One point: its place on the axis and its evidence (None: not measured)."""
-
-    x: int
-    record: Mapping[str, Any] | None
-
-    def value(self, name: str) -> float | None:
-        """A figure of a point that holds, else None."""
-        if self.record is None or not self.record["as_expected"]:
-            return None
-        figure: float = self.record["result"][name]
-        return float(figure)
-
-
-@dataclass(frozen=True)
 class Curve:
-    """The points of one series, with the run that they vary."""
+    """One series: the run of which `x` is varied, the places on the axis, and the figures measured there."""
 
-    id: str
     run: str
     x: str
     title: str
-    points: tuple[Measured, ...]
+    places: tuple[int, ...]
+    figures: dict[str, tuple[tuple[int, float], ...]]
 
-    def values(self, name: str) -> list[tuple[int, float]]:
-        """x and the figure of each point that has it and is greater than 0."""
-        found = [(point.x, point.value(name)) for point in self.points]
-        return [(x, y) for x, y in found if y is not None and y > 0]
+    def values(self, name: str) -> tuple[tuple[int, float], ...]:
+        """The measured points of one figure; all are greater than 0."""
+        return self.figures.get(name, ())
+
+
+def curves_of(place: Path, document: str) -> list[Curve]:
+    """The series of a document. Raises Unjudged when the file is missing or lacks something."""
+    source = f"spec/{document}/scaling.toml"
+    try:
+        data = tomllib.loads((place / source).read_text(encoding="utf-8"))
+        return [
+            Curve(
+                series["run"],
+                series["x"],
+                series["title"],
+                tuple(point["x"] for point in series["points"]),
+                {
+                    name: tuple((point["x"], point[name]) for point in series["points"] if name in point)
+                    for name in FIGURES
+                },
+            )
+            for series in data["series"]
+        ]
+    except (OSError, ValueError) as error:
+        raise Unjudged(f"{source}: {error}") from None
+    except KeyError as error:
+        raise Unjudged(f"{source}: {error.args[0]} is missing") from None
 
 
 @dataclass(frozen=True)
@@ -109,74 +126,23 @@ def _judged(kind: str, a: float, b: float, xs: Sequence[float], logs: Sequence[f
     return Law(kind, a, b, 1.0 - rest / sum((log - mean) ** 2 for log in logs))
 
 
-# ------------------------------------------------------------------------------------------------ page
-
-
-def page(curves: Sequence[Curve], command: str, picture: str) -> str:
-    """The page as Markdown; `command` makes it, `picture` is the name of the chart."""
-    records = [point.record for curve in curves for point in curve.points if point.record is not None]
-    out = [
+def page(curves: Sequence[Curve], document: str) -> str:
+    """The law of each curve and the chart, as Markdown."""
+    rows = [
         "# How the model grows",
         "",
-        f"Rendered by `{command} --render` from the evidence of `{command}`; not edited by hand.",
-        _machine(records),
-        "Each point is one TLC run with one worker, the properties of the run that it varies and at most",
-        f"{_limit(records):g} s; time is CPU time, which hardly depends on what else the machine is doing.",
+        f"Made by `python -m modeproof.report.scaling {document}` from the figures in "
+        f"[`scaling.toml`](../../spec/{document}/scaling.toml).",
         "",
-        f"![distinct states and CPU seconds]({picture})",
+        "![distinct states and CPU seconds](scaling.svg)",
         "",
         "| series | varies | distinct states | CPU seconds |",
         "|---|---|---|---|",
     ]
     for curve in curves:
-        laws = [best_law(curve.values(name)) for name in ("distinct", "cpu_seconds")]
-        cells = [str(law) if law else f"fewer than {LEAST} points" for law in laws]
-        out.append(f"| {curve.title} | {curve.x} | {cells[0]} | {cells[1]} |")
-    out += [
-        "",
-        "The law is the best of three (exponential, power, straight line), by least squares; R² is of log y.",
-        "It describes the points measured and says nothing beyond them.",
-        "",
-    ]
-    for curve in curves:
-        out += [
-            f"## {curve.title} (`{curve.run}`)",
-            "",
-            f"| {curve.x} | distinct | generated | depth | CPU s | |",
-            "|---:|---:|---:|---:|---:|---|",
-        ]
-        out += [_row(point) for point in curve.points] + [""]
-    return "\n".join(out)
-
-
-def _limit(records: Sequence[Mapping[str, Any]]) -> float:
-    return max((float(one["result"]["limit_s"]) for one in records), default=0.0)
-
-
-def _machine(records: Sequence[Mapping[str, Any]]) -> str:
-    names = sorted(
-        {
-            f"{one['machine'].get('cpu') or one['machine']['arch']}, {one['machine']['cores']} cores, "
-            f"{one['tools']['java']['version']}"
-            for one in records
-            if one["as_expected"]
-        }
-    )
-    return f"Measured on: {'; '.join(names)}." if names else "Nothing was measured."
-
-
-def _row(point: Measured) -> str:
-    record = point.record
-    if record is None:
-        return f"| {point.x} | | | | | not measured |"
-    if not record["as_expected"]:
-        return f"| {point.x} | | | | | left out: {record['reason']} |"
-    result = record["result"]
-    counts = f"{result['distinct']:,} | {result['generated']:,} | {result['depth']}"
-    return f"| {point.x} | {counts} | {result['cpu_seconds']:.1f} | |"
-
-
-# ------------------------------------------------------------------------------------------------ chart
+        laws = [best_law(curve.values(name)) or f"fewer than {LEAST} points" for name in FIGURES]
+        rows.append(f"| {curve.title} (`{curve.run}`) | {curve.x} | {laws[0]} | {laws[1]} |")
+    return "\n".join([*rows, "", "The laws describe the points measured and say nothing beyond them.", ""])
 
 
 def chart(curves: Sequence[Curve]) -> str:
@@ -190,9 +156,7 @@ def chart(curves: Sequence[Curve]) -> str:
     ]
     for row, kind in enumerate(kinds):
         chosen = [curve for curve in curves if curve.x == kind]
-        for column, (name, title) in enumerate(
-            (("distinct", "distinct states"), ("cpu_seconds", "CPU seconds"))
-        ):
+        for column, (name, title) in enumerate(FIGURES.items()):
             parts.append(f'<g transform="translate({column * _WIDTH},{row * _HEIGHT})">')
             parts += _panel(chosen, name, title, kind)
             parts.append("</g>")
@@ -204,7 +168,7 @@ def _panel(curves: Sequence[Curve], name: str, title: str, kind: str) -> list[st
     parts = [f'<text x="{_LEFT}" y="16" font-size="13">{escape(title)} against {escape(kind)}</text>']
     if not values:
         return [*parts, f'<text x="{_LEFT}" y="60">not measured</text>']
-    places = sorted({point.x for curve in curves for point in curve.points})
+    places = sorted({x for curve in curves for x in curve.places})
     low = math.floor(min(math.log10(y) for _, y in values))
     high = max(low + 1, math.ceil(max(math.log10(y) for _, y in values)))
     right, bottom = _WIDTH - _RIGHT, _HEIGHT - _BOTTOM
@@ -241,3 +205,15 @@ def _panel(curves: Sequence[Curve], name: str, title: str, kind: str) -> list[st
 
 def _tick(power: int) -> str:
     return f"{10**power:,}" if power >= 0 else f"{10.0**power:g}"
+
+
+def main(document: str) -> None:
+    """Write chart and page of a document."""
+    place = root()
+    curves = curves_of(place, document)
+    for name, text in (("scaling.svg", chart(curves)), ("scaling.md", page(curves, document))):
+        write_whole(place / "docs" / document / name, text.encode())
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
