@@ -30,6 +30,8 @@ CLASSES = {
 _TABLE = re.compile(r"<!-- begin trace (\w+) (\w{12}) -->\n(.*?)<!-- end trace -->\n", re.DOTALL)
 _ASIDE = ("why", "strength", "lanes", "timeout_s", "heap_mb", "workers")
 """What runs.toml says of a run that changes no counterexample."""
+_BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
+"""A decision or a consequence that names readings by their number."""
 _MANY = 3
 """Of more counterexamples than this of one finding, a line names the first ones."""
 
@@ -138,11 +140,12 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
 
 def _head(document: Document) -> str:
     about, name = document.about, document.name
+    number = "" if about.number == "unknown" else f" Number: {about.number}."
     targets = ", ".join(f"`{one.id}`" for one in document.interface.devices.values() if one.published)
     return f"""# {about.title}
 
 <!-- made by modeproof render from spec/{name}: edit the registers there, not this page -->
-**What it is.** {_sentence(about.edition)} Number: {about.number}. Publisher: {_sentence(about.publisher)}
+**What it is.** {_sentence(about.edition)}{number} Publisher: {about.publisher.removesuffix(".")}.
 
 **What we had.** {_sentence("; ".join(about.available))}
 
@@ -192,7 +195,7 @@ def _shown(document: Document, sources: Sources) -> str:
     rows += [_score(document, one) for one in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
-        f"\n{len(lanes)} of the runs take hours and are in the exhaustive lane alone: "
+        f"\n{len(lanes)} of these runs are no part of `verify`: "
         f"`modeproof check --document {name} --lane exhaustive --resume`.\n"
         if lanes
         else ""
@@ -212,7 +215,7 @@ def _score(document: Document, one: Score) -> list[str]:
     rest = [f"{one.killed} of {one.different}{share}"]
     if one.survived:
         explained = f"{open_ones} unexplained" if open_ones else "each explained"
-        rest.append(f"{one.survived} survive, {explained}")
+        rest.append(f"{one.survived} not noticed, {explained}")
     if one.unmeasured:
         rest.append(f"{one.unmeasured} unmeasured")
     if changed := one.changed(document.root):
@@ -247,8 +250,9 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
         return
     yield (
         "## Counterexamples worth reading\n\n"
-        "A scan is one cycle of a program: it reads its inputs, decides, and sets its outputs. Each row is one\n"
+        "A scan is one cycle of a program: it reads inputs, decides, and sets outputs. Each row is one\n"
         "scan, or one step of somebody else, with what it read and what stands afterwards; **bold** is new.\n"
+        "`dt` is the time since the scan before, in ticks of the model.\n"
     )
     for one in found:
         run, table = _run(document, one.run), tables[one.run]
@@ -284,9 +288,9 @@ def _findings(document: Document) -> str:
         "Where the text contradicts itself, is silent, or can be read in more than one way: "
         f"{len(document.findings)} findings, "
         + ", ".join(f"{number} {name}" for name, number in count.items())
-        + ".\nEach says what the text says, what we decided, what happens otherwise, and the command that shows "
-        "it. We did not have\nthe drawings; where one could settle the matter (†), the finding is no error of "
-        f"the document. All readings: [findings.toml](../{document.source('findings')}).",
+        + ".\nEach says what the text says, what we decided, what happens otherwise, and the command that "
+        "shows it. We did not have\nthe drawings; where one could settle the matter (†), the finding is no "
+        f"error of the document. All readings: [findings.toml](../{document.source('findings')}).",
     ]
     steps = _steps(document)
     for name, words in CLASSES.items():
@@ -294,18 +298,20 @@ def _findings(document: Document) -> str:
         if rows:
             lines += ["", f"### {words}", ""]
         for one in rows:
-            lines += _finding(document, one, steps)
+            lines.append(_finding(document, one, steps))
     return "\n".join(lines) + "\n"
 
 
-def _finding(document: Document, one: Finding, steps: Mapping[str, int]) -> Iterator[str]:
+def _finding(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
     mark = " †" if one.drawing_could_settle else ""
-    head = f"- **{one.id}{mark}: {one.title}.** {_sentence(one.says)} *Decided:* {_sentence(one.decision)}"
-    if one.severity == "wording":
-        yield head
-        return
-    yield head
-    yield f"  *Otherwise:* {_sentence(one.consequence)} {_evidence(document, one, steps)}"
+    parts = [f"- **{one.id}{mark}: {one.title}.** {_sentence(one.says)}"]
+    if _BY_NUMBER.search(f"{one.decision} {one.consequence}"):
+        readings = "; ".join(f"({number}) {text}" for number, text in enumerate(one.readings, 1))
+        parts.append(f"*Readings:* {readings}.")
+    parts.append(f"*Decided:* {_sentence(one.decision)}")
+    if one.severity != "wording":
+        parts += [f"*Otherwise:* {_sentence(one.consequence)}", _evidence(document, one, steps)]
+    return " ".join(parts)
 
 
 def _evidence(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
@@ -315,21 +321,27 @@ def _evidence(document: Document, one: Finding, steps: Mapping[str, int]) -> str
     clauses = {clause.id for clause in document.clauses}
     theorems = [name for name in one.evidence if _run(document, name) is None and name not in clauses]
     if negatives:
-        said = [f"`{run.property}` fails {_in_steps(steps.get(run.id))}" for run in negatives[:_MANY]]
+        lengths: dict[str, set[int]] = {}
+        for run in negatives[:_MANY]:
+            lengths.setdefault(run.property, set()).add(steps.get(run.id, 1) - 1)
+        said = [f"`{name}` fails {_after(found)}" for name, found in lengths.items()]
         names = " ".join(run.id for run in negatives[:_MANY])
         more = f" ({len(negatives) - _MANY} more in the report)" if len(negatives) > _MANY else ""
-        return f"{', '.join(dict.fromkeys(said))}: `modeproof check {names} --trace`{more}."
+        return f"{', '.join(said)}: `modeproof check {names} --trace`{more}."
     if runs:
-        return f"No run shows harm: `modeproof check {' '.join(run.id for run in runs)}`."
+        return f"Checked: `modeproof check {' '.join(run.id for run in runs)}`."
     if theorems:
         return f"Proved: `modeproof prove --document {document.name} {' '.join(theorems)}`."
     return f"Not shown by a run: {_sentence(one.evidence_open)}"
 
 
-def _in_steps(length: int | None) -> str:
-    if length is None:
-        return "as well"
-    return {1: "in the first state", 2: "after 1 step"}.get(length, f"after {length - 1} steps")
+def _after(lengths: set[int]) -> str:
+    """After how many steps a property fails, in one run or in several."""
+    *others, last = sorted(lengths)
+    if last == 0:
+        return "in the first state"
+    several = f"{', '.join(map(str, others))} and {last}" if others else str(last)
+    return f"after {several} step" + ("" if several == "1" else "s")
 
 
 def _steps(document: Document) -> dict[str, int]:
@@ -355,7 +367,7 @@ def _faults(document: Document) -> Iterator[str]:
         )
     more = f"[faults.toml](../{document.source('faults')}) and the report"
     yield (
-        f"## Faults from outside\n\n{summary.strip()}\n\nWhat holds under each fault, and its runs: {more}.\n\n"
+        f"## Faults from outside\n\n{summary.strip()}\n\nWhat holds under each, and its runs: {more}.\n\n"
         + markdown(["fault", "detected by", "fails, and what that takes", "detected by nothing"], rows)
     )
 
@@ -379,9 +391,10 @@ def _growth(document: Document) -> Iterator[str]:
             ]
         )
     picture = Path(picture_name(document.name)).name
+    source = f"[scaling.toml](../spec/{document.name}/scaling.toml)"
     yield (
         f"## How the model grows\n\n![distinct states and CPU seconds]({picture})\n\nMeasured on "
-        f"{data['measured_on']}, one worker. All figures: [scaling.toml](../spec/{document.name}/scaling.toml).\n\n"
+        f"{data['measured_on']}, one worker. All figures: {source}.\n\n"
         + markdown(["series", "varied", "distinct states", "CPU seconds"], rows)
     )
 
@@ -392,4 +405,7 @@ def _run(document: Document, name: str) -> Run | None:
 
 def _sentence(text: str) -> str:
     text = " ".join(text.split())
-    return text[:1].upper() + text[1:] + ("" if text.endswith((".", "?", "!")) else ".")
+    first = text.split(" ", 1)[0]
+    name = any(mark in first for mark in "_0123456789")  # a name keeps its spelling
+    begin = text if name else text[:1].upper() + text[1:]
+    return begin + ("" if text.endswith((".", "?", "!")) else ".")
