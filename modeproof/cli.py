@@ -127,14 +127,8 @@ def make_parser() -> argparse.ArgumentParser:
     prove.add_argument(
         "--limit", type=int, default=20_000, metavar="MS", help="time limit a query (default 20000)"
     )
-    other = prove.add_mutually_exclusive_group()
-    other.add_argument(
+    prove.add_argument(
         "--coverage", action="store_true", help="instead: what of each step the feasible paths pass through"
-    )
-    other.add_argument(
-        "--render",
-        action="store_true",
-        help="instead: write docs/<document>/proofs.md from the evidence of both",
     )
 
     _plug_in(commands, "conform", "modeproof.suites.command", "modeproof.kit.command")
@@ -142,7 +136,7 @@ def make_parser() -> argparse.ArgumentParser:
     _plug_in(commands, "map", "modeproof.suites.map_command")
     _plug_in(commands, "trace", "modeproof.trace.command")
     _plug_in(commands, "registers", "modeproof.registers.command")
-    _plug_in(commands, "findings", "modeproof.findings")
+    _plug_in(commands, "render", "modeproof.render")
     _plug_in(commands, "walks", "modeproof.walks")
     _plug_in(commands, "report", "modeproof.report.command")
     _plug_in(commands, "mutate", "modeproof.strength.command")
@@ -381,8 +375,6 @@ def _prove(args: argparse.Namespace) -> int:
         raise Unjudged("no document has proofs (proofs/<document>/)")
     if args.coverage:
         return _coverage(args, place, names, progress)
-    if args.render:
-        return _render_proofs(args, place, names)
     with only_one(place):
         records, troubles = prove_documents(place, names, progress, tuple(args.theorems), args.limit)
     if troubles and (not args.theorems or len(troubles) == len(names)):
@@ -395,8 +387,6 @@ def _prove(args: argparse.Namespace) -> int:
     print(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
     if compared := [record for record in records if record["kind"] == "agreement"]:
         print("\n".join([agreement_line(compared), *compared[0]["result"]["problems"]]))
-    if not args.theorems and status == 0:
-        status = max(_compare_proofs_page(place, name) for name in names)
     _write_json(args, status, proofs=records)
     return status
 
@@ -619,69 +609,6 @@ def prove_theorem(
     )
     evidence.write(place, record)
     return record
-
-
-def _proofs_page(place: Path, name: str) -> str:
-    """The page of a document's proofs as the evidence gives it.
-
-    Raises Unjudged with what to run when evidence is missing, not as expected, or of other files.
-    """
-    from modeproof import evidence
-    from modeproof.agreement import ID
-    from modeproof.registers.load import load_document
-    from modeproof.registers.proofs_page import theorems_by_file
-    from modeproof.report.proofs import render_proofs
-
-    document = load_document(place, name)
-    theorems = [one.name for rows in theorems_by_file(document).values() for one in rows]
-    again_by = {"coverage": f"modeproof prove --document {name} --coverage"}
-    if _has_agreement(place, name):
-        again_by[ID] = f"modeproof prove --document {name}"
-    found: dict[str, dict[str, Any]] = {}
-    for id in [*theorems, *again_by]:
-        record = evidence.read(evidence.evidence_path(place, name, id))
-        again = again_by.get(id, f"modeproof prove --document {name} {id}")
-        if not record["as_expected"]:
-            raise Unjudged(f"{id}: its evidence is not as expected; run {again}")
-        paths = [place / path for path in record["inputs"]]
-        gone = [path for path in paths if not path.is_file()]
-        if gone or evidence.hashes(place, paths) != record["inputs"]:
-            raise Unjudged(f"{id}: files have changed since; run {again}")
-        found[id] = record
-    return render_proofs(document, found)
-
-
-def _render_proofs(args: argparse.Namespace, place: Path, names: Sequence[str]) -> int:
-    from modeproof.evidence.files import write_whole
-    from modeproof.registers.proofs_page import proofs_page
-
-    if args.theorems:
-        raise Unjudged("--render writes the page of all theorems of a document: give it no theorem")
-    pages = {proofs_page(name): _proofs_page(place, name) for name in names}
-    for page, text in pages.items():
-        write_whole(place / page, text.encode("utf-8"))
-        print(f"{page} rendered")
-    _write_json(args, 0, pages=list(pages))
-    return 0
-
-
-def _compare_proofs_page(place: Path, name: str) -> int:
-    """0 when the page says what this run gave, or there is none; 1 when it has drifted."""
-    from modeproof.registers.proofs_page import comparable, proofs_page
-
-    page = proofs_page(name)
-    path = place / page
-    if not path.is_file():
-        return 0
-    try:
-        now = _proofs_page(place, name)
-    except Unjudged as error:
-        print(f"{page}: not compared: {error.message}")
-        return 0
-    if comparable(path.read_text(encoding="utf-8")) == comparable(now):
-        return 0
-    print(f"{page}: the page differs from what this run gave; run modeproof prove --document {name} --render")
-    return EXIT_NOT_AS_EXPECTED
 
 
 def code_under_proof() -> Any:
