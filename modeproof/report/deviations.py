@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from modeproof.errors import Unjudged
-from modeproof.registers.models import read_constants, restored
+from modeproof.registers.made import read_cfg
 from modeproof.registers.replay import has_replay, load_replay
-from modeproof.registers.rows import Document, Finding, Run
+from modeproof.registers.rows import Document, Finding
+from modeproof.registers.runs import Run
+from modeproof.registers.switches import restored
 from modeproof.report.claims import Said, said
 from modeproof.report.sources import Sources
 
@@ -59,18 +61,18 @@ def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
 
 def _readings(sources: Sources, document: Document) -> Mapping[str, tuple[str, ...]]:
     """By run, the readings that its cfg restores; a cfg that cannot be read restores none."""
-    if not has_replay(document.root, document.name):
-        return {}
-    try:
-        literal = load_replay(document.root, document.name).literal
-    except Unjudged:
-        return {}
+    literal = ""
+    if has_replay(document.root, document.name):
+        try:
+            literal = load_replay(document.root, document.name).literal
+        except Unjudged:
+            return {}
     found: dict[str, tuple[str, ...]] = {}
     for run in document.runs:
         try:
-            constants = read_constants(document.root, document.name, run.cfg)
+            constants = read_cfg(document.root, run).constants
         except Unjudged:
             continue
         sources.content(f"spec/{document.name}/{run.cfg}")
-        found[run.id] = tuple(sorted(restored(constants, literal)))
+        found[run.id] = run.readings or tuple(sorted(restored(constants, literal)))
     return found
