@@ -142,7 +142,8 @@ def test_its_page_is_rendered_and_told_of(done: dict[str, Any], root: Path) -> N
     page = (root / "docs/sluice.md").read_text(encoding="utf-8")
     assert "`OpensOverBeacon` fails after 2 steps" in page
     assert "theorems about our program for all words and times, by two solvers | 3 |" in page
-    assert "| 2 | gate | `OpenGate` |" in page, page
+    assert "| 2 | `OpenGate` |" in page, page
+    assert "in scan 2 the gate reads the same, and it executes `AwaitBeacon`, not `OpenGate`" in page
     (root / "README.md").write_text("<!-- begin documents -->\n<!-- end documents -->\n", encoding="utf-8")
     ((status, _),) = modeproof(root, "render")
     text = (root / "README.md").read_text(encoding="utf-8")
