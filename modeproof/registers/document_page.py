@@ -18,7 +18,8 @@ from typing import Any
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.load import read_register
-from modeproof.registers.rows import Document, Finding, Problem, Property, Run
+from modeproof.registers.rows import Document, Finding, Problem, Property
+from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
 
 REMEDY = "run modeproof render"

@@ -79,7 +79,7 @@ def keep(adequacy: Adequacy, judged: Sequence[Judged], explained: Sequence[Expla
 
 def adequacy_of(place: Path, document: str, quiet: bool = True) -> Adequacy:
     """The mutants, and every suite of every published target; suites are built when missing."""
-    from modeproof.cli import code_under_proof, copies_of_code, observer_of_code
+    from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_of_code
 
     code = Implementation(place, document, code_under_proof())
     try:

@@ -25,7 +25,7 @@ from modeproof.strength.results import Results, read_results, results_path
 
 def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
     """List, show or judge. Raises Unjudged; exit status as of the command."""
-    from modeproof.cli import code_under_proof
+    from modeproof.ground.proofs import code_under_proof
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.tlc.schedule import cores

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from modeproof.cli import main
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.s7 import blocks_of, number_at, split_address
-from modeproof.kit.s7_map import Place, decode, encode, parse_address, proposed_map, read_map
 from modeproof.kit.signals import Signal
 from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
+from modeproof.s7.map import Place, decode, encode, parse_address, proposed_map, read_map
+from modeproof.s7.plc import blocks_of, number_at, split_address
 from tests.any_machine import SHARED_FIXTURE
-from tests.kit.s7_plc import FREE, STEPPED
+from tests.s7.server import FREE, STEPPED
 
 INPUTS = {"GO": Signal("GO", "bool"), "CODE": Signal("CODE", "word")}
 OUTPUTS = {

@@ -1,8 +1,8 @@
 """A program in a PLC over the S7 protocol: inputs are written into its memory, outputs read out of it.
 
-Needs python-snap7, an extra of modeproof that is imported only here and only when it is used. Where
-everything lies is said by an address map (`modeproof.kit.s7_map`). How the program is stepped depends on the
-symbols that the map has for it:
+Needs python-snap7, an extra of modeproof that is imported only here and only when it is used. The address
+map (`modeproof.s7.map`) says where everything lies. How the program is stepped depends on the symbols that
+the map has for it:
 
     @reset BOOL         always: set by us; the program puts itself in its power-up state and clears it
     @scan, @done WORD   virtual time: we count @scan up, the program runs once and copies it to @done
@@ -27,7 +27,9 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.s7_map import (
+from modeproof.kit.signals import Signal, read_signals
+from modeproof.kit.vectors import Suite
+from modeproof.s7.map import (
     BYTES,
     CYCLE,
     DONE,
@@ -41,8 +43,6 @@ from modeproof.kit.s7_map import (
     encode,
     read_map,
 )
-from modeproof.kit.signals import Signal, read_signals
-from modeproof.kit.vectors import Suite
 
 PORT = 102
 RACK, SLOT = 0, 2
@@ -118,7 +118,7 @@ def split_address(address: str) -> tuple[str, int]:
 
 
 class S7Program:
-    """A program in a PLC, as the judge sees it (`modeproof.kit.adapter.Program`)."""
+    """A program in a PLC; its methods are those of `modeproof.kit.adapter.Program`."""
 
     def __init__(
         self,
@@ -138,7 +138,7 @@ class S7Program:
         controls = places.controls
         stepped = {STEP, DONE, TIME} <= set(controls)
         if RESET not in controls:
-            raise Unjudged(f"the map has no {RESET}, so no case can begin; see modeproof.kit.s7")
+            raise Unjudged(f"the map has no {RESET}, so no case can begin; see docs/s7.md")
         if not stepped and (CYCLE not in controls or {STEP, DONE, TIME} & set(controls)):
             raise Unjudged(f"the map needs {STEP}, {DONE} and {TIME} (virtual time), or {CYCLE} (real time)")
         self.virtual = stepped
@@ -160,7 +160,7 @@ class S7Program:
                 f"no S7 server at {self._where}: {error}; is the address right, the CPU on?"
             ) from None
 
-    # ------------------------------------------------------------------------------------------ the judge
+    # ------------------------------------------------------------------------------------------ program
 
     def hello(self, target: str) -> Mapping[str, Any]:
         """As `Program.hello`; nothing is asked of the PLC."""
