@@ -107,7 +107,11 @@ def test_a_page_and_registers_that_differ_are_found(told: Any, file: str, old: s
     [
         ("docs/door.md", "| 0 | power-up |", "| 0 | power-down |"),
         ("docs/door.md", "<!-- end trace -->\n", ""),
-        ("spec/door/runs.toml", 'cfg = "models/NEG_Latch.cfg"', 'cfg = "models/NEG_Latch_2.cfg"'),
+        (
+            "spec/door/runs.toml",
+            'property = "OpenIsUnlocked"',
+            'property = "OpenIsUnlocked"\ntrace_length = 9',
+        ),
     ],
 )
 def test_a_table_that_no_longer_belongs_to_its_run_is_found(told: Any, file: str, old: str, new: str) -> None:
