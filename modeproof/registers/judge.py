@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof.registers.adequacy_page import check_adequacy_page
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.load import documents, load_document
@@ -47,7 +46,6 @@ def judge(document: Document) -> Judgement:
         *check_switches(document, sources),
         *check_findings_pages(document),
         *check_proofs_page(document.root, document),
-        *check_adequacy_page(document),
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),

@@ -66,11 +66,15 @@ class Verdict:
 
 @dataclass
 class Bench:
-    """What all mutants of a document share: the original's parse trees, trials and printed graphs."""
+    """What all mutants of a document share: the original's parse trees, trials and printed graphs.
+
+    first: a mutant is explored to the first property that is false, which is quicker and names no other.
+    """
 
     place: Path
     strength: Strength
     tools: Toolchain
+    first: bool = False
     _trees: dict[str, ParseTree] = field(default_factory=dict)
     _trials: dict[str, Trial] = field(default_factory=dict)
     _graphs: dict[str, frozenset[int]] = field(default_factory=dict)
@@ -131,7 +135,7 @@ class Bench:
     def ask(self, tier: Tier, mutant: Mutant) -> Answer:
         """One tier's answer about one mutant."""
         if tier.asks != "graph":
-            names = _Names()
+            names = _Names(self.first)
             outcome = self._run(tier, mutant, names)
             answer = _answer(tier, outcome, self.trial(tier).asked, names.found, "", CLEAN)
             if answer.result != CLEAN:
@@ -184,14 +188,15 @@ class Bench:
 class _Names:
     """Remembers the names of broken properties in the order in which they are printed."""
 
-    def __init__(self) -> None:
+    def __init__(self, first: bool = False) -> None:
         self.found: tuple[str, ...] = ()
+        self._first = first
 
     def __call__(self, line: bytes) -> bool:
         match = BROKEN.fullmatch(line)
         if match is not None and (name := match[1].decode()) not in self.found:
             self.found += (name,)
-        return False
+        return self._first and bool(self.found)
 
 
 class _Collect:
@@ -244,7 +249,7 @@ def _answer(
         result, detail = ERROR, _complaint(outcome)
     if broken:
         result = BROKE
-    complete = finished or (tier.asks == "liveness" and bool(broken)) or outcome.stopped
+    complete = finished or (tier.asks == "liveness" and bool(broken)) or (outcome.stopped and not broken)
     return Answer(
         tier=tier.id,
         result=result,

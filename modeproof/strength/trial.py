@@ -16,6 +16,7 @@ from modeproof.errors import Unjudged
 from modeproof.strength.register import Tier
 from modeproof.tlc.cfg import Cfg, parse_cfg
 from modeproof.tlc.parse_tree import AND, Definition, Node, ParseTree
+from modeproof.tlc.runs import Run, load_runs
 
 MODULE = "StrengthTrial"
 REGISTER = 911
@@ -170,7 +171,19 @@ def _in_place(tree: ParseTree, node: Node) -> str:
 
 def cfg_of(folder: Path, tier: Tier) -> str:
     """The text of the cfg of a tier's run. Raises Unjudged when it cannot be read."""
+    return _cfg_text(folder, tier.run)
+
+
+def _cfg_text(folder: Path, run: Run) -> str:
     try:
-        return (folder / tier.run.cfg).read_text(encoding="utf-8")
+        return (folder / run.cfg).read_text(encoding="utf-8")
     except OSError as error:
-        raise Unjudged(f"{tier.run.cfg}: {error.strerror or error}") from None
+        raise Unjudged(f"{run.cfg}: {error.strerror or error}") from None
+
+
+def cfg_of_run(place: Path, document: str, id: str) -> str:
+    """The text of the cfg of a declared run. Raises Unjudged when there is no such run."""
+    for run in load_runs(place, document):
+        if run.id == id:
+            return _cfg_text(place / "spec" / document, run)
+    raise Unjudged(f"spec/{document}/runs.toml: no run {id}")
