@@ -13,13 +13,13 @@ from typing import Any
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
+from modeproof.registers.made import cfg_text
 from modeproof.strength.campaign import Answers, Judges
 from modeproof.strength.judge import Bench, as_record, judge
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.operators import mutants
 from modeproof.strength.register import Tier, path_of
 from modeproof.strength.results import digest, without_comments
-from modeproof.strength.trial import cfg_of
 
 GRAPHS = "all graphs"
 """Stands for the tiers that compare graphs."""
@@ -131,7 +131,7 @@ class ByProperties(Judges):
         for tier in bench.strength.tiers_of(module):
             told = {key: value for key, value in asdict(tier).items() if key != "run"}
             texts = (without_comments(text) for _, text in sorted(bench.texts(tier).items()))
-            parts = [json.dumps(told, sort_keys=True), cfg_of(bench.folder, tier), *texts]
+            parts = [json.dumps(told, sort_keys=True), cfg_text(bench.place, tier.run), *texts]
             if tier.asks == "graph":
                 graphs = digest([graphs, *parts])
             stamps[tier.id] = before = digest([before, *parts])

@@ -13,14 +13,17 @@ import shutil
 import tempfile
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from modeproof.errors import Unjudged
+from modeproof.registers.made import cfg_text
 from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.register import Strength, Tier
-from modeproof.strength.trial import BROKEN, MODULE, Trial, cfg_of, make_trial
+from modeproof.strength.trial import BROKEN, MODULE, Trial, make_trial
 from modeproof.tlc.messages import OUT_OF_MEMORY, Counts, essence
 from modeproof.tlc.parse_tree import ParseTree, read_tree
 from modeproof.tlc.process import Outcome, run_tlc
@@ -104,7 +107,7 @@ class Bench:
         with self._guard:
             if tier.id not in self._trials:
                 tree = self.tree(tier.run.module)
-                self._trials[tier.id] = make_trial(tree, tier, cfg_of(self.folder, tier))
+                self._trials[tier.id] = make_trial(tree, tier, cfg_text(self.place, tier.run))
             return self._trials[tier.id]
 
     def texts(self, tier: Tier) -> Mapping[str, str]:
@@ -170,8 +173,9 @@ class Bench:
                 (folder / f"{name}.tla").write_text(text, encoding="utf-8")
             (folder / f"{MODULE}.tla").write_text(trial.module, encoding="utf-8")
             (folder / "trial.cfg").write_text(trial.cfg, encoding="utf-8")
-            run = replace(
+            run = msgspec.structs.replace(
                 tier.run,
+                base="",
                 kind="MC",
                 module=MODULE,
                 cfg="trial.cfg",

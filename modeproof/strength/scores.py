@@ -22,11 +22,12 @@ from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
+from modeproof.registers.made import cfg_text
+from modeproof.registers.runs import load_runs
 from modeproof.strength.campaign import Campaign, Judged, unexplained
 from modeproof.strength.code import files_of
 from modeproof.strength.published import contents
 from modeproof.strength.results import without_comments
-from modeproof.strength.trial import cfg_of_run
 
 DIGITS = 16
 """Of a hash so many are kept."""
@@ -144,7 +145,10 @@ def fingerprint(place: Path, document: str, name: str) -> str:
     """The hash of a text that a campaign rests on. Raises Unjudged when it is not there."""
     kind, _, rest = name.partition(" ")
     if kind == "run":
-        text = without_comments(cfg_of_run(place, document, rest))
+        runs = [run for run in load_runs(place, document) if run.id == rest]
+        if not runs:
+            raise Unjudged(f"{rest}: no such run")
+        text = without_comments(cfg_text(place, runs[0]))
     elif kind == "program":
         files = files_of(place, [rest])
         if not files:

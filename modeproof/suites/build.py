@@ -17,9 +17,9 @@ from modeproof.progress import Progress
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
+from modeproof.registers.runs import Run
 from modeproof.suites.contract import load_contract
 from modeproof.suites.write import SUITES, Citations, NoCases, write_suite
-from modeproof.tlc.runs import Run
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
