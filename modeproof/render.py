@@ -113,7 +113,11 @@ def _tables(document: Document) -> dict[str, str]:
     missing = [run for run in wanted if reasons[run] and run not in tables]
     if missing:
         raise Unjudged(f"{missing[0]}: {reasons[missing[0]]}; run modeproof check {' '.join(missing)}")
-    return tables | _walked(document, [run for run in wanted if not reasons[run]])
+    for run in wanted:
+        if reasons[run]:
+            print(f"{run}: its table is kept as it was: {reasons[run]}")
+    kept = {run: tables[run] for run in wanted if reasons[run]}
+    return kept | _walked(document, [run for run in wanted if run not in kept])
 
 
 def _unfit(place: Path, run: Run) -> str:
