@@ -15,12 +15,12 @@ from typing import Any
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
+from modeproof.graph.implementation import REFERENCE
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
 from modeproof.tlc.runs import Run, load_runs
 
 Record = dict[str, Any]
-REFERENCE = "refimpl"
 ADAPTER = "examples/adapters/refimpl_adapter.py"
 SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
 """The suite that runs over the adapter protocol, by lane."""

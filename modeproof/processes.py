@@ -16,11 +16,15 @@ from typing import Any, Generic, TypeVar
 
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.tlc.schedule import cores
 
 T = TypeVar("T")
 Task = tuple[Callable[..., T], tuple[Any, ...]]
 """A function of a module, and what it is given; both must go through pickle."""
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def in_processes(

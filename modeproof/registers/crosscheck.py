@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from modeproof.errors import suggestion
 from modeproof.registers.citations import Sources
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.rows import Device, Document, Problem, Run, Signal
-from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import closure
 
 PERSON = "user"

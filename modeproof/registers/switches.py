@@ -10,12 +10,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from modeproof.errors import suggestion
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.models import Constant, constants_of, restored
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Problem, Run
-from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import Definition, closure
 
 _TEXT = re.compile(r'"([^"\n]*)"')

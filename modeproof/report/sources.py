@@ -13,7 +13,8 @@ from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import read
-from modeproof.registers.load import documents, load_document
+from modeproof.places import documents
+from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 
 NOTE, DIFFERS, HOLE = 0, 1, 2

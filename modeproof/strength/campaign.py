@@ -229,6 +229,7 @@ def inputs_now(bench: Bench) -> dict[str, str]:
 
 def default_jobs(place: Path) -> int:
     """As many TLC runs at once as there are cores, and as memory allows at 768 MiB each."""
-    from modeproof.tlc.schedule import cores, memory_mb
+    from modeproof.processes import cores
+    from modeproof.tlc.schedule import memory_mb
 
     return max(1, min(cores(), memory_mb() // 768))

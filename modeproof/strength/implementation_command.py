@@ -27,8 +27,8 @@ def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
     """List, show or judge. Raises Unjudged; exit status as of the command."""
     from modeproof.ground.proofs import code_under_proof
     from modeproof.lock import only_one
+    from modeproof.processes import cores
     from modeproof.progress import Progress
-    from modeproof.tlc.schedule import cores
 
     if str(place) not in sys.path:
         sys.path.insert(0, str(place))

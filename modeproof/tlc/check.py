@@ -15,6 +15,7 @@ from typing import Any
 from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import build, documents
+from modeproof.processes import cores
 from modeproof.progress import Progress
 from modeproof.registers.load import load_document
 from modeproof.registers.switches import idle_switch
@@ -26,7 +27,7 @@ from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.resume import declaration_sha256
 from modeproof.tlc.runs import Run, load_runs
-from modeproof.tlc.schedule import Job, cores, machine_mb, memory_mb, run_all
+from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
 _STATES_A_SECOND = {"LIVE": 8_000, "OPEN": 50_000}

@@ -12,7 +12,8 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.errors import Unjudged
-from modeproof.registers.load import documents, load_document
+from modeproof.places import documents
+from modeproof.registers.load import load_document
 from modeproof.report import build, parts
 from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
