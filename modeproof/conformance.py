@@ -18,7 +18,7 @@ from modeproof.errors import Unjudged
 from modeproof.graph.implementation import REFERENCE
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
-from modeproof.tlc.runs import Run, load_runs
+from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]
 ADAPTER = "examples/adapters/refimpl_adapter.py"

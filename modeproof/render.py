@@ -21,11 +21,11 @@ from modeproof.registers.document_page import page, page_name, picture_name, tab
 from modeproof.registers.load import load_document
 from modeproof.registers.replay import load_replay
 from modeproof.registers.rows import Document
+from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.tables import pages, render_blocks
 from modeproof.report.cells import Cells
 from modeproof.report.scaling import chart, curves_of
 from modeproof.report.scan_table import scan_table
-from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import recorded, walk_all
 
@@ -113,7 +113,11 @@ def _tables(document: Document) -> dict[str, str]:
     missing = [run for run in wanted if reasons[run] and run not in tables]
     if missing:
         raise Unjudged(f"{missing[0]}: {reasons[missing[0]]}; run modeproof check {' '.join(missing)}")
-    return tables | _walked(document, [run for run in wanted if not reasons[run]])
+    for run in wanted:
+        if reasons[run]:
+            print(f"{run}: its table is kept as it was: {reasons[run]}")
+    kept = {run: tables[run] for run in wanted if reasons[run]}
+    return kept | _walked(document, [run for run in wanted if run not in kept])
 
 
 def _unfit(place: Path, run: Run) -> str:
@@ -125,7 +129,7 @@ def _unfit(place: Path, run: Run) -> str:
     if not record["as_expected"] or not record["result"].get("trace"):
         return f"its evidence is not as expected: {record['verdict']}"
     result = record["result"]
-    pins = {"violated": run.violates, "trace_length": run.trace_length, "distinct": run.distinct}
+    pins = {"violated": run.property or None, "trace_length": run.trace_length, "distinct": run.distinct}
     for name, pin in pins.items():
         if pin is not None and result.get(name) != pin:
             return f"its evidence has {name} {result.get(name)}, runs.toml {pin}"

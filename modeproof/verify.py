@@ -17,11 +17,11 @@ from modeproof.lock import only_one
 from modeproof.places import add_document_option, chosen_documents, root
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
+from modeproof.registers.runs import LANES, Run, load_runs
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
 from modeproof.summary import failures, render, total
 from modeproof.tlc.check import check_all, register_problems, select
 from modeproof.tlc.command import line_of
-from modeproof.tlc.runs import LANES, Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
 
 Records = list[dict[str, Any]]

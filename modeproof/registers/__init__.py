@@ -20,13 +20,12 @@ from modeproof.registers.rows import (
     Device,
     Document,
     Finding,
-    Graph,
     Interface,
     Problem,
     Property,
-    Run,
     Signal,
 )
+from modeproof.registers.runs import Graph, Run, load_runs
 
 __all__ = [
     "About",
@@ -52,6 +51,7 @@ __all__ = [
     "judge_tree",
     "load_document",
     "load_interface",
+    "load_runs",
     "matrix",
     "read_register",
     "read_sources",

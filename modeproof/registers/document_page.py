@@ -18,7 +18,8 @@ from typing import Any
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.load import read_register
-from modeproof.registers.rows import Document, Finding, Problem, Property, Run
+from modeproof.registers.rows import Document, Finding, Problem, Property
+from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
 
 REMEDY = "run modeproof render"
@@ -192,7 +193,7 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof prove --document {name}`",
         ],
     ]
-    rows += [_score(document, one) for one in load_scores(document.root, name)]
+    rows += [_score(one) for one in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
@@ -208,22 +209,22 @@ def _shown(document: Document, sources: Sources) -> str:
     )
 
 
-def _score(document: Document, one: Score) -> list[str]:
-    edited, judge, command = WHAT[one.what]
-    share = f" ({100 * one.killed / one.different:.1f} %)" if one.different else ""
+def _score(one: Score) -> list[str]:
+    edited, judge = WHAT[one.what]
+    share = f" ({100 * one.killed / one.real:.1f} %)" if one.real else ""
     open_ones = one.survived - one.survived_explained
-    rest = [f"{one.killed} of {one.different}{share}"]
+    rest = [f"{one.killed} of {one.real}{share}"]
     if one.survived:
         explained = f"{open_ones} unexplained" if open_ones else "each explained"
         rest.append(f"{one.survived} not noticed, {explained}")
     if one.unmeasured:
         rest.append(f"{one.unmeasured} unmeasured")
-    if changed := one.changed(document.root):
-        rest.append(f"**of an earlier text** of {', '.join(f'`{Path(name).name}`' for name in changed)}")
+    if one.earlier_text:
+        rest.append("of an earlier text")
     return [
         f"planted faults in {edited} that {judge} notices ({one.judged_on})",
         "; ".join(rest),
-        f"`{command.format(document.name)}`",
+        f"`{one.command}`",
     ]
 
 

@@ -1,7 +1,7 @@
 """What the EKS owes besides: it begins without a key, and its output outlasts LA by one scan.
 
 No property of the specification says these of the EKS alone; without them an edit of the code would pass all
-theorems (docs/strength-impl.md).
+theorems (docs/mode_selection.md).
 """
 
 from __future__ import annotations

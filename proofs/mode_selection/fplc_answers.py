@@ -1,7 +1,7 @@
 """What else the F-PLC owes to each scan: an answer to each word, times that begin and end where they must.
 
 No property of the specification says these of the F-PLC alone; without them an edit of the code would pass
-all theorems (docs/strength-impl.md).
+all theorems (docs/mode_selection.md).
 """
 
 # ruff: noqa: SIM300 -- the names of words are upper case

@@ -1,7 +1,7 @@
 """What the F-PLC bears without giving up, and that it does what was asked when all is there.
 
 No property of the specification says these of the F-PLC alone; without them an edit of the code would pass
-all theorems (docs/strength-impl.md).
+all theorems (docs/mode_selection.md).
 """
 
 # ruff: noqa: SIM300 -- the names of words are upper case

@@ -11,16 +11,13 @@ from typing import Any
 import pytest
 
 from modeproof import evidence
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.errors import Unjudged
 from modeproof.graph.implementation import Implementation as Implemented
 from modeproof.kit.vectors import open_suite
-from modeproof.places import root
 from modeproof.progress import Progress
-from modeproof.registers.adequacy_page import adequacy_page, check_adequacy_page
 from modeproof.strength import replay
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors
 from modeproof.strength.adequacy_command import keep
-from modeproof.strength.adequacy_page import render
 from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.campaign import Judged
 from modeproof.strength.explain import unexplained
@@ -399,9 +396,6 @@ def test_complete_asks_every_suite_of_every_mutant(place: Path) -> None:
     assert by_edit(judged, "WORDS", "5", "6").killers == ("short", "long")
 
 
-# ---------------------------------------------------------------- the page
-
-
 def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
     adequacy, _, judged = campaign(place, names=("short",), definitions=())
     keep(adequacy, judged, ())
@@ -410,41 +404,3 @@ def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
     assert set(found["result"]["judges"]) == {"short"} and found["result"]["judges"]["short"] > 0
     assert found["result"]["out_of_scope"] == len(adequacy.out_of_scope) > 0
     assert {"short.jsonl", f"{PACKAGE}/toy/gate.py"} <= set(found["inputs"])
-
-
-def test_the_page_is_of_all_mutants_and_drift_is_found(place: Path) -> None:
-    adequacy = adequacy_of(place)
-    with pytest.raises(Unjudged, match="are not judged for this code and these vectors"):
-        render(adequacy, read_results(place / "vectors.jsonl"), ())
-    adequacy, results, _ = campaign(place, names=("short",), definitions=())
-    register_path(place, "toy").write_text("", encoding="utf-8")
-    assert render(adequacy, results, ()) == EXIT_NOT_AS_EXPECTED, "survivors are not explained"
-
-    def drift() -> list[str]:
-        document: Any = SimpleNamespace(root=place, name="toy")
-        return [problem.text.split(";")[0] for problem in check_adequacy_page(document)]
-
-    page = place / adequacy_page("toy")
-    assert drift() == []
-    text = page.read_text(encoding="utf-8")
-    assert "**Not explained.**" in text and "| `short` | 2 |" in text
-    page.write_text(text.replace("survive", "thrive"), encoding="utf-8")
-    assert drift() == ["the page was changed by hand"]
-    page.write_text(text, encoding="utf-8")
-    register_path(place, "toy").write_text(
-        '[[survivor]]\nids = ["x"]\nkind = "harmless"\nwhy = "y"\n', encoding="utf-8"
-    )
-    assert drift() == ["the explanations changed since the page was rendered"]
-    register_path(place, "toy").write_text("", encoding="utf-8")
-    (place / "spec/toy/interface.toml").write_text("document = 'toy'\n", encoding="utf-8")
-    assert drift() == ["the graphs changed since the page was rendered"]
-    page.unlink()
-    assert drift() == ["the page is missing"]
-
-
-@pytest.mark.parametrize(
-    "page", sorted((root() / "docs").glob("*/adequacy.md")), ids=lambda page: page.parent.name
-)
-def test_a_page_of_shipped_code_leaves_no_survivor_unexplained(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert "**Not explained.**" not in text and ", 0 of them unexplained" in text

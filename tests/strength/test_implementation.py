@@ -12,14 +12,11 @@ from typing import Any
 import pytest
 
 from modeproof import evidence
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
-from modeproof.places import documents, root
+from modeproof.errors import Unjudged
 from modeproof.progress import Progress
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.implementation import Implementation, judge_implementation, read_register
 from modeproof.strength.implementation_command import keep
-from modeproof.strength.implementation_page import page, page_path, render
-from modeproof.strength.page import stamp_of
 from modeproof.strength.results import Results, read_results
 
 GATE = """
@@ -112,7 +109,6 @@ def test_every_mutant_is_judged_and_kept(place: Path) -> None:
     assert words["(count - 1)"] == "KILLED"
     assert len(judged) == len(code.every) == len(read_results(place / "impl.jsonl").records)
     assert [one.mutant.new for one in unexplained((), judged)] == ["count <= LIMIT"]
-    assert "**all** |" in page(code, judged)
 
 
 def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
@@ -200,26 +196,3 @@ def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, co
     (place / "proofs/toy/strength.toml").write_text(text)
     with pytest.raises(Unjudged, match=complaint):
         read_register(place, "toy", [])
-
-
-def test_a_page_is_of_all_mutants_and_one_edited_by_hand_is_found_out(place: Path) -> None:
-    code = Implementation(place, "toy", Reader(place))
-    with pytest.raises(Unjudged, match="are not judged for this code"):
-        render(code, read_results(place / "impl.jsonl"))
-    _, results, _ = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED"}))
-    assert render(code, results) == EXIT_NOT_AS_EXPECTED
-    path = page_path("toy")
-    assert stamp_of(place, path) == ({"base": code.base}, True)
-    text = (place / path).read_text(encoding="utf-8")
-    assert "1 survive, 1 of them unexplained" in text
-    (place / path).write_text(text.replace("1 survive", "0 survive"), encoding="utf-8")
-    assert stamp_of(place, path)[1] is False
-
-
-@pytest.mark.parametrize(
-    "document", [name for name in documents(root()) if (root() / page_path(name)).is_file()]
-)
-def test_the_page_of_shipped_code_is_as_it_was_rendered(document: str) -> None:
-    path = page_path(document)
-    assert stamp_of(root(), path)[1], f"{path} was edited by hand; run modeproof mutate impl --render"
-    assert "**Not explained.**" not in (root() / path).read_text(encoding="utf-8")

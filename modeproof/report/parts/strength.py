@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.registers.rows import Document
+from modeproof.registers.scores import load_scores
 from modeproof.report.campaigns import KINDS, WORDS, Campaign, campaign, id_of
 from modeproof.report.part import Part
 from modeproof.report.sources import NOTE, Figure, Sources, Trouble
@@ -39,10 +40,22 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
         if found is None:
             what = f"{document.name}: no campaign is recorded: faults in {edited}, judged by {judges}"
             troubles.append(Trouble(NOTE, ID, what, command.format(document.name)))
-            campaigns.append({**about, "recorded": None})
+            campaigns.append({**about, "recorded": None, "score": _score(sources, document, kind)})
         else:
             campaigns.append({**about, "recorded": _campaign(document, found)})
     return {"id": document.name, "title": document.about.title, "campaigns": campaigns}
+
+
+def _score(sources: Sources, document: Document, kind: str) -> dict[str, Any] | None:
+    """The counts of a campaign as they are kept with the registers; None where there are none."""
+    register = document.source("scores")
+    for score in load_scores(document.root, document.name):
+        if score.what == kind:
+            sources.content(register)
+            names = ("killed", "real", "survived", "survived_explained", "unmeasured", "judged_on")
+            figures = {name: Figure(getattr(score, name), register) for name in names}
+            return {**figures, "earlier_text": score.earlier_text, "command": score.command}
+    return None
 
 
 def _campaign(document: Document, one: Campaign) -> dict[str, Any]:
