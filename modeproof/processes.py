@@ -28,11 +28,11 @@ def cores() -> int:
 
 
 def in_processes(
-    name: str, tasks: Sequence[Task[T]], progress: Progress, done: Callable[[T], None], knowing: bool = False
+    name: str, tasks: Sequence[Task[T]], progress: Progress, done: Callable[[T], None], fork: bool = False
 ) -> list[T]:
     """The results in the order of `tasks`, which are begun in that order; `done` gets each as it comes.
 
-    knowing: the processes are copies of this one, so that what it has made already need not be made again;
+    fork: the processes are copies of this one, so that what it has made already need not be made again;
     else they begin anew.
 
     With one core or one task all is done in this process. The first exception of a task is raised; Unjudged
@@ -54,7 +54,7 @@ def in_processes(
             return [results[number] for number in range(len(tasks))]
         finally:
             progress.end(name)
-    context = get_context("fork" if knowing else "spawn")
+    context = get_context("fork" if fork else "spawn")
     executor = ProcessPoolExecutor(min(cores(), len(tasks)), context, _begin, (os.getpid(),))
     try:
         numbers = {executor.submit(work, *given): number for number, (work, given) in enumerate(tasks)}

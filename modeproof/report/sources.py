@@ -97,7 +97,7 @@ class Sources:
     evidence: Mapping[str, Mapping[str, Evidence]]
     files: dict[str, str]
     troubles: tuple[Trouble, ...] = ()
-    shelf: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
+    cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
 
     def of_kind(self, document: str, kind: str) -> list[Evidence]:

@@ -20,7 +20,7 @@ from snap7.connection import ISOTCPConnection
 from examples.faulty.run import vectors
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Plan, Verdict, run_suite
-from modeproof.kit.relation import Manner
+from modeproof.kit.relation import Options
 from modeproof.kit.vectors import EXACT, SETTLED, Suite, case_id, changes, open_suite
 from modeproof.places import root
 from modeproof.registers.load import load_interface
@@ -117,12 +117,12 @@ def suite(tmp_path: Path) -> Suite:
 
 
 def judged(
-    suite: Suite, plc: Plc, text: str, relation: str = SETTLED, timeout_s: float = 30.0, **manner: int
+    suite: Suite, plc: Plc, text: str, relation: str = SETTLED, timeout_s: float = 30.0, **options: int
 ) -> Verdict:
     path = suite.path.with_name("map.csv")
     path.write_text(text, encoding="utf-8")
     start = lambda: s7.connect(plc.address, path, suite, timeout_s)  # noqa: E731
-    return run_suite(suite, start, plan=Plan(manner=Manner(relation=relation, **manner)))
+    return run_suite(suite, start, plan=Plan(options=Options(relation=relation, **options)))
 
 
 @pytest.fixture
