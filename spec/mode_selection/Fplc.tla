@@ -39,16 +39,18 @@ VARIABLES
 
 fplc == <<fplcState, accepted, authority, fplcSelection, mode, fplcElapsed>>
 
-Transaction == {"EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
+Echoing == {"AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
+Transaction == {"EchoSelection"} \cup Echoing
 Authorized == {"AwaitSelection", "CheckSelection"} \cup Transaction
 Holding == {"Authorize", "Settle"} \cup Authorized    \* an output has been accepted
 Pulse == {"PulseOnes", "PulseZeros"}
 Inserting == Pulse \cup {"OneOutput"}
+WithKey == Inserting \cup Holding                     \* LA is expected
 Removing == {"Clear", "AwaitZeros"}
 OwnRules == {"Start", "Idle", "Error"}                \* left alone by the check before every step
 Timed == Inserting \cup Removing                      \* with a deadline
 Clocked == Timed \cup {"Start", "Settle", "Error"}    \* time is counted
-FplcStates == OwnRules \cup Inserting \cup Holding \cup Removing
+FplcStates == OwnRules \cup WithKey \cup Removing
 
 FplcTypeOK ==
     /\ fplcState \in FplcStates
@@ -70,7 +72,7 @@ FplcInit ==
 MW01 == IF fplcState \in Authorized THEN RE[authority] ELSE 0
 \* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-15, EKS-8-16, E-27: the echo is there only
 \* while an acknowledgment may come
-MW05 == IF fplcState \in Transaction \ {"EchoSelection"} THEN CH[fplcSelection] ELSE 0
+MW05 == IF fplcState \in Echoing THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
 ERROR == fplcState = "Error"
 \* The outputs by their names; a mode output for each mode
@@ -98,8 +100,8 @@ ZerosReturned(i) == NoSignal(i) /\ NoWords(i) /\ Dwelt(i)
 Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Removing -> T_REM [] OTHER -> T_SEQ
 
 \* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority (E-63)
-IsGone(i) == ~i.LA /\ fplcState \in Inserting \cup Holding
-IsMany(i) == Many(i) /\ fplcState \notin OwnRules \cup Pulse
+IsGone(i) == ~i.LA /\ fplcState \in WithKey
+IsMany(i) == Many(i) /\ fplcState \notin OwnRules /\ fplcState \notin Pulse
 IsChanged(i) == i.vec # {accepted} /\ fplcState \in Holding
 IsExpired(i) == Now(i) >= Deadline /\ fplcState \in Timed
 CheckPasses(i) == ~IsGone(i) /\ ~IsMany(i) /\ ~IsChanged(i) /\ ~IsExpired(i)

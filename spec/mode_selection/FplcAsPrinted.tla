@@ -16,7 +16,7 @@ NoSignal_STRLeftOut(i) == ~i.LA /\ i.vec \ {4} = {}
 
 \* EKS-3-1-FPLC, E-07: no output at 1 is a removal also while the pulse runs
 IsGone_CheckInPulse(i) ==
-    \/ ~i.LA /\ fplcState \in Inserting \cup Holding
+    \/ ~i.LA /\ fplcState \in WithKey
     \/ i.vec = {} /\ fplcState \in Inserting
 
 \* EKS-2-11, E-09: the step that accepts the output counts the outputs, and no other step does
@@ -31,10 +31,10 @@ DetectKey_OneOutputAlways(i) ==
 \* EKS-3-1-FPLC, EKS-8-2, EKS-8-5, E-62: an output without LA is a fault
 IsMany_OutputNeedsLA(i) ==
     /\ Many(i) \/ (~i.LA /\ i.vec # {})
-    /\ fplcState \notin OwnRules \cup Pulse
+    /\ fplcState \notin OwnRules /\ fplcState \notin Pulse
 
 \* EKS-GP-4, EKS-KS-6, E-63: the key is looked at before the number of outputs
-IsMany_KeyBeforeFaults(i) == Many(i) /\ fplcState \notin OwnRules \cup Pulse /\ ~IsGone(i)
+IsMany_KeyBeforeFaults(i) == Many(i) /\ fplcState \notin OwnRules /\ fplcState \notin Pulse /\ ~IsGone(i)
 
 \* EKS-3-1-FPLC, E-68: only the loss of the output is a removal, another output is none
 IsChanged_OnlyNoneIsRemoval(i) == i.vec = {} /\ fplcState \in Holding
