@@ -106,7 +106,7 @@ EksRuns ==
 ----------------------------------------------------------------------------
 (* The F-PLC.                                                              *)
 
-FplcInput(dt) == [LA |-> LA, vec |-> Vector, MW01 |-> MW01, MW03 |-> MW03, MW07 |-> MW07, dt |-> dt]
+FplcInput(dt) == [LA |-> LA, vec |-> Vector, MW03 |-> MW03, MW07 |-> MW07, dt |-> dt]
 
 \* A-06, E-52: what the F-PLC wrote has reached the panel, and the panel has begun to react
 WordsArrived ==

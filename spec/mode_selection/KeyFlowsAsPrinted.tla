@@ -62,4 +62,12 @@ Remember_WithdrawsAfterConfirm ==
       [] hmiState = "AwaitSwitch" /\ hmiState' = "Withdrawn" ->
             confirmed' = None /\ UNCHANGED <<touched, seen>>
       [] OTHER -> UNCHANGED history
+
+----------------------------------------------------------------------------
+(* Figure5ReadsMW01, AuthorityFromMW01                                     *)
+\* EKS-5-1, E-12, E-18: the F-PLC reads MW01 back (FplcAsPrinted); here nothing else has written it.
+LOCAL InputWithMW01(dt) ==
+    [LA |-> LA, vec |-> Vector, MW01 |-> MW01, MW03 |-> MW03, MW07 |-> MW07, dt |-> dt]
+FplcInput_Figure5ReadsMW01(dt) == InputWithMW01(dt)
+FplcInput_AuthorityFromMW01(dt) == InputWithMW01(dt)
 =============================================================================
