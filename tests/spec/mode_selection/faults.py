@@ -1054,7 +1054,7 @@ FAULTS = (
             "an acknowledgment that is no code is refused before step 27",
             "Fplc.tla",
             '    /\\ Proceed("CheckAcknowledgment")\n    /\\ Did("SeeAcknowledgment")',
-            '    /\\ IF IsAcknowledgment(i) THEN Proceed("CheckAcknowledgment") ELSE EnterError\n'
+            '    /\\ IF ModeOf(SW, i.MW07) # None THEN Proceed("CheckAcknowledgment") ELSE EnterError\n'
             '    /\\ Did("SeeAcknowledgment")',
         ),
     ),
