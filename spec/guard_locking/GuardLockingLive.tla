@@ -32,7 +32,8 @@ RecoverySpec ==
     /\ LiveInit /\ [][AnyCall \/ \E reset \in BOOLEAN : QuietCall(reset)]_liveVars
     /\ WF_liveVars(QuietCall(~resetBefore))
 
-\* GL-IN-UNLOCKREQUEST, GLF-02: who wants to get in holds the button, and presses it anew while the guard is still enabled
+\* GL-IN-UNLOCKREQUEST, GLF-02: who wants to get in holds the button, and presses it anew while the guard is
+\* still enabled
 Asks == IF S_GuardLocked THEN ~unlockRequestBefore ELSE TRUE
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3: the zone stays safe, and a guard that is asked to lock is closed and locked
 Secured == IF S_UnlockGuard THEN BOOLEAN ELSE {TRUE}
@@ -42,7 +43,8 @@ EntrySpec ==
     /\ LiveInit /\ [][AnyCall \/ \E reset \in BOOLEAN : EntryCall(reset)]_liveVars
     /\ WF_liveVars(EntryCall(~resetBefore))
 
-\* GL-IN-RESET, GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-2: with the causes gone and edges of Reset the block enables again, and stays so
+\* GL-IN-RESET, GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-2: with the causes gone and edges of Reset the block
+\* enables again, and stays so
 EnablesAgain == calm ~> [](S_GuardLocked)
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GL-OUT-UNLOCKGUARD: with the zone safe, who asks gets in
 EntryIsGranted == calm ~> S_UnlockGuard

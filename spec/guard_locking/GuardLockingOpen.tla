@@ -26,7 +26,8 @@ View == guardLocking
 ObservedView == <<View, observer>>
 \* GLF-06: a reading that changes outputs alone is told apart by them
 ViewWithOutputs == <<ObservedView, GuardLockingOutputs>>
-\* GLF-07: where Reset is not remembered while inactive, what it was then is asked by nobody: an enable is two calls away
+\* GLF-07: where Reset is not remembered while inactive, what it was then is asked by nobody: an enable is two
+\* calls away
 ViewWithoutResetSeen == <<View, requestSeen, asked, starting, lost, unguarded>>
 
 ----------------------------------------------------------------------------
@@ -76,10 +77,12 @@ Wires == Alphabet[in] @@ GuardLockingOutputs
 Secure == Scanned.S_GuardMonitoring /\ Scanned.S_GuardLock
 Enables == ~S_GuardLocked /\ S_GuardLocked'
 Unlocks == ~S_UnlockGuard /\ S_UnlockGuard'
-\* GL-IN-STARTRESET, GLF-08: the start-up inhibit is still to be removed, after a start-up that found the guard not locked too
+\* GL-IN-STARTRESET, GLF-08: the start-up inhibit is still to be removed, after a start-up that found the
+\* guard not locked too
 StartUpInhibited == starting /\ START_UP_INHIBIT = "until_reset"
 
-\* GL-IN-ACTIVATE, GL-OUT-READY, GL-SEQ-0: in the call without Activate every output is FALSE, and only then is Ready
+\* GL-IN-ACTIVATE, GL-OUT-READY, GL-SEQ-0: in the call without Activate every output is FALSE, and only then
+\* is Ready
 InactiveAtOnce ==
     [][/\ Ready' = Scanned.Activate
        /\ ~Scanned.Activate => ~S_GuardLocked' /\ ~S_UnlockGuard' /\ ~Error' /\ DiagCode' = 0]_beat
@@ -87,15 +90,18 @@ InactiveAtOnce ==
 \* GL-OUT-GUARDLOCKED, GL-SEQ-4: the enable needs Activate, a closed and a locked guard in this very call
 EnableNeedsSecuredGuard == [][S_GuardLocked' => Scanned.Activate /\ Secure]_beat
 
-\* GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-1, GL-SEQ-2: no enable without an edge of Reset, unless the input of this inhibit allows it
+\* GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-1, GL-SEQ-2: no enable without an edge of Reset, unless the input
+\* of this inhibit allows it
 NoAutomaticRestart ==
     [][Enables => ResetEdge(Scanned) \/ (IF DiagCode = \h8001 THEN Scanned.S_StartReset ELSE Scanned.S_AutoReset)]_beat
 
-\* GL-IN-STARTRESET, GLF-08: a start-up inhibit ends by an edge of Reset, also where the restart inhibit is off
+\* GL-IN-STARTRESET, GLF-08: a start-up inhibit ends by an edge of Reset, also where the restart inhibit is
+\* off
 StartUpInhibitNeedsReset ==
     [][Enables /\ starting => ResetEdge(Scanned) \/ (DiagCode = \h8001 /\ Scanned.S_StartReset)]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-13: after a loss nothing is enabled before an edge of Reset, whatever S_AutoReset says
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-13: after a loss nothing is enabled before an edge of Reset, whatever
+\* S_AutoReset says
 LossNeedsReset == [][S_GuardLocked' => ~lost']_beat
 
 \* GL-IN-RESET, GLF-07: a Reset that does not move takes nothing away, neither an inhibit nor an error
@@ -136,16 +142,19 @@ UnlockNeedsRequestNow == [][S_GuardLocked /\ S_UnlockGuard' => RequestEdge(Scann
 HeldRequestUnlocks ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
 
-\* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-02: a request that came while the guard is locked, and stands, unlocks as soon as the zone is safe
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-02: a request that came while the guard is locked, and stands, unlocks
+\* as soon as the zone is safe
 LatchedRequestUnlocks ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ asked /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
 
-\* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a request that comes with the zone safe unlocks at once, and withdraws the enable
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a request that comes with the zone safe unlocks at once, and withdraws the
+\* enable
 RequestUnlocksAtOnce ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ RequestEdge(Scanned) /\ Scanned.S_SafetyActive =>
         S_UnlockGuard' /\ ~S_GuardLocked']_beat
 
-\* GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4: as long as the request stands and the zone is safe the guard stays unlocked
+\* GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4: as long as the request stands and the zone is safe the guard stays
+\* unlocked
 StaysUnlockedWhileRequested ==
     [][S_UnlockGuard /\ Scanned.Activate /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
 
@@ -164,11 +173,13 @@ LockedWhateverTheZone ==
 \* GL-OUT-GUARDLOCKED, GL-SEQ-2: without a request a locked guard stays enabled
 StaysLocked == [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.UnlockRequest => S_GuardLocked']_beat
 
-\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05: a locked guard that is lost is an error in that call, whatever is requested
+\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05: a locked guard that is lost is an error in that call, whatever is
+\* requested
 LossIsAnError ==
     [][S_GuardLocked /\ Scanned.Activate /\ ~Secure => Error' /\ ~S_GuardLocked' /\ ~S_UnlockGuard']_beat
 
-\* GL-OUT-ERROR, GL-OUT-UNLOCKGUARD, GLF-09, GLF-16: no error takes the unlock signal away while the zone is safe
+\* GL-OUT-ERROR, GL-OUT-UNLOCKGUARD, GLF-09, GLF-16: no error takes the unlock signal away while the zone is
+\* safe
 NoErrorLocksSafeZone == [][S_UnlockGuard /\ Error' => ~Scanned.S_SafetyActive]_beat
 
 \* GL-OUT-ERROR, GL-IN-SAFETYACTIVE, GLF-04, GLF-05, GLF-10: what is a loss in each state
@@ -184,7 +195,8 @@ ErrorNeedsCause ==
     [][~Error /\ Error' =>
         IF DiagCode' = \hC004 THEN LossSeen ELSE Scanned.Reset /\ resetSeen /\ EdgeAwaited]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-06, GLF-07: an error ends with its cause, and leads back to where it was found
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-06, GLF-07: an error ends with its cause, and leads back to where it was
+\* found
 ErrorEndsWithCause ==
     [][Error /\ ~Error' =>
         \/ ~Scanned.Activate
@@ -195,7 +207,8 @@ ErrorEndsWithCause ==
 MessageUntilReset ==
     [][Error /\ ~Error' => ~Scanned.Activate \/ ~Scanned.Reset \/ ResetEdge(Scanned)]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss nothing is enabled before an edge of Reset that found the guard closed and locked
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss nothing is enabled before an edge of Reset that found the
+\* guard closed and locked
 LossNeedsGuardBack == [][S_GuardLocked' => ~unguarded']_beat
 
 \* GL-OUT-DIAGCODE, GL-IN-GUARDMONITORING, GLF-11: the code of an unlocked guard tells whether it is open
@@ -211,7 +224,8 @@ Transitions == {
     <<\h8014, \hC002>>, <<\h8014, \hC004>>, <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
 OneTransitionACall == [][DiagCode' \in {0, DiagCode} \/ <<DiagCode, DiagCode'>> \in Transitions]_beat
 
-\* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what it waits for
+\* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what
+\* it waits for
 AnswersAtOnce ==
     [][DiagCode' = DiagCode /\ Scanned.Activate =>
         CASE DiagCode = \h8001 -> Secure /\ ~Scanned.S_StartReset /\ ~Scanned.Reset
@@ -224,8 +238,8 @@ AnswersAtOnce ==
           [] DiagCode = \hC004 -> ~Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> Scanned.Reset]_beat
 
-\* GL-SEQ-2, GL-SEQ-3, GL-SEQ-4, GL-SEQ-5, GLF-04, GLF-11, GLF-12, GLF-14: and a call that leaves its state has seen why (why an error
-\* is shown, ErrorNeedsCause says)
+\* GL-SEQ-2, GL-SEQ-3, GL-SEQ-4, GL-SEQ-5, GLF-04, GLF-11, GLF-12, GLF-14: and a call that leaves its state
+\* has seen why (why an error is shown, ErrorNeedsCause says)
 LeavesForACause ==
     [][DiagCode' # DiagCode /\ Scanned.Activate /\ DiagCode' < \hC000 =>
         CASE DiagCode = \h8001 -> IF S_GuardLocked' THEN Secure /\ (Scanned.S_StartReset \/ ResetEdge(Scanned)) ELSE ~Secure

@@ -67,7 +67,8 @@ Stop == moving /\ moving' = FALSE /\ UNCHANGED <<open, bolted, inside>> /\ Betwe
 ZoneNext == BlockRuns \/ DrawBolt \/ ThrowBolt \/ OpenDoor \/ CloseDoor \/ Enter \/ Leave \/ Escape \/ Start \/ Stop
 zoneVars == <<ZoneView, step, told>>
 ZoneSpec == ZoneInit /\ [][ZoneNext]_zoneVars
-\* GLA-05: who is inside frees the door, opens it and goes, as often as there is a chance to; nobody else need do anything
+\* GLA-05: who is inside frees the door, opens it and goes, as often as there is a chance to; nobody else need
+\* do anything
 WayOutSpec == ZoneSpec /\ WF_zoneVars(Escape) /\ SF_zoneVars(OpenDoor) /\ SF_zoneVars(Leave)
 
 \* For a reader of a trace

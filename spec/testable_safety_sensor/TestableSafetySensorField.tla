@@ -44,7 +44,8 @@ FieldSpec == FieldInit /\ [][FieldCall]_<<FieldView, step, wires>>
 FieldWires == wires @@ SensorOutputs
 FieldRead == wires'
 
-\* TSS-FN-1, TSS-FN-5, TSS-FN-7, TSSF-09: who stays in the field for TestTime stops the machine, whatever test runs
+\* TSS-FN-1, TSS-FN-5, TSS-FN-7, TSSF-09: who stays in the field for TestTime stops the machine, whatever test
+\* runs
 PersonStopsMachine == inField >= TEST_TIME => ~SensorOutputs.S_OSSD_Out
 \* TSS-FN-1, TSS-OUT-OSSD, TSSF-09: who was in the field has stopped the machine
 EveryPersonIsShown == [][inField >= 0 /\ inField' < 0 => shown]_<<FieldView, step, wires>>

@@ -49,7 +49,8 @@ ServedCall ==
 LiveNext == AnyCall \/ TakeOver \/ ServedCall
 LiveSpec == LiveInit /\ [][LiveNext]_<<liveVars, step>> /\ WF_liveVars(ServedCall)
 
-\* TSS-EB-2, TSS-EB-4, TSS-EB-5, TSS-IN-NOEXT-FALSE, TSS-IN-NOEXT-TRUE, TSS-8404, TSSF-12, TSSF-13, TSSF-16: from any state it enables again, and goes on to
+\* TSS-EB-2, TSS-EB-4, TSS-EB-5, TSS-IN-NOEXT-FALSE, TSS-IN-NOEXT-TRUE, TSS-8404, TSSF-12, TSSF-13, TSSF-16:
+\* from any state it enables again, and goes on to
 EnablesAgain == served ~> []SensorOutputs.S_OSSD_Out
 \* TSS-TEST-3, TSS-OUT-EXECUTED, TSS-FN-5: and can be tested again
 TestedAgain == served ~> SensorOutputs.TestExecuted

@@ -15,8 +15,8 @@ LOCAL CanBe ==
 LOCAL SeenFree == {"ESPEFreeNoTest", "ESPEFreeTestOk", "TestRequest", "TestError1C410"}
 LOCAL SeenDark == {"ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest", "TestActive"}
 LOCAL Awaiting == {"WaitForReset1", "WaitForReset2", "EndExternalTest"}
-\* TSS-TEST-0, TSS-FN-3, TSS-ERR-3, TSS-8002: which memory goes with which state; where an edge of Reset is awaited, one that stands
-\* came with the end of an interruption
+\* TSS-TEST-0, TSS-FN-3, TSS-ERR-3, TSS-8002: which memory goes with which state; where an edge of Reset is
+\* awaited, one that stands came with the end of an interruption
 SensorAnywhere ==
     /\ state \in CanBe
     /\ resetBefore \in IF state \in ResetErrors THEN {TRUE} ELSE BOOLEAN
