@@ -19,15 +19,19 @@ liveVars == <<guardLocking, step, calm>>
 LiveInit == GuardLockingInit /\ step = "" /\ calm = FALSE
 
 Call(on, guard, zone, lock, request, start, auto, reset) ==
-    GuardLockingCall([Activate |-> on, S_GuardMonitoring |-> guard, S_SafetyActive |-> zone, S_GuardLock |-> lock, UnlockRequest |-> request,
-                      S_StartReset |-> start, S_AutoReset |-> auto, Reset |-> reset])
+    GuardLockingCall(
+        [Activate |-> on, S_GuardMonitoring |-> guard, S_SafetyActive |-> zone, S_GuardLock |-> lock,
+         UnlockRequest |-> request, S_StartReset |-> start, S_AutoReset |-> auto, Reset |-> reset])
 
 AnyCall ==
     /\ ~calm /\ calm' \in BOOLEAN
-    /\ \E on, guard, zone, lock, request, start, auto, reset \in BOOLEAN : Call(on, guard, zone, lock, request, start, auto, reset)
+    /\ \E on, guard, zone, lock, request, start, auto, reset \in BOOLEAN :
+        Call(on, guard, zone, lock, request, start, auto, reset)
 
 \* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET: closed, locked and safe, and nobody asks
-QuietCall(reset) == calm /\ UNCHANGED calm /\ \E start, auto \in BOOLEAN : Call(TRUE, TRUE, TRUE, TRUE, FALSE, start, auto, reset)
+QuietCall(reset) ==
+    /\ calm /\ UNCHANGED calm
+    /\ \E start, auto \in BOOLEAN : Call(TRUE, TRUE, TRUE, TRUE, FALSE, start, auto, reset)
 RecoverySpec ==
     /\ LiveInit /\ [][AnyCall \/ \E reset \in BOOLEAN : QuietCall(reset)]_liveVars
     /\ WF_liveVars(QuietCall(~resetBefore))
@@ -38,7 +42,9 @@ Asks == IF S_GuardLocked THEN ~unlockRequestBefore ELSE TRUE
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3: the zone stays safe, and a guard that is asked to lock is closed and locked
 Secured == IF S_UnlockGuard THEN BOOLEAN ELSE {TRUE}
 EntryCall(reset) ==
-    calm /\ UNCHANGED calm /\ \E guard, lock \in Secured, start, auto \in BOOLEAN : Call(TRUE, guard, TRUE, lock, Asks, start, auto, reset)
+    /\ calm /\ UNCHANGED calm
+    /\ \E guard, lock \in Secured, start, auto \in BOOLEAN :
+        Call(TRUE, guard, TRUE, lock, Asks, start, auto, reset)
 EntrySpec ==
     /\ LiveInit /\ [][AnyCall \/ \E reset \in BOOLEAN : EntryCall(reset)]_liveVars
     /\ WF_liveVars(EntryCall(~resetBefore))

@@ -4,7 +4,7 @@
 (* environment `arbitrary`, S_StartReset and S_AutoReset included, and the *)
 (* graph that implementations of target sf_guard_locking are compared      *)
 (* with.                                                                   *)
-(* Leaves out door, bolt, machine and person (GuardLockingZone).        *)
+(* Leaves out door, bolt, machine and person (GuardLockingZone).           *)
 (***************************************************************************)
 EXTENDS Sequences, TLC, GuardLocking
 
@@ -17,25 +17,21 @@ VARIABLES
     resetSeen,     \* Reset in the call before
     requestSeen,   \* UnlockRequest in the call before
     asked,         \* UnlockRequest rose while the guard is locked, and is TRUE since
-    starting,      \* since Activate came nothing was enabled yet, and no call of a start-up without inhibit was seen
+    starting,      \* since Activate nothing was enabled, and no call of a start-up without inhibit was seen
     lost,          \* the guard, its lock or the zone was lost, and no edge of Reset has acknowledged it
     unguarded      \* and none has come with the guard closed and locked
 
 observer == <<resetSeen, requestSeen, asked, starting, lost, unguarded>>
 View == guardLocking
 ObservedView == <<View, observer>>
-\* GLF-06: a reading that changes outputs alone is told apart by them
-ViewWithOutputs == <<ObservedView, GuardLockingOutputs>>
-\* GLF-07: where Reset is not remembered while inactive, what it was then is asked by nobody: an enable is two
-\* calls away
-ViewWithoutResetSeen == <<View, requestSeen, asked, starting, lost, unguarded>>
 
 ----------------------------------------------------------------------------
 Bit(n, k) == (n \div (2^k)) % 2 = 1
 Inputs == 0..255
 Alphabet == [n \in Inputs |->
-    [Activate |-> Bit(n, 0), S_GuardMonitoring |-> Bit(n, 1), S_SafetyActive |-> Bit(n, 2), S_GuardLock |-> Bit(n, 3),
-     UnlockRequest |-> Bit(n, 4), S_StartReset |-> Bit(n, 5), S_AutoReset |-> Bit(n, 6), Reset |-> Bit(n, 7)]]
+    [Activate |-> Bit(n, 0), S_GuardMonitoring |-> Bit(n, 1), S_SafetyActive |-> Bit(n, 2),
+     S_GuardLock |-> Bit(n, 3), UnlockRequest |-> Bit(n, 4), S_StartReset |-> Bit(n, 5),
+     S_AutoReset |-> Bit(n, 6), Reset |-> Bit(n, 7)]]
 
 Wire(i) == i @@ [dt |-> 1]
 Row == GuardLockingOutputs
@@ -46,7 +42,8 @@ PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>)
 
 OpenInit ==
     /\ GuardLockingInit /\ step = "" /\ in = 0 /\ beat = FALSE
-    /\ resetSeen = FALSE /\ requestSeen = FALSE /\ asked = FALSE /\ starting = FALSE /\ lost = FALSE /\ unguarded = FALSE
+    /\ resetSeen = FALSE /\ requestSeen = FALSE /\ asked = FALSE
+    /\ starting = FALSE /\ lost = FALSE /\ unguarded = FALSE
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 \* GL-IN-RESET, GL-IN-UNLOCKREQUEST: edges as they stand on the wires
@@ -57,9 +54,14 @@ RequestEdge(i) == i.UnlockRequest /\ ~requestSeen
 Observe(i) ==
     /\ resetSeen' = i.Reset /\ requestSeen' = i.UnlockRequest
     /\ asked' = (S_GuardLocked' /\ i.UnlockRequest /\ (RequestEdge(i) \/ asked))
-    /\ starting' = (Ready' /\ ~S_GuardLocked' /\ (~Ready \/ (starting /\ ~(DiagCode = \h8001 /\ i.S_StartReset))))
-    /\ unguarded' = (Ready' /\ (DiagCode' = \hC004 \/ (unguarded /\ ~(i.S_GuardMonitoring /\ i.S_GuardLock /\ ResetEdge(i)))))
-    /\ lost' = (Ready' /\ (DiagCode' = \hC004 \/ (lost /\ ~(DiagCode = \h8014 /\ i.S_SafetyActive /\ ResetEdge(i)))))
+    /\ starting' =
+        (Ready' /\ ~S_GuardLocked' /\ (~Ready \/ (starting /\ ~(DiagCode = \h8001 /\ i.S_StartReset))))
+    /\ unguarded' =
+        (/\ Ready'
+         /\ DiagCode' = \hC004 \/ (unguarded /\ ~(i.S_GuardMonitoring /\ i.S_GuardLock /\ ResetEdge(i))))
+    /\ lost' =
+        (/\ Ready'
+         /\ DiagCode' = \hC004 \/ (lost /\ ~(DiagCode = \h8014 /\ i.S_SafetyActive /\ ResetEdge(i))))
 
 OpenNext ==
     \E n \in Inputs : \E i \in {Alphabet[n]} :
@@ -93,7 +95,9 @@ EnableNeedsSecuredGuard == [][S_GuardLocked' => Scanned.Activate /\ Secure]_beat
 \* GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-1, GL-SEQ-2: no enable without an edge of Reset, unless the input
 \* of this inhibit allows it
 NoAutomaticRestart ==
-    [][Enables => ResetEdge(Scanned) \/ (IF DiagCode = \h8001 THEN Scanned.S_StartReset ELSE Scanned.S_AutoReset)]_beat
+    [][Enables =>
+        \/ ResetEdge(Scanned)
+        \/ IF DiagCode = \h8001 THEN Scanned.S_StartReset ELSE Scanned.S_AutoReset]_beat
 
 \* GL-IN-STARTRESET, GLF-08: a start-up inhibit ends by an edge of Reset, also where the restart inhibit is
 \* off
@@ -140,12 +144,15 @@ UnlockNeedsRequestNow == [][S_GuardLocked /\ S_UnlockGuard' => RequestEdge(Scann
 
 \* GL-IN-UNLOCKREQUEST, GLF-02: a request that stands unlocks as soon as the zone is safe
 HeldRequestUnlocks ==
-    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive =>
+        S_UnlockGuard']_beat
 
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-02: a request that came while the guard is locked, and stands, unlocks
 \* as soon as the zone is safe
 LatchedRequestUnlocks ==
-    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ asked /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][(/\ S_GuardLocked /\ asked
+        /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive) =>
+            S_UnlockGuard']_beat
 
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a request that comes with the zone safe unlocks at once, and withdraws the
 \* enable
@@ -156,11 +163,13 @@ RequestUnlocksAtOnce ==
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4: as long as the request stands and the zone is safe the guard stays
 \* unlocked
 StaysUnlockedWhileRequested ==
-    [][S_UnlockGuard /\ Scanned.Activate /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][S_UnlockGuard /\ Scanned.Activate /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive =>
+        S_UnlockGuard']_beat
 
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03: the bolt is not thrown while the guard is open
 StaysUnlockedWhileOpen ==
-    [][S_UnlockGuard /\ Scanned.Activate /\ ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][S_UnlockGuard /\ Scanned.Activate /\ ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive =>
+        S_UnlockGuard']_beat
 
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-5: without a request a closed guard is locked again
 LocksWithoutRequest ==
@@ -171,7 +180,8 @@ LockedWhateverTheZone ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.S_SafetyActive => S_GuardLocked']_beat
 
 \* GL-OUT-GUARDLOCKED, GL-SEQ-2: without a request a locked guard stays enabled
-StaysLocked == [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.UnlockRequest => S_GuardLocked']_beat
+StaysLocked ==
+    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.UnlockRequest => S_GuardLocked']_beat
 
 \* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05: a locked guard that is lost is an error in that call, whatever is
 \* requested
@@ -201,7 +211,8 @@ ErrorEndsWithCause ==
     [][Error /\ ~Error' =>
         \/ ~Scanned.Activate
         \/ DiagCode = \hC004 /\ Scanned.S_SafetyActive /\ DiagCode' = \h8014
-        \/ ~Scanned.Reset /\ <<DiagCode, DiagCode'>> \in {<<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}]_beat
+        \/ /\ ~Scanned.Reset
+           /\ <<DiagCode, DiagCode'>> \in {<<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}]_beat
 
 \* GL-IN-RESET, GLF-06: where the message of an error goes out only with the edge that ends the error
 MessageUntilReset ==
@@ -218,10 +229,12 @@ CodeTellsTheGuard ==
 
 \* GL-SEQ-NOTE, GLF-01: one transition a call, and only these
 Transitions == {
-    <<\h0000, \h8001>>, <<\h8001, \hC001>>, <<\h8001, \h8011>>, <<\h8001, \h8000>>, <<\h8000, \hC004>>, <<\h8000, \h8013>>,
-    <<\h8013, \hC004>>, <<\h8013, \h8012>>, <<\h8013, \h8011>>, <<\h8012, \hC004>>, <<\h8012, \h8013>>, <<\h8011, \hC004>>,
-    <<\h8011, \h8012>>, <<\h8011, \h8003>>, <<\h8003, \hC003>>, <<\h8003, \h8011>>, <<\h8003, \h8000>>, <<\hC004, \h8014>>,
-    <<\h8014, \hC002>>, <<\h8014, \hC004>>, <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
+    <<\h0000, \h8001>>, <<\h8001, \hC001>>, <<\h8001, \h8011>>, <<\h8001, \h8000>>,
+    <<\h8000, \hC004>>, <<\h8000, \h8013>>, <<\h8013, \hC004>>, <<\h8013, \h8012>>,
+    <<\h8013, \h8011>>, <<\h8012, \hC004>>, <<\h8012, \h8013>>, <<\h8011, \hC004>>,
+    <<\h8011, \h8012>>, <<\h8011, \h8003>>, <<\h8003, \hC003>>, <<\h8003, \h8011>>,
+    <<\h8003, \h8000>>, <<\hC004, \h8014>>, <<\h8014, \hC002>>, <<\h8014, \hC004>>,
+    <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
 OneTransitionACall == [][DiagCode' \in {0, DiagCode} \/ <<DiagCode, DiagCode'>> \in Transitions]_beat
 
 \* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what
@@ -232,9 +245,12 @@ AnswersAtOnce ==
           [] DiagCode = \h8000 -> Secure /\ ~(RequestEdge(Scanned) /\ Scanned.S_SafetyActive)
           [] DiagCode = \h8013 -> Scanned.S_GuardMonitoring /\ Scanned.UnlockRequest
           [] DiagCode = \h8012 -> ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive
-          [] DiagCode = \h8011 -> Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
+          [] DiagCode = \h8011 ->
+                /\ Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock
+                /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
           [] DiagCode = \h8003 -> Secure /\ ~Scanned.Reset /\ (~Scanned.S_AutoReset \/ StartUpInhibited)
-          [] DiagCode = \h8014 -> (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
+          [] DiagCode = \h8014 ->
+                (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
           [] DiagCode = \hC004 -> ~Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> Scanned.Reset]_beat
 
@@ -242,18 +258,25 @@ AnswersAtOnce ==
 \* has seen why (why an error is shown, ErrorNeedsCause says)
 LeavesForACause ==
     [][DiagCode' # DiagCode /\ Scanned.Activate /\ DiagCode' < \hC000 =>
-        CASE DiagCode = \h8001 -> IF S_GuardLocked' THEN Secure /\ (Scanned.S_StartReset \/ ResetEdge(Scanned)) ELSE ~Secure
+        CASE DiagCode = \h8001 ->
+                IF S_GuardLocked' THEN Secure /\ (Scanned.S_StartReset \/ ResetEdge(Scanned)) ELSE ~Secure
           [] DiagCode = \h8000 -> Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive
           [] DiagCode = \h8013 ->
                 /\ Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated"
-                /\ IF S_UnlockGuard' THEN ~Scanned.S_GuardMonitoring ELSE Scanned.S_GuardMonitoring /\ ~Scanned.UnlockRequest
-          [] DiagCode = \h8012 -> Scanned.S_GuardMonitoring /\ (Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated")
+                /\ IF S_UnlockGuard' THEN ~Scanned.S_GuardMonitoring
+                                     ELSE Scanned.S_GuardMonitoring /\ ~Scanned.UnlockRequest
+          [] DiagCode = \h8012 ->
+                Scanned.S_GuardMonitoring /\ (Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated")
           [] DiagCode = \h8011 ->
-                IF S_UnlockGuard' THEN Scanned.S_SafetyActive /\ (Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring)
-                                  ELSE Secure /\ ~(Scanned.UnlockRequest /\ Scanned.S_SafetyActive)
+                IF S_UnlockGuard'
+                    THEN Scanned.S_SafetyActive /\ (Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring)
+                    ELSE Secure /\ ~(Scanned.UnlockRequest /\ Scanned.S_SafetyActive)
           [] DiagCode = \h8003 ->
-                IF S_GuardLocked' THEN Secure /\ (ResetEdge(Scanned) \/ (Scanned.S_AutoReset /\ ~StartUpInhibited)) ELSE ~Secure
-          [] DiagCode = \h8014 -> ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (CAUSE_OF_LOSS = "guard_and_zone" => Secure)
+                IF S_GuardLocked'
+                    THEN Secure /\ (ResetEdge(Scanned) \/ (Scanned.S_AutoReset /\ ~StartUpInhibited))
+                    ELSE ~Secure
+          [] DiagCode = \h8014 ->
+                ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (CAUSE_OF_LOSS = "guard_and_zone" => Secure)
           [] DiagCode = \hC004 -> Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> ~Scanned.Reset
           [] OTHER -> ~Ready]_beat

@@ -32,7 +32,8 @@ Shows(person) == IF person THEN {FALSE} ELSE IF stuck \/ state \notin Testing TH
 People == IF QUIET /\ state \in Testing THEN {FALSE} ELSE BOOLEAN
 LongEnough == TEST_TIME + 1
 FieldCall ==
-    \E person \in People : \E free \in Shows(person) : \E start \in BOOLEAN : \E reset \in BOOLEAN : \E dt \in 0..TEST_TIME :
+    \E person \in People : \E free \in Shows(person) :
+    \E start \in BOOLEAN : \E reset \in BOOLEAN : \E dt \in 0..TEST_TIME :
         /\ wires' = [Activate |-> TRUE, S_OSSD_In |-> free, StartTest |-> start, NoExternalTest |-> TRUE,
                      S_StartReset |-> FALSE, S_AutoReset |-> FALSE, Reset |-> reset, dt |-> dt]
         /\ SensorScan(wires')

@@ -39,8 +39,9 @@ SensorAnswers == SensorOutputs.S_TestOut /\ ~InTheField
 \* TSS-OUT-REQUEST, TSSF-13: C010 does not ask for the reset that begins the manual test; its Error does
 Pressed == ~resetBefore /\ (SensorOutputs.ResetRequest \/ SensorOutputs.Error)
 ServedInput(start, dt) ==
-    [Activate |-> TRUE, S_OSSD_In |-> SensorAnswers, StartTest |-> start, NoExternalTest |-> fixed.NoExternalTest,
-     S_StartReset |-> fixed.S_StartReset, S_AutoReset |-> fixed.S_AutoReset, Reset |-> Pressed, dt |-> dt]
+    [Activate |-> TRUE, S_OSSD_In |-> SensorAnswers, StartTest |-> start,
+     NoExternalTest |-> fixed.NoExternalTest, S_StartReset |-> fixed.S_StartReset,
+     S_AutoReset |-> fixed.S_AutoReset, Reset |-> Pressed, dt |-> dt]
 Starts == IF EAGER THEN {SensorOutputs.TestPossible /\ ~startTestBefore} ELSE BOOLEAN
 \* TSSA-03: a call and the answer of the sensor take less than TestTime
 ServedCall ==

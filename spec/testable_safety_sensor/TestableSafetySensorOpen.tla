@@ -18,10 +18,13 @@ VARIABLES
     in,             \* the number of the last call's input; hidden by VIEW
     beat,           \* changes in every call, so that no call escapes an action property; hidden by VIEW
     \* What an observer of the wires alone has seen; nothing of the block reads it:
-    dark,           \* ms since the sensor was first seen dark while S_OSSD_Out stayed TRUE; -1 if it is not dark, or S_OSSD_Out is FALSE
+    \* ms since the sensor was first seen dark while S_OSSD_Out stayed TRUE; -1 if it is not dark, or
+    \* S_OSSD_Out is FALSE
+    dark,
     tested,         \* ms since the test began; -1 outside a test
     phase,          \* ms since this state was entered, as far as the longest test goes
-    starting,       \* activated, and the start-up inhibit neither switched off when the sensor was first judged nor reset since
+    \* activated; the start-up inhibit neither reset since, nor switched off when the sensor was first judged
+    starting,
     cycle           \* the manual test: 0 nothing yet, 1 sensor seen free, 2 then dark, 3 then free
 
 observer == <<dark, tested, phase, starting, cycle>>
@@ -43,7 +46,8 @@ LOCAL Bit(n, b) == (n \div b) % 2 = 1
 N == 128 * Len(Times)
 Alphabet == TLCEval([n \in 0..N - 1 |->
     [Activate |-> Bit(n, 1), S_OSSD_In |-> Bit(n, 2), StartTest |-> Bit(n, 4), NoExternalTest |-> Bit(n, 8),
-     S_StartReset |-> Bit(n, 16), S_AutoReset |-> Bit(n, 32), Reset |-> Bit(n, 64), dt |-> Times[(n \div 128) + 1]]])
+     S_StartReset |-> Bit(n, 16), S_AutoReset |-> Bit(n, 32), Reset |-> Bit(n, 64),
+     dt |-> Times[(n \div 128) + 1]]])
 
 Wire(i) == i
 Row == SensorOutputs
@@ -67,7 +71,8 @@ Observe(i) ==
     /\ tested' = IF state' \notin Testing THEN -1 ELSE IF tested < 0 THEN 0 ELSE tested + i.dt
     /\ phase' = IF state' # state \/ state \notin Testing THEN 0 ELSE phase + i.dt
     /\ starting' = IF state = "Idle" THEN i.Activate
-                   ELSE starting /\ i.Activate /\ ~Then("S_OSSD_Out") /\ ~(state = "Init" /\ ~Now("Error") /\ i.S_StartReset)
+                   ELSE /\ starting /\ i.Activate /\ ~Then("S_OSSD_Out")
+                        /\ ~(state = "Init" /\ ~Now("Error") /\ i.S_StartReset)
     /\ cycle' = IF state' \notin Manual THEN 0
                 ELSE IF state \notin Manual THEN (IF i.S_OSSD_In THEN 1 ELSE 0)
                 ELSE IF cycle = 0 /\ i.S_OSSD_In THEN 1 ELSE IF cycle = 1 /\ ~i.S_OSSD_In THEN 2
@@ -115,7 +120,8 @@ NoRestartByItself ==
         /\ Scanned.Activate /\ Scanned.S_OSSD_In
         /\ \/ Edge
            \/ Scanned.S_StartReset /\ state = "Init"
-           \/ Scanned.S_AutoReset /\ state \in {"ESPEInterrupted1", "WaitForReset1", "ESPEInterrupted2", "WaitForReset2"}
+           \/ /\ Scanned.S_AutoReset
+              /\ state \in {"ESPEInterrupted1", "WaitForReset1", "ESPEInterrupted2", "WaitForReset2"}
            \/ Scanned.S_AutoReset /\ AUTO_RESET_ERRORS /\ state \in TestErrors \cup Manual)]_beat
 \* TSS-EB-2, TSS-EB-3, TSS-IN-NOEXT-FALSE, TSSF-15: after a failed test only a reset enables, S_AutoReset or
 \* not; not so with AUTO_RESET_ERRORS
@@ -141,8 +147,8 @@ SwitchedOffInhibitEnds ==
 \* TSS-8802, TSS-8804, TSS-8806, TSS-OUT-DEMAND, TSS-OUT-OSSD: a lost sensor is shown as a demand in that very
 \* call, and as long as it is lost
 DemandIsShown ==
-    [][(state \in {"ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest",
-                   "ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest"}
+    [][(state \in {"ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init",
+                   "EndExternalTest", "ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest"}
         /\ Scanned.Activate /\ ~Scanned.S_OSSD_In => Then("SafetyDemand") \/ Then("Error"))]_beat
 \* TSS-8802, TSS-8804, TSS-8806, TSS-OUT-DEMAND: and never longer: a call that finds the sensor free shows
 \* none
@@ -152,8 +158,10 @@ DemandNeedsDarkSensor == [][Then("SafetyDemand") => ~Scanned.S_OSSD_In]_beat
 \* test error asks for that
 ResetEndsAtOnce ==
     [][Scanned.Activate /\ Edge =>
-        /\ Now("ResetRequest") /\ Scanned.S_OSSD_In /\ InRange /\ (state = "TestError1C410" => Scanned.NoExternalTest) => Then("S_OSSD_Out")
-        /\ state \in {"TestError1C410", "TestError1C010"} /\ ~Scanned.NoExternalTest => state' = "ExternalFunctionTest"]_beat
+        /\ (/\ Now("ResetRequest") /\ Scanned.S_OSSD_In /\ InRange
+            /\ state = "TestError1C410" => Scanned.NoExternalTest) => Then("S_OSSD_Out")
+        /\ state \in {"TestError1C410", "TestError1C010"} /\ ~Scanned.NoExternalTest =>
+            state' = "ExternalFunctionTest"]_beat
 
 ----------------------------------------------------------------------------
 (* The test.                                                               *)
@@ -191,7 +199,8 @@ TestExecutedStays ==
 ReactionIsSeen ==
     [][Scanned.Activate /\ phase + Scanned.dt < TEST_TIME =>
         /\ state = "TestRequest" => state' = (IF Scanned.S_OSSD_In THEN "TestRequest" ELSE "TestActive")
-        /\ state = "TestActive" => state' = (IF Scanned.S_OSSD_In THEN "ESPEFreeTestOk" ELSE "TestActive")]_beat
+        /\ state = "TestActive" =>
+            state' = (IF Scanned.S_OSSD_In THEN "ESPEFreeTestOk" ELSE "TestActive")]_beat
 
 ----------------------------------------------------------------------------
 (* Errors.                                                                 *)
@@ -202,15 +211,18 @@ CodeTellsResettable ==
     [][(state' \in TestErrors =>
         (Row'.DiagCode = (IF Scanned.S_OSSD_In /\ Scanned.NoExternalTest THEN \hC410 ELSE \hC010)))]_beat
 \* TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051: where each reset error was found
-Watched == [ResetError1 |-> {"Init"}, ResetError2 |-> {"WaitForReset1"}, ResetError3 |-> TestErrors, ResetError4 |-> {"EndExternalTest"},
-            ResetError5 |-> {"ParameterError"}, ResetError6 |-> {"WaitForReset2"}]
+Watched ==
+    [ResetError1 |-> {"Init"}, ResetError2 |-> {"WaitForReset1"}, ResetError3 |-> TestErrors,
+     ResetError4 |-> {"EndExternalTest"}, ResetError5 |-> {"ParameterError"},
+     ResetError6 |-> {"WaitForReset2"}]
 \* TSS-EB-1, TSS-EB-2, TSS-ERR-3, TSSF-12, TSSF-13, TSSF-24: a test error ends by an edge, a reset error by
 \* the end of Reset, a parameter error not at all
 ErrorLeftOnlyAsDocumented ==
     [][(Now("Error") /\ Scanned.Activate /\ state' # state =>
         IF state \in DOMAIN Watched THEN ~Scanned.Reset /\ state' \in Watched[state]
         ELSE \/ state' \in DOMAIN Watched /\ state \in Watched[state'] /\ Scanned.Reset /\ Before.Reset
-             \/ state \in TestErrors /\ (state' \in TestErrors \/ Edge \/ (AUTO_RESET_ERRORS /\ Scanned.S_AutoReset)))]_beat
+             \/ /\ state \in TestErrors
+                /\ state' \in TestErrors \/ Edge \/ (AUTO_RESET_ERRORS /\ Scanned.S_AutoReset))]_beat
 \* TSS-IN-STARTRESET, TSS-IN-AUTORESET, TSS-EB-3: whether the inhibit or the error that this reset error
 \* watches is kept in this call
 Kept(e) == CASE e = "ResetError1" -> ~Scanned.S_StartReset /\ InRange
@@ -235,7 +247,8 @@ ResetErrorNeedsHeldReset ==
 \* TSS-C051, TSS-OUT-EXECUTED, TSSF-02, TSSF-03: finding it changes neither what is known of the test nor
 \* where the block goes on
 ResetErrorKeepsTestExecuted ==
-    [][(state' \in DOMAIN Watched => state \in Watched[state'] \cup {state'} /\ Then("TestExecuted") = Now("TestExecuted"))]_beat
+    [][(state' \in DOMAIN Watched =>
+        state \in Watched[state'] \cup {state'} /\ Then("TestExecuted") = Now("TestExecuted"))]_beat
 \* TSS-IN-NOEXT-FALSE, TSS-8002, TSS-8804, TSS-8404, TSSF-14, TSSF-16: after a failed test no output without a
 \* manual test from free over dark to free, where there is one; and
 \* TSS-IN-NOEXT-TRUE: none is asked for where there is none
@@ -266,10 +279,12 @@ CodeTellsItsOutputs ==
         /\ (bit(32768) /\ bit(16384)) = Row.Error
 \* TSS-OUT-DIAG: the code that the document prints for each state; no two have one
 CodeOf ==
-    [Idle |-> \h0000, Init |-> \h8401, ESPEInterrupted1 |-> \h8802, WaitForReset1 |-> \h8402, ExternalFunctionTest |-> \h8002,
-     ESPEInterruptedExternalTest |-> \h8804, EndExternalTest |-> \h8404, ESPEFreeNoTest |-> \h8010, ESPEInterrupted2 |-> \h8806,
-     WaitForReset2 |-> \h8406, TestRequest |-> \h8020, TestActive |-> \h8030, ESPEFreeTestOk |-> \h8000, ParameterError |-> \hC000,
-     ResetError1 |-> \hC001, ResetError2 |-> \hC011, ResetError3 |-> \hC021, ResetError4 |-> \hC031, ResetError5 |-> \hC041,
+    [Idle |-> \h0000, Init |-> \h8401, ESPEInterrupted1 |-> \h8802, WaitForReset1 |-> \h8402,
+     ExternalFunctionTest |-> \h8002, ESPEInterruptedExternalTest |-> \h8804, EndExternalTest |-> \h8404,
+     ESPEFreeNoTest |-> \h8010, ESPEInterrupted2 |-> \h8806, WaitForReset2 |-> \h8406,
+     TestRequest |-> \h8020, TestActive |-> \h8030, ESPEFreeTestOk |-> \h8000, ParameterError |-> \hC000,
+     ResetError1 |-> \hC001, ResetError2 |-> \hC011, ResetError3 |-> \hC021,
+     ResetError4 |-> \hC031, ResetError5 |-> \hC041,
      ResetError6 |-> \hC051, TestError1C410 |-> \hC410, TestError1C010 |-> \hC010]
 ASSUME \A s, t \in DOMAIN CodeOf : s # t => CodeOf[s] # CodeOf[t]
 \* TSS-OUT-DIAG, TSS-0000, TSS-8401, TSS-8802, TSS-8402, TSS-8002, TSS-8804, TSS-8404, TSS-8010, TSS-8806,
@@ -279,22 +294,35 @@ ASSUME \A s, t \in DOMAIN CodeOf : s # t => CodeOf[s] # CodeOf[t]
 CodeIsThePrintedOne == Row.DiagCode = CodeOf[state]
 \* TSS-IN-RESET, TSS-IN-STARTTEST: edges count from the call before, active or not
 EdgesAreRemembered ==
-    [][/\ resetBefore' = Scanned.Reset /\ startTestBefore' = Scanned.StartTest /\ sensorBefore' = Scanned.S_OSSD_In
-       /\ (step # "" => resetBefore = Before.Reset /\ startTestBefore = Before.StartTest /\ sensorBefore = Before.S_OSSD_In)]_beat
+    [][/\ resetBefore' = Scanned.Reset
+       /\ startTestBefore' = Scanned.StartTest
+       /\ sensorBefore' = Scanned.S_OSSD_In
+       /\ step # "" =>
+            /\ resetBefore = Before.Reset
+            /\ startTestBefore = Before.StartTest
+            /\ sensorBefore = Before.S_OSSD_In]_beat
 \* TSS-OUT-DIAG, TSSF-27: every call takes one of these, or stays
 Transitions == TLCEval(
-    {<<"Idle", "Init">>, <<"Init", "ParameterError">>, <<"Init", "ResetError1">>, <<"Init", "ESPEInterrupted1">>, <<"Init", "ESPEFreeNoTest">>,
+    {<<"Idle", "Init">>, <<"Init", "ParameterError">>, <<"Init", "ResetError1">>,
+     <<"Init", "ESPEInterrupted1">>, <<"Init", "ESPEFreeNoTest">>,
      <<"ESPEInterrupted1", "WaitForReset1">>, <<"ESPEInterrupted1", "ESPEFreeNoTest">>,
-     <<"WaitForReset1", "ResetError2">>, <<"WaitForReset1", "ESPEInterrupted1">>, <<"WaitForReset1", "ESPEFreeNoTest">>,
-     <<"ESPEFreeNoTest", "ESPEInterrupted1">>, <<"ESPEFreeNoTest", "TestRequest">>, <<"TestRequest", "TestActive">>,
-     <<"TestActive", "ESPEFreeTestOk">>, <<"ESPEFreeTestOk", "ESPEInterrupted2">>, <<"ESPEFreeTestOk", "TestRequest">>,
+     <<"WaitForReset1", "ResetError2">>, <<"WaitForReset1", "ESPEInterrupted1">>,
+     <<"WaitForReset1", "ESPEFreeNoTest">>,
+     <<"ESPEFreeNoTest", "ESPEInterrupted1">>, <<"ESPEFreeNoTest", "TestRequest">>,
+     <<"TestRequest", "TestActive">>, <<"TestActive", "ESPEFreeTestOk">>,
+     <<"ESPEFreeTestOk", "ESPEInterrupted2">>, <<"ESPEFreeTestOk", "TestRequest">>,
      <<"ESPEInterrupted2", "WaitForReset2">>, <<"ESPEInterrupted2", "ESPEFreeTestOk">>,
-     <<"WaitForReset2", "ResetError6">>, <<"WaitForReset2", "ESPEInterrupted2">>, <<"WaitForReset2", "ESPEFreeTestOk">>,
-     <<"ExternalFunctionTest", "ESPEInterruptedExternalTest">>, <<"ESPEInterruptedExternalTest", "EndExternalTest">>,
-     <<"EndExternalTest", "ResetError4">>, <<"EndExternalTest", "ESPEInterruptedExternalTest">>, <<"EndExternalTest", "ESPEFreeNoTest">>,
+     <<"WaitForReset2", "ResetError6">>, <<"WaitForReset2", "ESPEInterrupted2">>,
+     <<"WaitForReset2", "ESPEFreeTestOk">>,
+     <<"ExternalFunctionTest", "ESPEInterruptedExternalTest">>,
+     <<"ESPEInterruptedExternalTest", "EndExternalTest">>,
+     <<"EndExternalTest", "ResetError4">>, <<"EndExternalTest", "ESPEInterruptedExternalTest">>,
+     <<"EndExternalTest", "ESPEFreeNoTest">>,
      <<"TestError1C410", "ESPEFreeNoTest">>, <<"ParameterError", "ResetError5">>}
-    \cup (Testing \X TestErrors) \cup (TestErrors \X {"ExternalFunctionTest", "ResetError3"}) \cup (TestErrors \X TestErrors)
-    \cup UNION {{e} \X Watched[e] : e \in DOMAIN Watched} \cup (States \X {"Idle"}) \cup {<<s, s>> : s \in States})
+    \cup (Testing \X TestErrors) \cup (TestErrors \X TestErrors)
+    \cup (TestErrors \X {"ExternalFunctionTest", "ResetError3"})
+    \cup UNION {{e} \X Watched[e] : e \in DOMAIN Watched}
+    \cup (States \X {"Idle"}) \cup {<<s, s>> : s \in States})
 OneTransitionPerCall == [][(<<state, state'>> \in Transitions)]_beat
 \* TSS-IN-ACTIVATE: there is no input to which a call has no answer
 EveryCallIsAnswered == \A n \in InputsToTry : ENABLED SensorScan(Alphabet[n])

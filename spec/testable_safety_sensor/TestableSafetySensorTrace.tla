@@ -21,8 +21,11 @@ SensorAnywhere ==
     /\ state \in CanBe
     /\ resetBefore \in IF state \in ResetErrors THEN {TRUE} ELSE BOOLEAN
     /\ startTestBefore \in BOOLEAN
-    /\ sensorBefore \in IF state \in SeenFree \/ (state \in Awaiting /\ resetBefore) THEN {TRUE} ELSE IF state \in SeenDark THEN {FALSE} ELSE BOOLEAN
-    /\ startInhibit \in IF state \in {"ESPEInterrupted1", "WaitForReset1", "ResetError2"} THEN BOOLEAN ELSE {FALSE}
+    /\ sensorBefore \in
+        IF state \in SeenFree \/ (state \in Awaiting /\ resetBefore) THEN {TRUE}
+        ELSE IF state \in SeenDark THEN {FALSE} ELSE BOOLEAN
+    /\ startInhibit \in
+        IF state \in {"ESPEInterrupted1", "WaitForReset1", "ResetError2"} THEN BOOLEAN ELSE {FALSE}
     /\ elapsed \in IF state \in Testing /\ TEST_TIME > 0 THEN 0..(TEST_TIME - 1) ELSE {0}
     /\ step = ""
 =============================================================================
