@@ -17,7 +17,7 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
-from modeproof.tlc.runs import Run, load_runs
+from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]
 REFERENCE = "refimpl"

@@ -8,6 +8,7 @@ names.
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import re
 from collections.abc import Mapping, Sequence
@@ -21,13 +22,14 @@ from modeproof.places import add_document_option, chosen_documents
 from modeproof.places import root as repository_root
 from modeproof.registers.citations import read_sources
 from modeproof.registers.load import load_document
-from modeproof.registers.models import read_constants, restored
+from modeproof.registers.made import cfg_text, read_cfg
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document
+from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.stamps import REMEDY, folder_of
+from modeproof.registers.switches import restored
 from modeproof.report.findings import Material, render
-from modeproof.tlc.runs import Run, load_runs
-from modeproof.tlc.toolchain import find_toolchain, sha256
+from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import recorded, walk_all
 
 if TYPE_CHECKING:
@@ -86,7 +88,7 @@ def gather(place: Path, name: str) -> Material:
     sources = read_sources(document)
     traces = load_replay(place, name)
     declared = {one.id: one for one in load_runs(place, name)}
-    constants = {one.id: read_constants(place, name, one.cfg) for one in document.runs}
+    constants = {one.id: read_cfg(place, one).constants for one in document.runs}
     shown = _shown(document)
     restoring = [one.id for one in document.runs if restored(constants[one.id], traces.literal)]
     breaking = [name for one in document.assumptions for name in one.breaks]
@@ -122,14 +124,14 @@ def _fault(place: Path, document: str, record: Mapping[str, Any], run: Run | Non
         return f"its evidence is not as expected: {record['verdict']}"
     if run is None:
         return "" if record["as_expected"] else "its evidence is not as expected"
-    cfg = f"spec/{document}/{run.cfg}"
-    if record["inputs"].get(cfg) != sha256(place / cfg):
-        return f"its evidence is of another {run.cfg}"
+    digest = hashlib.sha256(cfg_text(place, run).encode("utf-8")).hexdigest()
+    if record["inputs"].get(run.config) != digest:
+        return f"its evidence is of another {run.config}"
     result = record["result"]
-    if run.violates is not None and result.get("violated") != run.violates:
-        return f"its evidence violates {result.get('violated')}, not {run.violates}"
+    if run.property and result.get("violated") != run.property:
+        return f"its evidence violates {result.get('violated')}, not {run.property}"
     for pin, got in (
-        (run.cfg_sha256, record["inputs"].get(cfg)),
+        (run.cfg_sha256, digest),
         (run.trace_length, result.get("trace_length")),
         (run.distinct, result.get("distinct")),
         (run.generated, result.get("generated")),

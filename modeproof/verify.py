@@ -11,10 +11,10 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
+from modeproof.registers.runs import Run, load_runs
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
 from modeproof.summary import failures, render, total
 from modeproof.tlc.check import Checked, check_all, register_problems, select
-from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
 
 Records = list[dict[str, Any]]

@@ -19,7 +19,7 @@ from modeproof.places import root as repository_root
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
 from modeproof.registers.replay import has_replay, load_replay
-from modeproof.tlc.runs import load_runs
+from modeproof.registers.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import Recorded, read_walk, recorded, walk_all
 

@@ -29,9 +29,9 @@ from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
+from modeproof.registers.runs import Run, load_runs
 from modeproof.suites.contract import declare_parameters
 from modeproof.tlc.messages import LogReader
-from modeproof.tlc.runs import Run, load_runs
 from tests.kit.s7_plc import STEPPED, Plc
 
 REPEATS = 5

@@ -16,7 +16,7 @@ from modeproof.graph.values import ValueForms
 from modeproof.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
-from modeproof.tlc.runs import Run, load_runs
+from modeproof.registers.runs import Run, load_runs
 
 TIME = "dt"
 """The field of an INPUT line that holds the time since the scan before, in ticks."""

@@ -34,11 +34,10 @@ from modeproof.graph.device import DeviceGraph
 from modeproof.graph.tla import parse
 from modeproof.graph.values import NONE
 from modeproof.places import build
-from modeproof.registers.files import read_text
-from modeproof.registers.models import view_of
+from modeproof.registers.made import read_cfg
 from modeproof.registers.rows import Signal
+from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure, read_modules
-from modeproof.tlc.runs import Run
 
 FORMAT = 1
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -64,7 +63,7 @@ def write_export(place: Path, run: Run, device: DeviceGraph) -> Path:
 def view_names(place: Path, run: Run) -> tuple[str, ...]:
     """The variables in the view of a run, in its order; () where its text does not name them one by one."""
     try:
-        view = view_of(read_text(place, place / "spec" / run.document / run.cfg))
+        view = read_cfg(place, run).view
         modules = closure(read_modules(place, run.document), run.module)
     except Unjudged:
         return ()

@@ -20,13 +20,12 @@ from modeproof.registers.rows import (
     Device,
     Document,
     Finding,
-    Graph,
     Interface,
     Problem,
     Property,
-    Run,
     Signal,
 )
+from modeproof.registers.runs import Graph, Run, load_runs
 from modeproof.registers.tables import render_properties_table
 
 __all__ = [
@@ -54,6 +53,7 @@ __all__ = [
     "judge_tree",
     "load_document",
     "load_interface",
+    "load_runs",
     "matrix",
     "read_register",
     "read_sources",

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from modeproof.registers.citations import Sources
 from modeproof.registers.fault_table import check_faults
-from modeproof.registers.rows import Device, Document, Problem, Run, Signal
+from modeproof.registers.rows import Device, Document, Problem, Signal
+from modeproof.registers.runs import Run
 from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import closure
 
@@ -239,8 +240,6 @@ def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
             )
         if run.kind == "NEG" and run.id not in shown:
             yield Problem(file, run.id, "no finding and no assumption names this negative run")
-        if not run.id.startswith(f"{run.kind}_"):
-            yield Problem(file, run.id, f"the id of a run of kind {run.kind} begins with {run.kind}_")
         for name in (*run.properties, *([run.property] if run.property else [])):
             if name not in known and not TECHNICAL.fullmatch(name):
                 yield Problem(

@@ -17,13 +17,12 @@ from modeproof.registers.rows import (
     Fall,
     Fault,
     Finding,
-    Graph,
     Interface,
     Matrix,
     Property,
-    Run,
     Signal,
 )
+from modeproof.registers.runs import load_runs
 from modeproof.registers.schema import check_schema, suggestion
 
 Table = Mapping[str, Any]
@@ -53,7 +52,7 @@ def load_document(root: Path, name: str) -> Document:
         properties=tuple(_property(row) for row in read_register(root, name, "properties")["property"]),
         findings=tuple(_finding(row) for row in read_register(root, name, "findings")["finding"]),
         assumptions=tuple(_assumption(row) for row in read_register(root, name, "assumptions")["assumption"]),
-        runs=tuple(_run(row) for row in read_register(root, name, "runs")["run"]),
+        runs=load_runs(root, name),
         faults=tuple(_fault(row) for row in faults.get("fault", [])),
         matrix=Matrix(**faults["matrix"]) if "matrix" in faults else None,
     )
@@ -223,35 +222,4 @@ def _fault(row: Table) -> Fault:
         runs=_names(row, "runs"),
         falls=tuple(Fall(**one) for one in row.get("falls", [])),
         not_modelled=row.get("not_modelled", ""),
-    )
-
-
-def _run(row: Table) -> Run:
-    graph = row.get("graph")
-    return Run(
-        id=row["id"],
-        module=row["module"],
-        cfg=row["cfg"],
-        kind=row["kind"],
-        lanes=(*_names(row, "lane"), *(lane for lane in _names(row, "lanes") if lane != row.get("lane"))),
-        environment=row["environment"],
-        strength=row.get("strength", ""),
-        properties=_names(row, "properties"),
-        property=row.get("property", ""),
-        witnesses=_names(row, "witnesses"),
-        clauses=_names(row, "clauses"),
-        findings=_names(row, "findings"),
-        switch=row.get("switch", ""),
-        graph=None if graph is None else _graph(graph),
-    )
-
-
-def _graph(row: Table) -> Graph:
-    return Graph(
-        device=row["device"],
-        tick_ms=row["tick_ms"],
-        params=row.get("params", {}),
-        passed=row.get("pass", {}),
-        states=row.get("states"),
-        edges=row.get("edges"),
     )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+
+from modeproof.registers.runs import Run
 
 
 @dataclass(frozen=True)
@@ -184,38 +185,6 @@ class Matrix:
 
     run: str
     title: str
-
-
-@dataclass(frozen=True)
-class Graph:
-    """What a run says about the graph that it prints. `passed` maps an output to the input it shows."""
-
-    device: str
-    tick_ms: int
-    params: Mapping[str, Any] = field(default_factory=dict)
-    passed: Mapping[str, str] = field(default_factory=dict)
-    states: int | None = None
-    edges: int | None = None
-
-
-@dataclass(frozen=True)
-class Run:
-    """One declared TLC run. `property` is what a NEG run must violate."""
-
-    id: str
-    module: str
-    cfg: str
-    kind: str
-    lanes: tuple[str, ...]
-    environment: str
-    strength: str
-    properties: tuple[str, ...]
-    property: str
-    witnesses: tuple[str, ...]
-    clauses: tuple[str, ...]
-    findings: tuple[str, ...]
-    switch: str
-    graph: Graph | None
 
 
 @dataclass(frozen=True)

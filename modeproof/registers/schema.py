@@ -14,8 +14,8 @@ from jsonschema.exceptions import ValidationError
 
 from modeproof.errors import Unjudged
 
-REGISTERS = ("document", "clauses", "interface", "properties", "findings", "assumptions", "runs")
-"""Every register of a document, in the order in which a reader meets them."""
+REGISTERS = ("document", "clauses", "interface", "properties", "findings", "assumptions")
+"""The registers of every document that have a schema, in the order in which a reader meets them."""
 
 OPTIONAL = ("faults",)
 """Registers that a document may have."""

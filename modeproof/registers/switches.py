@@ -10,17 +10,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from modeproof.registers.cfg import Constant
 from modeproof.registers.citations import Sources
-from modeproof.registers.files import read_text, read_toml
-from modeproof.registers.models import Constant, constants_of, restored
+from modeproof.registers.made import read_cfg
 from modeproof.registers.replay import Traces, has_replay, load_replay
-from modeproof.registers.rows import Document, Problem, Run
+from modeproof.registers.rows import Document, Problem
+from modeproof.registers.runs import Run
 from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import Definition, closure
 
 _TEXT = re.compile(r'"([^"\n]*)"')
 _NAME = re.compile(r"[A-Za-z_]\w*")
-_SPECIFICATION = re.compile(r"^[ \t]*(SPECIFICATION|INIT|NEXT|VIEW)\b\s*(\w+)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -71,20 +71,23 @@ def _lists(traces: Traces, sources: Sources) -> list[Definition]:
 
 def models_of(document: Document, traces: Traces) -> tuple[Model, ...]:
     """The model of every run whose cfg exists."""
-    rows = {row["id"]: row for row in read_toml(document.root, document.folder / "runs.toml")["run"]}
     found = []
     for run in document.runs:
         if not (document.folder / run.cfg).is_file():
             continue
-        text = read_text(document.root, document.folder / run.cfg)
-        constants = constants_of(text)
-        others = tuple(sorted((k, v.text) for k, v in constants.items() if k != traces.literal))
-        spec = tuple(sorted(_SPECIFICATION.findall(text)))
-        row = rows[run.id]
-        counts = (row.get("distinct"), row.get("generated"))
-        names = restored(constants, traces.literal)
-        found.append(Model(run, constants, names, (run.module, others, spec), counts))
+        cfg = read_cfg(document.root, run)
+        others = tuple(sorted((k, v.text) for k, v in cfg.constants.items() if k != traces.literal))
+        spec = (cfg.specification, cfg.init, cfg.next, cfg.view)
+        names = restored(cfg.constants, traces.literal)
+        counts = (run.distinct, run.generated)
+        found.append(Model(run, cfg.constants, names, (run.module, others, spec), counts))
     return tuple(found)
+
+
+def restored(constants: Mapping[str, Constant], literal: str) -> frozenset[str]:
+    """The readings that a cfg restores: the texts in its constant `literal`."""
+    given = constants.get(literal)
+    return frozenset(_TEXT.findall(given.text)) if given is not None else frozenset()
 
 
 def idle_switch(document: Document, run: str, counts: tuple[int, int]) -> str:

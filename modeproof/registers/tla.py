@@ -38,6 +38,11 @@ class Definition:
     comment: str
     body: str = ""
 
+    @property
+    def local(self) -> bool:
+        """Whether only its own module sees it."""
+        return self.body.startswith("LOCAL")
+
 
 @dataclass(frozen=True)
 class Module:

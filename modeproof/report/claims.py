@@ -14,7 +14,8 @@ from modeproof.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.citations import Sources as Texts
 from modeproof.registers.python_source import PythonTheorem
-from modeproof.registers.rows import Document, Property, Run
+from modeproof.registers.rows import Document, Property
+from modeproof.registers.runs import Run
 from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
 from modeproof.report.verdicts import ASIDE, POSITIVE
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.registers.rows import Run
+from modeproof.registers.runs import Run
 from modeproof.registers.tools import Condition
 from modeproof.report.claims import LANE, texts_of
 from modeproof.report.sources import Evidence, Figure, Sources
@@ -61,11 +61,11 @@ def _words(sources: Sources, condition: Condition) -> Met:
 def _cfgs(sources: Sources, condition: Condition) -> Met:
     bad, count = [], 0
     form = re.compile(rf"^[ \t]*(?:{'|'.join(map(re.escape, condition.value))})\b", re.MULTILINE)
-    for name, document in sources.documents.items():
+    for document in sources.documents.values():
         for run in document.runs:
             if condition.of and run.kind not in condition.of:
                 continue
-            content = sources.content(f"spec/{name}/{run.cfg}")
+            content = sources.content(run.config)
             if content is None:
                 continue
             count += 1

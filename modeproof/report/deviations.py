@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from modeproof.errors import Unjudged
-from modeproof.registers.models import read_constants, restored
+from modeproof.registers.made import read_cfg
 from modeproof.registers.replay import has_replay, load_replay
-from modeproof.registers.rows import Document, Finding, Run
+from modeproof.registers.rows import Document, Finding
+from modeproof.registers.runs import Run
+from modeproof.registers.switches import restored
 from modeproof.report.claims import Said, said
 from modeproof.report.sources import Sources
 
@@ -68,9 +70,9 @@ def _readings(sources: Sources, document: Document) -> Mapping[str, tuple[str, .
     found: dict[str, tuple[str, ...]] = {}
     for run in document.runs:
         try:
-            constants = read_constants(document.root, document.name, run.cfg)
+            constants = read_cfg(document.root, run).constants
         except Unjudged:
             continue
-        sources.content(f"spec/{document.name}/{run.cfg}")
+        sources.content(run.config)
         found[run.id] = tuple(sorted(restored(constants, literal)))
     return found

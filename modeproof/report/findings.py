@@ -12,11 +12,13 @@ from dataclasses import dataclass
 from pathlib import PurePosixPath
 from typing import Any
 
+from modeproof.registers.cfg import Constant
 from modeproof.registers.citations import Sources, ids_of
-from modeproof.registers.models import Constant, restored
 from modeproof.registers.replay import Traces
-from modeproof.registers.rows import Document, Finding, Property, Run
+from modeproof.registers.rows import Document, Finding, Property
+from modeproof.registers.runs import Run
 from modeproof.registers.stamps import has_page, index_name, page_name, pins, stamped, table_name
+from modeproof.registers.switches import restored
 from modeproof.report.cells import Cells
 from modeproof.report.scan_table import Comparison, compare, markdown, scan_table, who
 

@@ -13,9 +13,11 @@ import shutil
 import tempfile
 import threading
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from modeproof.errors import Unjudged
 from modeproof.strength.mutant import Mutant, applied
@@ -166,8 +168,9 @@ class Bench:
                 (folder / f"{name}.tla").write_text(text, encoding="utf-8")
             (folder / f"{MODULE}.tla").write_text(trial.module, encoding="utf-8")
             (folder / "trial.cfg").write_text(trial.cfg, encoding="utf-8")
-            run = replace(
+            run = msgspec.structs.replace(
                 tier.run,
+                base="",
                 kind="MC",
                 module=MODULE,
                 cfg="trial.cfg",

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.errors import Unjudged
+from modeproof.registers.runs import Run, load_runs
 from modeproof.strength.operators import Rule
-from modeproof.tlc.runs import Run, load_runs
 
 ASKS = ("properties", "graph", "liveness")
 WHEN = ("always", "complete", "left")

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeproof.errors import Unjudged
+from modeproof.registers.cfg import Cfg, parse_cfg
+from modeproof.registers.made import cfg_text
 from modeproof.strength.register import Tier
-from modeproof.tlc.cfg import Cfg, parse_cfg
 from modeproof.tlc.parse_tree import AND, Definition, Node, ParseTree
 
 MODULE = "StrengthTrial"
@@ -37,14 +38,14 @@ class Trial:
     asked: tuple[str, ...]
 
 
-def make_trial(tree: ParseTree, tier: Tier, cfg_text: str) -> Trial:
+def make_trial(tree: ParseTree, tier: Tier, given: str) -> Trial:
     """The trial of a tier on the specification in `tree`, whose root is the module of the tier's run.
 
     Raises Unjudged when the cfg or a property cannot be taken apart.
     """
-    name = tier.run.cfg
-    text = with_constants(cfg_text, tier.constants, name)
-    cfg = parse_cfg(cfg_text, name)
+    name = tier.run.config
+    text = with_constants(given, tier.constants, name)
+    cfg = parse_cfg(given, name)
     head = [f"---- MODULE {MODULE} ----", f"EXTENDS {tier.run.module}, TLC", tier.definitions]
     if tier.asks == "graph":
         body, checks, asked = _graph(tree, text)
@@ -72,10 +73,10 @@ def with_constants(text: str, constants: Mapping[str, str], name: str) -> str:
     return text.rstrip("\n") + "\n" + (f"CONSTANTS\n{''.join(added)}" if added else "")
 
 
-def _graph(tree: ParseTree, cfg_text: str) -> tuple[list[str], str, tuple[str, ...]]:
+def _graph(tree: ParseTree, given: str) -> tuple[list[str], str, tuple[str, ...]]:
     """Keep what prints: the checked names of the cfg whose definitions mention PrintT."""
     kept: list[str] = []
-    for line in _CHECKED.findall(cfg_text):
+    for line in _CHECKED.findall(given):
         keyword, *names = line.split()
         for one in names:
             definition = tree.find(one)
@@ -93,7 +94,7 @@ def _properties(tree: ParseTree, tier: Tier, cfg: Cfg) -> tuple[list[str], str, 
     for name in cfg.checked:
         definition = tree.find(name)
         if definition is None:
-            raise Unjudged(f"{tier.run.cfg}: {name} is not defined in our modules")
+            raise Unjudged(f"{tier.run.config}: {name} is not defined in our modules")
         if _prints(definition):
             continue
         asked.append(name)
@@ -169,8 +170,7 @@ def _in_place(tree: ParseTree, node: Node) -> str:
 
 
 def cfg_of(folder: Path, tier: Tier) -> str:
-    """The text of the cfg of a tier's run. Raises Unjudged when it cannot be read."""
-    try:
-        return (folder / tier.run.cfg).read_text(encoding="utf-8")
-    except OSError as error:
-        raise Unjudged(f"{tier.run.cfg}: {error.strerror or error}") from None
+    """The text of the cfg of a tier's run; `folder` is that of its specification. Raises Unjudged like
+    `cfg_text`.
+    """
+    return cfg_text(folder.parent.parent, tier.run)

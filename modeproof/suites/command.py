@@ -24,9 +24,9 @@ from modeproof.kit.vectors import EXACT, SETTLED, Suite
 from modeproof.lock import only_one
 from modeproof.places import root
 from modeproof.progress import Progress
+from modeproof.registers.runs import Run
 from modeproof.suites.build import find_target, ready_suite
 from modeproof.suites.write import SUITES, NoCases
-from modeproof.tlc.runs import Run
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:

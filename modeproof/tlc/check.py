@@ -16,16 +16,17 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import build, documents
 from modeproof.progress import Progress
+from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.load import load_document
+from modeproof.registers.made import cfg_text, module_text
+from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.switches import idle_switch
 from modeproof.tlc import children
-from modeproof.tlc.cfg import Cfg, parse_cfg
 from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.resume import declaration_sha256
-from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.schedule import Job, cores, machine_mb, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
@@ -87,8 +88,8 @@ def _named(run: Run, pattern: str) -> bool:
 
 
 def register_problems(place: Path, document: str) -> tuple[str, ...]:
-    """What is wrong between runs.toml and the models folder: a missing or unlisted cfg, an empty property
-    list.
+    """What is wrong between runs.toml and the specification: a missing or unlisted cfg, an empty property
+    list, a run whose cfg cannot be made.
     """
     folder = place / "spec" / document
     runs = load_runs(place, document)
@@ -103,6 +104,11 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
         for run in runs
         if not run.properties and run.kind != "WIT"
     ]
+    for run in (one for one in runs if one.base):
+        try:
+            module_text(place, run)
+        except Unjudged as error:
+            problems.append(error.message)
     listed = {run.cfg for run in runs}
     problems += [
         f"{cfg.relative_to(folder).as_posix()} is in no run"
@@ -114,15 +120,8 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
 
 def read_cfg(place: Path, run: Run) -> tuple[Cfg, str]:
     """The parsed cfg of a run and its SHA-256. Raises Unjudged when it is missing or not understood."""
-    path = place / "spec" / run.document / run.cfg
-    try:
-        content = path.read_bytes()
-        text = content.decode("utf-8")
-    except FileNotFoundError:
-        raise Unjudged(f"{run.name}: {run.cfg} is missing") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise Unjudged(f"{run.name}: {run.cfg}: {error}") from None
-    return parse_cfg(text, f"{run.name}: {run.cfg}"), hashlib.sha256(content).hexdigest()
+    text = cfg_text(place, run)
+    return parse_cfg(text, f"{run.name}: {run.config}"), hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
 def check_one(
@@ -155,7 +154,7 @@ def check_one(
             outcome = run_distributed(place, run, cfg, tools, where, on_progress, progress.say)
         judgement = _about_switch(place, run, judge(run, cfg, digest, outcome), outcome)
         if read_cfg(place, run)[1] != digest:
-            judgement = Judgement(UNJUDGED, False, f"{run.cfg} was changed while TLC ran")
+            judgement = Judgement(UNJUDGED, False, f"{run.config} was changed while TLC ran")
     except Unjudged as error:
         judgement = Judgement(UNJUDGED, False, error.message)
     finally:
@@ -247,7 +246,9 @@ def _record(
 ) -> dict[str, Any]:
     folder = place / "spec" / run.document
     paths = {folder / "runs.toml"}
-    paths |= {path for path in (folder / run.cfg, folder / f"{run.module}.tla") if path.is_file()}
+    made = (place / run.config).with_suffix(".tla") if run.base else place / run.config
+    needed = (folder / run.cfg, folder / f"{run.module}.tla", place / run.config, made)
+    paths |= {path for path in needed if path.is_file()}
     if outcome is not None:
         spec = (place / "spec").resolve()
         parsed = (Path(name) if Path(name).is_absolute() else folder / name for name in outcome.log.files)
@@ -284,7 +285,7 @@ def _result(
     result: dict[str, Any] = {
         "run": run.kind,
         "module": run.module,
-        "cfg": run.cfg,
+        "cfg": run.config,
         "lanes": list(run.lanes),
         "properties": list(run.properties),
         "workers": run.workers,
@@ -296,8 +297,8 @@ def _result(
     }
     if not tools.pinned:
         result["jar_note"] = f"pinned counts were taken with {JAR_VERSION}, not with this jar"
-    if run.violates is not None:
-        result["property"] = run.violates
+    if run.property:
+        result["property"] = run.property
     if outcome is None:
         return result
     log = outcome.log

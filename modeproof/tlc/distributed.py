@@ -29,8 +29,10 @@ from typing import IO
 
 from modeproof.errors import Unjudged
 from modeproof.places import build
+from modeproof.registers.cfg import Cfg
+from modeproof.registers.made import cfg_text, make
+from modeproof.registers.runs import Run
 from modeproof.tlc import children
-from modeproof.tlc.cfg import Cfg
 from modeproof.tlc.messages import (
     BLOCK_TOO_BIG,
     GENERAL,
@@ -46,7 +48,6 @@ from modeproof.tlc.messages import (
 )
 from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.process import FINGERPRINT, SMALL_HEAP_MB, Outcome, run_tlc
-from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.tlc.transitions import PREFIX, rewrite
 
@@ -245,8 +246,12 @@ class _Session:
             sources |= {path.name: path for path in sorted(source.glob("*.tla"))}
         for name, path in sources.items():
             shutil.copyfile(path, self.room / name)
-        text = (folder / self.run_.cfg).read_text(encoding="utf-8")
-        tree = read_tree(self.room, self.run_.module, self.tools)
+        run, text = self.run_, cfg_text(self.place, self.run_)
+        if run.base:
+            made_in, run = make(self.place, run)
+            sources[f"{run.module}.tla"] = made_in / f"{run.module}.tla"
+            shutil.copyfile(sources[f"{run.module}.tla"], self.room / f"{run.module}.tla")
+        tree = read_tree(self.room, run.module, self.tools)
         made = rewrite(tree, self.cfg, text, self.run_.name)
         (self.room / f"{made.module}.tla").write_text(made.text, encoding="utf-8")
         (self.room / f"{made.module}.cfg").write_text(made.cfg, encoding="utf-8")

@@ -9,10 +9,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
-from modeproof.tlc.cfg import Cfg
+from modeproof.registers.cfg import Cfg
+from modeproof.registers.runs import Run
 from modeproof.tlc.messages import OUT_OF_MEMORY, essence
 from modeproof.tlc.process import Outcome
-from modeproof.tlc.runs import Run
 
 HOLDS = "HOLDS"
 VIOLATED = "VIOLATED"
@@ -143,23 +143,25 @@ def _declaration(run: Run, cfg: Cfg, cfg_sha256: str) -> str:
     """What is wrong with the declaration against the cfg that TLC read; empty when nothing is."""
     if run.kind != "WIT":  # what a WIT run shows are its witnesses, and their list is never empty
         if not cfg.checked:
-            return f"{run.cfg} checks no property"
+            return f"{run.config} checks no property"
         if not run.properties:
             return "runs.toml lists no property"
     if missing := [name for name in run.properties if name not in cfg.checked]:
-        return f"{run.cfg} does not check {', '.join(missing)}"
+        return f"{run.config} does not check {', '.join(missing)}"
     if extra := [name for name in cfg.checked if name not in run.properties]:
-        return f"{run.cfg} checks {', '.join(extra)}, which runs.toml does not list"
-    if run.violates is not None and run.violates not in (*cfg.checked, "deadlock"):
-        return f"{run.cfg} does not check {run.violates}"
+        return f"{run.config} checks {', '.join(extra)}, which runs.toml does not list"
+    if run.property and run.property not in (*cfg.checked, "deadlock"):
+        return f"{run.config} does not check {run.property}"
     if run.kind == "LIVE" and len(cfg.properties) != 1:
-        return f"{run.cfg} must check exactly one temporal property, it checks {len(cfg.properties)}"
+        return f"{run.config} must check exactly one temporal property, it checks {len(cfg.properties)}"
     if cfg.view and run.kind == "LIVE":
-        return f"{run.cfg} has a VIEW, which makes a liveness run unsound"
+        return f"{run.config} has a VIEW, which makes a liveness run unsound"
+    if run.base:  # the row itself is the pin
+        return ""
     if run.cfg_sha256 is None:
         return "not pinned yet: cfg_sha256"
     if run.cfg_sha256 != cfg_sha256:
-        return f"{run.cfg} was changed since its counts were pinned"
+        return f"{run.config} was changed since its counts were pinned"
     return ""
 
 
@@ -178,24 +180,28 @@ def _expectation(run: Run, found: Judgement, outcome: Outcome) -> str:
 
 def _expected_violation(run: Run, found: Judgement, outcome: Outcome) -> str:
     if found.verdict != VIOLATED:
-        return f"{run.violates} was to be violated, and is not"
-    if found.violated != run.violates:
-        return f"{found.violated or 'an unnamed property'} is violated, not {run.violates}"
+        return f"{run.property} was to be violated, and is not"
+    if found.violated != run.property:
+        return f"{found.violated or 'an unnamed property'} is violated, not {run.property}"
     if run.workers == 1:
         if run.trace_length is None:
             return "not pinned yet: trace_length"
         if len(outcome.log.trace) != run.trace_length:
             return f"the counterexample has {len(outcome.log.trace)} states, not {run.trace_length}"
-    return ""
+    return _counts(run, outcome) if run.distinct is not None or run.generated is not None else ""
 
 
 def _counts(run: Run, outcome: Outcome) -> str:
+    """The pinned counts; of a violated run they are those so far, and only those that are pinned."""
     counts = outcome.log.counts
-    assert counts is not None
+    if counts is None:
+        return "TLC counted no states, so none can be pinned"
     for name, pinned, got in (
         ("distinct", run.distinct, counts.distinct),
         ("generated", run.generated, counts.generated),
     ):
+        if pinned is None and run.kind == "NEG":
+            continue
         if pinned is None:
             return f"not pinned yet: {name}"
         if pinned != got:

@@ -15,9 +15,10 @@ from typing import Any, BinaryIO
 
 from modeproof.errors import Unjudged
 from modeproof.places import build
+from modeproof.registers.made import make
+from modeproof.registers.runs import Run
 from modeproof.tlc import children
 from modeproof.tlc.messages import Counts, Log, LogReader
-from modeproof.tlc.runs import Run
 from modeproof.tlc.start_up import start_up_options
 from modeproof.tlc.toolchain import Toolchain
 
@@ -131,14 +132,17 @@ def run_tlc(
 ) -> Outcome:
     """Run TLC on `run` and read its log to the end.
 
-    Module and cfg lie in the document's folder of the specification; those that were made for this run alone
-    in `made_in`, and then the document's modules are found all the same. `watch` gets each printed line of a
+    Module and cfg lie in the document's folder of the specification; those of a run with a base are made, and
+    those that were made for a run that no register declares lie in `made_in`; the document's modules are
+    found all the same. `watch` gets each printed line of a
     run that is not of kind OPEN, in the place of the set of lines; once it says True the run is stopped.
 
     The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
     build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
     cannot be started or the disk is full.
     """
+    if run.base:
+        made_in, run = make(place, run)
     own = place / "spec" / run.document
     folder = own if made_in is None else made_in
     for needed in (folder / f"{run.module}.tla", folder / run.cfg):

@@ -14,10 +14,11 @@ import sys
 import time
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
@@ -66,16 +67,16 @@ def moves(place: Path, checked: Checked) -> tuple[Move, ...]:
     if outcome is None or not judgement.judged or (outcome.log.counts is None and run.kind != "NEG"):
         raise Unjudged(f"{run.name}: {judgement.verdict}, nothing to pin: {judgement.reason}")
     right = {"NEG": VIOLATED, "WIT": REACHED}.get(run.kind, HOLDS)
-    if judgement.verdict != right or (run.kind == "NEG" and judgement.violated != run.violates):
+    if judgement.verdict != right or (run.kind == "NEG" and judgement.violated != run.property):
         raise Unjudged(f"{run.name}: {judgement.verdict} is not what the run must show: {judgement.reason}")
     log = outcome.log
-    wanted: list[Move] = [Move("", "cfg_sha256", run.cfg_sha256, checked.cfg_sha256)]
-    if run.kind == "NEG":
-        if run.workers == 1:
-            wanted.append(Move("", "trace_length", run.trace_length, len(log.trace)))
-    elif log.counts is not None:
-        wanted.append(Move("", "distinct", run.distinct, log.counts.distinct))
-        wanted.append(Move("", "generated", run.generated, log.counts.generated))
+    wanted = [] if run.base else [Move("", "cfg_sha256", run.cfg_sha256, checked.cfg_sha256)]
+    if run.kind == "NEG" and run.workers == 1:
+        wanted.append(Move("", "trace_length", run.trace_length, len(log.trace)))
+    if log.counts is not None:
+        counts = Move("", "distinct", run.distinct, log.counts.distinct)
+        generated = Move("", "generated", run.generated, log.counts.generated)
+        wanted += [one for one in (counts, generated) if run.kind != "NEG" or one.old is not None]
     if run.graph is not None and log.initial is not None:
         states, edges = log.tags.get("STATE", 0), log.tags.get("EDGE", 0)
         wanted.append(Move("graph", "states", run.graph.states, states))
@@ -91,9 +92,9 @@ def _refuse_other_faults(place: Path, checked: Checked, wanted: list[Move]) -> N
     pins: dict[str, Any] = {move.key: move.new for move in wanted if not move.table}
     if run.graph is not None:
         counts: dict[str, Any] = {move.key: move.new for move in wanted if move.table}
-        pins["graph"] = replace(run.graph, **counts)
+        pins["graph"] = msgspec.structs.replace(run.graph, **counts)
     cfg, digest = read_cfg(place, run)
-    again = judge(replace(run, **pins), cfg, digest, outcome)
+    again = judge(msgspec.structs.replace(run, **pins), cfg, digest, outcome)
     if not again.as_expected:
         raise Unjudged(f"{run.name}: not a matter of pins: {again.reason}")
 
@@ -103,8 +104,10 @@ def cfg_diff(place: Path, checked: Checked) -> str:
     one.
     """
     run = checked.run
-    path = place / "spec" / run.document / run.cfg
-    name = path.relative_to(place).as_posix()
+    path = place / run.config
+    name = run.config
+    if run.base:
+        return f"{name}: made from runs.toml, whose row is the pin"
     if run.cfg_sha256 is None:
         return f"{name}: pinned for the first time"
     if run.cfg_sha256 == checked.cfg_sha256:
@@ -171,16 +174,17 @@ def apply(place: Path, changes: dict[str, dict[str, tuple[Move, ...]]], reason: 
             raise Unjudged(f"spec/{document}/runs.toml: {error}") from None
         tables: Any = data["run"]
         for table in tables:
-            for move in of_run.get(str(table["id"]), ()):
+            moved = of_run.get(str(table["id"]), ())
+            for move in moved:
                 target = table[move.table] if move.table else table
                 if move.key in target:
                     target[move.key] = move.new
                 else:
                     _insert(target, move)
-                if move.key == "cfg_sha256":
-                    target[move.key].comment(note)
-            if of_run.get(str(table["id"])) and "cfg_sha256" in table:
+            if moved and "cfg_sha256" in table:
                 table["cfg_sha256"].comment(note)
+            elif moved:
+                (table[moved[0].table] if moved[0].table else table)[moved[0].key].comment(note)
         text = tomlkit.dumps(data)
         _refuse_damage(document, path.read_text(encoding="utf-8"), text, of_run)
         write_whole(path, text.encode("utf-8"))

@@ -9,19 +9,20 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import msgspec
+
 from modeproof import evidence
 from modeproof.errors import Unjudged
-from modeproof.tlc.runs import Run
+from modeproof.registers.runs import Run
 from modeproof.tlc.toolchain import Toolchain
 
 
 def declaration_sha256(run: Run) -> str:
     """SHA-256 of all that runs.toml says of a run, pins included; another run's pins do not matter."""
-    text = json.dumps(asdict(run), sort_keys=True, default=str)
+    text = json.dumps(msgspec.to_builtins(run), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 

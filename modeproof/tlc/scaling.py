@@ -12,18 +12,21 @@ import shutil
 import time
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import build
 from modeproof.progress import Progress
-from modeproof.tlc.cfg import COMMENT, parse_cfg
+from modeproof.registers.cfg import COMMENT, parse_cfg
+from modeproof.registers.made import cfg_text as cfg_of
+from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.judge import HOLDS, Judgement, judge
 from modeproof.tlc.process import Outcome, run_tlc
-from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import Toolchain
 
 KIND = "scaling"
@@ -180,7 +183,7 @@ def _measure(
     folder = place / "spec" / series.run.document
     module = series.module or series.run.module
     room = build(place) / "scaling" / series.run.document / name
-    text = cfg_text((folder / series.run.cfg).read_text(encoding="utf-8"), point.given, name)
+    text = cfg_text(cfg_of(place, series.run), point.given, name)
     if series.properties:
         text = _CHECKED.sub("", text) + f"INVARIANTS {' '.join(series.properties)}\n"
         if parse_cfg(text, name).checked != series.properties:
@@ -190,8 +193,9 @@ def _measure(
     try:
         shutil.copyfile(folder / f"{module}.tla", room / f"{module}.tla")
         (room / f"{name}.cfg").write_text(text, encoding="utf-8")
-        run = replace(
+        run = msgspec.structs.replace(
             series.run,
+            base="",
             id=name,
             module=module,
             cfg=f"{name}.cfg",

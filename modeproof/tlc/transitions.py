@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from modeproof.errors import Unjudged
-from modeproof.tlc.cfg import COMMENT, Cfg
+from modeproof.registers.cfg import COMMENT, Cfg
 from modeproof.tlc.parse_tree import Definition, Node, ParseTree, Place, conjuncts
 
 PREFIX = "Every_"

@@ -29,13 +29,14 @@ from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.graph.tla import TlaError, parse
 from modeproof.places import build
+from modeproof.registers.cfg import Constant, parse_cfg
+from modeproof.registers.files import read_text
 from modeproof.registers.load import load_interface
-from modeproof.registers.models import Constant, read_constants
 from modeproof.registers.replay import Top, Traces, load_replay
 from modeproof.registers.rows import Device, Interface
+from modeproof.registers.runs import Run
 from modeproof.registers.tla import Module, read_modules
 from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain, sha256
 
 DUMMY = "<<>>"
@@ -126,7 +127,7 @@ def walk_all(
     groups: dict[tuple[str, tuple[tuple[str, str], ...]], list[Recorded]] = {}
     for one in traces:
         if found[one.run] is None:
-            constants = read_constants(place, document, one.cfg)
+            constants = parse_cfg(read_text(place, place / one.cfg), one.cfg).constants
             groups.setdefault((one.module, replaced(modules, one.module, constants)), []).append(one)
     for (module, definitions), missing in groups.items():
         found |= _walk(place, document, plan, module, definitions, missing, tools)
@@ -416,7 +417,7 @@ def _walk(
             f"spec/{document}/replay.toml: tops: {module} is missing, which {missing[0].run} checks"
         )
     plan = Plan(document, module, top, traces, load_interface(place, document), read_modules(place, document))
-    given = [(one, read_constants(place, document, one.cfg)) for one in missing]
+    given = [(one, parse_cfg(read_text(place, place / one.cfg), one.cfg).constants) for one in missing]
     folder = build(place) / "walk" / document / module
     shutil.rmtree(folder, ignore_errors=True)
     name = module_name(module)
@@ -441,7 +442,6 @@ def _walk(
         workers=1,
         heap_mb=HEAP_MB,
         timeout_s=LIMIT_S,
-        expect="HOLDS",
         properties=("Shown",),
     )
     outcome = run_tlc(place, run, tools, made_in=folder)

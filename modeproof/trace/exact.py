@@ -15,9 +15,9 @@ from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.graph.tla import TlaError, canonical, parse
 from modeproof.places import build
+from modeproof.registers.runs import Run
 from modeproof.tlc.messages import essence
 from modeproof.tlc.process import Outcome, run_tlc
-from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.module import Reading, constants
 from modeproof.trace.targets import Target
@@ -91,14 +91,13 @@ def trace_run(target: Target, name: str, heap_mb: int) -> Run:
         id=name,
         module=name,
         cfg=f"{name}.cfg",
-        kind="Trace",
+        kind="MC",
         lanes=(),
         environment="as the log",
         strength="one log",
         workers=1,
         heap_mb=heap_mb,
         timeout_s=TIME_LIMIT_S,
-        expect="HOLDS",
         properties=(),
     )
 

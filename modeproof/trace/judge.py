@@ -10,9 +10,9 @@ from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
 from modeproof.registers.rows import Device
+from modeproof.registers.runs import Run
 from modeproof.suites.build import step_citations
 from modeproof.tlc.process import Outcome
-from modeproof.tlc.runs import Run
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.exact import Matched, judge_exactly

@@ -140,7 +140,6 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "OpnIsUnlocked is in no row of properties.toml",
         ),
         (SPEC + "runs.toml", 'module = "Latch"', 'module = "Lach"', "MC_Latch: module Lach does not exist"),
-        (SPEC + "runs.toml", '"MC_Latch"', '"LIVE_Latch"', "the id of a run of kind MC begins with MC_"),
         (
             SPEC + "runs.toml",
             'kind = "NEG"',

@@ -57,10 +57,10 @@ def test_a_sound_document_loads_with_types(tree: Any) -> None:
         ("findings", "class", "klass", ["[[finding]] E-01", "did you mean 'class'?"]),
         ("findings", "= true", '= "yes"', ["drawing_could_settle", "must be true or false, not 'yes'"]),
         ("assumptions", '"assumption"', '"guess"', ["[[assumption]] A-01: kind", "'guess'", "merged step"]),
-        ("runs", '"smoke"', '"smok"', ["[[run]] MC_Latch: lanes[0]", "did you mean 'smoke'?"]),
-        ("runs", "tick_ms = 10", "tick_ms = 0", ["[[run]] OPEN_Latch: graph.tick_ms", "0 is too small"]),
-        ("runs", 'property = "OpenIsUnlocked"\n', "", ["[[run]] NEG_Latch", "'property' is missing"]),
-        ("runs", 'witnesses = ["open_seen"]', "", ["[[run]] WIT_Latch", "'witnesses' is missing"]),
+        ("runs", '"smoke"', '"smok"', ["run MC_Latch: lanes[0]", "did you mean 'smoke'?"]),
+        ("runs", "tick_ms = 10", "tick_ms = 0", ["run OPEN_Latch: graph.tick_ms", "expected `int` >= 1"]),
+        ("runs", 'property = "OpenIsUnlocked"\n', "", ["run NEG_Latch", "`property` must name"]),
+        ("runs", 'witnesses = ["open_seen"]', "", ["run WIT_Latch", "witnesses is empty"]),
     ],
 )
 def test_a_typo_gives_one_line(tree: Any, register: str, old: str, new: str, words: list[str]) -> None:

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from modeproof.registers import judge, load_document
-from modeproof.registers.models import constants_of, restored
+from modeproof.registers.cfg import parse_cfg
+from modeproof.registers.switches import restored
 
 SPEC = "spec/door/"
 REPLAY = """
@@ -154,7 +155,7 @@ def test_a_document_without_the_register_has_no_switches_to_check(switched: Any)
 def test_constants_are_read_with_their_kind_and_without_comments() -> None:
     first = 'CONSTANT A <- Table  B = {"x", "y"}\n\\* C = 3\nINVARIANT I\n(* D = 4 *)\n'
     text = first + "CONSTANTS E = 5\n F = [a |-> 1]\nVIEW V\n"
-    found = constants_of(text)
+    found = parse_cfg(text, "x.cfg").constants
     assert {name: (one.text, one.named) for name, one in found.items()} == {
         "A": ("Table", True),
         "B": ('{"x", "y"}', False),

@@ -9,7 +9,7 @@ from typing import Any
 from modeproof.evidence import hashes
 from modeproof.graph.device import graph_file, load_device_graph
 from modeproof.graph.export import write_export
-from modeproof.tlc.runs import load_runs
+from modeproof.registers.runs import load_runs
 from tests.report.conftest import declared
 from tests.report.paper import change, put
 

@@ -6,15 +6,17 @@ import hashlib
 import re
 import shutil
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+
+import msgspec
 
 from modeproof.places import root
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document, Property
+from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
 
 Edit = tuple[str, str]
@@ -58,7 +60,7 @@ class Block:
     @property
     def fallen(self) -> set[str]:
         """The properties that a negative violates."""
-        return {run.violates for run in self.runs.values() if run.kind == "NEG" and run.violates}
+        return {run.property for run in self.runs.values() if run.kind == "NEG" and run.property}
 
     def checked(self, place: Path, name: str, edit: Edit) -> list[tuple[str, str]]:
         """What TLC says of this property alone on a copy with the edit."""
@@ -74,7 +76,7 @@ class Block:
         text = _CHECKED.sub(f"{kind} {name}\n", (folder / base.cfg).read_text())
         (folder / base.cfg).write_text(text)
         digest = hashlib.sha256(text.encode()).hexdigest()
-        run = replace(base, properties=(name,), cfg_sha256=digest)
+        run = msgspec.structs.replace(base, properties=(name,), cfg_sha256=digest)
         log = run_tlc(place, run, find_toolchain()).log
         assert log.violations or log.success, (
             log.errors,

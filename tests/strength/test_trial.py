@@ -7,17 +7,17 @@ import pytest
 from modeproof.errors import Unjudged
 from modeproof.places import root
 from modeproof.registers.load import load_document
+from modeproof.registers.runs import load_runs
 from modeproof.strength.judge import Bench
 from modeproof.strength.register import Strength, Tier, load_strength
 from modeproof.strength.trial import BROKEN, make_trial
-from modeproof.tlc.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
 from tests.strength.shipped import bench_of
 
 DOCUMENT = "mode_selection"
 RUNS = {run.id: run for run in load_runs(root(), DOCUMENT)}
 KINDS = {one.id: one.kind for one in load_document(root(), DOCUMENT).properties}
-SAFETY = [run.id for run in RUNS.values() if run.kind == "NEG" and KINDS.get(str(run.violates)) != "liveness"]
+SAFETY = [run.id for run in RUNS.values() if run.kind == "NEG" and KINDS.get(str(run.property)) != "liveness"]
 
 
 def names_printed(id: str) -> set[str]:
@@ -31,7 +31,7 @@ def names_printed(id: str) -> set[str]:
         match = BROKEN.fullmatch(line)
         if match is not None:
             found.add(match[1].decode())
-        return run.violates in found
+        return run.property in found
 
     bench._run(tier, None, watch)
     return found
@@ -40,7 +40,7 @@ def names_printed(id: str) -> set[str]:
 @pytest.mark.parametrize("id", ["NEG_Hmi_shows_any_echo", "NEG_Eks_no_level_check"])
 def test_what_tlc_stops_at_is_among_the_names(id: str) -> None:
     """`python -m tests.strength.test_trial` asks this about every negative run."""
-    assert RUNS[id].violates in names_printed(id)
+    assert RUNS[id].property in names_printed(id)
 
 
 def test_a_property_of_time_is_not_taken_apart() -> None:
@@ -73,7 +73,7 @@ def main() -> None:
     for id in SAFETY:
         found = names_printed(id)
         print(
-            "ok " if RUNS[id].violates in found else "NOT", id, RUNS[id].violates, sorted(found), flush=True
+            "ok " if RUNS[id].property in found else "NOT", id, RUNS[id].property, sorted(found), flush=True
         )
 
 

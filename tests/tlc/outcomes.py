@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
-from modeproof.tlc.cfg import Cfg, parse_cfg
+import msgspec
+
+from modeproof.registers.cfg import Cfg, parse_cfg
+from modeproof.registers.runs import Run, _run
 from modeproof.tlc.judge import Judgement, judge
 from modeproof.tlc.messages import Log, LogReader
 from modeproof.tlc.process import Outcome
-from modeproof.tlc.runs import Run, _run
 from tests.toy_tree import CFGS, declaration, sha256
 
 STATUS = {"MC_toy": 0, "NEG_small": 12, "NEG_reaches": 13}
@@ -48,7 +49,7 @@ def declared(name: str, **changes: object) -> Run:
     import tomllib
 
     run = _run("toy", "runs.toml", tomllib.loads(declaration(name))["run"][0])
-    return replace(run, **changes)  # type: ignore[arg-type]
+    return msgspec.structs.replace(run, **changes)
 
 
 def judged(run: Run, found: Outcome, cfg_text: str | None = None) -> Judgement:

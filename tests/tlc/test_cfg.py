@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from modeproof.errors import Unjudged
-from modeproof.tlc.cfg import parse_cfg
+from modeproof.registers.cfg import parse_cfg
 
 
 @pytest.mark.parametrize(

@@ -11,13 +11,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as with_values
 
 from modeproof import evidence
 from modeproof.progress import Progress
 from modeproof.tlc import children, process
 from modeproof.tlc.check import SMALL_SHARE, Checked, check_all, check_one, select
 from modeproof.tlc.process import SMALL_HEAP_MB
-from modeproof.tlc.repin import moves
+from modeproof.tlc.repin import apply, moves
 from modeproof.tlc.schedule import Job
 from modeproof.tlc.toolchain import find_toolchain
 from tests.any_machine import until
@@ -36,7 +37,10 @@ def test_a_small_run_leaves_a_part_of_its_core_to_others(
 ) -> None:
     root = toy_tree(tmp_path, "MC_toy")
     (small,) = select(root, ["MC_toy"])
-    big, wide = replace(small, heap_mb=SMALL_HEAP_MB + 1), replace(small, workers=2)
+    big, wide = (
+        with_values(small, heap_mb=SMALL_HEAP_MB + 1),
+        with_values(small, workers=2),
+    )
     asked: list[float] = []
 
     def jobs_only(jobs: Sequence[Job], *others: object) -> list[Checked]:
@@ -45,7 +49,10 @@ def test_a_small_run_leaves_a_part_of_its_core_to_others(
 
     monkeypatch.setattr("modeproof.tlc.check.run_all", jobs_only)
     check_all(
-        root, [replace(small, heap_mb=SMALL_HEAP_MB), big, wide], find_toolchain(), Progress(quiet=True)
+        root,
+        [with_values(small, heap_mb=SMALL_HEAP_MB), big, wide],
+        find_toolchain(),
+        Progress(quiet=True),
     )
     assert asked == [SMALL_SHARE, 1, 2]
 
@@ -86,7 +93,7 @@ def test_what_the_first_state_violates_can_be_pinned(good: tuple[Path, dict[str,
     root, done = good
     one = done["NEG_risen"]
     assert moves(root, one) == ()
-    (move,) = moves(root, replace(one, run=replace(one.run, trace_length=2)))
+    (move,) = moves(root, replace(one, run=with_values(one.run, trace_length=2)))
     assert str(move) == "trace_length: 2 -> 1"
 
 
@@ -254,3 +261,49 @@ def test_a_full_disk_while_the_graph_is_written_leaves_no_graph(
 
 def test_declaration_and_tree_agree() -> None:
     assert sha256(CFGS["MC_toy"]) in declaration("MC_toy")
+
+
+AS_PRINTED = """---- MODULE ToyAsPrinted ----
+EXTENDS Toy
+Up_Overflows == in' = 1 /\\ count' = count + 1 /\\ step' = "Up" /\\ UNCHANGED top
+LOCAL Waits == in' = 1 /\\ count = N /\\ step' = "Stay" /\\ UNCHANGED <<count, top>>
+Stay_Waits == Waits
+====
+"""
+
+
+def with_reading(root: Path, name: str, reading: str, more: str) -> Path:
+    """The toy with MC_toy and one run that is MC_toy with a reading."""
+    toy_tree(root, "MC_toy")
+    (root / "spec/toy/ToyAsPrinted.tla").write_text(AS_PRINTED)
+    with (root / "spec/toy/runs.toml").open("a") as register:
+        register.write(f'\n[[run]]\nid = "{name}"\nbase = "MC_toy"\nreading = "{reading}"\n{more}')
+    return root
+
+
+def test_a_reading_takes_the_place_of_what_was_decided(tmp_path: Path) -> None:
+    root = with_reading(tmp_path, "NEG_over", "Overflows", 'property = "TypeOK"\ntrace_length = 6\n')
+    one = check(root, "NEG_over")["NEG_over"]
+    assert (one.judgement.words, one.judgement.reason) == ("VIOLATED, as expected", "")
+    assert {"spec/toy/ToyAsPrinted.tla", "spec/toy/models/MC_toy.cfg"} < set(one.record["inputs"])
+    made = {name for name in one.record["inputs"] if name.startswith("build/")}
+    assert made == {f"build/tlc/toy/made/NEG_over/NEG_over.{end}" for end in ("cfg", "tla")}
+    assert moves(root, one) == ()
+
+
+def test_the_pins_of_a_run_with_a_base_are_its_row(tmp_path: Path) -> None:
+    root = with_reading(tmp_path, "NEG_over", "Overflows", 'property = "TypeOK"\ndistinct = 3\n')
+    one = check(root, "NEG_over")["NEG_over"]
+    assert one.judgement.reason == "not pinned yet: trace_length"
+    found = {move.key: move.new for move in moves(root, one)}
+    assert found.keys() == {"trace_length", "distinct"} and found["trace_length"] == 6
+    apply(root, {"toy": {"NEG_over": moves(root, one)}}, "first run")
+    one = check(root, "NEG_over")["NEG_over"]
+    assert one.judgement.as_expected and moves(root, one) == ()
+    assert one.record["result"]["pins"]["distinct"] == found["distinct"]
+
+
+def test_a_reading_that_harms_nothing_is_checked_by_all_properties(tmp_path: Path) -> None:
+    root = with_reading(tmp_path, "MC_waits", "Waits", "distinct = 16\ngenerated = 33\n")
+    one = check(root, "MC_waits")["MC_waits"]
+    assert (one.judgement.words, one.judgement.reason) == ("HOLDS", "")

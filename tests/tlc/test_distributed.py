@@ -17,6 +17,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as with_values
 
 from modeproof.cli import main
 from modeproof.progress import Progress
@@ -117,7 +118,7 @@ def spread(
 ) -> Checked:
     """Check a run in distributed mode; `meanwhile` runs beside it, from when workers are at work."""
     (run,) = select(root, [name])
-    run = replace(run, **pins)  # type: ignore[arg-type]
+    run = with_values(run, **pins)
     thread = threading.Thread(target=meanwhile) if meanwhile is not None else None
     if thread is not None:
         thread.start()

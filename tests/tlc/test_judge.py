@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace as with_values
 
 from modeproof.tlc.judge import HOLDS, INCONCLUSIVE, REACHED, UNJUDGED, UNREACHED, VIOLATED
 from modeproof.tlc.process import Outcome
@@ -27,7 +28,7 @@ def test_without_a_fault_each_run_is_as_expected(name: str, verdict: str) -> Non
 
 def test_an_expected_violation_says_so() -> None:
     assert judged(declared("NEG_small"), outcome("NEG_small")).words == "VIOLATED, as expected"
-    assert judged(declared("NEG_small", violates="TypeOK"), outcome("NEG_small")).words == "VIOLATED"
+    assert judged(declared("NEG_small", property="TypeOK"), outcome("NEG_small")).words == "VIOLATED"
 
 
 # ------------------------------------------------------------------ faults in cfg and register
@@ -199,7 +200,7 @@ def graph_outcome(states: int, edges: int) -> Outcome:
 def test_a_graph_is_complete_or_the_run_is_not_as_expected() -> None:
     graph = declared("OPEN_toy").graph
     assert graph is not None
-    run = declared("OPEN_toy", distinct=16, generated=33, graph=replace(graph, states=16, edges=32))
+    run = declared("OPEN_toy", distinct=16, generated=33, graph=with_values(graph, states=16, edges=32))
     assert judged(run, graph_outcome(16, 32)).as_expected
     lost_edge = judged(run, graph_outcome(16, 31))
     assert lost_edge.reason == "31 edges were printed, but TLC took 32 transitions"
@@ -210,7 +211,7 @@ def test_a_graph_is_complete_or_the_run_is_not_as_expected() -> None:
 def test_a_pinned_edge_count_that_differs_is_noticed() -> None:
     graph = declared("OPEN_toy").graph
     assert graph is not None
-    run = declared("OPEN_toy", distinct=16, generated=33, graph=replace(graph, states=16, edges=40))
+    run = declared("OPEN_toy", distinct=16, generated=33, graph=with_values(graph, states=16, edges=40))
     assert judged(run, graph_outcome(16, 32)).reason == "graph edges: 32, pinned 40"
 
 

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import subprocess
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace as with_values
 
 from modeproof.errors import Unjudged
+from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.check import Checked
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.repin import apply, ask_reason, cfg_diff, moves, refuse_in_ci
-from modeproof.tlc.runs import Run, load_runs
 from tests.tlc.outcomes import judged, outcome
 from tests.toy_tree import CFGS, sha256, toy_tree
 
@@ -52,7 +52,9 @@ def test_missing_pins_are_added_and_nothing_else_changes(tmp_path: Path) -> None
     graph = whole[1].graph
     assert graph is not None
     assert now[0] == whole[0]
-    assert now[1] == replace(whole[1], distinct=16, generated=33, graph=replace(graph, states=16, edges=32))
+    assert now[1] == with_values(
+        whole[1], distinct=16, generated=33, graph=with_values(graph, states=16, edges=32)
+    )
 
 
 def test_a_wrong_verdict_is_never_pinned(tmp_path: Path) -> None:

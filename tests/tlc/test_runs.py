@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from modeproof.errors import Unjudged
+from modeproof.registers.runs import load_runs
 from modeproof.tlc.check import register_problems, select
-from modeproof.tlc.runs import load_runs
 from tests.toy_tree import CFGS, declaration, toy_tree
 
 
@@ -21,7 +21,7 @@ def with_runs(root: Path, text: str) -> Path:
 def test_every_kind_of_run_is_read(tmp_path: Path) -> None:
     runs = {run.id: run for run in load_runs(toy_tree(tmp_path, *CFGS), "toy")}
     assert set(runs) == set(CFGS)
-    assert runs["NEG_small"].violates == "Small" and runs["NEG_small"].expect == "VIOLATED"
+    assert runs["NEG_small"].property == "Small" and runs["NEG_small"].expect == "VIOLATED"
     assert runs["WIT_toy"].witnesses == ("top", "down") and runs["WIT_toy"].expect == "REACHED"
     graph = runs["OPEN_toy"].graph
     assert graph is not None and (graph.states, graph.edges, graph.tick_ms) == (9, 18, 250)
@@ -31,22 +31,25 @@ def test_every_kind_of_run_is_read(tmp_path: Path) -> None:
     ("text", "words"),
     [
         ("", "no run is declared"),
-        ("run = 3", "run must be list"),
+        ("run = 3", "`run` must be a list of tables"),
         ("[[run]\n", "runs.toml: "),
         (declaration("MC_toy") * 2, "MC_toy is declared twice"),
-        (declaration("MC_toy", kind="MX"), "kind must be one of"),
+        (declaration("MC_toy", kind="MX"), "kind: 'MX' is not allowed; did you mean 'MC'?"),
         (declaration("MC_toy", kind="LIVE"), "starts with LIVE_"),
         (declaration("MC_toy", expect="VIOLATED"), "a run of kind MC expects HOLDS"),
-        (declaration("MC_toy", workers=0), "workers must be at least 1"),
+        (declaration("MC_toy", workers=0), "workers: expected `int` >= 1"),
         (declaration("MC_toy", timeout_s=0), "timeout_s"),
-        (declaration("MC_toy", distinct="many"), "distinct must be int"),
-        (declaration("MC_toy", wokers=2), "unknown field 'wokers'"),
+        (declaration("MC_toy", distinct="many"), "distinct: expected `int | null`, got `str`"),
+        (declaration("MC_toy", wokers=2), "unknown key 'wokers'; did you mean 'workers'?"),
         (declaration("NEG_small").replace('property = "Small"\n', ""), "must name what is violated"),
         (declaration("NEG_small", workers=2), "trace_length is exact with workers = 1"),
         (declaration("WIT_toy").replace('["top", "down"]', "[]"), "witnesses is empty"),
         (declaration("OPEN_toy", workers=2), "needs workers = 1"),
         (declaration("OPEN_toy").split("[run.graph]")[0], "[run.graph] belongs to"),
-        (declaration("MC_toy").replace('"full"', '"fulll"'), "lanes must name some of"),
+        (
+            declaration("MC_toy").replace('"full"', '"fulll"'),
+            "lanes[1]: 'fulll' is not allowed; did you",
+        ),
     ],
 )
 def test_a_mistake_in_runs_toml_names_place_and_cause(tmp_path: Path, text: str, words: str) -> None:
@@ -88,3 +91,50 @@ def test_a_selection_that_matches_nothing_is_refused(tmp_path: Path) -> None:
         select(root, lane="exhaustive")
     with pytest.raises(Unjudged, match="no document 'tyo'"):
         select(root, document="tyo")
+
+
+DERIVED = '[[run]]\nid = "{id}"\nbase = "{base}"\nreading = "{reading}"\n{more}\n'
+
+
+def derived(id: str = "NEG_sinks", base: str = "MC_toy", reading: str = "Sinks", more: str = "") -> str:
+    return DERIVED.format(id=id, base=base, reading=reading, more=more or 'property = "TypeOK"')
+
+
+def test_a_run_with_a_base_takes_from_it_what_it_does_not_say(tmp_path: Path) -> None:
+    text = declaration("MC_toy") + derived(more='property = "TypeOK"\nheap_mb = 300\nconstants = { N = "3" }')
+    base, run = load_runs(with_runs(tmp_path, text), "toy")
+    assert (run.kind, run.expect, run.lanes, run.readings) == ("NEG", "VIOLATED", ("full",), ("Sinks",))
+    assert (run.module, run.cfg, run.environment, run.strength) == (
+        base.module,
+        base.cfg,
+        base.environment,
+        base.strength,
+    )
+    assert (run.heap_mb, base.heap_mb, run.timeout_s) == (300, 256, base.timeout_s)
+    assert (run.properties, run.distinct, run.cfg_sha256) == (("TypeOK",), None, None)
+
+
+def test_a_harmless_reading_is_checked_by_all_properties_of_the_base(tmp_path: Path) -> None:
+    text = declaration("WIT_toy") + derived("MC_sinks", "WIT_toy", more="workers = 1")
+    _, run = load_runs(with_runs(tmp_path, text), "toy")
+    assert run.properties == ("TypeOK", "Witness") and run.witnesses == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (derived(base="MC_tyo"), "run NEG_sinks: unknown base 'MC_tyo'; did you mean 'MC_toy'?"),
+        (derived(base="NEG_first") + derived("NEG_first"), "its base NEG_first has a base itself"),
+        (derived(more='property = "Small"'), "its base MC_toy does not check Small"),
+        (derived(more='properties = ["TypeOK", "Small"]\nproperty = "TypeOK"'), "does not check Small"),
+        (derived(more='cfg = "models/NEG_sinks.cfg"\nproperty = "TypeOK"'), "cfg belongs to a run by hand"),
+        (derived(more="workers = 1"), "`property` must name what is violated"),
+        (derived(more='property = "TypeOK"\nconstants = { N = 3 }'), "constants[...]: expected `str`"),
+        ('[[run]]\nid = "MC_same"\nbase = "MC_toy"\n', "nothing differs from its base MC_toy"),
+        (declaration("WIT_toy", reading="Sinks"), "belong to a run with a base"),
+    ],
+)
+def test_a_mistake_in_a_run_with_a_base_names_place_and_cause(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(Unjudged) as caught:
+        load_runs(with_runs(tmp_path, declaration("MC_toy") + text), "toy")
+    assert caught.value.message.startswith("spec/toy/runs.toml: run ") and words in caught.value.message

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace as with_values
 
 from modeproof.graph.device import DeviceGraph, load_device_graph
 from modeproof.places import root
-from modeproof.tlc.runs import load_runs
+from modeproof.registers.runs import load_runs
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.judge import Graphs, is_current
 from tests.spec.mode_selection.planted import DOCUMENT, Base, Trial
@@ -46,7 +46,10 @@ def alphabets(tmp_path_factory: pytest.TempPathFactory, quick_java: None) -> dic
         place = tmp_path_factory.mktemp("graph")
         Trial(NEEDED[id]).run(place)
         assert run.graph is not None
-        return load_device_graph(place, replace(run, graph=replace(run.graph, states=None, edges=None)))
+        return load_device_graph(
+            place,
+            with_values(run, graph=with_values(run.graph, states=None, edges=None)),
+        )
 
     return {id: Alphabet(load(id)) for id in NEEDED}
 

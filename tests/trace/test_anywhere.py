@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from modeproof.places import root
+from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.exact import trace_run
 from modeproof.trace.targets import find_target

@@ -10,8 +10,8 @@ import pytest
 
 from modeproof.graph.device import DeviceGraph, load_device_graph
 from modeproof.places import root
+from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
-from modeproof.tlc.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from modeproof.registers.rows import Assumption, Document, Run
+from modeproof.registers.rows import Assumption, Document
+from modeproof.registers.runs import Run
 from modeproof.report.claims import Said, said, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble

@@ -11,7 +11,8 @@ import zlib
 from typing import Any
 
 from modeproof.registers.citations import ids_of
-from modeproof.registers.rows import Device, Document, Property, Run
+from modeproof.registers.rows import Device, Document, Property
+from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
 from modeproof.report.claims import LANE, texts_of
 from modeproof.report.codes import codes_of

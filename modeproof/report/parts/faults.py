@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.registers.fault_table import CELL
-from modeproof.registers.rows import Document, Fault, Run
+from modeproof.registers.rows import Document, Fault
+from modeproof.registers.runs import Run
 from modeproof.report.claims import Said, said, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import Sources, Trouble

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from modeproof.registers.rows import Document, Finding, Run
+from modeproof.registers.rows import Document, Finding
+from modeproof.registers.runs import Run
 from modeproof.report.claims import Said, proved, said, steps_of, theorem_rows
 from modeproof.report.deviations import Deviation, deviations
 from modeproof.report.part import Part

@@ -5,7 +5,8 @@ from __future__ import annotations
 import textwrap
 from typing import Any
 
-from modeproof.registers.rows import Document, Property, Run
+from modeproof.registers.rows import Document, Property
+from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
 from modeproof.report.campaigns import KINDS, Campaign, campaign
 from modeproof.report.claims import Claim, Said, claims, said, steps_of, texts_of, theorem_rows

@@ -11,7 +11,8 @@ from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.registers.replay import Traces, has_replay, load_replay
-from modeproof.registers.rows import Document, Run
+from modeproof.registers.rows import Document
+from modeproof.registers.runs import Run
 from modeproof.report.claims import LANE
 from modeproof.report.part import Part
 from modeproof.report.sequences import REMEDY, Published, Sequence, published

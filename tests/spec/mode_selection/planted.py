@@ -9,14 +9,16 @@ from __future__ import annotations
 import hashlib
 import re
 import shutil
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
+import msgspec
+
 from modeproof.places import build, root
-from modeproof.tlc.cfg import Cfg, parse_cfg
+from modeproof.registers.cfg import Cfg, parse_cfg
+from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.judge import Judgement, judge
 from modeproof.tlc.process import Outcome, run_tlc
-from modeproof.tlc.runs import Run, load_runs
 from modeproof.tlc.toolchain import find_toolchain
 
 DOCUMENT = "mode_selection"
@@ -43,7 +45,7 @@ class Base:
     def declared(self) -> Run:
         """The run as runs.toml declares it, with the module of the base."""
         run = RUNS[self.run]
-        return replace(run, module=self.module or run.module)
+        return msgspec.structs.replace(run, module=self.module or run.module)
 
     @property
     def checks(self) -> str:
@@ -103,8 +105,8 @@ class Trial:
         run, text = self.base.declared, self.base.cfg_text
         if self.invariants or self.properties:
             names = (*self.invariants, *self.properties)
-            run = replace(
-                run, kind="LIVE" if run.kind == "LIVE" else "MC", properties=names, violates=None, graph=None
+            run = msgspec.structs.replace(
+                run, kind="LIVE" if run.kind == "LIVE" else "MC", properties=names, property="", graph=None
             )
             text = _CHECKED.sub("", text)
             text += f"INVARIANTS {' '.join(self.invariants)}\n" if self.invariants else ""
@@ -142,7 +144,7 @@ def run_copy(place: Path, run: Run, cfg_text: str) -> Finding:
     """
     (place / "spec" / DOCUMENT / run.cfg).write_text(cfg_text)
     digest = hashlib.sha256(cfg_text.encode()).hexdigest()
-    run = replace(run, workers=1, heap_mb=1024, timeout_s=1800.0, cfg_sha256=digest)
+    run = msgspec.structs.replace(run, workers=1, heap_mb=1024, timeout_s=1800.0, cfg_sha256=digest)
     outcome = run_tlc(place, run, find_toolchain())
     cfg = parse_cfg(cfg_text, run.cfg)
     found = judge(run, cfg, digest, outcome)
@@ -156,9 +158,9 @@ def pinned(control: Finding) -> Run:
     assert counts is not None
     tags, graph = control.outcome.log.tags, control.run.graph
     if graph is not None:
-        graph = replace(graph, states=tags.get("STATE", 0), edges=tags.get("EDGE", 0))
+        graph = msgspec.structs.replace(graph, states=tags.get("STATE", 0), edges=tags.get("EDGE", 0))
     witnesses = control.judgement.reached or control.run.witnesses
-    return replace(
+    return msgspec.structs.replace(
         control.run,
         distinct=counts.distinct,
         generated=counts.generated,

@@ -11,14 +11,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from modeproof.errors import Unjudged
 from modeproof.graph.read import read_graph
-from modeproof.tlc.cfg import parse_cfg
+from modeproof.registers.cfg import parse_cfg
+from modeproof.registers.runs import Run as DeclaredRun
 from modeproof.tlc.check import register_problems
 from modeproof.tlc.judge import Judgement, judge
-from modeproof.tlc.runs import Run as DeclaredRun
 from tests.spec.mode_selection.faults import KEY_FLOWS
 from tests.spec.mode_selection.planted import (
     DOCUMENT,
@@ -52,7 +53,7 @@ Run = Callable[[Trial], Finding]
 def judged(found: Finding, control: Finding) -> Judgement:
     """The judgement of a run against the pins of the control."""
     assert found.run.cfg_sha256 is not None
-    run = replace(pinned(control), cfg_sha256=found.run.cfg_sha256)
+    run = msgspec.structs.replace(pinned(control), cfg_sha256=found.run.cfg_sha256)
     return judge(run, found.cfg, found.run.cfg_sha256, found.outcome)
 
 
@@ -288,7 +289,7 @@ def test_a_property_taken_out_of_its_cfg_is_missed(run: DeclaredRun, trials: Run
         assert re.search(rf"\b{name}\b", text)
         bare = re.sub(rf"\b{name}\b", "", text)
         digest = hashlib.sha256(bare.encode()).hexdigest()
-        found = judge(replace(run, cfg_sha256=digest), parse_cfg(bare, run.cfg), digest, good)
+        found = judge(msgspec.structs.replace(run, cfg_sha256=digest), parse_cfg(bare, run.cfg), digest, good)
         assert found.verdict in ("HOLDS", "REACHED") and not found.as_expected
         assert found.reason in (f"{run.cfg} does not check {name}", f"{run.cfg} checks no property")
 
@@ -303,7 +304,7 @@ def test_an_invariant_taken_out_of_a_real_run_is_missed(tmp_path: Path, trials: 
 
 def test_an_emptied_property_list_is_missed(tmp_path: Path, trials: Run) -> None:
     control = trials(Trial(PLC))
-    run = replace(pinned(control), properties=())
+    run = msgspec.structs.replace(pinned(control), properties=())
     assert run.cfg_sha256 is not None
     found = judge(run, control.cfg, run.cfg_sha256, control.outcome)
     assert not found.as_expected and found.reason == "runs.toml lists no property"

@@ -1,0 +1,185 @@
+"""The readings of a document, and the files of a run that is another run with a reading.
+
+A reading stands in a module <Module>AsPrinted, which extends <Module>: an operator called Op_Reading takes
+the place of the decided operator Op. What a reading replaces is derived from these names. The cfg of such a
+run is that of its base with `Op <- Op_Reading` among its constants; its root module extends the base's and
+the modules that hold the reading. Both are made below build/.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import msgspec
+
+from modeproof.errors import Unjudged
+from modeproof.registers.cfg import Cfg, Constant, parse_cfg
+from modeproof.registers.files import read_text, write_text
+from modeproof.registers.runs import Run
+from modeproof.registers.schema import suggestion
+from modeproof.registers.tla import Module, closure, read_modules
+
+SUFFIX = "AsPrinted"
+"""The end of the name of a module that holds readings."""
+_NAME = re.compile(r"(\w+)_([A-Z][A-Za-z0-9]*)")
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_NO_NAME = re.compile(r'"[^"\n]*"|\.\w+|\w+\s*\|->')
+"""Strings, and the names of fields."""
+
+
+@dataclass(frozen=True)
+class Replacement:
+    """An operator of a reading: it takes the place of the decided operator `replaced`."""
+
+    reading: str
+    replaced: str
+    operator: str
+    module: str
+
+
+def replacements(modules: Mapping[str, Module]) -> tuple[Replacement, ...]:
+    """Every operator of every reading, in the order of the modules and of their text."""
+    return tuple(
+        Replacement(match.group(2), match.group(1), one.name, module.name)
+        for module in modules.values()
+        if module.name.endswith(SUFFIX)
+        for one in module.definitions
+        if (match := _NAME.fullmatch(one.name))
+    )
+
+
+def reading_problems(modules: Mapping[str, Module]) -> Iterator[tuple[str, str, str]]:
+    """What is wrong with the modules of readings: file, definition, and cause."""
+    known = {(one.module, one.operator) for one in replacements(modules)}
+    for module in (one for one in modules.values() if one.name.endswith(SUFFIX)):
+        for definition in module.definitions:
+            if "_" in definition.name and (module.name, definition.name) not in known:
+                text = "is no Op_Reading (a reading is called by a name such as Figure7)"
+                yield module.file, definition.name, text
+    for one in replacements(modules):
+        if fault := _fault(modules, one):
+            yield modules[one.module].file, one.operator, fault
+
+
+def _fault(modules: Mapping[str, Module], one: Replacement) -> str:
+    """Why TLC could not put an operator in the place of the decided one; empty when it can."""
+    own = {name.name: name for name in modules[one.module].definitions}
+    reached = _closure(modules, one.module)
+    decided = [(m, d) for m in reached for d in m.definitions if d.name == one.replaced]
+    if own[one.operator].local:
+        return "is LOCAL, so that it cannot take the place of another"
+    if not decided:
+        return f"replaces nothing: no module that {one.module} extends defines {one.replaced}"
+    if decided[0][1].local:
+        return f"cannot replace {one.replaced}, which is LOCAL in {decided[0][0].file}"
+    if one.replaced in _used({d.name: d.body for m in reached for d in m.definitions}, one.operator):
+        return f"uses {one.replaced}, which it replaces: TLC would never come to an end"
+    return ""
+
+
+def _used(bodies: Mapping[str, str], name: str) -> set[str]:
+    """All definitions that a definition uses, directly or by another."""
+    reached: set[str] = set()
+    waiting = [name]
+    while waiting:
+        body = _NO_NAME.sub(" ", bodies[waiting.pop()].partition("==")[2])
+        for word in {word for word in _WORD.findall(body) if word in bodies} - reached:
+            reached.add(word)
+            waiting.append(word)
+    return reached
+
+
+def _closure(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
+    return closure(dict(modules), name)
+
+
+def replaced_by(modules: Mapping[str, Module], run: Run) -> tuple[Replacement, ...]:
+    """What the readings of a run replace.
+
+    Raises Unjudged with the run and the cause: a reading that no module has, or none for the run's module;
+    two readings that replace the same operator; an operator that TLC could not replace.
+    """
+    place = f"spec/{run.document}/runs.toml: run {run.id}"
+    every = replacements(modules)
+    there = {one.name for one in _closure(modules, run.module)}
+    found: dict[str, Replacement] = {}
+    for reading in run.readings:
+        own = [one for one in every if one.reading == reading]
+        if not own:
+            known = dict.fromkeys(one.reading for one in every)
+            raise Unjudged(f"{place}: unknown reading {reading!r}; {suggestion(reading, known)}")
+        fitting = [one for one in own if _decided(modules, one.module) <= there]
+        if not fitting:
+            names = " and ".join(dict.fromkeys(one.module for one in own))
+            raise Unjudged(f"{place}: the reading {reading} stands in {names}, which {run.module} cannot use")
+        for one in fitting:
+            if fault := _fault(modules, one):
+                raise Unjudged(f"{place}: {modules[one.module].file}: {one.operator} {fault}")
+            if (other := found.get(one.replaced)) is not None:
+                both = f"{other.reading} and {reading}" if other.reading != reading else f"{reading} twice"
+                raise Unjudged(f"{place}: {one.replaced} is replaced by {both}; write one reading of its own")
+            found[one.replaced] = one
+    return tuple(found.values())
+
+
+def _decided(modules: Mapping[str, Module], name: str) -> set[str]:
+    """The modules that a module of readings extends, but for other modules of readings."""
+    return {one.name for one in _closure(modules, name) if not one.name.endswith(SUFFIX)}
+
+
+def read_cfg(root: Path, run: Run) -> Cfg:
+    """What the cfg of a run says, whether by hand or made. Raises Unjudged like `cfg_text`."""
+    return parse_cfg(cfg_text(root, run), f"{run.name}: {run.config}")
+
+
+def cfg_text(root: Path, run: Run) -> str:
+    """The text of the cfg of a run, whether by hand or made.
+
+    Raises Unjudged: the cfg or a module cannot be read; a reading that cannot be used (`replaced_by`).
+    """
+    text = read_text(root, root / "spec" / run.document / run.cfg)
+    if not run.base:
+        return text
+    cfg = parse_cfg(text, f"{run.name}: {run.cfg}")
+    given = dict(cfg.constants)
+    for name, value in run.constants.items():
+        named = value.startswith("<-")
+        given[name] = Constant(value.removeprefix("<-").strip(), named)
+    if run.readings:
+        for one in replaced_by(read_modules(root, run.document), run):
+            given[one.replaced] = Constant(one.operator, True)
+    cfg = replace(
+        cfg,
+        constants=given,
+        invariants=tuple(name for name in cfg.invariants if name in run.properties),
+        properties=tuple(name for name in cfg.properties if name in run.properties),
+    )
+    if run.specification:
+        cfg = replace(cfg, init="", next="", specification=run.specification)
+    if run.view is not None:
+        cfg = replace(cfg, view=run.view)
+    differs = [f"the reading {' and '.join(run.readings)}"] if run.readings else []
+    differs += [f"{name} given anew" for name in run.constants]
+    words = ", ".join(differs) or "another specification"
+    return f"\\* Made from spec/{run.document}/runs.toml: {run.base} with {words}.\n{cfg.text()}"
+
+
+def module_text(root: Path, run: Run) -> str:
+    """The text of the root module of a run with a base. Raises Unjudged like `cfg_text`."""
+    modules = read_modules(root, run.document)
+    holding = dict.fromkeys(one.module for one in replaced_by(modules, run))
+    return f"---- MODULE {run.id} ----\nEXTENDS {', '.join((run.module, *holding))}\n====\n"
+
+
+def make(root: Path, run: Run) -> tuple[Path, Run]:
+    """Write the root module and the cfg of a run with a base; their folder, and the run by hand of them.
+
+    Raises Unjudged like `cfg_text`, or when the files cannot be written.
+    """
+    config = root / run.config
+    write_text(config.with_suffix(".tla"), module_text(root, run))
+    write_text(config, cfg_text(root, run))
+    return config.parent, msgspec.structs.replace(run, module=run.id, cfg=config.name, base="")

@@ -1,0 +1,223 @@
+"""The register runs.toml: every TLC run of a document, what it must show, and its pinned counts.
+
+A run has a cfg by hand, or it is another run (`base`) with a reading, other constants, or another
+specification; its cfg is then made (modeproof/registers/made.py).
+"""
+
+from __future__ import annotations
+
+import builtins
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from modeproof.errors import Unjudged
+from modeproof.registers.files import read_toml
+from modeproof.registers.schema import suggestion
+from modeproof.registers.typed import typed
+
+Kind = Literal["MC", "LIVE", "NEG", "WIT", "OPEN"]
+Lane = Literal["smoke", "full", "exhaustive"]
+LANES: tuple[Lane, ...] = ("smoke", "full", "exhaustive")
+EXPECTED: Mapping[str, str] = {
+    "MC": "HOLDS",
+    "LIVE": "HOLDS",
+    "OPEN": "HOLDS",
+    "NEG": "VIOLATED",
+    "WIT": "REACHED",
+}
+OWN_OF_BASE = (
+    *("id", "kind", "expect", "lanes", "cfg_sha256", "distinct", "generated", "trace_length", "properties"),
+    *("property", "witnesses", "clauses", "findings", "why", "switch"),
+)
+"""What a run never takes from its base."""
+
+Name = Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z_]\w*$")]
+Count = Annotated[int, msgspec.Meta(ge=1)]
+Text = Annotated[str, msgspec.Meta(min_length=1)]
+
+
+class Graph(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """What an OPEN run says about the graph that it prints.
+
+    `states` and `edges` are counts (None until pinned), `tick_ms` is the length of one tick of the model;
+    `passed` (the key `pass`) maps an output to the input that it shows.
+    """
+
+    device: str
+    tick_ms: Count
+    params: dict[Name, Any] = msgspec.field(default_factory=dict)
+    passed: dict[str, Name] = msgspec.field(default_factory=dict, name="pass")
+    states: Count | None = None
+    edges: Count | None = None
+
+
+class Run(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One declared TLC run.
+
+    Heap in MiB, time limit in seconds. `distinct`, `generated`, `trace_length` and `cfg_sha256` are pins:
+    None means not pinned yet, which is never as expected. `property` is what a NEG run must violate, or
+    the temporal property of a LIVE run.
+
+    Of a run with `base`, `module` and `cfg` are those of its base; `constants`, `specification` and `view`
+    take the place of what that cfg gives.
+    """
+
+    document: str
+    id: Annotated[str, msgspec.Meta(pattern=r"^(MC|NEG|WIT|LIVE|OPEN)_\w+$")]
+    module: Name
+    cfg: Annotated[str, msgspec.Meta(pattern=r"^models/\w+\.cfg$")]
+    kind: Kind
+    lanes: tuple[Lane, ...]
+    environment: Annotated[str, msgspec.Meta(pattern=r"^[a-z][a-z_]*$")]
+    strength: str = ""
+    base: str = ""
+    reading: Name | tuple[Name, ...] = ()
+    constants: dict[Name, Text] = msgspec.field(default_factory=dict)
+    specification: Name | None = None
+    view: str | None = None
+    workers: Count = 1
+    heap_mb: Count = 1024
+    timeout_s: Annotated[float, msgspec.Meta(gt=0)] = 300
+    properties: tuple[Name, ...] = ()
+    property: str = ""
+    witnesses: tuple[Text, ...] = ()
+    deadlock: bool = False
+    distinct: Count | None = None
+    generated: Count | None = None
+    trace_length: Count | None = None
+    cfg_sha256: Annotated[str, msgspec.Meta(pattern=r"^[0-9a-f]{64}$")] | None = None
+    graph: Graph | None = None
+    clauses: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
+    switch: str = ""
+    why: str = ""
+
+    @builtins.property
+    def name(self) -> str:
+        """The run's name across documents."""
+        return f"{self.document}/{self.id}"
+
+    @builtins.property
+    def expect(self) -> str:
+        """The verdict that a run of its kind must have."""
+        return EXPECTED[self.kind]
+
+    @builtins.property
+    def readings(self) -> tuple[str, ...]:
+        """The readings that take the place of what was decided; none in a run by hand."""
+        return (self.reading,) if isinstance(self.reading, str) else self.reading
+
+    @builtins.property
+    def config(self) -> str:
+        """The cfg that TLC reads, relative to the root of the repository."""
+        if self.base:
+            return f"build/tlc/{self.document}/made/{self.id}/{self.id}.cfg"
+        return f"spec/{self.document}/{self.cfg}"
+
+
+def load_runs(root: Path, document: str) -> tuple[Run, ...]:
+    """All runs that spec/<document>/runs.toml declares.
+
+    Raises Unjudged with file, run and cause: no file, no run, malformed TOML, a field that is unknown or has
+    the wrong type, an id twice, a base that is unknown, has a base itself, or does not check the property.
+    """
+    source = f"spec/{document}/runs.toml"
+    data = read_toml(root, root / "spec" / document / "runs.toml")
+    tables = data.pop("run", [])
+    if data.pop("document", document) != document:
+        raise Unjudged(f"{source}: document is not the name of its folder, {document!r}")
+    if data:
+        raise Unjudged(f"{source}: unknown key {sorted(data)[0]!r}; allowed: document, run")
+    if not isinstance(tables, list) or not all(isinstance(values, dict) for values in tables):
+        raise Unjudged(f"{source}: `run` must be a list of tables ([[run]])")
+    if not tables:
+        raise Unjudged(f"{source}: no run is declared")
+    rows = {str(values.get("id", "?")): values for values in tables}
+    for name, times in Counter(str(values.get("id", "?")) for values in tables).items():
+        if times > 1:
+            raise Unjudged(f"{source}: run {name} is declared twice")
+    found = {name: _run(document, source, values) for name, values in rows.items() if "base" not in values}
+    for name, values in rows.items():
+        if "base" in values:
+            found[name] = _derived(document, source, values, rows, found)
+    return tuple(found[name] for name in rows)
+
+
+def _run(document: str, source: str, values: Mapping[str, Any]) -> Run:
+    place = f"{source}: run {values.get('id', '?')}"
+    table = {"kind": str(values.get("id", "")).split("_")[0], **values, "document": document}
+    if "document" in values:
+        raise Unjudged(f"{place}: unknown key 'document'")
+    expect = table.pop("expect", None)
+    run = typed(Run, table, place)
+    if expect not in (None, run.expect):
+        raise Unjudged(f"{place}: a run of kind {run.kind} expects {run.expect}, not {expect!r}")
+    _check_kind(place, run)
+    return run
+
+
+def _derived(
+    document: str,
+    source: str,
+    values: Mapping[str, Any],
+    rows: Mapping[str, Mapping[str, Any]],
+    found: Mapping[str, Run],
+) -> Run:
+    """A run that is another one but for what its row says."""
+    place = f"{source}: run {values.get('id', '?')}"
+    base = values["base"]
+    if base not in rows:
+        raise Unjudged(f"{place}: unknown base {base!r}; {suggestion(str(base), rows)}")
+    if "base" in rows[base]:
+        raise Unjudged(f"{place}: its base {base} has a base itself; name {rows[base]['base']!r}")
+    for key in ("cfg", "cfg_sha256"):
+        if key in values:
+            raise Unjudged(f"{place}: {key} belongs to a run by hand; the cfg of a run with a base is made")
+    taken = {key: value for key, value in rows[base].items() if key not in OWN_OF_BASE}
+    graph = {key: value for key, value in taken.pop("graph", {}).items() if key not in ("states", "edges")}
+    table = {"lanes": ["full"], **taken, **values}
+    if "graph" in values and isinstance(values["graph"], dict):
+        table["graph"] = {**graph, **values["graph"]}
+    of_base = found[base].properties
+    if "properties" not in values:
+        negative = str(values.get("id", "")).startswith("NEG_") and "property" in values
+        table["properties"] = [values["property"]] if negative else list(of_base)
+    run = _run(document, source, table)
+    deadlock = ("deadlock",) if run.deadlock else ()
+    for name in (*run.properties, *((run.property,) if run.property else ())):
+        if name not in (*of_base, *deadlock):
+            raise Unjudged(f"{place}: its base {base} does not check {name}; {suggestion(name, of_base)}")
+    if not run.readings and not (run.constants or run.specification or "module" in values):
+        raise Unjudged(f"{place}: nothing differs from its base {base}: no reading, no constants")
+    return run
+
+
+def _check_kind(place: str, run: Run) -> None:
+    for key in ("lanes", "properties", "witnesses", "readings"):
+        names = getattr(run, key)
+        if len(set(names)) != len(names):
+            raise Unjudged(f"{place}: {key} holds a name twice: {list(names)!r}")
+    if not run.lanes:
+        raise Unjudged(f"{place}: lanes must name some of {', '.join(LANES)}")
+    if not run.id.startswith(f"{run.kind}_"):
+        raise Unjudged(f"{place}: the id of a run of kind {run.kind} starts with {run.kind}_")
+    if not run.base and (run.readings or run.constants or run.specification or run.view is not None):
+        raise Unjudged(f"{place}: reading, constants, specification and view belong to a run with a base")
+    if run.kind in ("LIVE", "OPEN") and run.workers != 1:
+        raise Unjudged(f"{place}: a run of kind {run.kind} needs workers = 1")
+    if run.kind == "LIVE" and len(run.properties) > 1 and not run.property:
+        raise Unjudged(f"{place}: TLC does not name a violated temporal property, so state one in `property`")
+    if run.kind == "NEG" and not run.property:
+        raise Unjudged(f"{place}: `property` must name what is violated")
+    if run.kind == "NEG" and run.trace_length is not None and run.workers != 1:
+        raise Unjudged(f"{place}: trace_length is exact with workers = 1 only")
+    if run.kind == "WIT" and not run.witnesses:
+        raise Unjudged(f"{place}: witnesses is empty; such a run shows nothing")
+    if run.kind != "WIT" and run.witnesses:
+        raise Unjudged(f"{place}: witnesses belong to runs of kind WIT")
+    if (run.kind == "OPEN") != (run.graph is not None):
+        raise Unjudged(f"{place}: [run.graph] belongs to runs of kind OPEN, and to each of them")
