@@ -54,21 +54,18 @@ FAULTS = {
         'GoTo("GuardOpenAndUnlocked")\n    /\\ Did("WithdrawRequest")',
     ),
     "StaysLocked": (
-        'GoTo("GuardClosedAndLocked") /\\ Did("StayLocked")',
-        'GoTo("WaitForReset") /\\ Did("StayLocked")',
+        'GoTo("GuardClosedAndLocked")\n    /\\ Did("StayLocked")',
+        'GoTo("WaitForReset")\n    /\\ Did("StayLocked")',
     ),
     "ErrorNeedsCause": (
         'GoTo("WaitForOperator")\n    /\\ Did("AcknowledgeError")',
         'GoTo("ResetError2")\n    /\\ Did("AcknowledgeError")',
     ),
     "ErrorEndsWithCause": ('[] OTHER -> "WaitForReset"', '[] OTHER -> "GuardClosedAndLocked"'),
-    "LatchedRequestUnlocks": (
-        "i.UnlockRequest /\\ (RequestRises(i) \\/ requestPending)\n      [] OTHER",
-        "i.UnlockRequest /\\ RequestRises(i)\n      [] OTHER",
-    ),
+    "LatchedRequestUnlocks": ('"latched" -> RequestStands(i)', '"latched" -> RequestRises(i)'),
     "CodeTellsTheGuard": (
-        '"WaitForOperator" ELSE "GuardOpenAndUnlocked")',
-        '"WaitForOperator" ELSE "GuardClosedButUnlocked")',
+        'GoTo("GuardOpenAndUnlocked")\n    /\\ Did("StayOpen")',
+        'GoTo("GuardClosedButUnlocked")\n    /\\ Did("StayOpen")',
     ),
     "OneTransitionACall": (
         'At("Idle", i) /\\ GoTo("Init") /\\ Did("StartUp")',

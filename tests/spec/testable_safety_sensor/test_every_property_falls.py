@@ -20,8 +20,8 @@ BLOCK = Block(
     },
 )
 NEVER_FREE = (
-    '/\\ Reacts(i, Free(i)) /\\ To("ESPEFreeTestOk")',
-    '/\\ Reacts(i, Free(i)) /\\ To("ESPEFreeNoTest")',
+    '~Expired(i) /\\ Free(i) /\\ To("ESPEFreeTestOk")',
+    '~Expired(i) /\\ Free(i) /\\ To("ESPEFreeNoTest")',
 )
 FAULTS = {
     "InactiveAtOnce": ('Released("Idle") /\\ Did("Deactivate")', 'Released("Init") /\\ Did("Deactivate")'),
@@ -34,20 +34,20 @@ FAULTS = {
         "StaticAtStart(i) == ResetStatic(i)",
     ),
     "SenderOffIsBounded": (
-        'Fails(i, ~Free(i)) /\\ To(TestErrorShown(i)) /\\ Did("ExpireRequest")',
-        'Fails(i, ~Free(i)) /\\ UNCHANGED <<state, startInhibit, elapsed>> /\\ Did("ExpireRequest")',
+        'Expired(i) /\\ To(TestErrorShown(i)) /\\ Did("ExpireRequest")',
+        'Expired(i) /\\ UNCHANGED <<state, startInhibit, elapsed>> /\\ Did("ExpireRequest")',
     ),
     "DemandIsShown": (
-        'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ESPEInterruptedExternalTest")',
-        'Tested(i) /\\ ~FreeAtEnd(i) /\\ To("ExternalFunctionTest")',
+        'Tested(i) /\\ ~Free(i) /\\ To("ESPEInterruptedExternalTest")',
+        'Tested(i) /\\ ~Free(i) /\\ To("ExternalFunctionTest")',
     ),
     "TestStartsAtOnce": (
         'At("ESPEFreeTestOk", i) /\\ ~Lost(i) /\\ TestAsked(i) /\\ To("TestRequest")',
         'At("ESPEFreeTestOk", i) /\\ ~Lost(i) /\\ TestAsked(i) /\\ To("ESPEFreeNoTest")',
     ),
     "TestExecutedIsTrue": (
-        "Fails(i, Free(i)) /\\ To(TestErrorShown(i))",
-        'Fails(i, Free(i)) /\\ To(IF Free(i) THEN "WaitForReset2" ELSE TestErrorShown(i))',
+        'To(TestErrorShown(i)) /\\ Did("ExpireActive")',
+        'To(IF Free(i) THEN "WaitForReset2" ELSE TestErrorShown(i)) /\\ Did("ExpireActive")',
     ),
     "TestExecutedStays": (
         'Lost(i) /\\ To("ESPEInterrupted2") /\\ Did("Interrupt2")',
@@ -55,8 +55,8 @@ FAULTS = {
     ),
     "ReactionIsSeen": NEVER_FREE,
     "StaticResetIsFound": (
-        "StaticAtEnd(i) == StaticInError(i) /\\ ~Printed",
-        "StaticAtEnd(i) == StaticInError(i) /\\ ~Printed /\\ ~i.S_StartReset",
+        "StaticInError(i) == ResetStatic(i) /\\ ~EndsByItself(i)",
+        "StaticInError(i) == ResetStatic(i) /\\ ~EndsByItself(i) /\\ ~i.S_StartReset",
     ),
     "CodeTellsItsOutputs": ("OutputRow(\\h8804,", "OutputRow(\\h8004,"),
     "EdgesAreRemembered": ("sensorBefore' = i.S_OSSD_In", "sensorBefore' = (i.S_OSSD_In /\\ i.Activate)"),
@@ -67,8 +67,8 @@ FAULTS = {
     "EveryCallIsAnswered": ("LeaveResetError(i) \\/ StayInResetError(i)", "LeaveResetError(i)"),
     "PowerUpIsSafe": ('/\\ state = "Idle" /\\ elapsed = 0', '/\\ state = "Init" /\\ elapsed = 0'),
     "EnablesAgain": (
-        "~i.NoExternalTest /\\ (ErrorEnds(i)",
-        "~i.NoExternalTest /\\ ~Free(i) /\\ (ErrorEnds(i)",
+        "NeedsExternalTest(i) == ErrorEnds(i) /\\ ~i.NoExternalTest",
+        "NeedsExternalTest(i) == ErrorEnds(i) /\\ ~i.NoExternalTest /\\ ~Free(i)",
     ),
     "TestedAgain": NEVER_FREE,
     "CodeIsThePrintedOne": ("OutputRow(\\hC051,", "OutputRow(\\hC061,"),
