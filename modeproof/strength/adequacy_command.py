@@ -10,10 +10,8 @@ from pathlib import Path
 from modeproof.errors import Unjudged
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import Suite
-from modeproof.registers.adequacy_page import adequacy_page
 from modeproof.registers.load import load_interface
 from modeproof.strength.adequacy import Adequacy, judge_by_vectors
-from modeproof.strength.adequacy_page import render
 from modeproof.strength.adequacy_register import read_register, register_path
 from modeproof.strength.campaign import Judged
 from modeproof.strength.command import chosen_of, report
@@ -29,7 +27,7 @@ RESULTS = "vectors"
 
 
 def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
-    """List, show, judge or render. Raises Unjudged; exit status as of the command."""
+    """List, show or judge. Raises Unjudged; exit status as of the command."""
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.tlc.schedule import cores
@@ -47,11 +45,6 @@ def mutate_by_vectors(place: Path, args: argparse.Namespace) -> int:
             return 0
         if args.show is not None:
             return _show(adequacy, chosen[0], results)
-        if args.render:
-            status = render(adequacy, results, read_register(place, document).explained)
-            print(f"{adequacy_page(document)} is written")
-            keep(adequacy, adequacy.known(results), read_register(place, document).explained)
-            return status
         progress = Progress(quiet=args.quiet)
         judged = judge_by_vectors(adequacy, chosen, results, progress, args.jobs or cores(), args.complete)
     print(f"suites: {', '.join(adequacy.names)}; targets: {', '.join(adequacy.targets)}")
@@ -86,7 +79,7 @@ def keep(adequacy: Adequacy, judged: Sequence[Judged], explained: Sequence[Expla
 
 def adequacy_of(place: Path, document: str, quiet: bool = True) -> Adequacy:
     """The mutants, and every suite of every published target; suites are built when missing."""
-    from modeproof.cli import code_under_proof, copies_of_code, observer_of_code
+    from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_of_code
 
     code = Implementation(place, document, code_under_proof())
     try:

@@ -17,7 +17,6 @@ from modeproof.strength.campaign import WORDS, Judged, Known, all_mutants, defau
 from modeproof.strength.explain import explanation_problems, unexplained
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant, diff
-from modeproof.strength.page import known, page_path, render
 from modeproof.strength.recorded import Record, record
 from modeproof.strength.register import Explained, load_strength, path_of
 from modeproof.strength.results import Results, read_results, results_path
@@ -39,9 +38,6 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--show", metavar="ID", help="show the edit as a diff, and the judgement so far")
     parser.add_argument(
         "--complete", action="store_true", help="ask the costlier judges about killed mutants too"
-    )
-    parser.add_argument(
-        "--render", action="store_true", help="write the page in docs/ from the results there are"
     )
     parser.add_argument(
         "--judge",
@@ -87,11 +83,6 @@ def _mutate(args: argparse.Namespace) -> int:
         return 0
     if args.show is not None:
         return _show(bench, chosen[0], results)
-    if args.render:
-        status = render(bench, every, results)
-        print(f"{page_path(document)} is written")
-        keep(bench, every, known(bench, every, results))
-        return status
     with only_one(place):
         judged = judge_all(
             bench,

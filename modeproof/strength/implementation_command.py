@@ -18,15 +18,14 @@ from modeproof.strength.implementation import (
     judge_implementation,
     register_path,
 )
-from modeproof.strength.implementation_page import page_path, render
 from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.recorded import Record, record
 from modeproof.strength.results import Results, read_results, results_path
 
 
 def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
-    """List, show, judge or render. Raises Unjudged; exit status as of the command."""
-    from modeproof.cli import code_under_proof
+    """List, show or judge. Raises Unjudged; exit status as of the command."""
+    from modeproof.ground.proofs import code_under_proof
     from modeproof.lock import only_one
     from modeproof.progress import Progress
     from modeproof.tlc.schedule import cores
@@ -46,11 +45,6 @@ def mutate_implementation(place: Path, args: argparse.Namespace) -> int:
         return 0
     if args.show is not None:
         return _show(code, chosen[0], results)
-    if args.render:
-        status = render(code, results)
-        print(f"{page_path(code.document)} is written")
-        keep(code, code.known(results))
-        return status
     with only_one(place):
         progress = Progress(quiet=args.quiet)
         judged = judge_implementation(code, chosen, results, progress, args.jobs or cores(), args.complete)
