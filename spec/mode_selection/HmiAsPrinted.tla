@@ -61,10 +61,10 @@ Enable_EnabledByAnyWord(i) == i.RA # 0 /\ Level(i) \in {None, offered}
 Enable_StaysOpenAtNewLevel(i) == Level(i) # None
 
 ----------------------------------------------------------------------------
-(* EnabledByEveryWord                                                      *)
+(* EnableAsPrinted                                                         *)
 \* E-77: EnabledByAnyWord and StaysOpenAtNewLevel at once.
-Authorizes_EnabledByEveryWord(i) == i.RA # 0
-Enable_EnabledByEveryWord(i) == i.RA # 0
+Authorizes_EnableAsPrinted(i) == i.RA # 0
+Enable_EnableAsPrinted(i) == i.RA # 0
 
 ----------------------------------------------------------------------------
 (* WithdrawsAfterConfirm                                                   *)

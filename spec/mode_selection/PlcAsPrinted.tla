@@ -48,17 +48,17 @@ CopyReadAuthorization_RemovalFetchesNothing(i) ==
 CopyCheckMSO_RemovalFetchesNothing(i) == Fetched(i) /\ Turn("CopyCheckMSO", "CopyMW07") /\ WriteCheckMSO(i)
 
 ----------------------------------------------------------------------------
-(* PlcByTheLetter                                                          *)
+(* CopiesAsPrinted                                                         *)
 \* E-77: PlcChecksFirst, PlcCountsSteps and RemovalFetchesNothing at once.
-Turns_PlcByTheLetter == CopyTurns \cup {"Done"}
-CopyReadAuthorization_PlcByTheLetter(i) ==
+Turns_CopiesAsPrinted == CopyTurns \cup {"Done"}
+CopyReadAuthorization_CopiesAsPrinted(i) ==
     /\ Checked(i) /\ Fetched(i)
     /\ Counted("CopyReadAuthorization", "CopyMW03", i.MW01, i) /\ WriteReadAuthorization(i)
-CopyMW03_PlcByTheLetter(i) ==
+CopyMW03_CopiesAsPrinted(i) ==
     Checked(i) /\ Counted("CopyMW03", "CopyCheckMSO", i.SelectMSO, i) /\ WriteMW03(i)
-CopyCheckMSO_PlcByTheLetter(i) ==
+CopyCheckMSO_CopiesAsPrinted(i) ==
     Checked(i) /\ Fetched(i) /\ Counted("CopyCheckMSO", "CopyMW07", i.MW05, i) /\ WriteCheckMSO(i)
-CopyMW07_PlcByTheLetter(i) == Checked(i) /\ Counted("CopyMW07", "Done", i.SwitchMSO, i) /\ WriteMW07(i)
+CopyMW07_CopiesAsPrinted(i) == Checked(i) /\ Counted("CopyMW07", "Done", i.SwitchMSO, i) /\ WriteMW07(i)
 
 ----------------------------------------------------------------------------
 (* AtomicCopy                                                              *)
