@@ -1,6 +1,6 @@
 ------------------------ MODULE GuardLockingWitness -------------------------
 (***************************************************************************)
-(* What must be reachable, so that no property holds for want of a case.   *)
+(* What must be reachable, so that the properties are not vacuous.         *)
 (* A step is a witness by its name, which only the step itself sets; a     *)
 (* state by its name after the call, a code by its digits, a transition by *)
 (* both states; a situation by what is seen in the call.                   *)

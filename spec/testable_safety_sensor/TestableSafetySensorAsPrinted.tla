@@ -90,8 +90,9 @@ InterruptStart_StartInhibitEndsWithInterruption(i) ==
 ----------------------------------------------------------------------------
 \* TSSF-20, TSS-IN-AUTORESET, TSS-8402, TSS-8406: who waits for a reset waits for its edge, also when
 \* S_AutoReset comes
-StaticInWait_WaitForResetNeedsEdge(i) == ResetStatic(i)
-RestartAllowed_WaitForResetNeedsEdge(i) == ResetRises(i)
+LOCAL StillInhibited(i) == (i.S_AutoReset => startInhibit) \/ state \in {"WaitForReset1", "WaitForReset2"}
+StaticInWait_WaitForResetNeedsEdge(i) == ResetStatic(i) /\ StillInhibited(i)
+RestartAllowed_WaitForResetNeedsEdge(i) == StillInhibited(i) => ResetRises(i)
 
 ----------------------------------------------------------------------------
 \* TSSF-21, TSS-REL-1, TSS-IN-RESET: a reset comes before the loss of the sensor

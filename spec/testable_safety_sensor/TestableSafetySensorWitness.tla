@@ -1,6 +1,6 @@
 --------------------- MODULE TestableSafetySensorWitness ---------------------
 (***************************************************************************)
-(* What must be reachable, so that no property holds for want of a case:   *)
+(* What must be reachable, so that the properties are not vacuous:         *)
 (* every step by its name, which only the step itself sets, every          *)
 (* transition by the states it joins, and every code as it stands on the   *)
 (* wires.  Each name that is met is printed once; runs.toml lists the      *)

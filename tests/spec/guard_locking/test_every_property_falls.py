@@ -1,4 +1,4 @@
-"""Each property of the guard locking falls to a reading that is restored, or to a fault planted in a copy."""
+"""Each property of the guard locking falls to a reading of the text, or to a fault planted in a copy."""
 
 from __future__ import annotations
 
@@ -109,8 +109,8 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
     readings, tried = BLOCK.readings(), BLOCK.tried()
     assert len(readings) == 14 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
-        "ERROR_UNTIL_RESET",
-        "RESET_SEEN_ONLY_WHILE_ACTIVE",
+        "ErrorUntilReset",
+        "ResetSeenOnlyWhileActive",
     ]
 
 

@@ -1,12 +1,17 @@
-"""Each property of the sensor block falls to a reading that is restored, or to a fault planted in a copy."""
+"""Each property of the sensor block falls to a reading of the text, or to a fault planted in a copy."""
 
 from __future__ import annotations
 
 import re
+import shutil
 from pathlib import Path
 
+import msgspec
 import pytest
 
+from modeproof.registers.made import make
+from modeproof.tlc.process import run_tlc
+from modeproof.tlc.toolchain import find_toolchain
 from tests.spec.block import Block
 
 BLOCK = Block(
@@ -119,10 +124,23 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
     readings, tried = BLOCK.readings(), BLOCK.tried()
     assert len(readings) == 20 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
-        "RESET_SEEN_ONLY_WHILE_ACTIVE",
-        "STATIC_RESET_BEFORE_TEST_TIME",
-        "WAIT_FOR_RESET_NEEDS_EDGE",
+        "ResetSeenOnlyWhileActive",
+        "StaticResetBeforeTestTime",
+        "WaitForResetNeedsEdge",
     ]
+
+
+def test_the_reading_that_leaves_the_states_changes_transitions(tmp_path: Path) -> None:
+    shutil.copytree(BLOCK.spec.parent, tmp_path / "spec")
+    graphs = []
+    for reading in ((), "WaitForResetNeedsEdge"):
+        base = BLOCK.runs["OPEN_SF_TestableSafetySensor_zero"]
+        folder, run = make(tmp_path, msgspec.structs.replace(base, reading=reading))
+        file = run_tlc(tmp_path, run, find_toolchain(), made_in=folder).graph_file
+        assert file is not None
+        graphs.append(set(file.read_text().splitlines()))
+    decided, otherwise = graphs
+    assert len(decided) == len(otherwise) and len(decided - otherwise) == len(otherwise - decided) > 0
 
 
 def test_every_state_step_code_and_transition_is_witnessed() -> None:
