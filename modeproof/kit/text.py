@@ -127,7 +127,7 @@ def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]
         lines.append("differs from the document")
     if suite is not None:
         for id in (*found.clauses, *found.findings):
-            if words := suite.said(id):
+            if words := suite.text(id):
                 lines.append(f"  {id:<12} {words}")
     lines += ["", f"{'output':<20} {'expected':<20} got"]
     for name, wanted in found.expected.items():

@@ -147,7 +147,7 @@ def prove_documents(
             done(record)
         proved = {(record["document"], record["id"]) for record in records}
         tasks = [task for task in slow_first(theorems) if task[1][1:3] not in proved]
-        made = in_processes("proofs", [*beside, *tasks], progress, done, knowing=whole)
+        made = in_processes("proofs", [*beside, *tasks], progress, done, fork=whole)
         records += made[len(beside) :]
     for document in names:
         if whole and document not in troubles and _has_agreement(place, document):

@@ -23,8 +23,8 @@ from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page
 from modeproof.report.missing import missing, mixed, unexpected
 from modeproof.report.part import Maker, Part, plain
 from modeproof.report.parts import makers
+from modeproof.report.snapshot import snapshot
 from modeproof.report.sources import HOLE, NOTE, Sources, Trouble, gather
-from modeproof.report.standing import standing
 from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
 
@@ -79,10 +79,10 @@ def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseli
     sources = replace(sources, troubles=(*sources.troubles, *found))
     made = {id: _made(id, maker, sources) for id, maker in makers() if id != LAST}
     try:
-        sources.shelf["standing"] = standing(sources)
+        sources.cache["snapshot"] = snapshot(sources)
     except ODD as error:
-        sources.shelf["standing"] = {**NOTHING, "verdicts": {"all": f"UNJUDGED: {_says(error)}"}}
-    sources.shelf["baseline"] = baseline(sources.digest)
+        sources.cache["snapshot"] = {**NOTHING, "verdicts": {"all": f"UNJUDGED: {_says(error)}"}}
+    sources.cache["baseline"] = baseline(sources.digest)
     made |= {id: _made(id, maker, sources) for id, maker in makers() if id == LAST}
     parts = _with_troubles([made[id] for id, _ in makers()], sources)
     troubles = tuple(dict.fromkeys(t for one in parts for t in one.troubles))
@@ -93,7 +93,7 @@ def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseli
         text,
         troubles,
         {name: content for one in parts for name, content in one.attachments.items()},
-        sources.shelf["baseline"],
+        sources.cache["baseline"],
     )
 
 
@@ -104,7 +104,7 @@ def _made(id: str, maker: Maker, sources: Sources) -> Part:
         html = _rendered(part, ())
         plain(part.data)
         if id != FIRST:
-            sources.shelf[f"html of {id}"] = html
+            sources.cache[f"html of {id}"] = html
         return part
     except ODD as error:
         what = (
@@ -162,7 +162,7 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
         "status": _status(troubles),
         "troubles": plain(troubles),
         "parts": {one.id: {"title": one.title, **plain(one.data)} for one in parts},
-        "standing": sources.shelf["standing"],
+        "snapshot": sources.cache["snapshot"],
         "attachments": {
             name: hashlib.sha256(data).hexdigest() for one in parts for name, data in one.attachments.items()
         },
@@ -182,7 +182,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
             "troubles": one.troubles,
             "bad": sum(1 for trouble in one.troubles if trouble.status),
             "html": Markup(
-                terms.linked(one.id, sources.shelf.get(f"html of {one.id}") or _rendered(one, troubles))
+                terms.linked(one.id, sources.cache.get(f"html of {one.id}") or _rendered(one, troubles))
             ),
         }
         for one in parts

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.rows import Clause, Document, Problem
-from modeproof.report.claims import Claim, citations_of, claims, proved, texts_of
+from modeproof.report.claims import Claim, citations_of, claims, texts_of, theorem_result
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, HOLE, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import ASIDE, status_of
 
 
@@ -79,9 +79,9 @@ class Traced:
 def traced(sources: Sources, document: Document) -> Traced:
     """The matrix with results: orphans first, then what is not as expected, then the register's order."""
     key = f"traced {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = _traced(sources, document)
-    found: Traced = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = _traced(sources, document)
+    found: Traced = sources.cache[key]
     return found
 
 
@@ -128,7 +128,7 @@ def _property(name: str, own: Iterable[Claim]) -> Link:
 
 
 def _theorem(sources: Sources, document: Document, name: str) -> Link:
-    one = proved(sources, document, name)
+    one = theorem_result(sources, document, name)
     return Link(name, one.word, one.good, "" if one.evidence is None else one.evidence.path)
 
 

@@ -26,7 +26,7 @@ UNDECIDED = ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED")
 
 
 @dataclass(frozen=True)
-class Said:
+class Result:
     """What one run or theorem says; `evidence` is None where there is none."""
 
     id: str
@@ -91,12 +91,12 @@ class Claim:
 
     of: Property
     environment: str
-    runs: tuple[Said, ...]
-    theorems: tuple[Said, ...]
+    runs: tuple[Result, ...]
+    theorems: tuple[Result, ...]
     because: str
 
     @property
-    def shown(self) -> Said | None:
+    def shown(self) -> Result | None:
         """The run whose verdict counts: the worst of those that there are, else the one declared first."""
         there = [one for one in self.runs if one.evidence is not None]
         bad = [one for one in there if one.status == DIFFERS] or [one for one in there if one.status]
@@ -154,9 +154,9 @@ class Claim:
 def claims(sources: Sources, document: Document) -> tuple[Claim, ...]:
     """Every property of the document in every environment, in the order of the register."""
     key = f"claims {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = tuple(_claims(sources, document))
-    found: tuple[Claim, ...] = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = tuple(_claims(sources, document))
+    found: tuple[Claim, ...] = sources.cache[key]
     return found
 
 
@@ -166,7 +166,7 @@ def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
     for one in document.properties:
         for environment in one.environments:
             runs = [
-                said(sources, document, run)
+                result_of(sources, document, run)
                 for run in document.runs
                 if run.kind in POSITIVE and run.environment == environment and one.tla in run.properties
             ]
@@ -179,19 +179,19 @@ def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
                 one,
                 environment,
                 tuple(runs),
-                tuple(proved(sources, document, name) for name in theorems),
+                tuple(theorem_result(sources, document, name) for name in theorems),
                 because,
             )
 
 
-def said(sources: Sources, document: Document, run: Run) -> Said:
+def result_of(sources: Sources, document: Document, run: Run) -> Result:
     """What a declared run says."""
     lanes = " and ".join(run.lanes)
     evidence = sources.evidence[document.name].get(run.id)
-    return Said(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
+    return Result(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
 
 
-def steps_of(one: Said) -> Figure | None:
+def steps_of(one: Result) -> Figure | None:
     """The steps of the counterexample that a run found; None where it found none.
 
     A trace of one state takes no step.
@@ -201,9 +201,9 @@ def steps_of(one: Said) -> Figure | None:
     return Figure(int(one.evidence.result["trace_length"]) - 1, one.evidence.path)
 
 
-def proved(sources: Sources, document: Document, theorem: str) -> Said:
+def theorem_result(sources: Sources, document: Document, theorem: str) -> Result:
     """What there is of a theorem."""
-    return Said(theorem, sources.evidence[document.name].get(theorem), "no evidence")
+    return Result(theorem, sources.evidence[document.name].get(theorem), "no evidence")
 
 
 def theorems_of(sources: Sources, document: Document) -> Mapping[str, tuple[str, ...]]:
@@ -233,7 +233,7 @@ def agreement(sources: Sources, document: Document) -> Mapping[tuple[str, str], 
 def texts_of(sources: Sources, document: Document) -> Texts:
     """Specification, reference implementation and proofs of a document as texts, read once."""
     key = f"texts {document.name}"
-    if key not in sources.shelf:
+    if key not in sources.cache:
         try:
             texts = read_sources(document)
             files = [
@@ -242,23 +242,23 @@ def texts_of(sources: Sources, document: Document) -> Texts:
             ]
             for file in files:
                 sources.content(file)
-            sources.shelf[key] = texts, ""
+            sources.cache[key] = texts, ""
         except Unjudged as error:
-            sources.shelf[key] = Texts({}, (), ()), error.message
-    found: Texts = sources.shelf[key][0]
+            sources.cache[key] = Texts({}, (), ()), error.message
+    found: Texts = sources.cache[key][0]
     return found
 
 
 def fault_of_texts(sources: Sources, document: Document) -> str:
     """Why the texts of a document cannot be read; empty where they can."""
     texts_of(sources, document)
-    return str(sources.shelf[f"texts {document.name}"][1])
+    return str(sources.cache[f"texts {document.name}"][1])
 
 
 def citations_of(sources: Sources, document: Document) -> tuple[Citation, ...]:
     """Who cites what, found once."""
     key = f"citations {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = citations(document, texts_of(sources, document))
-    found: tuple[Citation, ...] = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = citations(document, texts_of(sources, document))
+    found: tuple[Citation, ...] = sources.cache[key]
     return found

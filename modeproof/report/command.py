@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     given = None if args.previous is None else read_report(args.previous)[1]
     report = make(place, lambda digest: choose(folder, digest) if given is None else Baseline(given))
     write(report, folder)
-    for line in said(report.troubles):
+    for line in trouble_lines(report.troubles):
         print(line)
     print(f"report: {folder / PAGE} ({len(report.html.encode()):,} bytes)")
     _write_json(args, report.status, report=str(folder / PAGE), troubles=plain(report.troubles))
@@ -98,7 +98,7 @@ def write(report: Report, folder: Path) -> None:
         write_whole(folder / name, content)
 
 
-def said(troubles: Sequence[Trouble]) -> Iterator[str]:
+def trouble_lines(troubles: Sequence[Trouble]) -> Iterator[str]:
     """The troubles for the terminal, the worst first; of many of one part the first, and how many more."""
     for status in (DIFFERS, HOLE, NOTE):
         parts: dict[str, list[Trouble]] = {}

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 from modeproof.registers.rows import Document
 from modeproof.report.cell_text import for_xml
 from modeproof.report.claims import LANE, theorem_rows
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, Evidence, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 KINDS = ("tlc", "proof", "conformance", "agreement", "coverage", "registers", "strength")

@@ -97,7 +97,7 @@ def mixed(sources: Sources) -> Iterator[Trouble]:
         computer = one.record["machine"]
         words = f"{computer['system']}, {computer.get('cpu', '')}, {computer['cores']} cores"
         made.setdefault(("machine", words), []).append(name)
-    sources.shelf["made"] = made
+    sources.cache["made"] = made
     for tool in dict.fromkeys(tool for tool, _ in made):
         versions = {version: names for (of, version), names in made.items() if of == tool}
         if len(versions) > 1:

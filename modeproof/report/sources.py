@@ -13,7 +13,8 @@ from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import read
-from modeproof.registers.load import documents, load_document
+from modeproof.places import documents
+from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 
 NOTE, DIFFERS, HOLE = 0, 1, 2
@@ -96,7 +97,7 @@ class Sources:
     evidence: Mapping[str, Mapping[str, Evidence]]
     files: dict[str, str]
     troubles: tuple[Trouble, ...] = ()
-    shelf: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
+    cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
 
     def of_kind(self, document: str, kind: str) -> list[Evidence]:

@@ -19,10 +19,10 @@ class Cited:
 
 def cited(sources: Sources, document: Document) -> tuple[Citation, ...]:
     """Every citation of a document, read once for all parts."""
-    shelf = f"citations of {document.name}"
-    if shelf not in sources.shelf:
-        sources.shelf[shelf] = citations(document, read_sources(document))
-    found: tuple[Citation, ...] = sources.shelf[shelf]
+    key = f"citations of {document.name}"
+    if key not in sources.cache:
+        sources.cache[key] = citations(document, read_sources(document))
+    found: tuple[Citation, ...] = sources.cache[key]
     return found
 
 

@@ -16,6 +16,7 @@ from modeproof.evidence.files import write_whole
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.lock import only_one
 from modeproof.places import documents, root
+from modeproof.processes import cores
 from modeproof.progress import Progress
 from modeproof.strength.campaign import (
     Campaign,
@@ -29,7 +30,7 @@ from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.register import load_strength, load_vectors, path_of, theorems_path
 from modeproof.strength.results import read_results
 from modeproof.strength.scores import record_score
-from modeproof.tlc.schedule import cores, memory_mb
+from modeproof.tlc.schedule import memory_mb
 
 TLC_MB = 768
 """Memory that a run of TLC on a mutant needs."""

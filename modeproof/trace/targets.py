@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.graph.values import ValueForms
 from modeproof.places import documents
 from modeproof.registers.load import load_interface, read_register
 from modeproof.registers.rows import Device
-from modeproof.registers.schema import suggestion
 
 PLACEHOLDER = re.compile(r"\$([a-z][a-z0-9_]*)\.(\w+)")
 SEEN, WORDS = "seen", "words"

@@ -7,7 +7,7 @@ from typing import Any
 
 from modeproof.registers.rows import Assumption, Document
 from modeproof.registers.runs import Run
-from modeproof.report.claims import Said, said, steps_of
+from modeproof.report.claims import Result, result_of, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
 
@@ -24,10 +24,10 @@ def part(sources: Sources) -> Part:
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
     runs = {one.id: one for one in document.runs}
     rests = _rests_on(sources, document)
-    shown: list[Said] = []
+    shown: list[Result] = []
     rows = []
     for one in document.assumptions:
-        breaking = [said(sources, document, runs[name]) for name in one.breaks if name in runs]
+        breaking = [result_of(sources, document, runs[name]) for name in one.breaks if name in runs]
         shown += breaking
         rows.append(_row(document, one, breaking, runs, rests.get(one.id, ())))
         if not one.breaks and not one.breaks_open.strip():
@@ -46,7 +46,7 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
 def _row(
     document: Document,
     one: Assumption,
-    breaking: list[Said],
+    breaking: list[Result],
     runs: Mapping[str, Run],
     claims: tuple[tuple[str, str], ...],
 ) -> dict[str, Any]:

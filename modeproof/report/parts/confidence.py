@@ -8,8 +8,8 @@ from modeproof.errors import Unjudged
 from modeproof.registers.tools import SOURCE, Check, ToolProblem, load_tools
 from modeproof.report.conditions import Met, judged
 from modeproof.report.part import Part
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 ID = "confidence"

@@ -9,8 +9,8 @@ from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.report.claims import LANE
 from modeproof.report.part import Part
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 ID = "conformance"

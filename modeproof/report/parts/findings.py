@@ -7,7 +7,7 @@ from typing import Any
 
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
-from modeproof.report.claims import Said, proved, said, steps_of, theorem_rows
+from modeproof.report.claims import Result, result_of, steps_of, theorem_result, theorem_rows
 from modeproof.report.deviations import Deviation, deviations
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
@@ -26,7 +26,7 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
     runs = {one.id: one for one in document.runs}
     sentences = {one.name: one.sentence for _, one in theorem_rows(sources, document)}
     clauses = {one.id for one in document.clauses}
-    shown: list[Said] = []
+    shown: list[Result] = []
     findings = []
     for one in document.findings:
         rows = []
@@ -34,15 +34,19 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
             if name in clauses:
                 rows.append({"kind": "clause", "id": name})
                 continue
-            saying = said(sources, document, runs[name]) if name in runs else proved(sources, document, name)
-            shown.append(saying)
-            rows.append(_evidence(saying, runs, sentences))
+            result = (
+                result_of(sources, document, runs[name])
+                if name in runs
+                else theorem_result(sources, document, name)
+            )
+            shown.append(result)
+            rows.append(_evidence(result, runs, sentences))
         findings.append(_finding(document, one, rows))
         if not one.evidence and not one.evidence_open.strip():
             what = f"{document.name}: {one.id} names no evidence and does not say why"
             troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
     every = deviations(sources, document)
-    shown += [one.said for one in every]
+    shown += [one.result for one in every]
     return {
         "id": document.name,
         "title": document.about.title,
@@ -71,7 +75,7 @@ def _finding(document: Document, one: Finding, evidence: list[dict[str, Any]]) -
     }
 
 
-def _evidence(one: Said, runs: Mapping[str, Run], sentences: Mapping[str, str]) -> dict[str, Any]:
+def _evidence(one: Result, runs: Mapping[str, Run], sentences: Mapping[str, str]) -> dict[str, Any]:
     run = runs.get(one.id)
     if run is None:
         return {"kind": "theorem", **one.data, "sentence": sentences.get(one.id, "")}
@@ -88,21 +92,21 @@ def _evidence(one: Said, runs: Mapping[str, Run], sentences: Mapping[str, str]) 
 def _deviation(document: Document, one: Deviation) -> dict[str, Any]:
     falls = next((each for each in document.properties if one.run.property in (each.tla, each.id)), None)
     return {
-        **one.said.data,
+        **one.result.data,
         "readings": list(one.readings),
         "findings": [{"id": each.id, "title": each.title} for each in one.findings],
         "falls": one.run.property,
         "property": None if falls is None else falls.id,
         "hazard": "" if falls is None else falls.hazard,
         "harmless": one.harmless,
-        "reached": _reached(one.said),
-        "steps": steps_of(one.said),
+        "reached": _reached(one.result),
+        "steps": steps_of(one.result),
         "environment": one.run.environment,
         "strength": one.run.strength,
-        "seconds": None if one.said.evidence is None else one.said.evidence.figure("seconds", unit="s"),
+        "seconds": None if one.result.evidence is None else one.result.evidence.figure("seconds", unit="s"),
     }
 
 
-def _reached(one: Said) -> list[str]:
+def _reached(one: Result) -> list[str]:
     """What a run of witnesses has reached under the readings."""
     return [] if one.evidence is None else list(one.evidence.result.get("reached", ()))

@@ -6,8 +6,8 @@ from typing import Any
 
 from modeproof.registers.rows import Document
 from modeproof.report.part import Part
+from modeproof.report.snapshot import lines_of
 from modeproof.report.sources import HOLE, Sources, Trouble
-from modeproof.report.standing import lines_of
 from modeproof.report.text import blocks
 from modeproof.report.verdicts import ASIDE
 

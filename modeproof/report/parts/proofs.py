@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
-from modeproof.report.claims import proved, theorem_rows
+from modeproof.report.claims import theorem_result, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.proofs import never_needed
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import Evidence, Figure, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 ID = "proofs"
@@ -61,10 +61,10 @@ def _claims(one: Evidence) -> list[Mapping[str, Any]]:
 
 
 def _theorem(sources: Sources, document: Document, file: str, name: str, sentence: str) -> dict[str, Any]:
-    saying = proved(sources, document, name)
-    one = saying.evidence
+    result = theorem_result(sources, document, name)
+    one = result.evidence
     answer = {
-        **saying.data,
+        **result.data,
         "file": file,
         "sentence": sentence,
         "clauses": [],

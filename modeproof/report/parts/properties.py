@@ -9,7 +9,7 @@ from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
 from modeproof.report.campaigns import KINDS, Campaign, campaign
-from modeproof.report.claims import Claim, Said, claims, said, steps_of, texts_of, theorem_rows
+from modeproof.report.claims import Claim, Result, claims, result_of, steps_of, texts_of, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble
 
@@ -43,7 +43,7 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
 
 def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
     """A row of the table of all runs of the model checker."""
-    one = said(sources, document, run)
+    one = result_of(sources, document, run)
     record = None if one.evidence is None else one.evidence
     return {
         **one.data,
@@ -142,7 +142,7 @@ def _theorems(sources: Sources, document: Document, own: list[Claim]) -> list[di
 def _witness(sources: Sources, document: Document, one: Property) -> dict[str, Any]:
     """The situation that the property speaks of, and the run that reached it."""
     declared = [run for run in document.runs if one.antecedent and one.antecedent in run.witnesses]
-    runs = [Said(run.id, sources.evidence[document.name].get(run.id)) for run in declared]
+    runs = [Result(run.id, sources.evidence[document.name].get(run.id)) for run in declared]
     reached = [
         each
         for each in runs

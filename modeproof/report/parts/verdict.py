@@ -8,8 +8,8 @@ from typing import Any
 from modeproof.registers.rows import Document
 from modeproof.report.campaigns import KINDS, id_of
 from modeproof.report.part import Part
+from modeproof.report.snapshot import as_it_counts, lines_of, mutants_of
 from modeproof.report.sources import Evidence, Figure, Sources
-from modeproof.report.standing import as_it_counts, lines_of, mutants_of
 from modeproof.report.verdicts import ASIDE, NOT_AS_DECLARED, Line, status_of
 
 GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (

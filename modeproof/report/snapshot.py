@@ -78,7 +78,7 @@ def pins_of(sources: Sources, document: str) -> dict[str, dict[str, dict[str, st
     return pins
 
 
-def standing(sources: Sources) -> dict[str, Any]:
+def snapshot(sources: Sources) -> dict[str, Any]:
     """All that the next report will be compared with."""
     verdicts: dict[str, str] = {}
     results: dict[str, Any] = {}
