@@ -264,8 +264,14 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
             f"{_sentence(one.story)}\n\n"
             f"What fails: {requirement}\n\n"
             f"<!-- begin {mark} -->\n{table}<!-- end trace -->\n\n"
-            f"`modeproof check {one.run} --trace`\n"
+            f"`modeproof check {one.run} --trace`{_tried(run)}\n"
         )
+
+
+def _tried(run: Run) -> str:
+    """Under which name the specification has the readings that a run tries."""
+    names = ", ".join(f"`{name}`" for name in run.readings)
+    return f" tries the reading {names}." if names else ""
 
 
 def falls_of(document: Document, run: Run) -> Property | None:
