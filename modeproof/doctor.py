@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -11,8 +13,10 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from modeproof.errors import Unjudged
+from modeproof.places import root
 
 DISK_MB = 3000
 MEMORY_MB = 6000
@@ -162,3 +166,27 @@ def report(findings: list[Finding]) -> tuple[str, int]:
     missing = [one.name for one in findings if one.needed and not one.good]
     lines.append(f"missing: {', '.join(missing)}" if missing else "nothing is missing")
     return "\n".join(lines), 1 if missing else 0
+
+
+def add_parser(commands: Any) -> None:
+    """Add the command; `args.run(args)` returns 0, or 2 where something that is needed is missing."""
+    text = "tell what this machine lacks, and how to mend it"
+    parser = commands.add_parser("doctor", help=text, description=f"{text.capitalize()}.")
+    parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    findings = examine(root())
+    text, status = report(findings)
+    print(text)
+    if args.json is not None:
+        rows = [dict(one.__dict__) for one in findings]
+        try:
+            args.json.write_text(
+                json.dumps({"command": "doctor", "status": status, "findings": rows}, indent=1) + "\n"
+            )
+        except OSError as error:
+            raise Unjudged(f"{args.json}: {error.strerror or error}") from None
+    return status

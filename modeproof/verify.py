@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import argparse
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from modeproof import evidence
+from modeproof.conformance import compare_reference, comparisons, say
 from modeproof.errors import Unjudged
+from modeproof.ground.options import add_command, write_json
+from modeproof.lane.prove import prove_documents
+from modeproof.lock import only_one
+from modeproof.places import add_document_option, chosen_documents, root
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
-from modeproof.registers.runs import Run, load_runs
+from modeproof.registers.runs import LANES, Run, load_runs
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
 from modeproof.summary import failures, render, total
-from modeproof.tlc.check import Checked, check_all, register_problems, select
+from modeproof.tlc.check import check_all, register_problems, select
+from modeproof.tlc.command import line_of
 from modeproof.tlc.toolchain import find_toolchain
 
 Records = list[dict[str, Any]]
@@ -108,28 +115,6 @@ def check_lane(place: Path, names: Sequence[str], lane: str, progress: Progress)
     return [one.record for one in done], troubles
 
 
-def line_of(checked: Checked) -> str:
-    """One line that says how a run went."""
-    if checked.kept:
-        words, record = checked.judgement.words, checked.record
-        return (
-            f"ok  {checked.run.name}: {words}; kept, of {record['started']}, {record['seconds']:.1f} s then"
-        )
-    counts = checked.outcome.log.counts if checked.outcome is not None else None
-    seconds = checked.outcome.seconds if checked.outcome is not None else 0.0
-    parts = [f"{'ok ' if checked.status == 0 else 'NOT'} {checked.run.name}: {checked.judgement.words}"]
-    if checked.judgement.violated:
-        parts[0] += f" ({checked.judgement.violated})"
-    if counts is not None:
-        parts.append(f"{counts.distinct:,} distinct, {counts.generated:,} generated")
-    if checked.outcome is not None and checked.outcome.log.trace:
-        parts.append(f"{len(checked.outcome.log.trace)} states in the counterexample")
-    parts.append(f"{seconds:.1f} s")
-    if checked.judgement.reason:
-        parts.append(checked.judgement.reason)
-    return "; ".join(parts)
-
-
 def property_rows(place: Path, document: str) -> list[PropertyRow]:
     """The declared properties. Raises Unjudged when the register cannot be read."""
     from modeproof import registers
@@ -196,3 +181,74 @@ def verify(
     word = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}[status]
     progress.say(f"{'result':<12} {word} (exit status {status})")
     return status, everything
+
+
+def stages_of_verify() -> list[tuple[str, Stage]]:
+    """The stages of `verify`, each with its title, in their order.
+
+    The comparisons with the implementation go first in the queue of the theorems: the longest of them keeps
+    one core for half a minute. Their stage tells what came of them; where the theorems could not be asked it
+    makes them itself.
+    """
+    compared: list[tuple[list[dict[str, Any]], dict[str, str]]] = []
+
+    def prove(
+        place: Path, names: Sequence[str], lane: str, progress: Progress
+    ) -> tuple[list[dict[str, Any]], dict[str, str]]:
+        tasks, missing = comparisons(place, names, lane)
+        found: list[dict[str, Any]] = []
+
+        def take(record: dict[str, Any]) -> None:
+            found.append(record)
+            say(record, progress)
+
+        result = prove_documents(place, names, progress, lane=lane, beside=tasks, on_beside=take)
+        compared.append((found, missing))
+        return result
+
+    def compare(
+        place: Path, names: Sequence[str], lane: str, progress: Progress
+    ) -> tuple[list[dict[str, Any]], dict[str, str]]:
+        return compared.pop() if compared else compare_reference(place, names, lane, progress)
+
+    return [
+        ("registers", check_registers),
+        ("TLC", check_lane),
+        ("proofs", prove),
+        ("conformance", compare),
+    ]
+
+
+def add_parser(commands: Any) -> None:
+    """Add the command; `args.run(args)` returns the worst status of all and raises Unjudged."""
+    parser = add_command(
+        commands, "verify", run, "registers, TLC, conformance and proofs; ends with a summary"
+    )
+    parser.add_argument(
+        "--lane", choices=LANES, default="full", help="smoke: under a minute; full: the default"
+    )
+    add_document_option(parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    place = root()
+    progress = Progress(quiet=args.quiet)
+    names = chosen_documents(place, args.document)
+    with only_one(place):
+        status, records = verify(place, names, args.lane, stages_of_verify(), progress)
+        for name in names:  # everything that was written can be read back
+            evidence.read_document(place, name)
+        if args.lane == "full" and args.document is None:
+            from modeproof.report.command import made_by_verify
+            from modeproof.walks import walk_evidence
+
+            progress.say("-- walks of the counterexamples")
+            try:
+                walk_evidence(place, names, progress)
+            except Unjudged as error:  # the report then shows variables, and says so
+                progress.say(f"walks: UNJUDGED: {error.message}")
+            for line in made_by_verify(place):
+                progress.say(line)
+    write_json(args, status, records=records)
+    return status

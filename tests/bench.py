@@ -24,15 +24,15 @@ from modeproof.cli import main as modeproof
 from modeproof.graph.device import graph_file, load_device_graph
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
-from modeproof.kit import s7
 from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
 from modeproof.registers.runs import Run, load_runs
+from modeproof.s7 import plc as s7
 from modeproof.suites.contract import declare_parameters
 from modeproof.tlc.messages import LogReader
-from tests.kit.s7_plc import STEPPED, Plc
+from tests.s7.server import STEPPED, Plc
 
 REPEATS = 5
 SHORT_SECONDS = 2.0

@@ -39,7 +39,7 @@ _WINDOWS = sys.platform == "win32"
 
 
 class Program(Protocol):
-    """A program to be judged, whatever lies between it and us: a process, a PLC over S7, a module in Python.
+    """A program to be judged, whatever lies between it and us: a process, or a module in Python.
 
     Values are those of the wire (see `modeproof.kit`): words are four upper-case hex digits, booleans bool.
     The judge calls `hello` once, then for each case `reset` and some `scan`, and in any case `close`. Every
@@ -88,6 +88,7 @@ class Adapter:
         self.timeout_s = timeout_s
         self._stderr = b""
         self._hung = False
+        self._real_time = False
         self._requests: dict[tuple[Any, ...], bytes] = {}
         self._answers: dict[bytes, Mapping[str, Any]] = {}
         group: dict[str, Any] = {} if _WINDOWS else {"start_new_session": True}
@@ -120,7 +121,9 @@ class Adapter:
 
     def hello(self, target: str) -> Mapping[str, Any]:
         """The answer to hello."""
-        return parse_answer(self.ask({"op": "hello", "protocol": 1, "target": target}))
+        answer = parse_answer(self.ask({"op": "hello", "protocol": 1, "target": target}))
+        self._real_time = answer.get("time") == "real"
+        return answer
 
     def reset(self, params: Mapping[str, Any]) -> None:
         """Reset; any answer but {"ok":true} is refused."""
@@ -137,7 +140,7 @@ class Adapter:
             request = _ENCODE({"op": "scan", "dt_ms": dt_ms, "in": inputs}).encode() + b"\n"
             if len(self._requests) < _REMEMBERED:
                 self._requests[key] = request
-        line = self.ask_line(request)
+        line = self.ask_line(request, dt_ms)
         out = self._answers.get(line)
         if out is None:
             answer = parse_answer(line)
@@ -151,7 +154,8 @@ class Adapter:
     def scans(self, scans: Sequence[tuple[int, Mapping[str, Any]]]) -> list[Mapping[str, Any]]:
         """The outputs after each of several scans, in one request; for adapters that say that they can."""
         entries = [{"dt_ms": dt_ms, "in": inputs} for dt_ms, inputs in scans]
-        answer = parse_answer(self.ask({"op": "scans", "list": entries}))
+        request = _ENCODE({"op": "scans", "list": entries}).encode() + b"\n"
+        answer = parse_answer(self.ask_line(request, sum(dt_ms for dt_ms, _ in scans)))
         outs = answer.get("list")
         if set(answer) != {"list"} or not isinstance(outs, list):
             raise Unjudged(f'{{"list":[..]}} expected, got {shown(answer)}')
@@ -187,13 +191,13 @@ class Adapter:
         """Send a request and return the line that answers it."""
         return self.ask_line(_ENCODE(request).encode() + b"\n")
 
-    def ask_line(self, line: bytes) -> bytes:
-        """As `ask`, for a line that is ready to be sent."""
+    def ask_line(self, line: bytes, dt_ms: int = 0) -> bytes:
+        """As `ask`, for a line that is ready to be sent; in real time the answer takes `dt_ms` longer."""
         stray = self._lines.waiting()
         if stray is not None:
             self._refuse_stray(stray)
         self._send(line)
-        answer = self._lines.get(self.timeout_s)
+        answer = self._lines.get(self.timeout_s + (dt_ms / 1000 if self._real_time else 0))
         if answer is None:
             raise Unjudged(f"no answer within {self.timeout_s:g} s")
         if isinstance(answer, bytes):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import sys
 import threading
 from collections.abc import Callable, Sequence
@@ -48,7 +47,9 @@ def add_parser(
     )
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--adapter", metavar="CMD", help="command that speaks adapter protocol 1")
-    which.add_argument("--s7", metavar="HOST[:PORT]", help="a PLC over the S7 protocol; needs --map")
+    which.add_argument(
+        "--s7", metavar="HOST[:PORT]", help="a PLC: starts the adapter modeproof.s7; needs --map"
+    )
     which.add_argument(
         "--builtin", metavar="NAME", help="Python package (refimpl): every transition, both ways; or --suite"
     )
@@ -224,14 +225,21 @@ def starter(args: argparse.Namespace, suite: Suite) -> Callable[[], Program]:
             raise Unjudged("--s7 needs --map FILE with the addresses of the signals")
         if args.jobs > 1:
             raise Unjudged("--s7: a PLC is one program; --jobs is for adapters")
-        try:
-            s7 = importlib.import_module("modeproof.kit.s7")
-        except ImportError as error:
-            raise Unjudged(f"--s7 cannot be used: {error}") from None
-        return lambda: s7.connect(args.s7, args.map, suite, args.timeout)
+        # The adapter gives up first, with better words than "no answer".
+        return lambda: Adapter(s7_adapter(args, suite), 3 * args.timeout + 5)
     from modeproof.kit.builtin import Builtin
 
     return lambda: Builtin(args.builtin, suite)
+
+
+def s7_adapter(args: argparse.Namespace, suite: Suite) -> list[str]:
+    """The command that starts the adapter of --s7, in a checkout and in the packed kit alike."""
+    here = str(Path(__file__).parents[2])
+    start = "import runpy, sys; sys.path.insert(0, sys.argv.pop(1)); "
+    start += "runpy.run_module('modeproof.s7', None, '__main__')"
+    command = [sys.executable, "-c", start, here, suite.target, "--host", args.s7, "--map", str(args.map)]
+    command += ["--vectors", str(suite.path), "--member", suite.member, "--timeout", f"{args.timeout:g}"]
+    return command
 
 
 def _program_words(args: argparse.Namespace) -> str:

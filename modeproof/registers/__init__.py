@@ -26,7 +26,6 @@ from modeproof.registers.rows import (
     Signal,
 )
 from modeproof.registers.runs import Graph, Run, load_runs
-from modeproof.registers.tables import render_properties_table
 
 __all__ = [
     "About",
@@ -57,6 +56,5 @@ __all__ = [
     "matrix",
     "read_register",
     "read_sources",
-    "render_properties_table",
     "value_fault",
 ]

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.places import add_document_option, chosen_documents
 from modeproof.places import root as repository_root
-from modeproof.registers.files import read_text, shown, write_text
+from modeproof.registers.files import write_text
 from modeproof.registers.judge import Judgement, judge, judge_tree
-from modeproof.registers.load import documents, load_document
+from modeproof.registers.load import load_document
 from modeproof.registers.rows import Problem
-from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text, pages, render_blocks
+from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text
 
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
@@ -32,9 +32,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     parser.add_argument("--matrix", action="store_true", help="print the matrix, one clause a line")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write matrix and problems as JSON")
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write the matrix of one document as CSV")
-    parser.add_argument(
-        "--render", action="store_true", help="render the tables in README.md and docs/ anew first"
-    )
     parser.set_defaults(run=run)
     return parser
 
@@ -45,8 +42,6 @@ def run(args: argparse.Namespace) -> int:
     chosen = chosen_documents(root, args.document)
     if args.csv and len(chosen) != 1:
         raise Unjudged(f"--csv writes one document; choose it with --document ({', '.join(chosen)})")
-    if args.render:
-        render(root)
     judgements = [judge(load_document(root, name)) for name in chosen]
     tree = judge_tree(root)
     for judgement in judgements:
@@ -95,14 +90,3 @@ def record(judgements: list[Judgement], tree: list[Problem]) -> dict[str, object
         ],
         "problems": [str(problem) for problem in tree],
     }
-
-
-def render(root: Path) -> None:
-    """Render every marked block in README.md and docs/ anew; a page that does not change is not written."""
-    loaded = [load_document(root, name) for name in documents(root)]
-    for path in pages(root):
-        text = read_text(root, path)
-        rendered = render_blocks(text, loaded, shown(root, path))
-        if rendered != text:
-            write_text(path, rendered)
-            print(f"rendered {shown(root, path)}")

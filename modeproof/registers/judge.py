@@ -7,13 +7,13 @@ from pathlib import Path
 
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
+from modeproof.registers.document_page import check_document_page
 from modeproof.registers.load import documents, load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
-from modeproof.registers.proofs_page import check_proofs_page
+from modeproof.registers.readings import check_readings, check_tops
 from modeproof.registers.rooms import check_imports, check_no_document_known
 from modeproof.registers.rows import Document, Problem
-from modeproof.registers.stamps import check_findings_pages
 from modeproof.registers.switches import check_switches
 from modeproof.registers.tables import check_pages
 from modeproof.registers.vector_files import check_vectors
@@ -44,8 +44,9 @@ def judge(document: Document) -> Judgement:
     problems = [
         *cross_check(document, sources),
         *check_switches(document, sources),
-        *check_findings_pages(document),
-        *check_proofs_page(document.root, document),
+        *check_readings(document, sources.modules),
+        *check_tops(document, sources.modules),
+        *check_document_page(document, sources),
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),

@@ -1,4 +1,4 @@
-"""Renders the matrix and the properties as tables, and keeps marked blocks in pages equal to them."""
+"""The matrix as a table, and the marked blocks in pages: pictures of documents, the index of documents."""
 
 from __future__ import annotations
 
@@ -10,21 +10,20 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path, PurePosixPath
 
-from modeproof.registers.fault_table import render_fault_matrix, render_faults_table
+from modeproof.registers.document_page import REMEDY, page_name
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.matrix import Row
-from modeproof.registers.pages import pages_there
 from modeproof.registers.rows import Document, Problem
 
 COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
 """The columns of the text table; JSON and CSV have all fields."""
 
 BLOCK = re.compile(
-    r"(<!-- begin (properties|picture|faults|fault matrix|documents)(?: ([a-z][a-z0-9_]*))? -->\n)"
-    r"(.*?)(<!-- end(?: (?:properties|picture|faults|fault matrix|documents))? -->)",
+    r"(<!-- begin (picture|documents)(?: ([a-z][a-z0-9_]*))? -->\n)"
+    r"(.*?)(<!-- end(?: (?:picture|documents))? -->)",
     re.DOTALL,
 )
-BEGIN = re.compile(r"<!-- begin (?:properties|picture|fault|documents)")
+BEGIN = re.compile(r"<!-- begin (?:picture|documents)")
 
 
 def matrix_text(rows: Sequence[Row]) -> str:
@@ -65,18 +64,6 @@ def matrix_csv(rows: Sequence[Row]) -> str:
     return stream.getvalue()
 
 
-def render_properties_table(document: Document) -> str:
-    """The properties of a document as a Markdown table that ends with a line end."""
-    lines = [
-        "| property | what must be true | hazard otherwise | environments | clauses |",
-        "|---|---|---|---|---|",
-    ]
-    for one in document.properties:
-        cells = (f"`{one.id}`", one.sentence, one.hazard, ", ".join(one.environments), ", ".join(one.clauses))
-        lines.append("| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in cells) + " |")
-    return "\n".join(lines) + "\n"
-
-
 def render_picture(document: Document) -> str:
     """Devices and the signals between them as a Mermaid chart; a signal flows to where an input has its name.
 
@@ -113,22 +100,16 @@ def _rows(names: Sequence[str]) -> str:
     return "<br>".join(", ".join(names[n : n + 3]) for n in range(0, len(names), 3))
 
 
-RENDERERS = {
-    "properties": render_properties_table,
-    "picture": render_picture,
-    "faults": render_faults_table,
-    "fault matrix": render_fault_matrix,
-}
-
-
-def render_rooms(document: Document, here: PurePosixPath) -> str:
+def render_index(document: Document, here: PurePosixPath) -> str:
     """A document in an index: its title, its targets and where to read on; `here` is the page's folder."""
     name = document.name
     devices = document.interface.devices.values()
     targets = ", ".join(f"`{one.id}`" for one in devices if one.published) or "none"
-    places = [(f"spec/{name}", "registers and TLA+"), *pages_there(document.root, name)]
-    links = ", ".join(f"[{words}]({_relative(path, here)})" for path, words in places)
-    return f"- **`{name}`** {document.about.title}. Targets: {targets}. {links}.\n"
+    places = [(page_name(name), "what was shown and found"), (f"spec/{name}", "registers and TLA+")]
+    links = [
+        f"[{words}]({_relative(path, here)})" for path, words in places if (document.root / path).exists()
+    ]
+    return f"- **`{name}`** {document.about.title}. Targets: {targets}. {', '.join(links)}.\n"
 
 
 def _relative(path: str, here: PurePosixPath) -> str:
@@ -138,24 +119,23 @@ def _relative(path: str, here: PurePosixPath) -> str:
 def render_blocks(text: str, documents: Sequence[Document], page: str = "README.md") -> str:
     """The page with each block `<!-- begin WHAT [DOCUMENT] --> .. <!-- end -->` rendered anew.
 
-    WHAT is a key of `RENDERERS`, or `documents` for an index. Without a name the block holds those of all
-    documents. `page` is the path of the page from the root, for its links.
+    WHAT is `picture`, or `documents` for an index. Without a name the block holds those of all documents.
+    `page` is the path of the page from the root, for its links.
     """
     here = PurePosixPath(page).parent
 
     def block(match: re.Match[str]) -> str:
         chosen = [one for one in documents if match.group(3) in (None, one.name)]
         if match.group(2) == "documents":
-            return match.group(1) + "".join(render_rooms(one, here) for one in chosen) + match.group(5)
-        return match.group(1) + "\n".join(map(RENDERERS[match.group(2)], chosen)) + match.group(5)
+            return match.group(1) + "".join(render_index(one, here) for one in chosen) + match.group(5)
+        return match.group(1) + "\n".join(map(render_picture, chosen)) + match.group(5)
 
     return BLOCK.sub(block, text)
 
 
 def pages(root: Path) -> list[Path]:
-    """The pages that may hold rendered blocks: README.md, docs/*.md and docs/<document>/*.md."""
-    own = [*sorted((root / "docs").glob("*.md")), *sorted((root / "docs").glob("*/*.md"))]
-    return [path for path in [root / "README.md", *own] if path.is_file()]
+    """The pages that may hold rendered blocks: README.md and docs/*.md."""
+    return [path for path in [root / "README.md", *sorted((root / "docs").glob("*.md"))] if path.is_file()]
 
 
 def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
@@ -166,11 +146,5 @@ def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
         if len(BEGIN.findall(text)) != len(BLOCK.findall(text)):
             problems.append(Problem(shown(root, path), "", "a rendered block has no end, or is malformed"))
         elif render_blocks(text, documents, shown(root, path)) != text:
-            problems.append(
-                Problem(
-                    shown(root, path),
-                    "",
-                    "a rendered table or picture has drifted; run modeproof registers --render",
-                )
-            )
+            problems.append(Problem(shown(root, path), "", f"a rendered block has drifted; {REMEDY}"))
     return problems

@@ -23,7 +23,7 @@ class Part:
     payload: Mapping[str, bytes] = field(default_factory=dict)
     """What only scripts of the page read, by the id of its element: compressed by gzip, written as base64."""
     attachments: Mapping[str, bytes] = field(default_factory=dict)
-    """Files for other programs (a CSV, a workbook) by their name: they lie beside the page and in it, where
+    """Files for other programs (a CSV, JUnit XML) by their name: they lie beside the page and in it, where
     `m.attachment(name, label)` offers them."""
 
 

@@ -1,182 +1,59 @@
-"""The page and the chart of how a model grows, from the evidence of measured points.
-
-The law stated is the one of three (exponential, power, straight line) that fits best; how well is the share
-of the variance of log y that it explains, the same measure for all three.
-"""
+"""The chart of how a model grows, from the figures in spec/<document>/scaling.toml."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
 from xml.sax.saxutils import escape
 
-LEAST = 3
-"""With fewer points no law is stated."""
+from modeproof.errors import Unjudged
+
+FIGURES = {"distinct": "distinct states", "cpu_s": "CPU seconds"}
 _COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e44ad", "#b9770e")
 _WIDTH, _HEIGHT = 380, 300
 _LEFT, _RIGHT, _TOP, _BOTTOM = 70, 12, 34, 44
 
 
 @dataclass(frozen=True)
-class Measured:
-    """One point: its place on the axis and its evidence (None: not measured)."""
-
-    x: int
-    record: Mapping[str, Any] | None
-
-    def value(self, name: str) -> float | None:
-        """A figure of a point that holds, else None."""
-        if self.record is None or not self.record["as_expected"]:
-            return None
-        figure: float = self.record["result"][name]
-        return float(figure)
-
-
-@dataclass(frozen=True)
 class Curve:
-    """The points of one series, with the run that they vary."""
+    """One series: the run of which `x` is varied, the places on the axis, and the figures measured there."""
 
-    id: str
     run: str
     x: str
     title: str
-    points: tuple[Measured, ...]
+    places: tuple[int, ...]
+    figures: dict[str, tuple[tuple[int, float], ...]]
 
-    def values(self, name: str) -> list[tuple[int, float]]:
-        """x and the figure of each point that has it and is greater than 0."""
-        found = [(point.x, point.value(name)) for point in self.points]
-        return [(x, y) for x, y in found if y is not None and y > 0]
-
-
-@dataclass(frozen=True)
-class Law:
-    """How y grows with x, and R squared of log y (1: exactly so)."""
-
-    kind: str
-    a: float
-    b: float
-    r_squared: float
-
-    def at(self, x: float) -> float:
-        """What the law says of x."""
-        if self.kind == "exponential":
-            return self.a * math.pow(self.b, x)
-        return self.a * math.pow(x, self.b) if self.kind == "power" else self.a + self.b * x
-
-    def __str__(self) -> str:
-        a = f"{self.a:,.3g}" if self.a < 999 else f"{self.a:,.0f}"
-        words = {
-            "exponential": f"{a} · {self.b:.3g}^x",
-            "power": f"{a} · x^{self.b:.3g}",
-            "line": f"{a} + {self.b:,.0f} · x",
-        }[self.kind]
-        return f"{words} (R² = {self.r_squared:.4f})"
+    def values(self, name: str) -> tuple[tuple[int, float], ...]:
+        """The measured points of one figure; all are greater than 0."""
+        return self.figures.get(name, ())
 
 
-def best_law(points: Sequence[tuple[int, float]]) -> Law | None:
-    """The law that explains most of the variance of log y; None for less than LEAST points or a constant."""
-    if len(points) < LEAST or len({y for _, y in points}) == 1:
-        return None
-    xs = [float(x) for x, _ in points]
-    ys = [y for _, y in points]
-    logs = [math.log(y) for y in ys]
-    found: list[Law] = []
-    a, b = _line(xs, logs)
-    found.append(_judged("exponential", math.exp(a), math.exp(b), xs, logs))
-    if min(xs) > 0:
-        a, b = _line([math.log(x) for x in xs], logs)
-        found.append(_judged("power", math.exp(a), b, xs, logs))
-    a, b = _line(xs, ys)
-    if all(a + b * x > 0 for x in xs):
-        found.append(_judged("line", a, b, xs, logs))
-    return max(found, key=lambda law: law.r_squared)
-
-
-def _line(xs: Sequence[float], ys: Sequence[float]) -> tuple[float, float]:
-    """Intercept and slope of the least squares line."""
-    n, mean_x, mean_y = len(xs), sum(xs) / len(xs), sum(ys) / len(ys)
-    slope = sum(xs[i] * ys[i] for i in range(n)) - n * mean_x * mean_y
-    slope /= sum(x * x for x in xs) - n * mean_x * mean_x
-    return mean_y - slope * mean_x, slope
-
-
-def _judged(kind: str, a: float, b: float, xs: Sequence[float], logs: Sequence[float]) -> Law:
-    law = Law(kind, a, b, 0.0)
-    mean = sum(logs) / len(logs)
-    rest = sum((log - math.log(law.at(x))) ** 2 for x, log in zip(xs, logs, strict=True))
-    return Law(kind, a, b, 1.0 - rest / sum((log - mean) ** 2 for log in logs))
-
-
-# ------------------------------------------------------------------------------------------------ page
-
-
-def page(curves: Sequence[Curve], command: str, picture: str) -> str:
-    """The page as Markdown; `command` makes it, `picture` is the name of the chart."""
-    records = [point.record for curve in curves for point in curve.points if point.record is not None]
-    out = [
-        "# How the model grows",
-        "",
-        f"Rendered by `{command} --render` from the evidence of `{command}`; not edited by hand.",
-        _machine(records),
-        "Each point is one TLC run with one worker, the properties of the run that it varies and at most",
-        f"{_limit(records):g} s; time is CPU time, which hardly depends on what else the machine is doing.",
-        "",
-        f"![distinct states and CPU seconds]({picture})",
-        "",
-        "| series | varies | distinct states | CPU seconds |",
-        "|---|---|---|---|",
-    ]
-    for curve in curves:
-        laws = [best_law(curve.values(name)) for name in ("distinct", "cpu_seconds")]
-        cells = [str(law) if law else f"fewer than {LEAST} points" for law in laws]
-        out.append(f"| {curve.title} | {curve.x} | {cells[0]} | {cells[1]} |")
-    out += [
-        "",
-        "The law is the best of three (exponential, power, straight line), by least squares; R² is of log y.",
-        "It describes the points measured and says nothing beyond them.",
-        "",
-    ]
-    for curve in curves:
-        out += [
-            f"## {curve.title} (`{curve.run}`)",
-            "",
-            f"| {curve.x} | distinct | generated | depth | CPU s | |",
-            "|---:|---:|---:|---:|---:|---|",
+def curves_of(place: Path, document: str) -> list[Curve]:
+    """The series of a document. Raises Unjudged when the file is missing or lacks something."""
+    source = f"spec/{document}/scaling.toml"
+    try:
+        data = tomllib.loads((place / source).read_text(encoding="utf-8"))
+        return [
+            Curve(
+                series["run"],
+                series["x"],
+                series["title"],
+                tuple(point["x"] for point in series["points"]),
+                {
+                    name: tuple((point["x"], point[name]) for point in series["points"] if name in point)
+                    for name in FIGURES
+                },
+            )
+            for series in data["series"]
         ]
-        out += [_row(point) for point in curve.points] + [""]
-    return "\n".join(out)
-
-
-def _limit(records: Sequence[Mapping[str, Any]]) -> float:
-    return max((float(one["result"]["limit_s"]) for one in records), default=0.0)
-
-
-def _machine(records: Sequence[Mapping[str, Any]]) -> str:
-    names = sorted(
-        {
-            f"{one['machine'].get('cpu') or one['machine']['arch']}, {one['machine']['cores']} cores, "
-            f"{one['tools']['java']['version']}"
-            for one in records
-            if one["as_expected"]
-        }
-    )
-    return f"Measured on: {'; '.join(names)}." if names else "Nothing was measured."
-
-
-def _row(point: Measured) -> str:
-    record = point.record
-    if record is None:
-        return f"| {point.x} | | | | | not measured |"
-    if not record["as_expected"]:
-        return f"| {point.x} | | | | | left out: {record['reason']} |"
-    result = record["result"]
-    counts = f"{result['distinct']:,} | {result['generated']:,} | {result['depth']}"
-    return f"| {point.x} | {counts} | {result['cpu_seconds']:.1f} | |"
-
-
-# ------------------------------------------------------------------------------------------------ chart
+    except (OSError, ValueError) as error:
+        raise Unjudged(f"{source}: {error}") from None
+    except KeyError as error:
+        raise Unjudged(f"{source}: {error.args[0]} is missing") from None
 
 
 def chart(curves: Sequence[Curve]) -> str:
@@ -190,9 +67,7 @@ def chart(curves: Sequence[Curve]) -> str:
     ]
     for row, kind in enumerate(kinds):
         chosen = [curve for curve in curves if curve.x == kind]
-        for column, (name, title) in enumerate(
-            (("distinct", "distinct states"), ("cpu_seconds", "CPU seconds"))
-        ):
+        for column, (name, title) in enumerate(FIGURES.items()):
             parts.append(f'<g transform="translate({column * _WIDTH},{row * _HEIGHT})">')
             parts += _panel(chosen, name, title, kind)
             parts.append("</g>")
@@ -204,7 +79,7 @@ def _panel(curves: Sequence[Curve], name: str, title: str, kind: str) -> list[st
     parts = [f'<text x="{_LEFT}" y="16" font-size="13">{escape(title)} against {escape(kind)}</text>']
     if not values:
         return [*parts, f'<text x="{_LEFT}" y="60">not measured</text>']
-    places = sorted({point.x for curve in curves for point in curve.points})
+    places = sorted({x for curve in curves for x in curve.places})
     low = math.floor(min(math.log10(y) for _, y in values))
     high = max(low + 1, math.ceil(max(math.log10(y) for _, y in values)))
     right, bottom = _WIDTH - _RIGHT, _HEIGHT - _BOTTOM

@@ -60,7 +60,6 @@ def packages() -> tuple[Package, ...]:
         ("jinja2", "made the page"),
         ("markupsafe", "made the page: escapes every text"),
         ("grandalf", "made the page: places the states of a chart"),
-        ("xlsxwriter", "made the workbook"),
         ("jsonschema", "checked registers and evidence"),
     )
     return tuple(_package(name, use) for name, use in rows)

@@ -15,15 +15,17 @@ import tokenize
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import load_runs
+from modeproof.registers.scores import Score, load_scores, scores_path
 from modeproof.strength.campaign import Campaign, Judged, unexplained
 from modeproof.strength.code import files_of
 from modeproof.strength.published import contents
@@ -37,45 +39,6 @@ _HEAD = """\
 # Written by `modeproof mutate ... --record`: what the last complete campaign of each kind found, and hashes
 # of the texts that it rests on. Where `earlier_text` is true, it was judged on a text before the present one.
 """
-
-
-@dataclass(frozen=True)
-class Score:
-    """One row: a campaign over every mutant. `what` is spec, impl or vectors."""
-
-    what: str
-    judged_on: str
-    command: str
-    killed: int
-    equivalent: int
-    invalid: int
-    survived: int
-    survived_explained: int
-    unmeasured: int
-    earlier_text: bool
-    files: Mapping[str, str]
-
-    @property
-    def real(self) -> int:
-        """The mutants that behave differently, as far as is known."""
-        return self.killed + self.survived + self.unmeasured
-
-
-def scores_path(place: Path, document: str) -> Path:
-    """Where the record lies."""
-    return place / "spec" / document / "scores.toml"
-
-
-def load_scores(place: Path, document: str) -> tuple[Score, ...]:
-    """The rows; none where there is no file. Raises Unjudged when one is not understood."""
-    path = scores_path(place, document)
-    if not path.is_file():
-        return ()
-    try:
-        rows = tomllib.loads(path.read_text(encoding="utf-8")).get("campaign", [])
-        return tuple(Score(**row) for row in rows)
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, TypeError, AttributeError) as error:
-        raise Unjudged(f"spec/{document}/scores.toml: {error}") from None
 
 
 def record_score(campaign: Campaign, judged: Sequence[Judged]) -> Score:
@@ -106,7 +69,7 @@ def write_scores(place: Path, document: str, scores: Sequence[Score]) -> None:
     """Write the whole record."""
     order = ("spec", "impl", "vectors")
     rows = sorted(scores, key=lambda score: order.index(score.what))
-    text = _HEAD + "".join(f"\n{_row(score)}" for score in rows)
+    text = f'{_HEAD}\ndocument = "{document}"\n' + "".join(f"\n{_row(score)}" for score in rows)
     write_whole(scores_path(place, document), text.encode("utf-8"))
 
 
@@ -121,7 +84,7 @@ def _row(score: Score) -> str:
 def mark_earlier(place: Path, document: str) -> None:
     """Say of every row that it is of an earlier text."""
     rows = load_scores(place, document)
-    write_scores(place, document, [replace(row, earlier_text=True) for row in rows])
+    write_scores(place, document, [msgspec.structs.replace(row, earlier_text=True) for row in rows])
 
 
 def stale(place: Path, document: str) -> list[str]:

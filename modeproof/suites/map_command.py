@@ -10,11 +10,11 @@ from typing import Any
 from modeproof.errors import EXIT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.kit.errors import Unjudged as KitUnjudged
-from modeproof.kit.s7_map import proposed_map, read_map
 from modeproof.kit.signals import Signal, read_signals
 from modeproof.places import root
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
+from modeproof.s7.map import proposed_map, read_map
 from modeproof.suites.build import find_target
 from modeproof.suites.contract import declare, declare_parameters
 

@@ -1,4 +1,4 @@
-"""Packs the kit into one file that needs nothing but Python: the code of modeproof.kit and vectors.
+"""Packs the kit into one file that needs nothing but Python: modeproof.kit, modeproof.s7 and vectors.
 
 Inside are the fast suites of every published target. The same inputs give the same bytes: no dates, names in
 order.
@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof import kit
+from modeproof import kit, s7
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.kit.compact import compact, same
@@ -39,8 +39,9 @@ def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = Fals
     """
     contents: dict[str, Any] = {"targets": {}, "left_out": {}}
     members: dict[str, bytes] = {"__main__.py": _MAIN.encode(), "modeproof/__init__.py": b""}
-    for source in sorted(Path(kit.__file__).parent.glob("*.py")):
-        members[f"modeproof/kit/{source.name}"] = source.read_bytes()
+    for package in (kit, s7):
+        for source in sorted(Path(str(package.__file__)).parent.glob("*.py")):
+            members[f"modeproof/{source.parent.name}/{source.name}"] = source.read_bytes()
     with contextlib.suppress(OSError):
         members["LICENSE"] = (place / "LICENSE").read_bytes()
     for target, document in sorted(targets.items()):

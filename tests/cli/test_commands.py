@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.cli import main
+from modeproof.cli import COMMANDS, main
 from modeproof.lock import only_one
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
@@ -135,7 +135,7 @@ def test_a_defect_of_ours_is_one_line_and_never_a_pass(
         main(["--debug", "check"])
 
 
-@pytest.mark.parametrize("command", ["verify", "check", "prove", "conform", "doctor"])
+@pytest.mark.parametrize("command", COMMANDS)
 def test_each_command_has_help(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main([command, "--help"])
@@ -145,3 +145,18 @@ def test_each_command_has_help(command: str, capsys: pytest.CaptureFixture[str])
 def test_the_runs_can_be_listed(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--list"]) == 0
     assert len(capsys.readouterr().out.splitlines()) == 3 <= len(CFGS)
+
+
+def test_a_command_whose_packages_are_missing_says_so(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(COMMANDS, "check", "modeproof.no_such_module")
+    assert main(["check", "MC_x"]) == 2
+    assert "check cannot be loaded: No module named" in only_line(capsys)
+
+
+def test_without_a_command_all_are_named(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--help"])
+    said = capsys.readouterr().out
+    assert ended.value.code == 0 and not [name for name in COMMANDS if f"\n    {name}" not in said]

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.cli import cover_document, main
+from modeproof.cli import main
 from modeproof.errors import Unjudged
+from modeproof.lane.coverage import cover_document
 from modeproof.progress import Progress
 from modeproof.report.verdicts import status_of
 from proofs.mode_selection import devices
@@ -49,9 +50,6 @@ def test_without_a_register_nothing_is_judged(place: Path) -> None:
         _status(place)
 
 
-@pytest.mark.parametrize("option", ["--coverage", "--render"])
-def test_neither_coverage_nor_page_speaks_of_one_theorem(
-    option: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["prove", "some_theorem", option]) == 2
+def test_coverage_speaks_of_no_single_theorem(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove", "some_theorem", "--coverage"]) == 2
     assert "give it no" in capsys.readouterr().err

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from modeproof import cli
+from modeproof.lane import prove
 
 
 def test_where_it_cannot_be_made_nothing_is_shared_and_the_theorems_are_still_asked(
@@ -32,6 +32,6 @@ def test_where_it_cannot_be_made_nothing_is_shared_and_the_theorems_are_still_as
         monkeypatch.setattr(
             importlib, "import_module", lambda name, it=prepared: SimpleNamespace(prepared=it)
         )
-        with cli._prepared("any") as seconds:
+        with prove._prepared("any") as seconds:
             assert seconds >= 0 and left == []
         assert left == expected

@@ -10,10 +10,9 @@ from typing import Any
 
 import pytest
 
-from modeproof import cli, conformance
+from modeproof import conformance, verify
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.verify import verify
 from tests.toy_tree import toy_tree
 
 NAMES = ["toy"]
@@ -39,7 +38,7 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, list[str
 def outcome(root: Path) -> dict[str, tuple[list[dict[str, Any]], dict[str, str]]]:
     """What the last two stages of verify give, by title; an error as a trouble."""
     found = {}
-    for title, stage in cli.stages_of_verify()[2:]:
+    for title, stage in verify.stages_of_verify()[2:]:
         try:
             found[title] = stage(root, NAMES, "smoke", Progress(quiet=True))
         except Unjudged as error:
@@ -55,7 +54,7 @@ def refused(why: str) -> Callable[..., Any]:
 
 
 def test_the_models_are_checked_before_their_graphs_are_compared() -> None:
-    assert [title for title, _ in cli.stages_of_verify()] == ["registers", "TLC", "proofs", "conformance"]
+    assert [title for title, _ in verify.stages_of_verify()] == ["registers", "TLC", "proofs", "conformance"]
 
 
 def test_a_comparison_is_made_once_and_belongs_to_its_own_stage(toy: tuple[Path, list[str]]) -> None:
@@ -72,7 +71,7 @@ def test_where_no_theorem_can_be_asked_the_comparisons_are_made_all_the_same(
     toy: tuple[Path, list[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root, made = toy
-    monkeypatch.setattr(cli, "prove_documents", refused("planted: a process died"))
+    monkeypatch.setattr(verify, "prove_documents", refused("planted: a process died"))
     found = outcome(root)
     assert found["proofs"] == ([], {"toy": "planted: a process died"})
     assert [record["id"] for record in found["conformance"][0]] == ["refimpl_OPEN_toy"]
@@ -83,7 +82,7 @@ def test_a_comparison_that_the_queue_loses_is_no_pass(
     toy: tuple[Path, list[str]], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     root, made = toy
-    monkeypatch.setattr(cli, "prove_documents", lambda *_, **__: ([], {}))
-    status, records = verify(root, NAMES, "smoke", cli.stages_of_verify()[2:], Progress(quiet=True))
+    monkeypatch.setattr(verify, "prove_documents", lambda *_, **__: ([], {}))
+    status, records = verify.verify(root, NAMES, "smoke", verify.stages_of_verify()[2:], Progress(quiet=True))
     assert (status, records, made) == (2, [], [])
     assert "toy, conformance: UNJUDGED: nothing was done" in capsys.readouterr().out

@@ -82,10 +82,10 @@ class Hanging(Adapter):
         super().__init__(command, PATIENT_S, lines)
         self.left = at
 
-    def ask_line(self, line: bytes) -> bytes:
+    def ask_line(self, line: bytes, dt_ms: int = 0) -> bytes:
         self.left -= 1
         self.timeout_s = PATIENT_S if self.left else IMPATIENT_S
-        return super().ask_line(line)
+        return super().ask_line(line, dt_ms)
 
 
 MADE: list[Adapter] = []

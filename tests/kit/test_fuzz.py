@@ -41,7 +41,7 @@ class Scripted(Adapter):
         self.at, self.odd, self.count, self.done = at, odd, 0, 0
         self._requests, self._answers = {}, {}
 
-    def ask_line(self, line: bytes) -> bytes:
+    def ask_line(self, line: bytes, dt_ms: int = 0) -> bytes:
         request = json.loads(line)
         answer: dict[str, Any] = HELLO if request["op"] == "hello" else {"ok": True}
         if request["op"] == "scan":
@@ -114,7 +114,7 @@ def test_nor_under_the_other_relations(at: int, odd: object, relation: str, jobs
 @given(answer=json_values | st.lists(outs, max_size=4).map(lambda outs: {"list": outs}))
 def test_nor_does_an_odd_answer_to_a_list(suite: Suite, answer: object) -> None:
     class Listed(Scripted):
-        def ask_line(self, line: bytes) -> bytes:
+        def ask_line(self, line: bytes, dt_ms: int = 0) -> bytes:
             request = json.loads(line)
             if request["op"] == "hello":
                 return json.dumps({**HELLO, "scans": True}).encode()

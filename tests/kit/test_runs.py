@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
 from pathlib import Path
@@ -219,3 +220,18 @@ def test_the_way_for_systems_without_poll_judges_alike(
     else:
         assert plain.reason == threaded.reason
     assert all(one.process.poll() is not None for one in made)
+
+
+def test_an_answer_may_take_the_time_of_its_scan_where_time_is_real() -> None:
+    hello = '{"ok": True, "time": "real", "relations": ["settled"]}'
+    slow = f"time.sleep(m.get('dt_ms', 0) / 1000); return {hello} if m['op'] == 'hello' else {{'out': {{}}}}"
+    code = f"import json, sys, time\ndef answer(m):\n    {slow}\n"
+    code += "for line in sys.stdin: print(json.dumps(answer(json.loads(line))), flush=True)"
+    with Adapter([sys.executable, "-c", code], 0.5) as adapter:
+        adapter.timeout_s = 10.0
+        adapter.hello("lamp")
+        adapter.timeout_s = 0.1
+        assert adapter.scan(400, {}) == {}
+        adapter._real_time = False
+        with pytest.raises(Unjudged, match=r"no answer within 0.1 s"):
+            adapter.scan(400, {})

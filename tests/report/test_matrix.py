@@ -1,10 +1,9 @@
-"""The matrix: orphans first, every result from evidence, and the same as CSV, workbook and JUnit XML."""
+"""The matrix: orphans first, every result from evidence, and the same as CSV and JUnit XML."""
 
 from __future__ import annotations
 
 import csv
 import io
-import zipfile
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -14,10 +13,8 @@ import pytest
 from modeproof.report.build import make
 from modeproof.report.parts.matrix import part
 from modeproof.report.sources import DIFFERS, gather
-from modeproof.report.workbook import HEADS
 from tests.report.paper import change, make_paper, put, without
 
-MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 THEOREM = "it_shuts_over_the_door_only"
 
 
@@ -104,39 +101,6 @@ def test_the_csv_has_a_row_a_clause_and_no_cell_that_a_spreadsheet_takes_for_a_f
     assert found[1]["theorem"] == f"{THEOREM}: PROVED"
 
 
-def sheets(content: bytes) -> dict[str, ElementTree.Element]:
-    """The sheets of a workbook by name; every file in it must be XML."""
-    with zipfile.ZipFile(io.BytesIO(content)) as book:
-        assert book.testzip() is None
-        parsed = {name: ElementTree.fromstring(book.read(name)) for name in book.namelist()}
-        assert {info.date_time[0] for info in book.infolist()} == {1980}
-    names = [one.attrib["name"] for one in parsed["xl/workbook.xml"].iter(f"{MAIN}sheet")]
-    return {name: parsed[f"xl/worksheets/sheet{number}.xml"] for number, name in enumerate(names, 1)}
-
-
-def test_the_workbook_opens_with_linked_tables_frozen_heads_and_no_formula(root: Path) -> None:
-    change(root / "spec" / "box" / "clauses.toml", 'title = "the box shuts"', 'title = "=1+1"')
-    found = sheets(part(gather(root)).attachments["matrix.xlsx"])
-    assert list(found) == list(HEADS)
-    for sheet in found.values():
-        assert next(sheet.iter(f"{MAIN}pane")).attrib["state"] == "frozen"
-        assert not list(sheet.iter(f"{MAIN}f"))
-        assert len(list(sheet.iter(f"{MAIN}tablePart"))) == 1
-    places = [one.attrib["location"] for one in found["Requirements"].iter(f"{MAIN}hyperlink")]
-    assert places == ["'Verification'!A2"]
-    back = {one.attrib["location"].split("!")[0] for one in found["Links"].iter(f"{MAIN}hyperlink")}
-    assert {"'Clauses'", "'Measures'", "'Requirements'", "'Verification'", "'Findings'"} <= back
-
-
-def test_every_link_of_the_workbook_leads_to_a_row_that_is_there(root: Path) -> None:
-    found = sheets(part(gather(root)).attachments["matrix.xlsx"])
-    for sheet in found.values():
-        for one in sheet.iter(f"{MAIN}hyperlink"):
-            name, _, cell = one.attrib["location"].partition("!A")
-            rows_there = {row.attrib["r"] for row in found[name.strip("'")].iter(f"{MAIN}row")}
-            assert cell in rows_there and cell != "1"
-
-
 def test_the_same_evidence_gives_the_same_files_to_the_byte(root: Path) -> None:
     assert part(gather(root)).attachments == part(gather(root)).attachments
 
@@ -180,5 +144,5 @@ def test_a_run_of_another_lane_is_skipped(root: Path) -> None:
 
 def test_the_page_offers_the_files_and_each_clause_has_its_place(root: Path) -> None:
     report = make(root)
-    assert {"matrix.csv", "matrix.xlsx", "junit.xml"} <= set(report.attachments)
-    assert 'id="clause-BX-1-1"' in report.html and 'data-file="matrix.xlsx"' in report.html
+    assert {"matrix.csv", "junit.xml"} <= set(report.attachments)
+    assert 'id="clause-BX-1-1"' in report.html and 'data-file="matrix.csv"' in report.html

@@ -4,42 +4,28 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ElementTree
-from typing import Any
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modeproof.report.scaling import Curve, Measured, best_law, chart, page
+from modeproof.errors import Unjudged
+from modeproof.report.scaling import Curve, best_law, chart, curves_of, page
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
-def record(distinct: int, as_expected: bool = True) -> dict[str, Any]:
-    return {
-        "as_expected": as_expected,
-        "reason": "" if as_expected else "time limit of 180 s reached",
-        "machine": {"cpu": "a processor", "arch": "x", "cores": 2},
-        "tools": {"java": {"version": "a Java"}},
-        "result": {
-            **{"distinct": distinct, "generated": 9 * distinct, "depth": 7},
-            **{"cpu_seconds": distinct / 1000, "limit_s": 180.0},
-        },
-    }
+def curve(x: str, title: str, places: tuple[int, ...], points: list[tuple[int, float]]) -> Curve:
+    return Curve(
+        "MC_x", x, title, places, {"distinct": tuple(points), "cpu_s": tuple((n, y / 1e3) for n, y in points)}
+    )
 
 
 CURVES = (
-    Curve(
-        "levels",
-        "MC_x",
-        "levels",
-        "0 faults",
-        (
-            *(Measured(x, record(1000 * 3**x)) for x in (1, 2, 3)),
-            Measured(4, record(0, as_expected=False)),
-            Measured(5, None),
-        ),
-    ),
-    Curve("few", "MC_x", "levels", "2 < 3 faults", tuple(Measured(x, record(10**x)) for x in (1, 2))),
-    Curve("swaps", "MC_y", "swaps", "swaps", tuple(Measured(x, record(100 + 50 * x)) for x in (0, 1, 2))),
+    curve("levels", "0 faults", (1, 2, 3, 4, 5), [(x, 1000 * 3**x) for x in (1, 2, 3)]),
+    curve("levels", "2 < 3 faults", (1, 2), [(x, 10**x) for x in (1, 2)]),
+    curve("swaps", "swaps", (0, 1, 2), [(x, 100 + 50 * x) for x in (0, 1, 2)]),
 )
 
 
@@ -73,14 +59,10 @@ def test_two_points_have_no_law() -> None:
     assert best_law([(1, 10.0), (2, 100.0)]) is None
 
 
-def test_the_page_has_every_point_and_says_which_were_left_out() -> None:
-    text = page(CURVES, "scale", "chart.svg")
-    assert "| 3 | 27,000 | 243,000 | 7 | 27.0 | |" in text
-    assert "| 4 | | | | | left out: time limit of 180 s reached |" in text
-    assert "| 5 | | | | | not measured |" in text
-    assert "| 0 faults | levels | 1,000 · 3^x (R² = 1.0000) | 1 · 3^x (R² = 1.0000) |" in text
+def test_the_page_states_the_law_of_each_curve() -> None:
+    text = page(CURVES, "box")
+    assert "| 0 faults (`MC_x`) | levels | 1,000 · 3^x (R² = 1.0000) | 1 · 3^x (R² = 1.0000) |" in text
     assert "fewer than 3 points" in text and "100 + 50 · x" in text
-    assert "Measured on: a processor, 2 cores, a Java." in text
 
 
 def test_the_chart_has_a_dot_for_every_point_inside_its_panel() -> None:
@@ -99,7 +81,19 @@ def test_the_chart_has_a_dot_for_every_point_inside_its_panel() -> None:
 
 
 def test_nothing_measured_is_drawn_as_nothing() -> None:
-    empty = (Curve("a", "MC_x", "levels", "t", (Measured(1, None), Measured(2, None))),)
-    assert chart(empty).count("not measured") == 2 and "Nothing was measured." in page(
-        empty, "scale", "c.svg"
-    )
+    assert chart((curve("levels", "t", (1, 2), []),)).count("not measured") == 2
+
+
+def test_the_published_chart_and_page_are_those_of_the_figures() -> None:
+    curves = curves_of(ROOT, "mode_selection")
+    folder = ROOT / "docs/mode_selection"
+    assert (folder / "scaling.svg").read_text(encoding="utf-8") == chart(curves)
+    assert (folder / "scaling.md").read_text(encoding="utf-8") == page(curves, "mode_selection")
+
+
+def test_a_series_without_its_run_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "spec/box/scaling.toml"
+    path.parent.mkdir(parents=True)
+    path.write_text('[[series]]\nx = "levels"\ntitle = "t"\npoints = []\n')
+    with pytest.raises(Unjudged, match="run is missing"):
+        curves_of(tmp_path, "box")

@@ -14,7 +14,6 @@ from modeproof.report.claims import fault_of_texts
 from modeproof.report.junit import junit
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble
-from modeproof.report.workbook import workbook
 
 ID = "matrix"
 HEADS = (
@@ -24,7 +23,7 @@ HEADS = (
 
 
 def part(sources: Sources) -> Part:
-    """One table a document; the same as CSV and workbook, and the results as JUnit XML."""
+    """One table a document; the same as CSV, and the results as JUnit XML."""
     troubles: list[Trouble] = []
     documents = []
     lines: list[list[str]] = []
@@ -37,7 +36,7 @@ def part(sources: Sources) -> Part:
         troubles += _orphans(document, found)
         documents.append(_document(document, found))
         lines += [_line(one) for one in found.chains]
-    files = {"matrix.csv": _csv(lines), "matrix.xlsx": workbook(sources), "junit.xml": junit(sources)}
+    files = {"matrix.csv": _csv(lines), "junit.xml": junit(sources)}
     return Part(ID, "Traceability matrix", {"documents": documents}, tuple(troubles), attachments=files)
 
 

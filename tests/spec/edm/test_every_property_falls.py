@@ -17,7 +17,7 @@ FAULTS = {
     ),
     "IdleShowsNothing": ('state = "Idle" -> 0', 'state = "Idle" -> 1'),
     "CodeTellsTheRow": ('state = "EDMError22" -> \\hC050', 'state = "EDMError22" -> \\hC051'),
-    "PowerUpIsSafe": ('EDMInit == state = "Idle"', 'EDMInit == state = "Init"'),
+    "PowerUpIsSafe": ('EDMInit ==\n    /\\ state = "Idle"', 'EDMInit ==\n    /\\ state = "Init"'),
     "EveryCallIsAnswered": ("(ReturnToError(i) \\/ AwaitReleaseInError(i))", "ReturnToError(i)"),
     "StopAtOnce": (
         "~LateInEnable(i) /\\ i.S_OutControl\n    /\\ Waits(i)",
@@ -32,16 +32,16 @@ FAULTS = {
         "Feedback(i, dropped) == i.S_EDM1 = dropped",
     ),
     "MissedDropOutIsAnError": (
-        "    /\\ Expired(i) /\\ ~Feedback(i, TRUE)\n",
-        "    /\\ Expired(i) /\\ ~i.S_EDM1\n",
+        "LateInDisable(i) == Expired(i) /\\ ~Feedback(i, TRUE)",
+        "LateInDisable(i) == Expired(i) /\\ ~i.S_EDM1",
     ),
     "ErrorsAreLeftAsDocumented": (
         'To("Init") /\\ Did("ReturnToInit")',
         'Disable(TRUE) /\\ Did("ReturnToInit")',
     ),
     "HeldResetIsAnError": (
-        "Static(i) == ResetStatic(i)",
-        'Static(i) == state = "Init" /\\ ResetStatic(i)',
+        'To(ResetErrors[Number(state, EDMErrors)])\n    /\\ Did("FindStaticResetInError")',
+        'Stay\n    /\\ Did("FindStaticResetInError")',
     ),
     "StartsWithInhibit": (
         'To("Init") /\\ Did("Initialize")',
@@ -57,8 +57,8 @@ FAULTS = {
         "Together(i) == ResetRises(i) /\\ i.S_OutControl",
     ),
     "ErrorNeedsCause": (
-        "~Feedback(i, FALSE) /\\ (Literal",
-        "~(i.S_EDM1 /\\ ~i.S_EDM2) /\\ (Literal",
+        "LateInEnable(i) == Expired(i) /\\ ~Feedback(i, FALSE)",
+        "LateInEnable(i) == Expired(i) /\\ ~(i.S_EDM1 /\\ ~i.S_EDM2)",
     ),
     "ResetErrorKeepsTheCode": (
         "To(EDMErrors[Number(state, ResetErrors)])",

@@ -20,7 +20,7 @@ BLOCK = Block(
 )
 FAULTS = {
     "OutputsFollowTheCode": ("Error == state \\in Errors", "Error == state \\in Errors \\ ResetErrors"),
-    "EveryStateHasItsRow": ('state = "Stage0" -> 34818', 'state = "Stage0" -> 34819'),
+    "EveryStateHasItsRow": ('state = "Stage0" -> \\h8802', 'state = "Stage0" -> \\h8803'),
     "IdleIsSilent": ('Ready == state # "Idle"', 'Ready == state # "Stage2"'),
     "EnableStandsAlone": (
         'SafetyDemand == state \\in {"Stage0", ',

@@ -1,0 +1,1 @@
+"""What every other room stands on: places, errors, the lock, progress, processes, evidence."""

@@ -1,0 +1,1 @@
+"""What `modeproof verify` runs, stage by stage, and the commands that need several rooms."""

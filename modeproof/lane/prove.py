@@ -1,0 +1,277 @@
+"""The command `modeproof prove`: the theorems of documents in one queue, each with its evidence."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import fnmatch
+import functools
+import importlib
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from modeproof import agreement, evidence
+from modeproof.agreement import line as agreement_line
+from modeproof.errors import Unjudged
+from modeproof.ground.options import add_command, write_json
+from modeproof.lane.coverage import cover_documents, version_of
+from modeproof.lock import only_one
+from modeproof.places import add_document_option, build, chosen_documents, root
+from modeproof.processes import Task, in_processes, meanwhile
+from modeproof.progress import Progress
+from modeproof.report.proofs import never_needed
+from modeproof.report.verdicts import status_of
+from modeproof.summary import counted
+
+
+def add_parser(commands: Any) -> None:
+    """Add the command; `args.run(args)` returns the worst status of the theorems and raises Unjudged."""
+    parser = add_command(
+        commands, "prove", run, "prove the theorems of a document with Z3, re-checked by cvc5"
+    )
+    parser.add_argument("theorems", nargs="*", metavar="THEOREM", help="name or pattern (default: all)")
+    add_document_option(parser)
+    parser.add_argument(
+        "--limit", type=int, default=20_000, metavar="MS", help="time limit a query (default 20000)"
+    )
+    parser.add_argument(
+        "--coverage", action="store_true", help="instead: what of each step the feasible paths pass through"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    place = root()
+    progress = Progress(quiet=args.quiet)
+    chosen = chosen_documents(place, args.document)
+    names = [name for name in chosen if args.document or _has_proofs(place, name)]
+    if not names:
+        raise Unjudged("no document has proofs (proofs/<document>/)")
+    if args.coverage:
+        return cover_documents(args, place, names, progress)
+    with only_one(place):
+        records, troubles = prove_documents(place, names, progress, tuple(args.theorems), args.limit)
+    if troubles and (not args.theorems or len(troubles) == len(names)):
+        raise Unjudged("; ".join(troubles.values()))  # a name need not be one of every document
+    status = max(status_of(record) for record in records)
+    proofs = [record for record in records if record["kind"] == "proof"]
+    for name in never_needed(proofs) if not args.theorems else ():
+        print(f"no proof needs the premise: {name}")
+    print(_work_line(proofs))
+    print(counted("proofs", proofs, "PROVED by Z3, re-checked by cvc5"))
+    if compared := [record for record in records if record["kind"] == "agreement"]:
+        print("\n".join([agreement_line(compared), *compared[0]["result"]["problems"]]))
+    write_json(args, status, proofs=records)
+    return status
+
+
+def _work_line(records: Sequence[dict[str, Any]]) -> str:
+    """What the processor did, so that the figure is the same on a busy machine; two theorems run at once."""
+    parts = [query["work"] for record in records for query in record["result"]["queries"]]
+    z3, cvc5, cores = (sum(float(part[n]) for part in parts) for n in range(3))
+    whole = sum(float(record["result"]["work"]) for record in records)
+    rest = whole - z3 - cvc5 - cores
+    once = {record["document"]: float(record["result"]["shared"]) for record in records}
+    shared = sum(once.values())
+    return (
+        f"{'processor':<12} exploring, once for all, {shared:.1f} s; "
+        f"building and writing {rest:.1f} s, z3 {z3:.1f} s, cvc5 {cvc5:.1f} s, cores {cores:.1f} s"
+    )
+
+
+def _has_proofs(place: Path, document: str) -> bool:
+    return (place / "proofs" / document / "__init__.py").is_file()
+
+
+def prove_documents(
+    place: Path,
+    names: Sequence[str],
+    progress: Any,
+    patterns: tuple[str, ...] = (),
+    limit_ms: int = 20_000,
+    lane: str = "full",
+    beside: Sequence[Task[dict[str, Any]]] = (),
+    on_beside: Callable[[dict[str, Any]], None] = lambda record: None,
+) -> tuple[list[dict[str, Any]], dict[str, str]]:
+    """Prove the theorems of documents and write one piece of evidence for each, and for all theorems of one
+    document together one on their agreement with the model checker. Those of all documents are one queue.
+
+    The lane smoke leaves out the slow ones, and so does not compare. By document comes why nothing was
+    proved: there is no theorem, or the proofs cannot be imported. `beside` are other tasks that go first in
+    the queue, so that no core waits for the longest of them; `on_beside` gets each of their results.
+    """
+    whole = not patterns and lane != "smoke"
+    troubles: dict[str, str] = {}
+    theorems: dict[str, list[Any]] = {}
+    inputs: dict[str, dict[str, str]] = {}
+    for document in names:
+        try:
+            theorems[document], inputs[document] = _theorems_to_prove(place, document, patterns, lane)
+        except Unjudged as error:
+            troubles[document] = error.message
+
+    def slow_first(documents: Iterable[str]) -> list[Task[dict[str, Any]]]:
+        every = [(one.slow, document, one.name) for document in documents for one in theorems[document]]
+        return [
+            (prove_theorem, (place, document, name, inputs[document], limit_ms, shared[document]))
+            for _, document, name in sorted(every, key=lambda one: not one[0])
+        ]
+
+    def done(record: dict[str, Any]) -> None:
+        if record["kind"] != "proof":
+            on_beside(record)
+            return
+        progress.say(
+            f"{'ok ' if record['as_expected'] else 'NOT'} {record['document']}/{record['id']}: "
+            f"{record['verdict']}; {record['seconds']:.1f} s"
+            + (f"; {record['reason']}" if record["reason"] else "")
+        )
+
+    shared: dict[str, float] = {}
+    records: list[dict[str, Any]] = []
+    with contextlib.ExitStack() as stack:
+
+        def prepare(document: str) -> None:
+            shared[document] = stack.enter_context(_prepared(document)) if whole else 0.0
+
+        *fewer, most = sorted(theorems, key=lambda name: len(theorems[name])) or [""]
+        for document in fewer:
+            prepare(document)
+        if most:  # of all it takes longest to prepare; meanwhile the theorems of the others are proved
+            first = slow_first(fewer) if whole else []
+            records += meanwhile("proofs", first, functools.partial(prepare, most))
+        for record in records:
+            done(record)
+        proved = {(record["document"], record["id"]) for record in records}
+        tasks = [task for task in slow_first(theorems) if task[1][1:3] not in proved]
+        made = in_processes("proofs", [*beside, *tasks], progress, done, knowing=whole)
+        records += made[len(beside) :]
+    for document in names:
+        if whole and document not in troubles and _has_agreement(place, document):
+            module = importlib.import_module(f"proofs.{document}.agreement")
+            verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
+            records.append(agreement.compare(place, document, module, verdicts, inputs[document], _solvers()))
+    return records, troubles
+
+
+def _theorems_to_prove(
+    place: Path, document: str, patterns: Sequence[str], lane: str
+) -> tuple[list[Any], dict[str, str]]:
+    """The theorems that are asked for, and the hashes of what they rest on. Raises Unjudged for none."""
+    theorems = [
+        one
+        for one in _theorems_of(document)
+        if (not patterns or any(fnmatch.fnmatchcase(one.name, p) for p in patterns))
+        and (patterns or lane != "smoke" or not one.slow)
+    ]
+    if not theorems:
+        raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns) or 'anything'}")
+    sources = [*(place / "proofs").glob("*.py"), *(place / "proofs" / document).glob("*.py")]
+    sources += [*(place / "proofs" / "explorer").glob("*.py")]
+    sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
+    sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
+    return theorems, evidence.hashes(place, sources)
+
+
+@contextlib.contextmanager
+def _prepared(document: str) -> Iterator[float]:
+    """What the theorems of a document share is made on entering, where its proofs say how; the seconds of the
+    processor for it.
+
+    Where that fails nothing is shared, and every theorem that needs it says why it cannot be judged.
+    """
+    begun = time.process_time()
+    with contextlib.ExitStack() as stack:
+        with contextlib.suppress(Exception):
+            stack.enter_context(importlib.import_module(f"proofs.{document}.prepared").prepared())
+        yield time.process_time() - begun
+
+
+def _has_agreement(place: Path, document: str) -> bool:
+    return (place / "proofs" / document / "agreement.py").is_file()
+
+
+def _solvers() -> dict[str, dict[str, str | None]]:
+    packages = {"z3": "z3-solver", "cvc5": "cvc5"}
+    return {tool: evidence.tool(version_of(package)) for tool, package in packages.items()}
+
+
+def _theorems_of(document: str) -> list[Any]:
+    try:
+        theorem = importlib.import_module("proofs.theorem")
+        # libz3 refuses wrong sorts by itself; its Python layer would check every argument once more.
+        vars(importlib.import_module("z3.z3"))["Z3_DEBUG"] = False
+    except ImportError as error:
+        raise Unjudged(f"proofs cannot be run: {error}") from None
+    try:
+        return list(theorem.theorems_of(document))
+    except (theorem.TheoremError, ImportError) as error:
+        raise Unjudged(f"proofs of {document}: {error}") from None
+
+
+def prove_theorem(
+    place: Path, document: str, name: str, inputs: dict[str, str], limit_ms: int, shared_s: float
+) -> dict[str, Any]:
+    """Prove one theorem and write its evidence; `inputs` are the hashes of what it rests on, shared_s the
+    seconds of the processor for what was made for all theorems together.
+
+    Raises Unjudged when the proofs cannot be imported or a file cannot be written.
+    """
+    if str(place) not in sys.path:
+        sys.path.insert(0, str(place))
+    one = next(one for one in _theorems_of(document) if one.name == name)
+    runner = importlib.import_module("proofs.runner")
+    out = build(place) / "proofs" / document
+    evidence.discard(place, document, name)
+    started = time.time()
+    try:
+        (result,) = runner.prove_all([one], out, lambda line: None, limit_ms)
+    except OSError as error:
+        raise Unjudged(f"{out}: {error.strerror or error}") from None
+    good = result.verdict == "PROVED"
+    record = evidence.make(
+        kind="proof",
+        id=name,
+        document=document,
+        verdict=result.verdict,
+        expected="PROVED",
+        as_expected=good,
+        strength=f"{len(result.queries)} queries, each asked of two solvers",
+        command=f"modeproof prove --document {document} {name}",
+        started=started,
+        seconds=result.seconds,
+        inputs=inputs,
+        tools=_solvers(),
+        result={
+            "sentence": result.sentence,
+            "remark": result.remark,
+            "clauses": list(result.clauses),
+            "findings": list(result.findings),
+            "properties": list(one.properties),
+            "premises": list(result.premises),
+            "unused": list(result.unused),
+            "work": round(result.work, 3),
+            "shared": round(shared_s, 3),
+            "queries": [
+                {
+                    "name": query.name,
+                    "expected": query.expected,
+                    "z3": query.z3,
+                    "cvc5": query.cvc5,
+                    "twin_of": query.twin_of,
+                    "seconds": round(query.seconds, 3),
+                    "detail": query.detail,
+                    "core": None if query.core is None else list(query.core),
+                    "work": [round(part, 3) for part in query.work],
+                    "smt2": query.smt2.relative_to(place).as_posix(),
+                }
+                for query in result.queries
+            ],
+        },
+        reason=result.reason if not good else "",
+    )
+    evidence.write(place, record)
+    return record

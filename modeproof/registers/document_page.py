@@ -1,0 +1,412 @@
+"""The page of a document, docs/<document>.md: what was shown, what not, and every finding in a few lines.
+
+The page is made from the registers. Only the tables of its counterexamples come from evidence; each stands
+between two marks with a digest of its text and of the row of its run. So the page can be compared with the
+registers at any time: it must be what they give, around the tables that it holds.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.registers.citations import Sources
+from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.load import read_register
+from modeproof.registers.rows import Document, Finding, Problem, Property
+from modeproof.registers.runs import Run
+from modeproof.registers.scores import WHAT, Score, load_scores
+
+REMEDY = "run modeproof render"
+CLASSES = {
+    "safety": "Safety: the other reading starts the machine, or hides a fault",
+    "availability": "Availability: the other reading stops the machine or its user",
+    "wording": "Wording: no effect once it is noticed",
+}
+_TABLE = re.compile(r"<!-- begin trace (\w+) (\w{12}) -->\n(.*?)<!-- end trace -->\n", re.DOTALL)
+_ASIDE = ("why", "strength", "lanes", "timeout_s", "heap_mb", "workers")
+"""What runs.toml says of a run that changes no counterexample."""
+_BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
+"""A decision or a consequence that names readings by their number."""
+_MANY = 3
+"""Of more counterexamples than this of one finding, a line names the first ones."""
+
+
+@dataclass(frozen=True)
+class Telling:
+    """A counterexample that the page shows as a table, with its story before it."""
+
+    finding: Finding
+    run: str
+    story: str
+
+
+def page_name(document: str) -> str:
+    """The path of a document's page."""
+    return f"docs/{document}.md"
+
+
+def picture_name(document: str) -> str:
+    """The path of the chart of how its model grows."""
+    return f"docs/{document}-growth.svg"
+
+
+def tellings(document: Document) -> tuple[Telling, ...]:
+    """The counterexamples that findings.toml marks as telling: safety first, then in its order."""
+    rows = {row["id"]: row for row in read_register(document.root, document.name, "findings")["finding"]}
+    return tuple(
+        Telling(one, rows[one.id]["telling"]["run"], rows[one.id]["telling"]["story"])
+        for one in sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
+        if "telling" in rows[one.id]
+    )
+
+
+def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
+    """A Markdown table that ends with a line end; the columns in `right` are numbers."""
+    rule = "".join("---:|" if n in right else "---|" for n in range(len(heads)))
+    lines = ["| " + " | ".join(heads) + " |", "|" + rule]
+    lines += [
+        "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in row) + " |" for row in rows
+    ]
+    return "\n".join(lines) + "\n"
+
+
+# ------------------------------------------------------------------------------------------- the check
+
+
+def check_document_page(document: Document, sources: Sources) -> list[Problem]:
+    """What has drifted between a document's registers and its page; nothing where it has no page yet."""
+    problems = [
+        Problem(document.source("findings"), one.finding.id, f"telling: {one.run} is no counterexample of it")
+        for one in tellings(document)
+        if _run(document, one.run) is None or one.run not in one.finding.evidence
+    ]
+    name = page_name(document.name)
+    if problems or not (document.root / name).is_file():
+        return problems
+    text = read_text(document.root, document.root / name)
+    tables = tables_of(document, text)
+    for one in tellings(document):
+        if tables.get(one.run) is None:
+            cause = f"the table of {one.run} is missing, was changed by hand, or its run has changed"
+            problems.append(Problem(name, "", f"{cause}; {REMEDY}"))
+    if not problems and (expected := page(document, sources, tables)) != text:
+        line = _first_difference(expected, text)
+        problems.append(Problem(name, "", f"line {line} is not what the registers give; {REMEDY}"))
+    return problems
+
+
+def tables_of(document: Document, text: str) -> dict[str, str]:
+    """The tables that a page holds, by their runs: those that are whole and of the runs as declared now."""
+    found = {match[1]: (match[2], match[3]) for match in _TABLE.finditer(text)}
+    return {run: table for run, (digest, table) in found.items() if digest == _digest(document, run, table)}
+
+
+def _digest(document: Document, run: str, table: str) -> str:
+    """What a table rests on: the row of its run in runs.toml, and its own text."""
+    rows = read_toml(document.root, document.folder / "runs.toml")["run"]
+    row: dict[str, Any] = next((row for row in rows if row["id"] == run), {})
+    pinned = {key: value for key, value in row.items() if key not in _ASIDE}
+    text = json.dumps([pinned, table], sort_keys=True, default=str)
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()[:12]
+
+
+def _first_difference(expected: str, text: str) -> int:
+    pairs = zip(expected.splitlines(), text.splitlines(), strict=False)
+    same = next((n for n, (a, b) in enumerate(pairs) if a != b), None)
+    return min(len(expected.splitlines()), len(text.splitlines())) if same is None else same + 1
+
+
+# -------------------------------------------------------------------------------------------- the page
+
+
+def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str:
+    """The whole page; `tables` holds the table of each telling counterexample, by its run."""
+    parts = [
+        _head(document),
+        _shown(document, sources),
+        _limits(document),
+        *_counterexamples(document, tables),
+        _findings(document),
+        *_faults(document),
+        *_growth(document),
+    ]
+    return "\n".join(parts)
+
+
+def _head(document: Document) -> str:
+    about, name = document.about, document.name
+    number = "" if about.number == "unknown" else f" Number: {about.number}."
+    targets = ", ".join(f"`{one.id}`" for one in document.interface.devices.values() if one.published)
+    return f"""# {about.title}
+
+<!-- made by modeproof render from spec/{name}: edit the registers there, not this page -->
+**What it is.** {_sentence(about.edition)}{number} Publisher: {about.publisher.removesuffix(".")}.
+
+**What we had.** {_sentence("; ".join(about.available))}
+
+**What we did not have.** {_sentence("; ".join(about.not_available) or "nothing is missing")}
+
+{about.not_endorsed}
+
+Read on: [registers and TLA+](../spec/{name}), [our program](../refimpl/{name}), [theorems](../proofs/{name}).
+Targets for a program of your own, with [test vectors](../vectors/README.md): {targets or "none"}.
+Traces, proofs and matrices are in the report: `make verify`, then `build/report/report.html`. Below,
+`modeproof` is `.venv/bin/modeproof`.
+"""
+
+
+def _shown(document: Document, sources: Sources) -> str:
+    name = document.name
+    holding = [run for run in document.runs if run.kind in ("MC", "OPEN", "LIVE")]
+    negatives = [run for run in document.runs if run.kind == "NEG"]
+    witnesses = {one for run in document.runs if run.kind == "WIT" for one in run.witnesses}
+    graphs = [run for run in document.runs if run.graph is not None]
+    theorems = sum(len(module.theorems) for module in sources.proofs)
+    verify = f"`modeproof verify --document {name}`"
+    rows = [
+        [
+            "properties that hold in every state and step, within the bounds of each run",
+            f"{len(document.properties)} in {len(holding)} runs",
+            f"`modeproof check --document {name} 'MC_*' 'OPEN_*' 'LIVE_*'`",
+        ],
+        [
+            "counterexamples: on purpose we tried another reading, dropped an assumption or planted a fault, "
+            "and the named requirement fails",
+            str(len(negatives)),
+            f"`modeproof check --document {name} 'NEG_*'`",
+        ],
+        [
+            "situations that do occur, so the properties are not vacuous",
+            str(len(witnesses)),
+            f"`modeproof check --document {name} 'WIT_*'`",
+        ],
+        ["complete graphs of a device, compared with our program both ways", str(len(graphs)), verify],
+        [
+            "theorems about our program for all words and times, by two solvers",
+            str(theorems),
+            f"`modeproof prove --document {name}`",
+        ],
+    ]
+    rows += [_score(document, one) for one in load_scores(document.root, name)]
+    lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
+    more = (
+        f"\n{len(lanes)} of these runs are no part of `verify`: "
+        f"`modeproof check --document {name} --lane exhaustive --resume`.\n"
+        if lanes
+        else ""
+    )
+    return (
+        "## What was shown\n\n"
+        f"The registers declare these results, with counts; {verify} fails if a run or a proof gives "
+        "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
+        "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
+    )
+
+
+def _score(document: Document, one: Score) -> list[str]:
+    edited, judge = WHAT[one.what]
+    share = f" ({100 * one.killed / one.different:.1f} %)" if one.different else ""
+    open_ones = one.survived - one.survived_explained
+    rest = [f"{one.killed} of {one.different}{share}"]
+    if one.survived:
+        explained = f"{open_ones} unexplained" if open_ones else "each explained"
+        rest.append(f"{one.survived} not noticed, {explained}")
+    if one.unmeasured:
+        rest.append(f"{one.unmeasured} unmeasured")
+    if one.earlier_text:
+        rest.append("**of an earlier text**")
+    return [
+        f"planted faults in {edited} that {judge} notices ({one.judged_on})",
+        "; ".join(rest),
+        f"`{one.command}`",
+    ]
+
+
+def _limits(document: Document) -> str:
+    left_out = [one for one in document.clauses if one.kind == "not modelled"]
+    broken = [one for one in document.assumptions if one.breaks]
+    lines = [
+        "## What this does not show\n",
+        "- Nothing about a program other than ours, and nothing about a misreading that specification and "
+        "program share.",
+        f"- {len(left_out)} of {len(document.clauses)} clauses are not modelled; each says why in "
+        f"[clauses.toml](../{document.source('clauses')}).",
+        f"- All of it rests on {len(document.assumptions)} assumptions, each with who must ensure it: "
+        f"[assumptions.toml](../{document.source('assumptions')}). For {len(broken)} of them a run shows "
+        "what happens otherwise.",
+        "- What each verdict leaves open is in [limits](limits.md).",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[str]:
+    found = tellings(document)
+    if not found:
+        return
+    yield (
+        "## Counterexamples worth reading\n\n"
+        "A scan is one cycle of a program: it reads inputs, decides, and sets outputs. Each row is one\n"
+        "scan, or one step of somebody else, with what it read and what stands afterwards; **bold** is new.\n"
+        "`dt` is the time since the scan before, in ticks of the model.\n"
+    )
+    for one in found:
+        run, table = _run(document, one.run), tables[one.run]
+        mark = f"trace {one.run} {_digest(document, one.run, table)}"
+        assert run is not None
+        falls = falls_of(document, run)
+        requirement = (
+            f"{_sentence(falls.sentence)} (`{falls.id}`)" if falls is not None else f"`{run.property}`"
+        )
+        yield (
+            f"### {one.finding.id}: {one.finding.title}\n\n"
+            f"{_sentence(one.story)}\n\n"
+            f"What fails: {requirement}\n\n"
+            f"<!-- begin {mark} -->\n{table}<!-- end trace -->\n\n"
+            f"`modeproof check {one.run} --trace`\n"
+        )
+
+
+def falls_of(document: Document, run: Run) -> Property | None:
+    """The property that a run must violate; that of the run's own module first."""
+    rows = [one for one in document.properties if run.property in (one.id, one.tla)]
+    return min(
+        rows,
+        key=lambda one: (one.module != run.module, run.environment not in one.environments),
+        default=None,
+    )
+
+
+def _findings(document: Document) -> str:
+    count = {name: sum(one.severity == name for one in document.findings) for name in CLASSES}
+    lines = [
+        "## Findings\n",
+        "Where the text contradicts itself, is silent, or can be read in more than one way: "
+        f"{len(document.findings)} findings, "
+        + ", ".join(f"{number} {name}" for name, number in count.items())
+        + ".\nEach says what the text says, what we decided, what happens otherwise, and the command that "
+        "shows it. We did not have\nthe drawings; where one could settle the matter (†), the finding is no "
+        f"error of the document. All readings: [findings.toml](../{document.source('findings')}).",
+    ]
+    steps = _steps(document)
+    for name, words in CLASSES.items():
+        rows = [one for one in document.findings if one.severity == name]
+        if rows:
+            lines += ["", f"### {words}", ""]
+        for one in rows:
+            lines.append(_finding(document, one, steps))
+    return "\n".join(lines) + "\n"
+
+
+def _finding(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
+    mark = " †" if one.drawing_could_settle else ""
+    parts = [f"- **{one.id}{mark}: {one.title}.** {_sentence(one.says)}"]
+    if _BY_NUMBER.search(f"{one.decision} {one.consequence}"):
+        readings = "; ".join(f"({number}) {text}" for number, text in enumerate(one.readings, 1))
+        parts.append(f"*Readings:* {readings}.")
+    parts.append(f"*Decided:* {_sentence(one.decision)}")
+    if one.severity != "wording":
+        parts += [f"*Otherwise:* {_sentence(one.consequence)}", _evidence(document, one, steps)]
+    return " ".join(parts)
+
+
+def _evidence(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
+    """What shows a finding, with the command."""
+    runs = [run for name in one.evidence if (run := _run(document, name)) is not None]
+    negatives = [run for run in runs if run.kind == "NEG"]
+    clauses = {clause.id for clause in document.clauses}
+    theorems = [name for name in one.evidence if _run(document, name) is None and name not in clauses]
+    if negatives:
+        lengths: dict[str, set[int]] = {}
+        for run in negatives[:_MANY]:
+            lengths.setdefault(run.property, set()).add(steps.get(run.id, 1) - 1)
+        said = [f"`{name}` fails {_after(found)}" for name, found in lengths.items()]
+        names = " ".join(run.id for run in negatives[:_MANY])
+        more = f" ({len(negatives) - _MANY} more in the report)" if len(negatives) > _MANY else ""
+        return f"{', '.join(said)}: `modeproof check {names} --trace`{more}."
+    if runs:
+        return f"Checked: `modeproof check {' '.join(run.id for run in runs)}`."
+    if theorems:
+        return f"Proved: `modeproof prove --document {document.name} {' '.join(theorems)}`."
+    return f"Not shown by a run: {_sentence(one.evidence_open)}"
+
+
+def _after(lengths: set[int]) -> str:
+    """After how many steps a property fails, in one run or in several."""
+    *others, last = sorted(lengths)
+    if last == 0:
+        return "in the first state"
+    several = f"{', '.join(map(str, others))} and {last}" if others else str(last)
+    return f"after {several} step" + ("" if several == "1" else "s")
+
+
+def _steps(document: Document) -> dict[str, int]:
+    """The pinned length of each counterexample, in states."""
+    rows = read_toml(document.root, document.folder / "runs.toml")["run"]
+    return {row["id"]: row["trace_length"] for row in rows if "trace_length" in row}
+
+
+def _faults(document: Document) -> Iterator[str]:
+    if not document.faults:
+        return
+    summary = read_register(document.root, document.name, "faults").get("summary", "")
+    rows = []
+    for one in document.faults:
+        falls = "; ".join(f"`{fall.property}`: {fall.needs}" for fall in one.falls)
+        rows.append(
+            [
+                one.title,
+                ", ".join(one.detected_by) or "nothing",
+                falls or (f"not modelled: {one.not_modelled}" if one.not_modelled else "nothing"),
+                one.not_detected,
+            ]
+        )
+    more = f"[faults.toml](../{document.source('faults')}) and the report"
+    yield (
+        f"## Faults from outside\n\n{summary.strip()}\n\nWhat holds under each, and its runs: {more}.\n\n"
+        + markdown(["fault", "detected by", "fails, and what that takes", "detected by nothing"], rows)
+    )
+
+
+def _growth(document: Document) -> Iterator[str]:
+    path = document.folder / "scaling.toml"
+    if not path.is_file():
+        return
+    data: dict[str, Any] = read_toml(document.root, path)
+    rows = []
+    for series in data["series"]:
+        points = [point for point in series["points"] if "distinct" in point]
+        counts = ", ".join(f"{point['distinct']:,}" for point in points)
+        missing = len(series["points"]) - len(points)
+        rows.append(
+            [
+                f"{series['title']} (`{series['run']}`)",
+                f"{series['points'][0]['x']} to {points[-1]['x']} {series['x']}",
+                counts + (f"; {missing} not measured" if missing else ""),
+                f"{points[0]['cpu_s']:g} to {points[-1]['cpu_s']:g}",
+            ]
+        )
+    picture = Path(picture_name(document.name)).name
+    source = f"[scaling.toml](../spec/{document.name}/scaling.toml)"
+    yield (
+        f"## How the model grows\n\n![distinct states and CPU seconds]({picture})\n\nMeasured on "
+        f"{data['measured_on']}, one worker. All figures: {source}.\n\n"
+        + markdown(["series", "varied", "distinct states", "CPU seconds"], rows)
+    )
+
+
+def _run(document: Document, name: str) -> Run | None:
+    return next((run for run in document.runs if run.id == name), None)
+
+
+def _sentence(text: str) -> str:
+    text = " ".join(text.split())
+    first = text.split(" ", 1)[0]
+    name = any(mark in first for mark in "_0123456789")  # a name keeps its spelling
+    begin = text if name else text[:1].upper() + text[1:]
+    return begin + ("" if text.endswith((".", "?", "!")) else ".")

@@ -1,0 +1,204 @@
+"""The command `modeproof check`: TLC on declared runs, judged; pins moved; traces shown."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.options import add_command, write_json
+from modeproof.lock import only_one
+from modeproof.places import root
+from modeproof.progress import Progress
+from modeproof.registers.runs import LANES
+from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_problems, select
+from modeproof.tlc.distributed import Where, refusal
+from modeproof.tlc.messages import essence, format_trace
+from modeproof.tlc.repin import Move, apply, ask_reason, cfg_diff, moves, refuse_in_ci
+from modeproof.tlc.resume import why_again
+from modeproof.tlc.schedule import cores
+from modeproof.tlc.toolchain import find_toolchain
+
+
+def add_parser(commands: Any) -> None:
+    """Add the command; `args.run(args)` returns the worst status of the runs and raises Unjudged."""
+    check = add_command(commands, "check", run, "run TLC on declared runs and judge them")
+    check.add_argument(
+        "runs", nargs="*", metavar="RUN", help="id or pattern, such as MC_* (default: the full lane)"
+    )
+    check.add_argument("--lane", choices=LANES, help="only runs of this lane")
+    check.add_argument("--document", metavar="NAME", help="only runs of this document")
+    spread = check.add_argument_group("TLC's distributed mode (docs/distributed.md)")
+    spread.add_argument("--distributed", action="store_true", help="a server and workers, over RMI")
+    spread.add_argument(
+        "--workers", type=int, metavar="N", help="worker processes on this machine (default: its cores)"
+    )
+    spread.add_argument(
+        "--listen",
+        metavar="ADDRESS[:PORT]",
+        help="where workers of other machines reach the server (default: 127.0.0.1, any free port)",
+    )
+    spread.add_argument(
+        "--wait-for", type=int, metavar="N", help="begin when N workers of other machines are there"
+    )
+    check.add_argument("--trace", action="store_true", help="show expected counterexamples too")
+    check.add_argument("--all-variables", action="store_true", help="show every variable in every state")
+    check.add_argument("--list", action="store_true", help="list the runs, run nothing")
+    check.add_argument(
+        "--repin", action="store_true", help="move the pins of these runs to what they give now"
+    )
+    check.add_argument("--reason", metavar="TEXT", help="why the pins move (with --repin)")
+    check.add_argument(
+        "--resume", action="store_true", help="keep runs whose evidence still fits, run only the others"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Carry out the command."""
+    place = root()
+    if args.repin:
+        refuse_in_ci()
+        if not args.runs:
+            raise Unjudged("--repin needs the runs by name")
+    elif args.reason is not None:
+        raise Unjudged("--reason belongs to --repin")
+    if args.resume and args.repin:
+        raise Unjudged("--resume keeps what is as expected, --repin makes anew: give one of them")
+    lane = args.lane or (None if args.runs else "full")
+    runs = select(place, args.runs, lane, args.document)
+    if args.list:
+        for run in runs:
+            print(f"{run.name}  {run.expect}  {','.join(run.lanes)}  {run.environment}")
+        return 0
+    tools = find_toolchain()
+    progress = Progress(quiet=args.quiet)
+    spread = _spread(args, place, runs)
+    with only_one(place):
+        still = _resumed(args, place, runs, tools, progress)
+        again = [run for run in runs if run.name not in still]
+        done = list(still.values())
+        if again:
+            done += check_all(place, again, tools, progress, lambda one: progress.say(line_of(one)), spread)
+        for one in done if not args.repin or args.trace else ():
+            _show_trace(one, args)
+        status: int = max(one.status for one in done)
+        problems: list[str] = []
+        for document in sorted({run.document for run in runs}):
+            problems += [f"{document}: {problem}" for problem in register_problems(place, document)]
+        for problem in problems:
+            print(f"modeproof: {problem}", file=sys.stderr, flush=True)
+        if problems and not args.runs:
+            status = max(status, EXIT_NOT_AS_EXPECTED)
+        if args.repin:
+            status = _repin(place, done, args.reason)
+    if len(done) > 1 and not args.repin:
+        good = sum(1 for one in done if one.status == 0)
+        print(f"{good} of {len(done)} runs as expected")
+    write_json(args, status, runs=[one.record for one in done], problems=problems)
+    return status
+
+
+def _resumed(
+    args: argparse.Namespace, place: Path, runs: Sequence[Any], tools: Any, progress: Any
+) -> dict[str, Any]:
+    """With --resume: the runs that are kept, by their names; each run is said, with why it is run again."""
+    found: dict[str, Any] = {}
+    for run in runs if args.resume else ():
+        if reason := why_again(place, run, tools):
+            progress.say(f"again {run.name}: {reason}")
+        else:
+            found[run.name] = kept(place, run)
+            progress.say(line_of(found[run.name]))
+    return found
+
+
+def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[str, Any]:
+    """Which runs are checked in distributed mode, by their names, and where.
+
+    Of a lane, those that this mode cannot judge are checked as usual, and that is said; a run that was named
+    is refused. Raises Unjudged for that, and for options that do not fit.
+    """
+    given = [name for name in ("workers", "listen", "wait_for") if getattr(args, name) is not None]
+    if not args.distributed:
+        if given:
+            raise Unjudged(f"--{given[0].replace('_', '-')} belongs to --distributed")
+        return {}
+    if args.repin:
+        raise Unjudged("pins are taken from local runs: --repin without --distributed")
+    address, _, port = (args.listen or "127.0.0.1").partition(":")
+    if not address or (port and not (port.isdigit() and 0 < int(port) < 65536)):
+        raise Unjudged(f"--listen takes ADDRESS or ADDRESS:PORT, not {args.listen!r}")
+    waited = args.wait_for or 0
+    workers = cores() if args.workers is None else args.workers
+    if workers < 0 or waited < 0 or workers + waited == 0:
+        raise Unjudged("--workers and --wait-for are 0 or more, and together at least 1")
+    where = Where(workers, address, int(port or 0), waited)
+    found: dict[str, Any] = {}
+    for run in runs:
+        reason = refusal(run, read_cfg(place, run)[0])
+        if reason and args.runs:
+            raise Unjudged(f"{run.name} cannot be judged in distributed mode: {reason}")
+        if reason:
+            print(f"{run.name}: on this machine alone: {reason}")
+        else:
+            found[run.name] = where
+    return found
+
+
+def _show_trace(one: Any, args: argparse.Namespace) -> None:
+    if one.outcome is not None and not one.judgement.judged:
+        for _, text in one.outcome.log.errors[:4]:
+            print("\n".join(f"    {line}" for line in essence(text)[:12]))
+    if one.outcome is None or not one.outcome.log.trace:
+        return
+    if one.judgement.as_expected and not args.trace:
+        return
+    print(
+        f"counterexample of {one.run.name}"
+        + (f" ({one.judgement.violated})" if one.judgement.violated else "")
+    )
+    print(format_trace(one.outcome.log.trace, one.outcome.log.loop, args.all_variables))
+
+
+def _repin(place: Path, done: list[Any], given: str | None) -> int:
+    changes: dict[str, dict[str, tuple[Move, ...]]] = {}
+    for one in done:
+        moved = moves(place, one)
+        print(f"{one.run.name}:" + ("" if moved else " pins stay as they are"))
+        for move in moved:
+            print(f"  {move}")
+        if moved:
+            print("  " + cfg_diff(place, one).replace("\n", "\n  "))
+            changes.setdefault(one.run.document, {})[one.run.id] = moved
+    if not changes:
+        return 0
+    reason = ask_reason(given)
+    apply(place, changes, reason)
+    count = sum(len(of_run) for of_run in changes.values())
+    print(f"pins of {count} run{'s' if count != 1 else ''} moved; reason: {reason}")
+    return 0
+
+
+def line_of(checked: Checked) -> str:
+    """One line that says how a run went."""
+    if checked.kept:
+        words, record = checked.judgement.words, checked.record
+        return (
+            f"ok  {checked.run.name}: {words}; kept, of {record['started']}, {record['seconds']:.1f} s then"
+        )
+    counts = checked.outcome.log.counts if checked.outcome is not None else None
+    seconds = checked.outcome.seconds if checked.outcome is not None else 0.0
+    parts = [f"{'ok ' if checked.status == 0 else 'NOT'} {checked.run.name}: {checked.judgement.words}"]
+    if checked.judgement.violated:
+        parts[0] += f" ({checked.judgement.violated})"
+    if counts is not None:
+        parts.append(f"{counts.distinct:,} distinct, {counts.generated:,} generated")
+    if checked.outcome is not None and checked.outcome.log.trace:
+        parts.append(f"{len(checked.outcome.log.trace)} states in the counterexample")
+    parts.append(f"{seconds:.1f} s")
+    if checked.judgement.reason:
+        parts.append(checked.judgement.reason)
+    return "; ".join(parts)
