@@ -22,8 +22,9 @@ from modeproof.kit.builtin import Builtin
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
+from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
-from modeproof.suites.write import SUITES, write_suite
+from modeproof.suites.write import write_suite
 from tests.graph.printed import Inputs, Memory, Outputs, Params, lamp, lamp_graph, power_up, step
 from tests.kit.lamps import CONTRACT, Lamp, Slow
 from tests.kit.programs import program

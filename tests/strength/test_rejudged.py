@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from modeproof.places import documents, root
+from modeproof.registers.scores import load_scores
 from modeproof.strength.judge import judge
 from modeproof.strength.register import Rejudged
-from modeproof.strength.scores import load_scores
 from tests.strength.shipped import bench_of, mutants_of
 
 DOCUMENT = "mode_selection"
