@@ -61,9 +61,9 @@ def test_a_dwell_time_that_lacks_one_ms_is_the_conjunct_with_both_sides(
     assert f"{missed.conjunct.place}: Now(i) >= T_DWELL" in text
 
 
-def test_the_readme_shows_what_is_printed(explained: dict[str, tuple[Why, str]]) -> None:
-    readme = (root() / "README.md").read_text()
-    shown = next(block for block in readme.split("```\n") if block.startswith("first impossible scan"))
+def test_the_page_about_logs_shows_what_is_printed(explained: dict[str, tuple[Why, str]]) -> None:
+    page = (root() / "docs/logs.md").read_text()
+    shown = next(block for block in page.split("```\n") if block.startswith("first impossible scan"))
     printed = explained["fplc_short_dwell.jsonl"][1].replace(str(root()) + "/", "") + "\n"
     assert printed.endswith(shown)
 
