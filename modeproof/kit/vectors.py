@@ -141,7 +141,7 @@ class Suite:
             for number, graph in enumerate(self.header["graphs"]):
                 table, params = Table(graph["rule"], graph["initial"]), graph["params"]
                 for word in words(graph["rule"]):
-                    scans = tuple(Scan(*one) for one in table.scans(word))
+                    scans = tuple(Scan(*entry) for entry in table.scans(word))
                     if not scans:
                         continue
                     count += 1
