@@ -12,6 +12,7 @@ from modeproof.registers.document_page import check_document_page
 from modeproof.registers.load import load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
+from modeproof.registers.readings import check_readings, check_tops
 from modeproof.registers.rooms import check_imports, check_no_document_known
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.switches import check_switches
@@ -44,6 +45,8 @@ def judge(document: Document) -> Judgement:
     problems = [
         *cross_check(document, sources),
         *check_switches(document, sources),
+        *check_readings(document, sources.modules),
+        *check_tops(document, sources.modules),
         *check_document_page(document, sources),
         *lost,
         *orphans(document, rows, cited, sources),

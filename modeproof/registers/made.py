@@ -110,7 +110,7 @@ def replaced_by(modules: Mapping[str, Module], run: Run) -> tuple[Replacement, .
         if not own:
             known = dict.fromkeys(one.reading for one in every)
             raise Unjudged(f"{place}: unknown reading {reading!r}; {suggestion(reading, known)}")
-        fitting = [one for one in own if _decided(modules, one.module) <= there]
+        fitting = [one for one in own if decided_modules(modules, one.module) <= there]
         if not fitting:
             names = " and ".join(dict.fromkeys(one.module for one in own))
             raise Unjudged(f"{place}: the reading {reading} stands in {names}, which {run.module} cannot use")
@@ -124,7 +124,7 @@ def replaced_by(modules: Mapping[str, Module], run: Run) -> tuple[Replacement, .
     return tuple(found.values())
 
 
-def _decided(modules: Mapping[str, Module], name: str) -> set[str]:
+def decided_modules(modules: Mapping[str, Module], name: str) -> set[str]:
     """The modules that a module of readings extends, but for other modules of readings."""
     return {one.name for one in _closure(modules, name) if not one.name.endswith(SUFFIX)}
 

@@ -86,8 +86,8 @@ def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
     table = read_register(root, name, "replay")
     return Traces(
-        literal=table["literal"],
-        readings=table["readings"],
+        literal=table.get("literal", ""),
+        readings=table.get("readings", ""),
         step=table["step"],
         recorded=table["recorded"],
         with_step=tuple(table.get("with_step", [])),

@@ -132,6 +132,8 @@ class Finding:
     severity: str
     """The key `class` of the register: safety, availability or wording."""
     drawing_could_settle: bool
+    tries: tuple[str, ...] = ()
+    """The readings, by the names that they have in the specification, that runs of its evidence try."""
     switches: tuple[str, ...] = ()
     """The keys `switch` and `switches` of the register: one for each reading that can be restored."""
     evidence: tuple[str, ...] = ()

@@ -17,7 +17,7 @@ from modeproof.registers.made import read_cfg
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import Run
-from modeproof.registers.tla import Definition, closure
+from modeproof.registers.tla import Definition, Module
 
 _TEXT = re.compile(r'"([^"\n]*)"')
 _NAME = re.compile(r"[A-Za-z_]\w*")
@@ -39,7 +39,7 @@ class Model:
 
 def check_switches(document: Document, sources: Sources) -> list[Problem]:
     """All that is wrong with the switches of a document; nothing where it has no replay.toml."""
-    if not has_replay(document.root, document.name):
+    if not has_literal(document, sources.modules):
         return []
     traces = load_replay(document.root, document.name)
     readings = readings_of(traces, sources)
@@ -52,8 +52,15 @@ def check_switches(document: Document, sources: Sources) -> list[Problem]:
         *_misnamed(document, traces, sources, readings),
         *_findings(document, sources, readings, models),
         *_idle(document, models),
-        *_tops(document, traces, sources),
     ]
+
+
+def has_literal(document: Document, modules: Mapping[str, Module]) -> bool:
+    """Whether a constant holds the readings, as it was before they stood in modules of their own."""
+    if not has_replay(document.root, document.name):
+        return False
+    literal = load_replay(document.root, document.name).literal
+    return any(literal in one.constants for one in modules.values())
 
 
 def readings_of(traces: Traces, sources: Sources) -> tuple[str, ...]:
@@ -197,16 +204,3 @@ def _idle(document: Document, models: Sequence[Model]) -> Iterator[Problem]:
                 text = f"the switch {names} changes nothing: its counts are those of {other.run.id}"
                 yield Problem(document.source("runs"), model.run.id, text)
                 break
-
-
-def _tops(document: Document, traces: Traces, sources: Sources) -> Iterator[Problem]:
-    """Every module that has a counterexample can be walked, by operators that exist."""
-    file = f"spec/{document.name}/replay.toml"
-    for module, run in {run.module: run.id for run in document.runs if run.kind == "NEG"}.items():
-        if module not in traces.tops:
-            yield Problem(file, f"tops.{module}", f"missing; {run} checks that module")
-    for module, top in traces.tops.items():
-        defined = {name for one in closure(sources.modules, module) for name in one.defined}
-        names = {top.next, top.wires, *(text.split("(")[0] for text in top.inputs.values())}
-        for name in sorted(names - defined) if defined else ():
-            yield Problem(file, f"tops.{module}", f"{module}.tla and what it extends do not define {name}")

@@ -61,18 +61,18 @@ def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
 
 def _readings(sources: Sources, document: Document) -> Mapping[str, tuple[str, ...]]:
     """By run, the readings that its cfg restores; a cfg that cannot be read restores none."""
-    if not has_replay(document.root, document.name):
-        return {}
-    try:
-        literal = load_replay(document.root, document.name).literal
-    except Unjudged:
-        return {}
+    literal = ""
+    if has_replay(document.root, document.name):
+        try:
+            literal = load_replay(document.root, document.name).literal
+        except Unjudged:
+            return {}
     found: dict[str, tuple[str, ...]] = {}
     for run in document.runs:
         try:
             constants = read_cfg(document.root, run).constants
         except Unjudged:
             continue
-        sources.content(run.config)
-        found[run.id] = tuple(sorted(restored(constants, literal)))
+        sources.content(f"spec/{document.name}/{run.cfg}")
+        found[run.id] = run.readings or tuple(sorted(restored(constants, literal)))
     return found

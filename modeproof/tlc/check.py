@@ -20,6 +20,7 @@ from modeproof.progress import Progress
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, module_text
+from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.switches import idle_switch
 from modeproof.tlc import children
@@ -153,7 +154,7 @@ def check_one(
             outcome = run_tlc(place, run, tools, on_progress, on_lines)
         else:
             outcome = run_distributed(place, run, cfg, tools, where, on_progress, progress.say)
-        judgement = _about_switch(place, run, judge(run, cfg, digest, outcome), outcome)
+        judgement = _about_reading(place, run, judge(run, cfg, digest, outcome), outcome)
         if read_cfg(place, run)[1] != digest:
             judgement = Judgement(UNJUDGED, False, f"{run.config} was changed while TLC ran")
     except Unjudged as error:
@@ -165,14 +166,15 @@ def check_one(
     return Checked(run, judgement, outcome, digest, record)
 
 
-def _about_switch(place: Path, run: Run, judgement: Judgement, outcome: Outcome) -> Judgement:
-    """Of a run that was to be violated and is not: which switch it turned on in vain."""
+def _about_reading(place: Path, run: Run, judgement: Judgement, outcome: Outcome) -> Judgement:
+    """Of a run that was to be violated and is not: which reading changed nothing."""
     counts = outcome.log.counts
     if run.kind != "NEG" or judgement.verdict != HOLDS or counts is None:
         return judgement
     try:
         document = load_document(place, run.document)
-        words = idle_switch(document, run.id, (counts.distinct, counts.generated))
+        found = (counts.distinct, counts.generated)
+        words = idle_reading(document, run, found) or idle_switch(document, run.id, found)
     except Unjudged:
         return judgement  # the registers are judged elsewhere
     return replace(judgement, reason=f"{judgement.reason}: {words}") if words else judgement

@@ -1,0 +1,129 @@
+"""Readings against runs and findings: every reading is tried alone once and named by a finding, and each
+changes something. What a reading is, modeproof/registers/made.py says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from modeproof.errors import Unjudged
+from modeproof.registers.made import decided_modules, reading_problems, replaced_by, replacements
+from modeproof.registers.replay import has_replay, load_replay
+from modeproof.registers.rows import Document, Problem
+from modeproof.registers.runs import Run
+from modeproof.registers.schema import suggestion
+from modeproof.registers.switches import has_literal
+from modeproof.registers.tla import Module, closure
+
+
+def readings_of(document: Document, modules: Mapping[str, Module]) -> tuple[str, ...]:
+    """The readings of a document: those of its own modules, and of shared ones that a run could use."""
+    reached: set[str] = set()
+    for name in {run.module for run in document.runs}:
+        reached |= {one.name for one in closure(dict(modules), name)}
+    own = f"spec/{document.name}/"
+    return tuple(
+        dict.fromkeys(
+            one.reading
+            for one in replacements(modules)
+            if modules[one.module].file.startswith(own) or decided_modules(modules, one.module) <= reached
+        )
+    )
+
+
+def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Problem]:
+    """All that is wrong with the readings of a document."""
+    readings = readings_of(document, modules)
+    own = f"spec/{document.name}/"
+    if has_literal(document, modules):
+        return []
+    return [
+        *(
+            Problem(file, name, text)
+            for file, name, text in reading_problems(modules)
+            if file.startswith(own)
+        ),
+        *_tried(document, readings),
+        *_runs(document, modules),
+        *_findings(document, readings),
+    ]
+
+
+def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
+    """Every reading is tried alone in exactly one run, and named by a finding."""
+    named = {name for one in document.findings for name in one.tries}
+    for name in readings:
+        alone = [run.id for run in document.runs if run.readings == (name,)]
+        if not alone:
+            yield Problem(document.source("runs"), name, "no run tries this reading alone")
+        if len(alone) > 1:
+            text = f"more than one run tries this reading alone: {', '.join(alone)}"
+            yield Problem(document.source("runs"), name, text)
+        if name not in named:
+            yield Problem(document.source("findings"), name, "no finding names this reading in `tries`")
+
+
+def _runs(document: Document, modules: Mapping[str, Module]) -> Iterator[Problem]:
+    """The readings of every run can be used, and one that breaks nothing changes something."""
+    for run in document.runs:
+        try:
+            replaced_by(modules, run)
+        except Unjudged as error:
+            place = f"{document.source('runs')}: run {run.id}: "
+            yield Problem(document.source("runs"), run.id, error.message.removeprefix(place))
+        counts = (run.distinct, run.generated)
+        if run.kind != "NEG" and None not in counts and (text := _idle(document, run, counts)):
+            yield Problem(document.source("runs"), run.id, text)
+
+
+def _findings(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
+    """A finding names readings that there are, and among its evidence a run that has each."""
+    file = document.source("findings")
+    for one in document.findings:
+        evidence = [run for run in document.runs if run.id in one.evidence]
+        for name in one.tries:
+            if name not in readings:
+                text = f"tries {name!r}, which no module of readings has; {suggestion(name, readings)}"
+                yield Problem(file, one.id, text)
+            elif not any(name in run.readings for run in evidence):
+                yield Problem(file, one.id, f"tries {name!r}, but no run in its evidence has this reading")
+
+
+def _idle(document: Document, run: Run, counts: tuple[int | None, int | None]) -> str:
+    """Whether the readings of a run leave all counts as they are in its base; "" where they do not, or where
+    something else differs too.
+    """
+    base = next((one for one in document.runs if one.id == run.base), None)
+    others = run.constants or run.specification or run.view is not None
+    if base is None or not run.readings or others or run.module != base.module:
+        return ""
+    if counts != (base.distinct, base.generated):
+        return ""
+    return f"the reading {' and '.join(run.readings)} changes nothing: its counts are those of {base.id}"
+
+
+def idle_reading(document: Document, run: Run, counts: tuple[int, int]) -> str:
+    """Why a run that was to fail does not, in the words of its reading; "" where it has none.
+
+    `counts` are the distinct and generated states that it has now.
+    """
+    if not run.readings:
+        return ""
+    broken = f"the reading {' and '.join(run.readings)} breaks nothing that this run checks"
+    return _idle(document, run, counts) or broken
+
+
+def check_tops(document: Document, modules: Mapping[str, Module]) -> Iterator[Problem]:
+    """Every module that has a counterexample can be walked, by operators that exist (replay.toml)."""
+    if not has_replay(document.root, document.name):
+        return
+    traces = load_replay(document.root, document.name)
+    file = f"spec/{document.name}/replay.toml"
+    for module, run in {run.module: run.id for run in document.runs if run.kind == "NEG"}.items():
+        if module not in traces.tops:
+            yield Problem(file, f"tops.{module}", f"missing; {run} checks that module")
+    for module, top in traces.tops.items():
+        defined = {name for one in closure(dict(modules), module) for name in one.defined}
+        names = {top.next, top.wires, *(text.split("(")[0] for text in top.inputs.values())}
+        for name in sorted(names - defined) if defined else ():
+            yield Problem(file, f"tops.{module}", f"{module}.tla and what it extends do not define {name}")

@@ -1,0 +1,124 @@
+"""Readings: each is tried alone once and named by a finding, and each changes something."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from modeproof.registers import judge, load_document
+from modeproof.registers.readings import idle_reading
+
+SPEC = "spec/door/"
+AS_PRINTED = """---- MODULE LatchAsPrinted ----
+EXTENDS Latch
+\\* DR-1-1, E-01
+LOCK_1_Slam == TRUE
+\\* DR-1-1, E-01
+CODE_Slow == 1
+====
+"""
+RUNS = """
+[[run]]
+id = "NEG_Latch_slam"
+base = "MC_Latch"
+reading = "Slam"
+property = "OpenIsUnlocked"
+
+[[run]]
+id = "MC_Latch_slow"
+base = "MC_Latch"
+reading = "Slow"
+distinct = 10
+generated = 20
+"""
+
+
+@pytest.fixture
+def tried(tree: Any) -> Any:
+    """The door with two readings: Slam breaks the property, Slow breaks nothing."""
+    tree.write(SPEC + "LatchAsPrinted.tla", AS_PRINTED)
+    tree.write(SPEC + "models/MC_Latch.cfg", "CONSTANTS T_HOLD = 2  LITERAL = {}\nSPECIFICATION Spec\n")
+    tree.edit(SPEC + "runs.toml", '["TypeOK", "Open', '["Open')
+    tree.edit(SPEC + "runs.toml", 'properties = ["Open', 'distinct = 9\ngenerated = 20\nproperties = ["Open')
+    tree.write(SPEC + "runs.toml", (tree.root / SPEC / "runs.toml").read_text(encoding="utf-8") + RUNS)
+    tree.edit(SPEC + "findings.toml", 'switch = "LITERAL"', 'tries = ["Slam", "Slow"]')
+    tree.edit(SPEC + "findings.toml", '"NEG_Latch"', '"NEG_Latch", "NEG_Latch_slam", "MC_Latch_slow"')
+    return tree
+
+
+def problems(tree: Any) -> list[str]:
+    return [str(one) for one in judge(load_document(tree.root, "door")).problems]
+
+
+def test_sound_readings_are_no_problem(tried: Any) -> None:
+    assert problems(tried) == []
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "expected"),
+    [
+        (
+            "runs.toml",
+            'reading = "Slow"',
+            'reading = ["Slow", "Slam"]',
+            "Slow: no run tries this reading alone",
+        ),
+        (
+            "runs.toml",
+            'reading = "Slow"',
+            'reading = "Slam"',
+            "Slam: more than one run tries this reading alone",
+        ),
+        (
+            "runs.toml",
+            'reading = "Slow"',
+            'reading = "Slw"',
+            "MC_Latch_slow: unknown reading 'Slw'; did you mean",
+        ),
+        (
+            "runs.toml",
+            "distinct = 10",
+            "distinct = 9",
+            "the reading Slow changes nothing: its counts are those of",
+        ),
+        ("findings.toml", '["Slam", "Slow"]', '["Slam"]', "Slow: no finding names this reading in `tries`"),
+        (
+            "findings.toml",
+            '["Slam", "Slow"]',
+            '["Slam", "Slwo"]',
+            "E-01: tries 'Slwo', which no module of readings",
+        ),
+        ("findings.toml", ', "MC_Latch_slow"', "", "E-01: tries 'Slow', but no run in its evidence has this"),
+        ("LatchAsPrinted.tla", "CODE_Slow", "COD_Slow", "COD_Slow: replaces nothing: no module that"),
+        ("LatchAsPrinted.tla", "CODE_Slow", "CODE_slow", "CODE_slow: is no Op_Reading"),
+        ("Latch.tla", "CODE == 0", "LOCAL CODE == 0", "CODE_Slow: cannot replace CODE, which is LOCAL"),
+    ],
+)
+def test_each_planted_fault_is_found(tried: Any, file: str, old: str, new: str, expected: str) -> None:
+    tried.edit(SPEC + file, old, new)
+    found = problems(tried)
+    assert any(expected in one for one in found), found
+
+
+def test_the_same_counts_with_other_constants_say_nothing(tried: Any) -> None:
+    tried.edit(SPEC + "runs.toml", "distinct = 10", 'distinct = 9\nconstants = { T_HOLD = "3" }')
+    assert problems(tried) == []
+
+
+def test_a_shared_reading_counts_only_where_a_run_could_use_it(tried: Any) -> None:
+    shared = AS_PRINTED.replace("Latch", "Shared").replace("_Slam", "_Wide").replace("_Slow", "_Narrow")
+    tried.write("spec/common/Shared.tla", "---- MODULE Shared ----\nLOCK_1 == TRUE\nCODE == 0\n====\n")
+    tried.write("spec/common/SharedAsPrinted.tla", shared)
+    assert problems(tried) == []
+    tried.edit(SPEC + "Latch.tla", "EXTENDS Naturals", "EXTENDS Naturals, Shared")
+    found = problems(tried)
+    assert any("Wide: no run tries this reading alone" in one for one in found), found
+
+
+def test_a_run_that_does_not_fail_says_which_reading_changed_nothing(tried: Any) -> None:
+    document = load_document(tried.root, "door")
+    run = next(run for run in document.runs if run.id == "NEG_Latch_slam")
+    assert "Slam changes nothing: its counts are those of MC_Latch" in idle_reading(document, run, (9, 20))
+    assert idle_reading(document, run, (8, 20)) == "the reading Slam breaks nothing that this run checks"
+    assert idle_reading(document, document.runs[0], (9, 20)) == ""
