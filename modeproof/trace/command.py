@@ -16,7 +16,7 @@ from modeproof.evidence.files import write_whole
 from modeproof.kit.command import quoted
 from modeproof.lock import only_one
 from modeproof.places import root
-from modeproof.suites.command import make_graphs
+from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import pytest
 
 from modeproof.errors import Unjudged
@@ -107,7 +109,11 @@ def test_a_page_and_registers_that_differ_are_found(told: Any, file: str, old: s
     [
         ("docs/door.md", "| 0 | power-up |", "| 0 | power-down |"),
         ("docs/door.md", "<!-- end trace -->\n", ""),
-        ("spec/door/runs.toml", 'cfg = "models/NEG_Latch.cfg"', 'cfg = "models/NEG_Latch_2.cfg"'),
+        (
+            "spec/door/runs.toml",
+            'property = "OpenIsUnlocked"',
+            'property = "OpenIsUnlocked"\ntrace_length = 9',
+        ),
     ],
 )
 def test_a_table_that_no_longer_belongs_to_its_run_is_found(told: Any, file: str, old: str, new: str) -> None:
@@ -116,6 +122,14 @@ def test_a_table_that_no_longer_belongs_to_its_run_is_found(told: Any, file: str
     assert problem.startswith(
         "the table of NEG_Latch is missing, was changed by hand, or its run has changed"
     )
+
+
+def test_a_reading_that_is_tried_is_named(told: Any) -> None:
+    document = load_document(told.root, "door")
+    runs = [msgspec.structs.replace(run, base="MC_Latch", reading="Slow") for run in document.runs]
+    changed = replace(document, runs=tuple(runs))
+    text = page(changed, read_sources(document), {"NEG_Latch": TABLE})
+    assert "`modeproof check NEG_Latch --trace` tries the reading `Slow`." in text
 
 
 def test_what_changes_no_counterexample_leaves_its_table(told: Any) -> None:

@@ -234,6 +234,7 @@ def evidence_of_the_box(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MODEPROOF_ROOT", str(root))
         assert main(["check", "--quiet", "MC_Box_lazy", "NEG_Box_eager", "NEG_Box_hasty"]) == 0
+        assert main(["walks", "--quiet"]) == 0
         assert main(["render"]) == 0
     return root
 
