@@ -141,7 +141,7 @@ class Suite:
             for number, graph in enumerate(self.header["graphs"]):
                 table, params = Table(graph["rule"], graph["initial"]), graph["params"]
                 for word in words(graph["rule"]):
-                    scans = tuple(Scan(*one) for one in table.scans(word))
+                    scans = tuple(Scan(*entry) for entry in table.scans(word))
                     if not scans:
                         continue
                     count += 1
@@ -230,7 +230,7 @@ class Suite:
             state = before
         return tuple(reversed(way))
 
-    def said(self, id: str) -> str:
+    def text(self, id: str) -> str:
         """What the registers say of a clause or decision, in our words; nothing where they do not."""
         return str(self.header.get("texts", {}).get(id, ""))
 

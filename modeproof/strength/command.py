@@ -1,25 +1,39 @@
-"""The command `modeproof mutate`."""
+"""The command `modeproof mutate`: one campaign a document, or all documents one after the other."""
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import fnmatch
 import json
-from collections import Counter
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
 from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.evidence.files import write_whole
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.lock import only_one
 from modeproof.places import documents, root
-from modeproof.strength.campaign import WORDS, Judged, Known, all_mutants, default_jobs, judge_all
-from modeproof.strength.explain import explanation_problems, unexplained
-from modeproof.strength.judge import Bench
+from modeproof.processes import cores
+from modeproof.progress import Progress
+from modeproof.strength.campaign import (
+    Campaign,
+    Judged,
+    explanation_problems,
+    results_path,
+    summary,
+    unexplained,
+)
 from modeproof.strength.mutant import Mutant, diff
-from modeproof.strength.recorded import Record, record
-from modeproof.strength.register import Explained, load_strength, path_of
-from modeproof.strength.results import Results, read_results, results_path
+from modeproof.strength.register import load_strength, load_vectors, path_of, theorems_path
+from modeproof.strength.results import read_results
+from modeproof.strength.scores import record_score
+from modeproof.tlc.schedule import memory_mb
+
+TLC_MB = 768
+"""Memory that a run of TLC on a mutant needs."""
 
 
 def add_parser(commands: Any) -> None:
@@ -32,12 +46,20 @@ def add_parser(commands: Any) -> None:
         help="the specification, judged by TLC; the code, by theorems or vectors",
     )
     parser.add_argument("modules", nargs="*", metavar="DEVICE", help="only these modules (default: all)")
-    parser.add_argument("--document", metavar="NAME", help="only this document")
+    parser.add_argument("--document", metavar="NAME", help="only this document (default: all)")
     parser.add_argument("--list", action="store_true", help="list the mutants, judge none")
     parser.add_argument("--only", action="append", metavar="ID", help="only this mutant (or a pattern)")
     parser.add_argument("--show", metavar="ID", help="show the edit as a diff, and the judgement so far")
     parser.add_argument(
         "--complete", action="store_true", help="ask the costlier judges about killed mutants too"
+    )
+    parser.add_argument(
+        "--first",
+        action="store_true",
+        help="explore a mutant of the specification to the first broken property: quicker, names no other",
+    )
+    parser.add_argument(
+        "--record", action="store_true", help="write the counts to spec/<document>/scores.toml"
     )
     parser.add_argument(
         "--judge",
@@ -51,150 +73,148 @@ def add_parser(commands: Any) -> None:
 
 
 def _mutate(args: argparse.Namespace) -> int:
-    from modeproof.lock import only_one
-    from modeproof.progress import Progress
-    from modeproof.tlc.toolchain import find_toolchain
-
     place = root()
-    if args.what == "impl":
-        from modeproof.strength.adequacy_command import mutate_by_vectors
-        from modeproof.strength.implementation_command import mutate_implementation
-
-        if args.judge == "vectors":
-            return mutate_by_vectors(place, args)
-        return mutate_implementation(place, args)
-    if args.judge is not None:
+    if args.what == "spec" and args.judge is not None:
         raise Unjudged(
             "--judge speaks of the code; mutants of the specification are judged by its properties"
         )
-    document = _document(place, args.document)
-    bench = Bench(place, load_strength(place, document), find_toolchain())
-    strange = sorted(set(args.modules) - set(bench.strength.rules))
-    if strange:
-        raise Unjudged(
-            f"{strange[0]} is none of the modules of strength.toml: {', '.join(bench.strength.rules)}"
-        )
-    every = all_mutants(bench)
-    chosen = chosen_of(every, args)
-    results = read_results(results_path(place, document, args.what))
-    if args.list:
-        print("\n".join(str(one) for one in chosen))
-        print(f"{len(chosen)} mutants")
-        return 0
-    if args.show is not None:
-        return _show(bench, chosen[0], results)
-    with only_one(place):
-        judged = judge_all(
-            bench,
-            chosen,
-            results,
-            Progress(quiet=args.quiet),
-            args.jobs or default_jobs(place),
-            args.complete,
-        )
-    whole = len(chosen) == len(every)
-    if whole:
-        keep(bench, every, judged)
-    return _report(bench, judged, every if whole else (), args)
+    if str(place) not in sys.path:
+        sys.path.insert(0, str(place))
+    kind = "vectors" if args.judge == "vectors" else args.what
+    named = _documents(place, kind, args.document)
+    one_only = args.list or args.show or args.only or args.modules or args.json
+    if one_only and len(named) > 1:
+        raise Unjudged(f"--document must name one of: {', '.join(named)}")
+    status = 0
+    for document in named:
+        try:
+            status = max(status, _of_document(place, document, kind, args))
+        except Unjudged as error:  # the other documents are judged all the same
+            if len(named) == 1:
+                raise
+            print(f"{document}: {error.message}", file=sys.stderr)
+            status = EXIT_UNJUDGED
+    return status
 
 
-def keep(bench: Bench, every: Sequence[Mutant], judged: Sequence[Judged]) -> None:
-    """Write the evidence of the whole campaign."""
-    document, tools = bench.strength.document, bench.tools
-    folder = bench.folder
-    campaign = Record(
-        document=document,
-        what="spec",
-        command=f"modeproof mutate spec --document {document}",
-        judges=tuple(dict.fromkeys(name for tier in bench.strength.tiers for name in tier.run.properties)),
-        asked=lambda found: (name for answer in found["answers"] for name in answer.get("asked", ())),
-        rests_on=[
-            path_of(bench.place, document),
-            *(folder / f"{module}.tla" for module in bench.strength.rules),
-            *(folder / tier.run.cfg for tier in bench.strength.tiers),
-        ],
-        tools={
-            "tla2tools": {"version": "pinned" if tools.pinned else "not pinned", "sha256": tools.jar_sha256},
-            "java": evidence.tool(tools.java_version, tools.java),
-        },
-    )
-    record(bench.place, campaign, every, judged, bench.strength.explained)
+def _documents(place: Path, kind: str, named: str | None) -> list[str]:
+    """The documents that have the register of a campaign. Raises Unjudged when there is none."""
+    register = path_of if kind == "spec" else theorems_path
+    known = [name for name in documents(place) if register(place, name).is_file()]
+    if named is not None and named not in known:
+        raise Unjudged(f"{named!r} has no mutants; there are those of: {', '.join(known) or 'no document'}")
+    if not known:
+        raise Unjudged("no document has a strength.toml")
+    return known if named is None else [named]
 
 
-def _document(place: Path, named: str | None) -> str:
-    known = [name for name in documents(place) if path_of(place, name).is_file()]
-    if named is not None:
-        if named not in documents(place):
-            raise Unjudged(f"no document {named!r} in spec/")
-        return named
-    if len(known) != 1:
-        raise Unjudged(f"--document must name one of: {', '.join(known) or 'none has a strength.toml'}")
-    return known[0]
+def _of_document(place: Path, document: str, kind: str, args: argparse.Namespace) -> int:
+    reads = kind != "vectors" and (args.list or args.show is not None)  # vectors may have to be built
+    with contextlib.nullcontext() if reads else only_one(place):
+        campaign = campaign_of(place, document, kind, args.quiet, args.first)
+        chosen = chosen_of(campaign, args)
+        if args.list:
+            print("\n".join(str(mutant) for mutant in chosen))
+            more = campaign.judges.out_of_scope
+            print(f"{len(chosen)} mutants" + (f", {more} more reach no published target" if more else ""))
+            return 0
+        if args.show is not None:
+            return _show(campaign, chosen[0])
+        if args.record and len(chosen) < len(campaign.mutants):
+            raise Unjudged("--record is of all mutants of a document: name no module and no mutant")
+        jobs = args.jobs or (cores() if kind != "spec" else max(1, min(cores(), memory_mb() // TLC_MB)))
+        judged = campaign.run(chosen, Progress(quiet=args.quiet), jobs, args.complete)
+        whole = len(chosen) == len(campaign.mutants)
+        if whole:
+            campaign.record(judged)
+        if args.record:
+            record_score(campaign, judged)
+    return _report(campaign, judged, whole, args)
 
 
-def chosen_of(every: Sequence[Mutant], args: argparse.Namespace) -> list[Mutant]:
+def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first: bool = False) -> Campaign:
+    """The campaign of a document: `kind` is spec, impl or vectors; `first` as Bench has it."""
+    results = read_results(results_path(place, document, kind))
+    if kind == "spec":
+        from modeproof.strength.by_properties import ByProperties
+        from modeproof.strength.judge import Bench
+        from modeproof.tlc.toolchain import find_toolchain
+
+        bench = Bench(place, load_strength(place, document), find_toolchain(), first)
+        return Campaign(ByProperties(bench), results)
+    from modeproof.strength.by_theorems import ByTheorems
+    from modeproof.strength.code import Code, of_proofs
+
+    theorems = ByTheorems(Code(place, document, of_proofs("mutants.bench")))
+    if kind == "impl":
+        return Campaign(theorems, results)
+    from modeproof.strength.by_vectors import ByVectors
+    from modeproof.strength.published import published
+    from modeproof.suites.build import ready_suites
+
+    names = load_vectors(place, document).suites
+    try:
+        suites = published(ready_suites(place, document, names, quiet))
+    except KitUnjudged as error:
+        raise Unjudged(str(error)) from None
+    proved = read_results(results_path(place, document, "impl"))
+    copies, observer = of_proofs("mutants.copies"), of_proofs("mutants.observed")
+    return Campaign(ByVectors(theorems, copies, observer, suites, proved), results)
+
+
+def chosen_of(campaign: Campaign, args: argparse.Namespace) -> list[Mutant]:
     """The mutants that the arguments name. Raises Unjudged when one of them names none."""
+    known = dict.fromkeys(mutant.module for mutant in campaign.mutants)
+    strange = [name for name in args.modules if name not in known]
+    if strange:
+        raise Unjudged(f"{strange[0]} is none of the modules that are mutated: {', '.join(known)}")
+    chosen = [mutant for mutant in campaign.mutants if not args.modules or mutant.module in args.modules]
     patterns = [args.show] if args.show is not None else args.only
-    chosen = [one for one in every if not args.modules or one.module in args.modules]
+    for pattern in patterns or ():
+        if not fnmatch.filter([mutant.id for mutant in chosen], pattern):
+            raise Unjudged(
+                f"no mutant has the id {pattern}; `modeproof mutate {args.what} --list` lists them"
+            )
     if patterns:
-        for pattern in patterns:
-            if not fnmatch.filter([one.id for one in chosen], pattern):
-                raise Unjudged(
-                    f"no mutant has the id {pattern}; `modeproof mutate {args.what} --list` lists them"
-                )
-        chosen = [one for one in chosen if any(fnmatch.fnmatchcase(one.id, p) for p in patterns)]
+        chosen = [mutant for mutant in chosen if any(fnmatch.fnmatchcase(mutant.id, p) for p in patterns)]
     return chosen
 
 
-def _show(bench: Bench, mutant: Mutant, results: Results) -> int:
+def _show(campaign: Campaign, mutant: Mutant) -> int:
     print(mutant)
-    print(diff(bench.tree_of(mutant.module).texts[mutant.module], mutant))
-    found = Known(bench, results).find(mutant)
+    print(diff(campaign.judges.lines_of(mutant), mutant, campaign.judges.suffix))
+    found = campaign.find(mutant)
     if found is None:
-        stale = bool(results.of(mutant.id))
-        print("not judged" + (" since the specification or the tiers changed" if stale else " yet"))
+        changed = bool(campaign.results.of(mutant.id))
+        print("not judged" + (" since what the judgement rests on changed" if changed else " yet"))
         return 0
     print(f"{found['verdict']}  {', '.join(found['killers'])}")
     if found["reason"]:
         print(f"    {found['reason']}")
-    for answer in found["answers"]:
-        broken = ", ".join(answer["broken"])
-        print(
-            f"    {answer['tier']}: {answer['result']}{': ' if broken else ''}{broken}, {answer['seconds']} s"
-        )
+    print("\n".join(campaign.judges.shown(mutant, found)))
     return 0
 
 
-def _report(bench: Bench, judged: Sequence[Judged], every: Sequence[Mutant], args: argparse.Namespace) -> int:
-    return report(bench.strength.explained, "strength.toml", judged, bool(every), args)
-
-
-def report(
-    explained: Sequence[Explained],
-    register: str,
-    judged: Sequence[Judged],
-    complete: bool,
-    args: argparse.Namespace,
-) -> int:
+def _report(campaign: Campaign, judged: Sequence[Judged], whole: bool, args: argparse.Namespace) -> int:
     """Print what is to be looked at and the counts, write the JSON, and give the exit status.
 
-    complete: these are all mutants, so that an explanation of none of them is a problem of the register.
+    whole: these are all mutants, so that an explanation of none of them is a problem of the register.
     """
-    problems = explanation_problems(explained, judged, complete=complete)
-    open_ones = unexplained(explained, judged)
+    judges = campaign.judges
+    problems = explanation_problems(judges.explained, judged, complete=whole)
+    open_ones = unexplained(judges.explained, judged)
+    for note in judges.notes:
+        print(note)
     for one in judged:
         if one.word == "UNMEASURED" or one in open_ones or len(judged) <= 10:
-            killers = ", ".join(one.killers)
-            why = one.record["reason"]
-            print(f"{one.word}  {one.mutant}{f'; {killers}' if killers else ''}{f'; {why}' if why else ''}")
+            told = [text for text in (", ".join(one.killers), one.record["reason"]) if text]
+            print("; ".join([f"{one.word}  {one.mutant}", *told]))
     for problem in problems:
-        print(f"{register}: {problem}")
-    print(summary(judged, len(open_ones)))
-    unmeasured = [one for one in judged if one.word == "UNMEASURED"]
+        print(f"{judges.register.relative_to(judges.place).as_posix()}: {problem}")
+    print(f"{judges.document}: {summary(judged, len(open_ones))}")
+    unmeasured = any(one.word == "UNMEASURED" for one in judged)
     status = EXIT_NOT_AS_EXPECTED if open_ones or problems else EXIT_UNJUDGED if unmeasured else 0
     if args.json is not None:
-        from modeproof.evidence.files import write_whole
-
         content = {
             "command": "mutate",
             "status": status,
@@ -203,15 +223,3 @@ def report(
         }
         write_whole(args.json, (json.dumps(content, indent=1, ensure_ascii=False) + "\n").encode("utf-8"))
     return status
-
-
-def summary(judged: Sequence[Judged], unexplained_count: int) -> str:
-    """Counts and score in one line: killed of those that are neither invalid nor equivalent."""
-    counts = Counter(one.word for one in judged)
-    real = counts["KILLED"] + counts["SURVIVED"] + counts["UNMEASURED"]
-    score = f"{100 * counts['KILLED'] / real:.1f} %" if real else "none"
-    words = ", ".join(f"{counts[word]} {word}" for word in WORDS)
-    return (
-        f"{len(judged)} mutants: {words}; score {counts['KILLED']} of {real} ({score}); "
-        f"{unexplained_count} unexplained"
-    )

@@ -20,9 +20,10 @@ from typing import Any
 import msgspec
 
 from modeproof.errors import Unjudged
+from modeproof.registers.made import cfg_text
 from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.register import Strength, Tier
-from modeproof.strength.trial import BROKEN, MODULE, Trial, cfg_of, make_trial
+from modeproof.strength.trial import BROKEN, MODULE, Trial, make_trial
 from modeproof.tlc.messages import OUT_OF_MEMORY, Counts, essence
 from modeproof.tlc.parse_tree import ParseTree, read_tree
 from modeproof.tlc.process import Outcome, run_tlc
@@ -68,11 +69,15 @@ class Verdict:
 
 @dataclass
 class Bench:
-    """What all mutants of a document share: the original's parse trees, trials and printed graphs."""
+    """What all mutants of a document share: the original's parse trees, trials and printed graphs.
+
+    first: a mutant is explored to the first property that is false, which is quicker and names no other.
+    """
 
     place: Path
     strength: Strength
     tools: Toolchain
+    first: bool = False
     _trees: dict[str, ParseTree] = field(default_factory=dict)
     _trials: dict[str, Trial] = field(default_factory=dict)
     _graphs: dict[str, frozenset[int]] = field(default_factory=dict)
@@ -102,7 +107,7 @@ class Bench:
         with self._guard:
             if tier.id not in self._trials:
                 tree = self.tree(tier.run.module)
-                self._trials[tier.id] = make_trial(tree, tier, cfg_of(self.folder, tier))
+                self._trials[tier.id] = make_trial(tree, tier, cfg_text(self.place, tier.run))
             return self._trials[tier.id]
 
     def texts(self, tier: Tier) -> Mapping[str, str]:
@@ -133,7 +138,7 @@ class Bench:
     def ask(self, tier: Tier, mutant: Mutant) -> Answer:
         """One tier's answer about one mutant."""
         if tier.asks != "graph":
-            names = _Names()
+            names = _Names(self.first)
             outcome = self._run(tier, mutant, names)
             answer = _answer(tier, outcome, self.trial(tier).asked, names.found, "", CLEAN)
             if answer.result != CLEAN:
@@ -187,14 +192,15 @@ class Bench:
 class _Names:
     """Remembers the names of broken properties in the order in which they are printed."""
 
-    def __init__(self) -> None:
+    def __init__(self, first: bool = False) -> None:
         self.found: tuple[str, ...] = ()
+        self._first = first
 
     def __call__(self, line: bytes) -> bool:
         match = BROKEN.fullmatch(line)
         if match is not None and (name := match[1].decode()) not in self.found:
             self.found += (name,)
-        return False
+        return self._first and bool(self.found)
 
 
 class _Collect:
@@ -247,7 +253,7 @@ def _answer(
         result, detail = ERROR, _complaint(outcome)
     if broken:
         result = BROKE
-    complete = finished or (tier.asks == "liveness" and bool(broken)) or outcome.stopped
+    complete = finished or (tier.asks == "liveness" and bool(broken)) or (outcome.stopped and not broken)
     return Answer(
         tier=tier.id,
         result=result,

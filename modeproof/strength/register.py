@@ -1,4 +1,8 @@
-"""The register strength.toml: what is edited in each module, which runs judge it, why survivors survive."""
+"""The registers of the three campaigns: what is edited, who judges, why survivors survive.
+
+spec/<document>/strength.toml is that of the specification, proofs/<document>/strength.toml of the code judged
+by theorems, and refimpl/<document>/adequacy.toml of the code judged by vectors.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +19,8 @@ from modeproof.strength.operators import Rule
 ASKS = ("properties", "graph", "liveness")
 WHEN = ("always", "complete", "left")
 KINDS = ("harmless", "seen by comparison", "outside the model")
+AS_PRINTED = "AsPrinted"
+"""The name of a module that holds readings ends so."""
 
 
 @dataclass(frozen=True)
@@ -84,12 +90,9 @@ def load_strength(place: Path, document: str) -> Strength:
     """Read the register. Raises Unjudged with place and cause for whatever is not understood."""
     path = path_of(place, document)
     source = f"spec/{document}/strength.toml"
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise Unjudged(f"{source}: not found; it says what is edited and which runs judge it") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Unjudged(f"{source}: {error}") from None
+    if not path.is_file():
+        raise Unjudged(f"{source}: not found; it says what is edited and which runs judge it")
+    data = _read(place, path)
     data.pop("document", None)
     runs = {run.id: run for run in load_runs(place, document)}
     shared = _table(source, data, "rule", {"off", "leave", "cycles"})
@@ -97,6 +100,8 @@ def load_strength(place: Path, document: str) -> Strength:
     for values in _tables(source, data, "module"):
         name = _text(source, values, "name")
         at = f"{source}: module {name}"
+        if name.endswith(AS_PRINTED):
+            raise Unjudged(f"{at}: a module of readings is not mutated")
         refuse_unknown(at, values, {"name", "behaviour", "groups", "device"})
         rules[name] = Rule(
             behaviour=_names(at, values, "behaviour", required=True),
@@ -121,6 +126,69 @@ def load_strength(place: Path, document: str) -> Strength:
         if not any(module in tier.modules for tier in tiers):
             raise Unjudged(f"{source}: no tier judges module {module}")
     return Strength(document, rules, tiers, explained, rejudged)
+
+
+@dataclass(frozen=True)
+class TheoremsRegister:
+    """proofs/<document>/strength.toml: what is put in the place of a name, and the explanations."""
+
+    cycles: tuple[tuple[str, ...], ...] = ()
+    turns: tuple[tuple[str, str], ...] = ()
+    explained: tuple[Explained, ...] = ()
+
+
+def theorems_path(place: Path, document: str) -> Path:
+    """Where it lies."""
+    return place / "proofs" / document / "strength.toml"
+
+
+def load_theorems(place: Path, document: str) -> TheoremsRegister:
+    """Read it. Raises Unjudged with place and cause for whatever is not understood."""
+    path = theorems_path(place, document)
+    data, source = _read(place, path), path.relative_to(place).as_posix()
+    rule = _table(source, data, "rule", {"cycles", "turns"})
+    explained = tuple(read_explained(source, values) for values in _tables(source, data, "survivor"))
+    refuse_unknown(source, data, set())
+    return TheoremsRegister(
+        tuple(tuple(cycle) for cycle in rule.get("cycles", [])),
+        tuple((before, after) for before, after in rule.get("turns", [])),
+        explained,
+    )
+
+
+@dataclass(frozen=True)
+class VectorsRegister:
+    """refimpl/<document>/adequacy.toml: the suites that judge (empty: every suite), the explanations."""
+
+    suites: tuple[str, ...] = ()
+    explained: tuple[Explained, ...] = ()
+
+
+def vectors_path(place: Path, document: str) -> Path:
+    """Where it lies."""
+    return place / "refimpl" / document / "adequacy.toml"
+
+
+def load_vectors(place: Path, document: str) -> VectorsRegister:
+    """Read it; empty where there is no file. Raises Unjudged for whatever is not understood."""
+    path = vectors_path(place, document)
+    if not path.is_file():
+        return VectorsRegister()
+    data, source = _read(place, path), path.relative_to(place).as_posix()
+    suites = _names(source, data, "suites")
+    explained = tuple(read_explained(source, values) for values in _tables(source, data, "survivor"))
+    refuse_unknown(source, data, {"suites"})
+    return VectorsRegister(suites, explained)
+
+
+def _read(place: Path, path: Path) -> dict[str, Any]:
+    source = path.relative_to(place).as_posix()
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise Unjudged(f"{source}: {error.strerror or error}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{source}: {error}") from None
 
 
 def _tier(source: str, values: dict[str, Any], runs: Mapping[str, Run], rules: Mapping[str, Rule]) -> Tier:

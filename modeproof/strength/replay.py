@@ -25,7 +25,7 @@ PASSES, DIFFERS, RAISES, REFUSES = "passes", "differs", "raises", "refuses"
 
 
 @dataclass(frozen=True)
-class Played:
+class ReplayCase:
     """One case: what power-up is given, and for each scan the inputs and the outputs that must follow.
 
     No outputs: the scan is not compared.
@@ -42,7 +42,7 @@ class Vectors:
 
     target: str
     suite: str
-    cases: Sequence[Played]
+    cases: Sequence[ReplayCase]
     left_out: int
 
     @property
@@ -101,7 +101,7 @@ def vectors_of(suite: Suite, device: Device, forms: ValueForms, code: Implementa
         except Exception as error:
             raise Unjudged(f"{place}: {code.name} refuses {dict(wire)}: {error}") from None
 
-    def played(case: Case) -> Played:
+    def converted(case: Case) -> ReplayCase:
         scans = []
         for scan in case.scans:
             if scan.request is not None:
@@ -117,13 +117,13 @@ def vectors_of(suite: Suite, device: Device, forms: ValueForms, code: Implementa
                 wanted = outputs[key]
             pair = (inputs[given], wanted)
             scans.append(pairs.setdefault((id(pair[0]), id(wanted)), pair))
-        return Played(case.id, record(code.params, device.parameters, case.params), scans)
+        return ReplayCase(case.id, record(code.params, device.parameters, case.params), scans)
 
     cases = []
     for case in suite.cases():
         left_out += sum(scan.request is not None for scan in case.scans)
         if any(scan.request is None for scan in case.scans):
-            cases.append(played(case))
+            cases.append(converted(case))
     return Vectors(suite.target, suite.name, cases, left_out)
 
 
@@ -144,7 +144,7 @@ def _replay(vectors: Vectors, code: Implementation) -> Answer:
         try:
             state = code.power_up(case.params)
         except Exception as error:
-            return Answer(RAISES, done, case.id, 0, f"power-up: {_said(error)}", refused)
+            return Answer(RAISES, done, case.id, 0, f"power-up: {_message(error)}", refused)
         scans = iter(enumerate(case.scans, 1))
         while True:
             try:
@@ -156,9 +156,9 @@ def _replay(vectors: Vectors, code: Implementation) -> Answer:
                 break
             except Exception as error:
                 if not is_refusal(error):
-                    return Answer(RAISES, done + n, case.id, n, _said(error), refused)
+                    return Answer(RAISES, done + n, case.id, n, _message(error), refused)
                 refused += 1
-                first = first or f"{case.id}, scan {n}: {_said(error)}"
+                first = first or f"{case.id}, scan {n}: {_message(error)}"
         done += len(case.scans)
     return Answer(REFUSES, done, "", 0, first, refused) if refused else Answer(PASSES, done)
 
@@ -168,7 +168,7 @@ def is_refusal(error: Exception) -> bool:
     return isinstance(error, ValueError) and isinstance(getattr(error, "field", None), str)
 
 
-def _said(error: Exception) -> str:
+def _message(error: Exception) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split())}"[:200]
 
 

@@ -10,11 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 from modeproof.errors import Unjudged
 from modeproof.registers.cfg import Cfg, parse_cfg
-from modeproof.registers.made import cfg_text
 from modeproof.strength.register import Tier
 from modeproof.tlc.parse_tree import AND, Definition, Node, ParseTree
 
@@ -167,10 +165,3 @@ def _conjuncts(node: Node) -> list[Node]:
 def _in_place(tree: ParseTree, node: Node) -> str:
     """The text of an expression, its first line as far to the right as in its file, so that bullets align."""
     return " " * (node.place.first_column - 1) + tree.text(node.place, joined=False)
-
-
-def cfg_of(folder: Path, tier: Tier) -> str:
-    """The text of the cfg of a tier's run; `folder` is that of its specification. Raises Unjudged like
-    `cfg_text`.
-    """
-    return cfg_text(folder.parent.parent, tier.run)

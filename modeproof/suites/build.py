@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+import sys
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeproof import evidence, kit
@@ -12,9 +13,11 @@ from modeproof.graph.device import graph_file, load_device_graph, open_runs
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
 from modeproof.places import build, documents
+from modeproof.progress import Progress
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
+from modeproof.registers.runs import Run
 from modeproof.suites.contract import load_contract
 from modeproof.suites.write import SUITES, Citations, NoCases, write_suite
 
@@ -89,6 +92,27 @@ def ready_suite(
     return open_suite(path)
 
 
+def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) -> list[Suite]:
+    """These suites (none named: every one) of each published target of a document that has cases of them.
+
+    Graphs are made where they are missing. Raises Unjudged when a name is no suite's, or nothing is found.
+    """
+    strange = [name for name in names if name not in SUITES]
+    if strange:
+        raise Unjudged(f"no suite {strange[0]!r}; there are: {', '.join(SUITES)}")
+    found = []
+    for target, device in load_interface(place, document).devices.items():
+        runs = open_runs(place, document, target)
+        if device.published and runs:
+            make_graphs(place, runs, quiet)
+            for name in names or SUITES:
+                with contextlib.suppress(NoCases):
+                    found.append(ready_suite(place, document, target, name, say))
+    if not found:
+        raise Unjudged(f"{document}: no published target has vectors")
+    return found
+
+
 def ready_fast_suites(place: Path, document: str, target: str) -> list[Suite]:
     """The suites of a target that end soon, as `ready_suite` opens them, without those that have no cases."""
     found = []
@@ -153,3 +177,25 @@ def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
         name = f"modeproof/{path.parent.name}/{path.name}"
         hashes[name] = next(iter(evidence.hashes(path.parent, [path]).values()))
     return dict(sorted(hashes.items()))
+
+
+def make_graphs(place: Path, runs: Sequence[Run], quiet: bool) -> None:
+    """Let TLC make the graphs that are missing. Raises Unjudged when one does not come."""
+    missing = [run for run in runs if not graph_file(place, run).is_file()]
+    if not missing:
+        return
+    from modeproof.tlc.check import check_all
+    from modeproof.tlc.toolchain import find_toolchain
+
+    say(f"TLC makes {', '.join(run.id for run in missing)} first")
+    done = check_all(place, missing, find_toolchain(), Progress(quiet=quiet))
+    for run, checked in zip(missing, done, strict=True):
+        if not graph_file(place, run).is_file():
+            raise Unjudged(f"{run.name}: TLC left no graph: {checked.record['reason']}")
+        if checked.status != 0:
+            say(f"note: {run.name} is not as expected: {checked.record['reason']}")
+
+
+def say(line: str) -> None:
+    """A line for a person, on standard error."""
+    print(line, file=sys.stderr, flush=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Mapping
 from dataclasses import asdict
@@ -11,11 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from modeproof import evidence
-from modeproof.conformance import REFERENCE
 from modeproof.errors import Unjudged
-from modeproof.graph.device import compared_files, graph_file, load_device_graph, open_runs
+from modeproof.graph.device import compared_files, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
-from modeproof.graph.implementation import load_implementation
+from modeproof.graph.implementation import REFERENCE, load_implementation
 from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
@@ -25,7 +23,7 @@ from modeproof.lock import only_one
 from modeproof.places import root
 from modeproof.progress import Progress
 from modeproof.registers.runs import Run
-from modeproof.suites.build import find_target, ready_suite
+from modeproof.suites.build import find_target, make_graphs, ready_suite, say
 from modeproof.suites.write import SUITES, NoCases
 
 
@@ -91,7 +89,7 @@ def _suites(place: Path, document: str, args: argparse.Namespace) -> list[Suite]
     found = []
     for name in chosen_suites(args.suite, args.relation):
         try:
-            found.append(ready_suite(place, document, args.target, name, _say))
+            found.append(ready_suite(place, document, args.target, name, say))
         except NoCases:
             if name in (args.suite or ()):
                 raise
@@ -206,27 +204,3 @@ def _shown(difference: Difference) -> list[str]:
         lines.append(f"    scan {n}: " + ", ".join(f"{name}={value}" for name, value in changed.items()))
         before = scan
     return lines
-
-
-# ------------------------------------------------------------------------------------------------ graphs
-
-
-def make_graphs(place: Path, runs: tuple[Run, ...], quiet: bool) -> None:
-    """Let TLC make the graphs that are missing. Raises Unjudged when one does not come."""
-    missing = [run for run in runs if not graph_file(place, run).is_file()]
-    if not missing:
-        return
-    from modeproof.tlc.check import check_all
-    from modeproof.tlc.toolchain import find_toolchain
-
-    _say(f"TLC makes {', '.join(run.id for run in missing)} first")
-    done = check_all(place, missing, find_toolchain(), Progress(quiet=quiet))
-    for run, checked in zip(missing, done, strict=True):
-        if not graph_file(place, run).is_file():
-            raise Unjudged(f"{run.name}: TLC left no graph: {checked.record['reason']}")
-        if checked.status != 0:
-            _say(f"note: {run.name} is not as expected: {checked.record['reason']}")
-
-
-def _say(line: str) -> None:
-    print(line, file=sys.stderr, flush=True)

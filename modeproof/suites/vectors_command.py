@@ -16,7 +16,7 @@ from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
 from modeproof.lock import only_one
 from modeproof.places import build, root
-from modeproof.suites.build import find_target, published, ready_suite, suite_file
+from modeproof.suites.build import find_target, make_graphs, published, ready_suite, suite_file
 from modeproof.suites.export import as_csv, as_itf
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
@@ -99,8 +99,6 @@ def _make(
     place: Path, targets: Iterable[str], suites: Iterable[str], *, leave_out: bool, anew: bool = False
 ) -> None:
     """Build suites of targets. With `leave_out` one that would have no cases is left out."""
-    from modeproof.suites.command import make_graphs
-
     with only_one(place):
         for target in targets:
             document, _ = find_target(place, target)

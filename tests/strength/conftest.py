@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.strength.campaign import all_mutants
+from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
 from tests.strength.toy import lamp
@@ -17,4 +17,4 @@ def bench(tmp_path_factory: pytest.TempPathFactory) -> Bench:
 
 @pytest.fixture(scope="session")
 def every(bench: Bench) -> tuple[Mutant, ...]:
-    return all_mutants(bench)
+    return ByProperties(bench).mutants

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 from modeproof.places import root
-from modeproof.strength.campaign import all_mutants
+from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.register import load_strength
@@ -21,4 +21,4 @@ def bench_of(document: str) -> Bench:
 @cache
 def mutants_of(document: str) -> tuple[Mutant, ...]:
     """All its mutants."""
-    return all_mutants(bench_of(document))
+    return ByProperties(bench_of(document)).mutants

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-import modeproof.strength.campaign as campaign
+import modeproof.strength.by_properties as by_properties
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.strength.campaign import GRAPHS, Judged, Known, inputs_of, judge_all, rests_on
-from modeproof.strength.explain import explanation_problems, unexplained
+from modeproof.strength.by_properties import GRAPHS, ByProperties, rests_on
+from modeproof.strength.campaign import Campaign, Judged, explanation_problems, summary, unexplained
 from modeproof.strength.judge import Answer, Bench, Verdict
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.register import Explained, Strength
@@ -38,17 +38,17 @@ class Judge:
 
 @pytest.fixture
 def stand_in(monkeypatch: pytest.MonkeyPatch) -> Callable[[Judge], Judge]:
-    monkeypatch.setattr(campaign, "_controls", lambda bench, waiting, pool: None)
+    monkeypatch.setattr(ByProperties, "prepare", lambda self, waiting, complete, jobs, tell: None)
 
     def use(judge: Judge) -> Judge:
-        monkeypatch.setattr(campaign, "judge", judge)
+        monkeypatch.setattr(by_properties, "judge", judge)
         return judge
 
     return use
 
 
 def run(bench: Bench, chosen: tuple[Mutant, ...], path: Path, complete: bool = False) -> list[Judged]:
-    return judge_all(bench, chosen, read_results(path), QUIET, jobs=1, complete=complete)
+    return Campaign(ByProperties(bench), read_results(path)).run(chosen, QUIET, 1, complete)
 
 
 def test_what_was_judged_before_an_interruption_is_not_judged_again(
@@ -75,7 +75,7 @@ def test_a_cut_last_line_is_dropped_with_a_remark_and_its_mutant_judged_again(
     results = read_results(path)
     assert "the last line was cut off" in results.remark and len(results.records) == len(every) - 1
     again = stand_in(Judge())
-    judge_all(bench, every, results, QUIET, jobs=1)
+    Campaign(ByProperties(bench), results).run(every, QUIET, 1)
     assert again.judged == last.judged[-1:]
     assert len(read_results(path).records) == len(every)
 
@@ -103,14 +103,14 @@ def test_a_result_of_fewer_tiers_does_not_do_when_all_are_asked_for(
 
 
 def test_results_hold_for_the_texts_they_were_made_from_and_comments_are_none(tmp_path: Path) -> None:
-    now = inputs_of(lamp(tmp_path / "a"), "Lamp")
+    now = ByProperties(lamp(tmp_path / "a")).stamps
     commented = lamp(tmp_path / "b")
     path = commented.folder / "Lamp.tla"
     path.write_text(path.read_text().replace("a comment", "another comment"))
     changed = lamp(tmp_path / "c")
     path = changed.folder / "LampOpen.tla"
     path.write_text(path.read_text().replace("count # 0", "count = 3"))
-    assert inputs_of(commented, "Lamp") == now != inputs_of(changed, "Lamp")
+    assert ByProperties(commented).stamps == now != ByProperties(changed).stamps
 
 
 def test_a_killed_mutant_need_not_be_judged_again_when_a_later_tier_changes(tmp_path: Path) -> None:
@@ -123,14 +123,14 @@ def test_a_killed_mutant_need_not_be_judged_again_when_a_later_tier_changes(tmp_
     assert rests_on(tiers, killed | {"verdict": "EQUIVALENT"}) == GRAPHS
     for other in ({"verdict": "SURVIVED"}, {"complete": True}):
         assert rests_on(tiers, killed | other) == tiers[-1].id
-    before = Known(bench, read_results(tmp_path / "none"))
+    before = ByProperties(bench)
     changed = replace(
         bench.strength,
         tiers=tuple(
             replace(tier, timeout_s=7) if tier is tiers[-1] else tier for tier in bench.strength.tiers
         ),
     )
-    after = Known(replace(bench, strength=changed), read_results(tmp_path / "none"))
+    after = ByProperties(replace(bench, strength=changed))
     assert tiers[-1].id != last_always
     assert before.stamp(killed) == after.stamp(killed)
     assert before.stamp(killed | {"verdict": "SURVIVED"}) != after.stamp(killed | {"verdict": "SURVIVED"})
@@ -163,11 +163,24 @@ def test_an_explanation_that_explains_nothing_is_an_error(every: tuple[Mutant, .
 
 
 def test_a_module_without_mutants_is_refused(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(campaign, "mutants", lambda *_: ())
+    monkeypatch.setattr(by_properties, "mutants", lambda *_: ())
     with pytest.raises(Unjudged, match="module Lamp has no mutants"):
-        campaign.all_mutants(bench)
+        _ = ByProperties(bench).mutants
 
 
 def test_the_register_as_read_names_the_tiers_of_a_module(bench: Bench) -> None:
     strength: Strength = bench.strength
     assert [tier.id for tier in strength.tiers_of("Lamp")] == ["alone", "graph"]
+
+
+def test_the_summary_counts_what_is_no_mutant_apart(every: tuple[Mutant, ...]) -> None:
+    words = ("KILLED", "KILLED", "SURVIVED", "EQUIVALENT", "INVALID")
+    line = summary([survivor(every, number, word) for number, word in enumerate(words)], 1)
+    assert line.startswith(
+        "5 mutants: 2 KILLED, 1 EQUIVALENT, 1 SURVIVED, 1 INVALID, 0 UNMEASURED; score 2 of 3"
+    )
+
+
+def test_a_time_out_counts_against_the_score(every: tuple[Mutant, ...]) -> None:
+    judged = [survivor(every, 0, "KILLED"), survivor(every, 1, "UNMEASURED")]
+    assert "score 1 of 2 (50.0 %)" in summary(judged, 0)

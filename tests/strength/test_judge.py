@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
 from modeproof.errors import Unjudged
-from modeproof.strength.campaign import all_mutants
+from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.judge import Bench, judge
 from modeproof.strength.mutant import Mutant
 from tests.strength.toy import STRENGTH, lamp
@@ -49,7 +50,7 @@ def test_what_never_ends_is_unmeasured(tmp_path_factory: pytest.TempPathFactory)
         endless.control(tier)
     hurried = tuple(replace(tier, timeout_s=3.0) for tier in endless.strength.tiers)
     endless.strength = replace(endless.strength, tiers=hurried)
-    verdict = judge(endless, the(all_mutants(endless), "Up", "conjunct dropped", "count < 3"))
+    verdict = judge(endless, the(ByProperties(endless).mutants, "Up", "conjunct dropped", "count < 3"))
     assert verdict.word == "UNMEASURED"
     assert verdict.reason == "tier alone: the limit of 3 s came first"
 
@@ -60,7 +61,7 @@ def test_beyond_a_broken_type_nothing_is_explored(tmp_path_factory: pytest.TempP
     path = bounded.folder / "Lamp.tla"
     path.write_text(path.read_text().replace(" /\\ count # 3", ""))
     answer = bounded.ask(
-        bounded.strength.tiers[0], the(all_mutants(bounded), "Up", "conjunct dropped", "count < 3")
+        bounded.strength.tiers[0], the(ByProperties(bounded).mutants, "Up", "conjunct dropped", "count < 3")
     )
     assert answer.complete and answer.distinct < 20
 
@@ -78,3 +79,14 @@ def test_the_edit_is_never_made_in_the_tree(bench: Bench, every: tuple[Mutant, .
     bench.ask(bench.strength.tiers[0], every[0])
     assert (bench.folder / "Lamp.tla").read_bytes() == before
     assert not list(bench.place.rglob("StrengthTrial*"))
+
+
+def test_the_first_broken_property_is_enough_when_asked(tmp_path: Path, every: tuple[Mutant, ...]) -> None:
+    whole = lamp(tmp_path / "whole")
+    quick = replace(lamp(tmp_path / "quick"), first=True)
+    mutant = the(every, "Down", "reset missing", 'lamp\' = "off"')
+    all_of_them, first = judge(whole, mutant), judge(quick, mutant)
+    assert len(all_of_them.killers) > 1 and first.killers == all_of_them.killers[:1]
+    assert (first.word, first.reason) == ("KILLED", "not explored to the end in alone")
+    stamps = ByProperties(whole).stamps["Lamp"], ByProperties(quick).stamps["Lamp"]
+    assert stamps[0] == stamps[1], "such an answer holds for the same texts"

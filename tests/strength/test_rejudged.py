@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from modeproof.places import documents, root
 from modeproof.strength.judge import judge
 from modeproof.strength.register import Rejudged
+from modeproof.strength.scores import load_scores
 from tests.strength.shipped import bench_of, mutants_of
 
 DOCUMENT = "mode_selection"
@@ -21,3 +23,13 @@ def test_a_mutant_meets_the_same_fate_again(one: Rejudged) -> None:
 
 def test_some_are_named() -> None:
     assert STRENGTH.rejudged
+
+
+@pytest.mark.parametrize("document", documents(root()))
+def test_every_explained_survivor_is_a_mutant(document: str) -> None:
+    (row,) = [row for row in load_scores(root(), document) if row.what == "spec"]
+    if row.earlier_text:
+        pytest.skip("the specification has changed since the campaign")
+    ids = {mutant.id for mutant in mutants_of(document)}
+    named = {id for explained in bench_of(document).strength.explained for id in explained.ids}
+    assert {id for id in named if "*" not in id} <= ids

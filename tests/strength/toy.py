@@ -68,6 +68,7 @@ module = "LampOpen"
 cfg = "models/OPEN_Lamp.cfg"
 kind = "OPEN"
 lanes = ["smoke"]
+environment = "arbitrary"
 workers = 1
 heap_mb = 256
 timeout_s = 600

@@ -12,15 +12,13 @@ from typing import Any
 import pytest
 
 from modeproof import evidence
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
-from modeproof.places import documents, root
+from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.strength.explain import explanation_problems, unexplained
-from modeproof.strength.implementation import Implementation, judge_implementation, read_register
-from modeproof.strength.implementation_command import keep
-from modeproof.strength.implementation_page import page, page_path, render
-from modeproof.strength.page import stamp_of
-from modeproof.strength.results import Results, read_results
+from modeproof.strength.by_theorems import ByTheorems
+from modeproof.strength.campaign import Campaign, Judged, explanation_problems, unexplained
+from modeproof.strength.code import Code
+from modeproof.strength.register import load_theorems
+from modeproof.strength.results import read_results
 
 GATE = """
 LIMIT = 2
@@ -95,29 +93,29 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def campaign(
-    place: Path, reader: Reader, limit_s: float = 600.0
-) -> tuple[Implementation, Results, list[Any]]:
-    code = Implementation(place, "toy", reader)
-    results = read_results(place / "impl.jsonl")
-    judged = judge_implementation(code, code.every, results, Progress(quiet=True), 2, limit_s=limit_s)
-    return code, results, judged
+def campaign_of(place: Path, reader: Reader) -> Campaign:
+    return Campaign(ByTheorems(Code(place, "toy", reader)), read_results(place / "impl.jsonl"))
+
+
+def run(place: Path, reader: Reader, limit_s: float = 600.0) -> tuple[Campaign, list[Judged]]:
+    campaign = campaign_of(place, reader)
+    campaign.judges.limit_s = limit_s
+    return campaign, campaign.run(campaign.mutants, Progress(quiet=True), 2)
 
 
 def test_every_mutant_is_judged_and_kept(place: Path) -> None:
-    code, _, judged = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED", "False": "EQUIVALENT"}))
+    campaign, judged = run(place, Reader(place, {"count <= LIMIT": "SURVIVED", "False": "EQUIVALENT"}))
     words = {one.mutant.new: one.word for one in judged}
     assert words["count <= LIMIT"] == "SURVIVED"
     assert words["False"] == "EQUIVALENT"
     assert words["(count - 1)"] == "KILLED"
-    assert len(judged) == len(code.every) == len(read_results(place / "impl.jsonl").records)
+    assert len(judged) == len(campaign.mutants) == len(read_results(place / "impl.jsonl").records)
     assert [one.mutant.new for one in unexplained((), judged)] == ["count <= LIMIT"]
-    assert "**all** |" in page(code, judged)
 
 
 def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
-    code, _, judged = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED"}))
-    keep(code, judged)
+    campaign, judged = run(place, Reader(place, {"count <= LIMIT": "SURVIVED"}))
+    campaign.record(judged)
     found = evidence.read(evidence.evidence_path(place, "toy", "strength_impl"))
     assert (found["verdict"], found["as_expected"]) == ("SURVIVED", False)
     assert list(found["result"]["judges"])[:2] == ["counts", "ends"]
@@ -125,17 +123,17 @@ def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
 
 
 def test_what_is_known_is_not_judged_again_and_an_interrupted_campaign_goes_on(place: Path) -> None:
-    campaign(place, Reader(place))
+    run(place, Reader(place))
     file = place / "impl.jsonl"
     lines = file.read_bytes().splitlines(keepends=True)
     file.write_bytes(b"".join(lines[:-2]) + lines[-2][:20])
     reader = Reader(place)
-    _, results, judged = campaign(place, reader)
+    campaign, judged = run(place, reader)
     assert reader.explored == 1
-    assert "cut off" in results.remark
+    assert "cut off" in campaign.results.remark
     assert len(judged) == len(lines)
     again = Reader(place)
-    campaign(place, again)
+    run(place, again)
     assert again.explored == 0
 
 
@@ -144,9 +142,7 @@ def test_what_is_known_is_not_judged_again_and_an_interrupted_campaign_goes_on(p
     [("RAISES", "ValueError: no idea"), ("DIES", "process died"), ("SLEEPS", "limit of 1 s")],
 )
 def test_what_cannot_be_judged_is_unmeasured_and_never_killed(place: Path, verdict: str, why: str) -> None:
-    _, _, judged = campaign(
-        place, Reader(place, {"False": verdict}), limit_s=1.0 if verdict == "SLEEPS" else 600.0
-    )
+    _, judged = run(place, Reader(place, {"False": verdict}), limit_s=1.0 if verdict == "SLEEPS" else 600.0)
     (one,) = [one for one in judged if one.mutant.new == "False"]
     assert one.word == "UNMEASURED"
     assert why in one.record["reason"]
@@ -154,13 +150,12 @@ def test_what_cannot_be_judged_is_unmeasured_and_never_killed(place: Path, verdi
 
 
 def stale(place: Path) -> set[str]:
-    code = Implementation(place, "toy", Reader(place))
-    results = read_results(place / "impl.jsonl")
-    return {one.new for one in code.every if code.find(results, one) is None}
+    campaign = campaign_of(place, Reader(place))
+    return {mutant.new for mutant in campaign.mutants if campaign.find(mutant) is None}
 
 
 def test_a_changed_theorem_spoils_what_rests_on_it(place: Path) -> None:
-    campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED", "False": "EQUIVALENT"}))
+    run(place, Reader(place, {"count <= LIMIT": "SURVIVED", "False": "EQUIVALENT"}))
     assert not stale(place)
     (place / "proofs/toy/ends.py").write_text("# a comment\n")
     assert not stale(place)
@@ -172,20 +167,18 @@ def test_a_changed_theorem_spoils_what_rests_on_it(place: Path) -> None:
 
 
 def test_a_changed_step_spoils_everything(place: Path) -> None:
-    campaign(place, Reader(place))
+    run(place, Reader(place))
     (place / "refimpl/toy/gate.py").write_text(GATE.replace("return 0", "return -1"))
-    code = Implementation(place, "toy", Reader(place))
-    assert stale(place) == {one.new for one in code.every}
+    assert stale(place) == {mutant.new for mutant in campaign_of(place, Reader(place)).mutants}
 
 
 def test_an_explanation_of_what_is_no_survivor_is_a_problem(place: Path) -> None:
-    code, _, judged = campaign(place, Reader(place))
+    _, judged = run(place, Reader(place))
     row = f'[[survivor]]\nids = ["{judged[0].mutant.id}"]\nkind = "harmless"\nwhy = "It does nothing."\n'
     (place / "proofs/toy/strength.toml").write_text(REGISTER + row)
-    (explained,) = read_register(place, "toy", []).explained
+    (explained,) = load_theorems(place, "toy").explained
     assert explanation_problems([explained], judged, complete=True)
     assert not explanation_problems([], judged, complete=True)
-    assert code.mutants
 
 
 @pytest.mark.parametrize(
@@ -199,27 +192,4 @@ def test_an_explanation_of_what_is_no_survivor_is_a_problem(place: Path) -> None
 def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
     (place / "proofs/toy/strength.toml").write_text(text)
     with pytest.raises(Unjudged, match=complaint):
-        read_register(place, "toy", [])
-
-
-def test_a_page_is_of_all_mutants_and_one_edited_by_hand_is_found_out(place: Path) -> None:
-    code = Implementation(place, "toy", Reader(place))
-    with pytest.raises(Unjudged, match="are not judged for this code"):
-        render(code, read_results(place / "impl.jsonl"))
-    _, results, _ = campaign(place, Reader(place, {"count <= LIMIT": "SURVIVED"}))
-    assert render(code, results) == EXIT_NOT_AS_EXPECTED
-    path = page_path("toy")
-    assert stamp_of(place, path) == ({"base": code.base}, True)
-    text = (place / path).read_text(encoding="utf-8")
-    assert "1 survive, 1 of them unexplained" in text
-    (place / path).write_text(text.replace("1 survive", "0 survive"), encoding="utf-8")
-    assert stamp_of(place, path)[1] is False
-
-
-@pytest.mark.parametrize(
-    "document", [name for name in documents(root()) if (root() / page_path(name)).is_file()]
-)
-def test_the_page_of_shipped_code_is_as_it_was_rendered(document: str) -> None:
-    path = page_path(document)
-    assert stamp_of(root(), path)[1], f"{path} was edited by hand; run modeproof mutate impl --render"
-    assert "**Not explained.**" not in (root() / path).read_text(encoding="utf-8")
+        load_theorems(place, "toy")

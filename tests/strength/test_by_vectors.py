@@ -11,22 +11,18 @@ from typing import Any
 import pytest
 
 from modeproof import evidence
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.errors import Unjudged
 from modeproof.graph.implementation import Implementation as Implemented
 from modeproof.kit.vectors import open_suite
-from modeproof.places import root
 from modeproof.progress import Progress
-from modeproof.registers.adequacy_page import adequacy_page, check_adequacy_page
 from modeproof.strength import replay
-from modeproof.strength.adequacy import Adequacy, judge_by_vectors
-from modeproof.strength.adequacy_command import keep
-from modeproof.strength.adequacy_page import render
-from modeproof.strength.adequacy_register import read_register, register_path
-from modeproof.strength.campaign import Judged
-from modeproof.strength.explain import unexplained
-from modeproof.strength.implementation import Implementation
+from modeproof.strength.by_theorems import ByTheorems
+from modeproof.strength.by_vectors import ByVectors
+from modeproof.strength.campaign import Campaign, Judged, unexplained
+from modeproof.strength.code import Code
 from modeproof.strength.published import contents, published
-from modeproof.strength.replay import Played, Vectors
+from modeproof.strength.register import load_vectors, vectors_path
+from modeproof.strength.replay import ReplayCase, Vectors
 from modeproof.strength.results import Results, read_results
 from proofs.mutants import copies
 from tests.strength.gates import GATE, PACKAGE, Room, build_place, unload, write_vectors
@@ -66,12 +62,16 @@ class Watcher:
 WATCHER = Watcher()
 
 
-def adequacy_of(
-    place: Path, names: tuple[str, ...] = ("long", "short"), watcher: Watcher = WATCHER
-) -> Adequacy:
+def judges_of(
+    place: Path,
+    names: tuple[str, ...] = ("long", "short"),
+    watcher: Watcher = WATCHER,
+    limit_s: float = 600.0,
+) -> ByVectors:
     suites = published([open_suite(place / f"{name}.jsonl") for name in names])
     proved = read_results(place / "impl.jsonl")
-    return Adequacy(Implementation(place, "toy", Room(place)), copies, watcher, suites, proved)
+    theorems = ByTheorems(Code(place, "toy", Room(place)))
+    return ByVectors(theorems, copies, watcher, suites, proved, lambda shipped: limit_s)
 
 
 def campaign(
@@ -81,14 +81,11 @@ def campaign(
     definitions: tuple[str, ...] = ("WORDS", "word"),
     limit_s: float = 600.0,
     watcher: Watcher = WATCHER,
-) -> tuple[Adequacy, Results, list[Judged]]:
-    adequacy = adequacy_of(place, names, watcher)
+) -> tuple[ByVectors, Results, list[Judged]]:
+    judges = judges_of(place, names, watcher, limit_s)
     results = read_results(place / "vectors.jsonl")
-    chosen = [one for one in adequacy.every if one.definition in definitions or not definitions]
-    judged = judge_by_vectors(
-        adequacy, chosen, results, Progress(quiet=True), 2, complete, lambda shipped: limit_s
-    )
-    return adequacy, results, judged
+    chosen = [one for one in judges.mutants if one.definition in definitions or not definitions]
+    return judges, results, Campaign(judges, results).run(chosen, Progress(quiet=True), 2, complete)
 
 
 def by_edit(judged: list[Judged], definition: str, old: str, new: str) -> Judged:
@@ -101,8 +98,8 @@ def by_edit(judged: list[Judged], definition: str, old: str, new: str) -> Judged
 
 
 def test_each_mutant_meets_its_fate(place: Path) -> None:
-    adequacy, _, judged = campaign(place)
-    assert adequacy.names == ("short", "long"), "the shortest suite is asked first"
+    judges, _, judged = campaign(place)
+    assert judges.names == ("short", "long"), "the shortest suite is asked first"
     assert len(judged) > 10
 
     first = by_edit(judged, "WORDS", "5", "6")
@@ -170,7 +167,7 @@ def test_a_refusal_leaves_the_memory_as_it_was_and_what_follows_is_compared(
 
     code = Implemented("adder", int, int, int, lambda params: 0, step)
     wanted = [1, 2, 2] if 0 in presses else [1, 3]
-    case = Played("one", None, list(zip(presses, wanted, strict=False)))
+    case = ReplayCase("one", None, list(zip(presses, wanted, strict=False)))
     answer = replay.replay(Vectors("adder", "toy", [case], 0), code)
     assert (answer.result, answer.scan, answer.refused) == (result, scan, presses.count(0))
 
@@ -181,8 +178,8 @@ def test_what_no_suite_catches_survives_and_must_be_explained(place: Path) -> No
     assert survivor.word == "SURVIVED"
     assert survivor.mutant.id in {one.mutant.id for one in unexplained((), judged)}
     row = f'[[survivor]]\nids = ["{survivor.mutant.id}"]\nkind = "harmless"\nwhy = "The suite is short."\n'
-    register_path(place, "toy").write_text(row, encoding="utf-8")
-    explained = read_register(place, "toy").explained
+    vectors_path(place, "toy").write_text(row, encoding="utf-8")
+    explained = load_vectors(place, "toy").explained
     assert survivor.mutant.id not in {one.mutant.id for one in unexplained(explained, judged)}
 
 
@@ -196,15 +193,16 @@ def test_what_no_suite_catches_survives_and_must_be_explained(place: Path) -> No
     ],
 )
 def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
-    register_path(place, "toy").write_text(text, encoding="utf-8")
+    vectors_path(place, "toy").write_text(text, encoding="utf-8")
     with pytest.raises(Unjudged, match=complaint):
-        read_register(place, "toy")
+        load_vectors(place, "toy")
 
 
 def test_what_reaches_no_published_target_is_out_of_scope(place: Path) -> None:
-    adequacy = adequacy_of(place)
-    assert {one.module for one in adequacy.out_of_scope} == {"valve"}
-    assert {one.module for one in adequacy.every} == {"gate"}
+    judges = judges_of(place)
+    missing = set(judges.code.mutants) - set(judges.mutants)
+    assert {one.module for one in missing} == {"valve"} and judges.out_of_scope == len(missing)
+    assert {one.module for one in judges.mutants} == {"gate"}
 
 
 # ---------------------------------------------------------------- a judge that cannot see
@@ -248,7 +246,7 @@ def test_a_scan_that_settles_is_not_compared(place: Path) -> None:
 
 
 def proved_equivalent(place: Path, mutant: Any) -> None:
-    code = Implementation(place, "toy", Room(place))
+    theorems = ByTheorems(Code(place, "toy", Room(place)))
     record = {
         "mutant": mutant.id,
         "module": mutant.module,
@@ -260,7 +258,7 @@ def proved_equivalent(place: Path, mutant: Any) -> None:
         "witness": "",
         "seconds": 0.0,
     }
-    record["inputs"] = code.stamp(record)
+    record["inputs"] = theorems.stamp(record)
     read_results(place / "impl.jsonl").add(record)
 
 
@@ -278,12 +276,12 @@ def test_a_proof_that_is_not_of_this_code_is_not_used(place: Path) -> None:
     _, _, judged = campaign(place, names=("short",))
     proved_equivalent(place, by_edit(judged, "WORDS", "9", "10").mutant)
     (place / "proofs/mutants/bench.py").write_text("X = 1\n")
-    assert not adequacy_of(place).equivalent
+    assert not judges_of(place).equivalent
 
 
 def test_a_suite_that_catches_what_is_proved_equivalent_is_a_contradiction(place: Path) -> None:
-    adequacy = adequacy_of(place)
-    (mutant,) = [one for one in adequacy.every if (one.definition, one.new) == ("WORDS", "10")]
+    judges = judges_of(place)
+    (mutant,) = [one for one in judges.mutants if (one.definition, one.new) == ("WORDS", "10")]
     proved_equivalent(place, mutant)
     write_vectors(place / "longer.jsonl", "longer", [*LONG, *LONG[::-1]])
     with pytest.raises(Unjudged, match="one of the two judges is wrong"):
@@ -356,14 +354,14 @@ def test_a_new_suite_that_is_shorter_than_the_killer_is_asked_first(place: Path)
 
 def test_an_answer_of_vectors_that_changed_is_not_used(place: Path) -> None:
     campaign(place)
-    adequacy = adequacy_of(place)
+    judges = judges_of(place)
     results = read_results(place / "vectors.jsonl")
-    (mutant,) = [one for one in adequacy.every if (one.definition, one.new) == ("WORDS", "10")]
-    assert [one["suite"] for one in adequacy.answers(results, mutant)] == ["short", "long"]
+    (mutant,) = [one for one in judges.mutants if (one.definition, one.new) == ("WORDS", "10")]
+    assert [one["suite"] for one in judges.answers(results.of(mutant.id))] == ["short", "long"]
     write_vectors(place / "long.jsonl", "long", [*LONG, [True]])
-    other = adequacy_of(place)
-    assert [one["suite"] for one in other.answers(results, mutant)] == ["short"]
-    assert other.judged(results, mutant) is None
+    other = judges_of(place)
+    assert [one["suite"] for one in other.answers(results.of(mutant.id))] == ["short"]
+    assert other.find(mutant, False, results.of(mutant.id)) is None
 
 
 def test_what_a_case_cites_is_not_what_it_demands(place: Path) -> None:
@@ -384,9 +382,10 @@ def test_what_a_case_cites_is_not_what_it_demands(place: Path) -> None:
 def test_answers_about_other_code_are_not_used(place: Path) -> None:
     campaign(place)
     (place / "toyimpl/toy/gate.py").write_text(GATE + "\nMORE = 1\n")
-    assert not adequacy_of(place).known(read_results(place / "vectors.jsonl"))
+    results = read_results(place / "vectors.jsonl")
+    assert not Campaign(judges_of(place), results).known
     (place / "toyimpl/toy/gate.py").write_text(GATE + "\n# a comment\n")
-    assert adequacy_of(place).known(read_results(place / "vectors.jsonl"))
+    assert Campaign(judges_of(place), results).known
 
 
 def test_complete_asks_every_suite_of_every_mutant(place: Path) -> None:
@@ -399,52 +398,14 @@ def test_complete_asks_every_suite_of_every_mutant(place: Path) -> None:
     assert by_edit(judged, "WORDS", "5", "6").killers == ("short", "long")
 
 
-# ---------------------------------------------------------------- the page
+# ---------------------------------------------------------------- the evidence
 
 
 def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
-    adequacy, _, judged = campaign(place, names=("short",), definitions=())
-    keep(adequacy, judged, ())
+    judges, results, judged = campaign(place, names=("short",), definitions=())
+    Campaign(judges, results).record(judged)
     found = evidence.read(evidence.evidence_path(place, "toy", "strength_vectors"))
     assert (found["verdict"], found["as_expected"]) == ("SURVIVED", False), "survivors are not explained"
     assert set(found["result"]["judges"]) == {"short"} and found["result"]["judges"]["short"] > 0
-    assert found["result"]["out_of_scope"] == len(adequacy.out_of_scope) > 0
+    assert found["result"]["out_of_scope"] == judges.out_of_scope > 0
     assert {"short.jsonl", f"{PACKAGE}/toy/gate.py"} <= set(found["inputs"])
-
-
-def test_the_page_is_of_all_mutants_and_drift_is_found(place: Path) -> None:
-    adequacy = adequacy_of(place)
-    with pytest.raises(Unjudged, match="are not judged for this code and these vectors"):
-        render(adequacy, read_results(place / "vectors.jsonl"), ())
-    adequacy, results, _ = campaign(place, names=("short",), definitions=())
-    register_path(place, "toy").write_text("", encoding="utf-8")
-    assert render(adequacy, results, ()) == EXIT_NOT_AS_EXPECTED, "survivors are not explained"
-
-    def drift() -> list[str]:
-        document: Any = SimpleNamespace(root=place, name="toy")
-        return [problem.text.split(";")[0] for problem in check_adequacy_page(document)]
-
-    page = place / adequacy_page("toy")
-    assert drift() == []
-    text = page.read_text(encoding="utf-8")
-    assert "**Not explained.**" in text and "| `short` | 2 |" in text
-    page.write_text(text.replace("survive", "thrive"), encoding="utf-8")
-    assert drift() == ["the page was changed by hand"]
-    page.write_text(text, encoding="utf-8")
-    register_path(place, "toy").write_text(
-        '[[survivor]]\nids = ["x"]\nkind = "harmless"\nwhy = "y"\n', encoding="utf-8"
-    )
-    assert drift() == ["the explanations changed since the page was rendered"]
-    register_path(place, "toy").write_text("", encoding="utf-8")
-    (place / "spec/toy/interface.toml").write_text("document = 'toy'\n", encoding="utf-8")
-    assert drift() == ["the graphs changed since the page was rendered"]
-    page.unlink()
-    assert drift() == ["the page is missing"]
-
-
-@pytest.mark.parametrize(
-    "page", sorted((root() / "docs").glob("*/adequacy.md")), ids=lambda page: page.parent.name
-)
-def test_a_page_of_shipped_code_leaves_no_survivor_unexplained(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    assert "**Not explained.**" not in text and ", 0 of them unexplained" in text
