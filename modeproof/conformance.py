@@ -55,9 +55,9 @@ def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task
         except Unjudged as error:
             troubles[document] = error.message
             continue
-        for one in targets:
-            task: Task[Record] = (_over_protocol, (place, document, one, SUITES[lane]))
-            tasks.append((max(_edges(run) for run in runs if _is_of(run, one)), task))
+        for target in targets:
+            task: Task[Record] = (_over_protocol, (place, document, target, SUITES[lane]))
+            tasks.append((max(_edges(run) for run in runs if _is_of(run, target)), task))
         tasks += [(_edges(run), (_one, (place, run, lane))) for run in runs]
     tasks.sort(key=lambda task: -task[0])
     return [task for _, task in tasks], troubles

@@ -43,7 +43,7 @@ def chosen_documents(place: Path, names: Sequence[str] | None) -> tuple[str, ...
     for name in names or ():
         if name not in known:
             raise Unjudged(f"unknown document {name!r}; {suggestion(name, known)}")
-    return tuple(one for one in known if not names or one in names)
+    return tuple(document for document in known if not names or document in names)
 
 
 def add_document_option(parser: argparse.ArgumentParser) -> None:

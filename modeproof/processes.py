@@ -176,7 +176,7 @@ def in_forks(
                 running[read] = process, number, time.monotonic()
             ready = connection.wait(list(running), timeout=1.0)
             late = [one for one, (_, _, began) in running.items() if time.monotonic() - began > limit_s]
-            for one in [*ready, *(one for one in late if one not in ready)]:
+            for one in [*ready, *(task for task in late if task not in ready)]:
                 process, number, _ = running.pop(one)
                 outcome = Outcome[T](number, None, f"the limit of {limit_s:.0f} s came first")
                 if one in ready:

@@ -279,7 +279,7 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
 
 def quoted(text: str) -> str:
     """A word of a command line for sh and for Windows alike: in double quotes where it needs them."""
-    plain = text and all(one.isalnum() or one in "_-./:=+@%,\\" for one in text)
+    plain = text and all(char.isalnum() or char in "_-./:=+@%,\\" for char in text)
     return text if plain else '"' + text.replace('"', '\\"') + '"'
 
 

@@ -120,8 +120,8 @@ class Verdict:
     def causes(self) -> list[tuple[tuple[str, ...], list[Difference]]]:
         """The differences grouped by likely cause, the largest group first."""
         found: dict[tuple[str, ...], list[Difference]] = {}
-        for one in self.differences:
-            found.setdefault(one.cause, []).append(one)
+        for difference in self.differences:
+            found.setdefault(difference.cause, []).append(difference)
         return sorted(found.items(), key=lambda item: -len(item[1]))
 
 
@@ -226,7 +226,7 @@ class _Run:
             verdict.word, verdict.reason = UNJUDGED, self.troubles[0]
         elif verdict.differences:
             verdict.word = DIFFERS
-            if all(one.step == PROTOCOL for one in verdict.differences):
+            if all(difference.step == PROTOCOL for difference in verdict.differences):
                 verdict.reason = (
                     "the adapter answers a request that protocol 1 tells it to refuse; "
                     "this says nothing about the program behind it"

@@ -118,7 +118,7 @@ class Session:
     @property
     def place(self) -> str:
         """Case and scan, as far as it has come."""
-        return ", scan ".join(str(one) for one in self._where)
+        return ", scan ".join(str(part) for part in self._where)
 
     def case(self, case: Case) -> Failure | None:
         """Put one case to the program; the first failure, or None when all is right. May raise Unjudged."""
@@ -397,7 +397,7 @@ def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -
     offered = answer.get("relations", [EXACT])
     # Who answers scan by scan also settles, and who settles can be watched.
     enough = {EXACT: (EXACT,), SETTLED: (EXACT, SETTLED), MONITOR: (EXACT, SETTLED, MONITOR)}[relation]
-    if not isinstance(offered, list) or not any(one in offered for one in enough):
+    if not isinstance(offered, list) or not any(accepted in offered for accepted in enough):
         raise Unjudged(f"the adapter does not offer relation {relation}: {shown(offered)}")
     time_is = answer.get("time", "virtual")
     if time_is not in ("virtual", "real") or (relation == EXACT and time_is != "virtual"):

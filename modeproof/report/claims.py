@@ -98,18 +98,18 @@ class Claim:
     @property
     def shown(self) -> Result | None:
         """The run whose verdict counts: the worst of those that there are, else the one declared first."""
-        there = [one for one in self.runs if one.evidence is not None]
+        there = [run for run in self.runs if run.evidence is not None]
         bad = [one for one in there if one.status == DIFFERS] or [one for one in there if one.status]
-        declared = [one for one in self.runs if not one.aside] or list(self.runs)
+        declared = [run for run in self.runs if not run.aside] or list(self.runs)
         return next(iter([*bad, *there, *declared]), None)
 
     @property
     def status(self) -> int:
         """0; DIFFERS where a run or a theorem is not as expected; HOLE where none judges it."""
-        every = [one for one in (self.shown, *self.theorems) if one is not None]
+        every = [result for result in (self.shown, *self.theorems) if result is not None]
         if self.shown is None:
             return HOLE
-        return min((one.status for one in every if one.status), default=0)
+        return min((result.status for result in every if result.status), default=0)
 
     @property
     def good(self) -> bool | None:
@@ -135,17 +135,17 @@ class Claim:
     def engines(self) -> tuple[str, ...]:
         """The engines that agree that it holds."""
         found = []
-        if any(one.word == "HOLDS" and one.good for one in self.runs):
+        if any(run.word == "HOLDS" and run.good for run in self.runs):
             found.append("TLC")
-        if any(one.word == "PROVED" and one.good for one in self.theorems):
+        if any(theorem.word == "PROVED" and theorem.good for theorem in self.theorems):
             found += ["Z3", "cvc5"]
         return tuple(found)
 
     @property
     def disagreement(self) -> str:
         """What two engines say against each other; empty where they do not."""
-        good = [one for one in (*self.runs, *self.theorems) if one.word in ("HOLDS", "PROVED")]
-        bad = [one for one in (*self.runs, *self.theorems) if one.word == "VIOLATED"]
+        good = [run for run in (*self.runs, *self.theorems) if run.word in ("HOLDS", "PROVED")]
+        bad = [run for run in (*self.runs, *self.theorems) if run.word == "VIOLATED"]
         if not good or not bad:
             return ""
         return f"{good[0].id} says {good[0].word}, {bad[0].id} says {bad[0].word}"
@@ -163,20 +163,20 @@ def claims(sources: Sources, document: Document) -> tuple[Claim, ...]:
 def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
     named = theorems_of(sources, document)
     agreed = agreement(sources, document)
-    for one in document.properties:
-        for environment in one.environments:
+    for prop in document.properties:
+        for environment in prop.environments:
             runs = [
                 result_of(sources, document, run)
                 for run in document.runs
-                if run.kind in POSITIVE and run.environment == environment and one.tla in run.properties
+                if run.kind in POSITIVE and run.environment == environment and prop.tla in run.properties
             ]
-            row = agreed.get((one.id, environment))
+            row = agreed.get((prop.id, environment))
             if row is None:
-                theorems, because = named.get(one.id, ()), ""
+                theorems, because = named.get(prop.id, ()), ""
             else:
                 theorems, because = (row[0],) if row[0] else (), row[1]
             yield Claim(
-                one,
+                prop,
                 environment,
                 tuple(runs),
                 tuple(theorem_result(sources, document, name) for name in theorems),
@@ -191,14 +191,14 @@ def result_of(sources: Sources, document: Document, run: Run) -> Result:
     return Result(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
 
 
-def steps_of(one: Result) -> Figure | None:
+def steps_of(result: Result) -> Figure | None:
     """The steps of the counterexample that a run found; None where it found none.
 
     A trace of one state takes no step.
     """
-    if one.evidence is None or not one.evidence.result.get("trace"):
+    if result.evidence is None or not result.evidence.result.get("trace"):
         return None
-    return Figure(int(one.evidence.result["trace_length"]) - 1, one.evidence.path)
+    return Figure(int(result.evidence.result["trace_length"]) - 1, result.evidence.path)
 
 
 def theorem_result(sources: Sources, document: Document, theorem: str) -> Result:
@@ -210,17 +210,17 @@ def theorems_of(sources: Sources, document: Document) -> Mapping[str, tuple[str,
     """The names of the theorems that prove each property, by the property's id."""
     found: dict[str, list[str]] = {}
     for module in texts_of(sources, document).proofs:
-        for one in module.theorems:
-            for name in one.properties:
-                found.setdefault(name, []).append(one.name)
+        for theorem in module.theorems:
+            for name in theorem.properties:
+                found.setdefault(name, []).append(theorem.name)
     return {name: tuple(theorems) for name, theorems in found.items()}
 
 
 def theorem_rows(sources: Sources, document: Document) -> Iterator[tuple[str, PythonTheorem]]:
     """Every theorem of the document with its file, in the order of the files."""
     for module in texts_of(sources, document).proofs:
-        for one in module.theorems:
-            yield module.file, one
+        for theorem in module.theorems:
+            yield module.file, theorem
 
 
 def agreement(sources: Sources, document: Document) -> Mapping[tuple[str, str], tuple[str, str]]:

@@ -42,7 +42,7 @@ def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
             run,
             readings[run.id],
             result_of(sources, document, run),
-            tuple(one for one in document.findings if run.id in one.evidence),
+            tuple(finding for finding in document.findings if run.id in finding.evidence),
         )
         for run in document.runs
         if readings.get(run.id)

@@ -29,8 +29,8 @@ def cited(sources: Sources, document: Document) -> tuple[Citation, ...]:
 def of_steps(sources: Sources, document: Document, device: Device) -> dict[str, Cited]:
     """By step of the device; a step whose action cites nothing has an empty row."""
     by_name = {
-        one.name: Cited(one.clauses, one.findings)
-        for one in cited(sources, document)
-        if one.kind == "definition" and one.room == "spec"
+        citation.name: Cited(citation.clauses, citation.findings)
+        for citation in cited(sources, document)
+        if citation.kind == "definition" and citation.room == "spec"
     }
     return {step: by_name.get(f"{device.module}!{step}", Cited()) for step in device.steps}

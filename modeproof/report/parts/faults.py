@@ -18,14 +18,14 @@ ID = "faults"
 def part(sources: Sources) -> Part:
     """One entry a document; `faults` is empty where a document declares no table."""
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Faults from outside", {"documents": found}, tuple(troubles))
 
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
-    runs = {one.id: one for one in document.runs}
+    runs = {run.id: run for run in document.runs}
     shown: list[Result] = []
-    rows = [_row(sources, document, one, runs, shown) for one in document.faults]
+    rows = [_row(sources, document, fault, runs, shown) for fault in document.faults]
     return {
         "id": document.name,
         "title": document.about.title,
@@ -36,20 +36,22 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
 
 
 def _row(
-    sources: Sources, document: Document, one: Fault, runs: Mapping[str, Run], shown: list[Result]
+    sources: Sources, document: Document, fault: Fault, runs: Mapping[str, Run], shown: list[Result]
 ) -> dict[str, Any]:
-    holding = [result_of(sources, document, runs[name]) for name in one.runs if name in runs]
-    falling = [(fall, result_of(sources, document, runs[fall.run])) for fall in one.falls if fall.run in runs]
+    holding = [result_of(sources, document, runs[name]) for name in fault.runs if name in runs]
+    falling = [
+        (fall, result_of(sources, document, runs[fall.run])) for fall in fault.falls if fall.run in runs
+    ]
     shown += [*holding, *(each for _, each in falling)]
     return {
-        "id": one.id,
-        "class": one.kind,
-        "title": one.title,
-        "model": one.model,
-        "detected_by": list(one.detected_by),
-        "not_detected": one.not_detected,
-        "not_modelled": one.not_modelled,
-        "holds": list(one.holds),
+        "id": fault.id,
+        "class": fault.kind,
+        "title": fault.title,
+        "model": fault.model,
+        "detected_by": list(fault.detected_by),
+        "not_detected": fault.not_detected,
+        "not_modelled": fault.not_modelled,
+        "holds": list(fault.holds),
         "runs": [each.data for each in holding],
         "falls": [
             {**each.data, "property": fall.property, "needs": fall.needs, "steps": steps_of(each)}

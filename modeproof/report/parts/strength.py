@@ -23,7 +23,7 @@ def part(sources: Sources) -> Part:
     No lane runs campaigns: one that is not recorded shows as a hole in its place and changes no status.
     """
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Strength: planted faults", {"words": WORDS, "documents": found}, tuple(troubles))
 
 
@@ -118,7 +118,7 @@ def _stated(document: Document, kind: str, name: str) -> str | None:
     """The property of the register by this name in the specification; None where it is none."""
     if kind != "spec":
         return None
-    return next((one.id for one in document.properties if one.tla == name), None)
+    return next((prop.id for prop in document.properties if prop.tla == name), None)
 
 
 def _survivors(one: Campaign) -> list[dict[str, Any]]:
