@@ -144,7 +144,7 @@ def test_a_shrunk_constant_is_noticed_even_when_the_cfg_is_pinned_again(trial: T
     after, control = trials(trial), trials(Trial(KEY_FLOWS))
     assert after.run.cfg_sha256 is not None
     found = judge(pinned(control), after.cfg, after.run.cfg_sha256, after.outcome)
-    assert found.reason == f"{after.run.cfg} was changed since its counts were pinned"
+    assert found.reason == f"{after.run.config} was changed since its counts were pinned"
     found = judged(after, control)
     assert found.verdict == "HOLDS" and not found.as_expected
     assert found.reason.startswith("distinct states: ")
