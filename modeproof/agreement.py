@@ -37,11 +37,11 @@ def compare(
     rows: list[dict[str, Any]] = []
     problems: list[str] = []
     try:
-        for one in module.rows():
-            proved = verdicts.get(one.theorem, "UNJUDGED") if one.theorem else ""
-            rows.append({**asdict(one), "proved": proved})
-            if one.theorem and (one.tlc, proved) != ("HOLDS", "PROVED"):
-                problems.append(f"{one.id} ({one.environment}): {one.tlc}, and {one.theorem}: {proved}")
+        for row in module.rows():
+            proved = verdicts.get(row.theorem, "UNJUDGED") if row.theorem else ""
+            rows.append({**asdict(row), "proved": proved})
+            if row.theorem and (row.tlc, proved) != ("HOLDS", "PROVED"):
+                problems.append(f"{row.id} ({row.environment}): {row.tlc}, and {row.theorem}: {proved}")
         problems += module.disagreements()
     except ValueError as error:  # a property with neither theorem nor reason
         problems.append(" ".join(str(error).split()))

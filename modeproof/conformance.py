@@ -15,12 +15,12 @@ from typing import Any
 
 from modeproof import evidence
 from modeproof.errors import Unjudged
+from modeproof.graph.implementation import REFERENCE
 from modeproof.processes import Task, in_processes
 from modeproof.progress import Progress
 from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]
-REFERENCE = "refimpl"
 ADAPTER = "examples/adapters/refimpl_adapter.py"
 SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
 """The suite that runs over the adapter protocol, by lane."""
@@ -55,9 +55,9 @@ def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task
         except Unjudged as error:
             troubles[document] = error.message
             continue
-        for one in targets:
-            task: Task[Record] = (_over_protocol, (place, document, one, SUITES[lane]))
-            tasks.append((max(_edges(run) for run in runs if _is_of(run, one)), task))
+        for target in targets:
+            task: Task[Record] = (_over_protocol, (place, document, target, SUITES[lane]))
+            tasks.append((max(_edges(run) for run in runs if _is_of(run, target)), task))
         tasks += [(_edges(run), (_one, (place, run, lane))) for run in runs]
     tasks.sort(key=lambda task: -task[0])
     return [task for _, task in tasks], troubles
@@ -159,7 +159,7 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
     from modeproof.kit.adapter import Adapter
     from modeproof.kit.command import quoted
     from modeproof.kit.errors import Unjudged as KitUnjudged
-    from modeproof.kit.judge import Manner, Plan, run_suite
+    from modeproof.kit.judge import Options, Plan, run_suite
     from modeproof.kit.text import as_record
     from modeproof.suites.build import ready_suite
 
@@ -178,7 +178,7 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
         found = run_suite(
             suite,
             lambda: Adapter([sys.executable, str(script), target], ANSWER_SECONDS),
-            plan=Plan(Manner(codes=True)),  # of our own code every output
+            plan=Plan(Options(codes=True)),  # of our own code every output
         )
         verdict, reason = found.word, found.reason
         done, total = (sum(counts) for counts in zip(*found.covered.values(), strict=True))

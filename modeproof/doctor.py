@@ -156,14 +156,14 @@ def _writable(place: Path) -> Finding:
 
 def report(findings: list[Finding]) -> tuple[str, int]:
     """The lines to print, and the exit status: 0 when nothing needed is missing, else 1."""
-    width = max(len(one.name) for one in findings)
+    width = max(len(finding.name) for finding in findings)
     lines = []
-    for one in findings:
-        word = "ok     " if one.good else "MISSING" if one.needed else "note   "
-        lines.append(f"{word}  {one.name:<{width}}  {one.found}")
-        if not one.good:
-            lines.append(f"         {'':<{width}}  -> {one.mend}")
-    missing = [one.name for one in findings if one.needed and not one.good]
+    for finding in findings:
+        word = "ok     " if finding.good else "MISSING" if finding.needed else "note   "
+        lines.append(f"{word}  {finding.name:<{width}}  {finding.found}")
+        if not finding.good:
+            lines.append(f"         {'':<{width}}  -> {finding.mend}")
+    missing = [finding.name for finding in findings if finding.needed and not finding.good]
     lines.append(f"missing: {', '.join(missing)}" if missing else "nothing is missing")
     return "\n".join(lines), 1 if missing else 0
 
@@ -182,7 +182,7 @@ def run(args: argparse.Namespace) -> int:
     text, status = report(findings)
     print(text)
     if args.json is not None:
-        rows = [dict(one.__dict__) for one in findings]
+        rows = [dict(finding.__dict__) for finding in findings]
         try:
             args.json.write_text(
                 json.dumps({"command": "doctor", "status": status, "findings": rows}, indent=1) + "\n"

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 
 
 def root() -> Path:
@@ -42,10 +42,8 @@ def chosen_documents(place: Path, names: Sequence[str] | None) -> tuple[str, ...
         raise Unjudged(f"{place / 'spec'} holds no document; there is nothing to do")
     for name in names or ():
         if name not in known:
-            from modeproof.registers.schema import suggestion  # only for the complaint
-
             raise Unjudged(f"unknown document {name!r}; {suggestion(name, known)}")
-    return tuple(one for one in known if not names or one in names)
+    return tuple(document for document in known if not names or document in names)
 
 
 def add_document_option(parser: argparse.ArgumentParser) -> None:

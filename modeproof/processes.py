@@ -16,19 +16,23 @@ from typing import Any, Generic, TypeVar
 
 from modeproof.errors import Unjudged
 from modeproof.progress import Progress
-from modeproof.tlc.schedule import cores
 
 T = TypeVar("T")
 Task = tuple[Callable[..., T], tuple[Any, ...]]
 """A function of a module, and what it is given; both must go through pickle."""
 
 
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def in_processes(
-    name: str, tasks: Sequence[Task[T]], progress: Progress, done: Callable[[T], None], knowing: bool = False
+    name: str, tasks: Sequence[Task[T]], progress: Progress, done: Callable[[T], None], fork: bool = False
 ) -> list[T]:
     """The results in the order of `tasks`, which are begun in that order; `done` gets each as it comes.
 
-    knowing: the processes are copies of this one, so that what it has made already need not be made again;
+    fork: the processes are copies of this one, so that what it has made already need not be made again;
     else they begin anew.
 
     With one core or one task all is done in this process. The first exception of a task is raised; Unjudged
@@ -50,7 +54,7 @@ def in_processes(
             return [results[number] for number in range(len(tasks))]
         finally:
             progress.end(name)
-    context = get_context("fork" if knowing else "spawn")
+    context = get_context("fork" if fork else "spawn")
     executor = ProcessPoolExecutor(min(cores(), len(tasks)), context, _begin, (os.getpid(),))
     try:
         numbers = {executor.submit(work, *given): number for number, (work, given) in enumerate(tasks)}
@@ -172,7 +176,7 @@ def in_forks(
                 running[read] = process, number, time.monotonic()
             ready = connection.wait(list(running), timeout=1.0)
             late = [one for one, (_, _, began) in running.items() if time.monotonic() - began > limit_s]
-            for one in [*ready, *(one for one in late if one not in ready)]:
+            for one in [*ready, *(task for task in late if task not in ready)]:
                 process, number, _ = running.pop(one)
                 outcome = Outcome[T](number, None, f"the limit of {limit_s:.0f} s came first")
                 if one in ready:

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 from modeproof import evidence
 from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.evidence.files import write_whole
-from modeproof.places import add_document_option, chosen_documents
+from modeproof.places import add_document_option, chosen_documents, documents
 from modeproof.places import root as repository_root
 from modeproof.registers.citations import read_sources
 from modeproof.registers.document_page import page, page_name, picture_name, tables_of, tellings
-from modeproof.registers.load import documents, load_document
+from modeproof.registers.load import load_document
 from modeproof.registers.replay import load_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run, load_runs
@@ -113,7 +113,11 @@ def _tables(document: Document) -> dict[str, str]:
     missing = [run for run in wanted if reasons[run] and run not in tables]
     if missing:
         raise Unjudged(f"{missing[0]}: {reasons[missing[0]]}; run modeproof check {' '.join(missing)}")
-    return tables | _walked(document, [run for run in wanted if not reasons[run]])
+    for run in wanted:
+        if reasons[run]:
+            print(f"{run}: its table is kept as it was: {reasons[run]}")
+    kept = {run: tables[run] for run in wanted if reasons[run]}
+    return kept | _walked(document, [run for run in wanted if run not in kept])
 
 
 def _unfit(place: Path, run: Run) -> str:

@@ -44,7 +44,7 @@ def check_registers(
     tasks: list[Task[dict[str, Any]]] = [
         (_registers_of, (place, name, lane, number == 0)) for number, name in enumerate(names)
     ]
-    return in_processes(REGISTERS, tasks, progress, lambda record: None, knowing=True), {}
+    return in_processes(REGISTERS, tasks, progress, lambda record: None, fork=True), {}
 
 
 def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dict[str, Any]:

@@ -47,9 +47,9 @@ def run(args: argparse.Namespace) -> int:
     place = repository_root()
     names = chosen_documents(place, args.document)
     found = walk_evidence(place, names, Progress(quiet=args.quiet))
-    for one in found:
-        print(line_of(one))
-    return EXIT_UNJUDGED if any(one["reason"] for one in found) else EXIT_AS_EXPECTED
+    for walk in found:
+        print(line_of(walk))
+    return EXIT_UNJUDGED if any(walk["reason"] for walk in found) else EXIT_AS_EXPECTED
 
 
 def line_of(walked: dict[str, Any]) -> str:
@@ -69,9 +69,9 @@ def walk_evidence(place: Path, names: Sequence[str], progress: Progress) -> list
         if not has_replay(place, document):
             continue
         groups: dict[str, list[Recorded]] = {}
-        for one in load_runs(place, document):
+        for declared in load_runs(place, document):
             try:
-                record = evidence.read(evidence.evidence_path(place, document, one.id))
+                record = evidence.read(evidence.evidence_path(place, document, declared.id))
                 if record["result"].get("trace"):
                     trace = recorded(record)
                     groups.setdefault(trace.module, []).append(trace)
@@ -87,7 +87,7 @@ def walk_evidence(place: Path, names: Sequence[str], progress: Progress) -> list
 def _walk(place: Path, document: str, module: str, traces: Sequence[Recorded]) -> dict[str, Any]:
     reason = ""
     try:
-        missing = [one for one in traces if read_walk(place, document, one) is None]
+        missing = [trace for trace in traces if read_walk(place, document, trace) is None]
         if missing and module not in load_replay(place, document).tops:
             raise Unjudged(f"spec/{document}/replay.toml declares no top {module}")
         if missing:

@@ -24,9 +24,9 @@ from proofs.explorer.scanned import Property, Scanned, Scans, scanned, scans_of
 from proofs.explorer.scanned import control as control_of
 from proofs.theorem import NotJudged, Queries, Query, TheoremError, claim, control
 
-Said = tuple[z3.BoolRef, z3.BoolRef] | None
+Obligation = tuple[z3.BoolRef, z3.BoolRef] | None
 """What is supposed of a scan, and what is then demanded; None where a path is not spoken of."""
-Sentence = Callable[[Scanned], Said]
+Sentence = Callable[[Scanned], Obligation]
 Always = Callable[[Scanned, Any], z3.BoolRef]
 """What is demanded of the state after a scan, of its outputs, and of what the observer has seen by then."""
 Known = Mapping[str, z3.BoolRef]
@@ -36,8 +36,8 @@ def supposed(sentence: Sentence) -> Property:
     """The sentence speaks of the scan."""
 
     def of(one: Scanned) -> z3.BoolRef:
-        said = sentence(one)
-        return FALSE if said is None else said[0]
+        obligation = sentence(one)
+        return FALSE if obligation is None else obligation[0]
 
     return of
 
@@ -46,8 +46,8 @@ def demanded(sentence: Sentence) -> Property:
     """Where the sentence speaks of the scan, what it demands is so."""
 
     def of(one: Scanned) -> z3.BoolRef:
-        said = sentence(one)
-        return TRUE if said is None else z3.Implies(*said)
+        obligation = sentence(one)
+        return TRUE if obligation is None else z3.Implies(*obligation)
 
     return of
 

@@ -1,5 +1,5 @@
 /* The F-PLC of the note: insert steps 6 to 29, Figures 3 to 7, removal steps 3 to 18, Figure 9.
- * Comments name clauses (EKS-..) and decisions (E-..); docs/mode_selection/findings.md says why each was taken.
+ * Comments name clauses (EKS-..) and decisions (E-..); docs/mode_selection.md says why each was taken.
  * A functional model of an F-program, not an F-program. */
 #include "fplc.h"
 

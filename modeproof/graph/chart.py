@@ -58,7 +58,7 @@ def chart(device: DeviceGraph) -> Chart | None:
         initial=control[graph.initial],
         states={state: entered[state] for state in declared},
         outputs=_outputs(device, control),
-        moves=tuple(Move(*one, counted[one]) for one in moves),
+        moves=tuple(Move(*move, counted[move]) for move in moves),
     )
 
 

@@ -184,7 +184,9 @@ def _count(place: str, row: Mapping[str, Any], alphabet: Sequence[Mapping[str, A
     ]
     representative = {field: field in chosen for field in fields}
     if not any(representative.items() <= letter.items() for letter in alphabet):
-        in_alphabet = [one for one in members if any(one.items() <= letter.items() for letter in alphabet)]
+        in_alphabet = [
+            member for member in members if any(member.items() <= letter.items() for letter in alphabet)
+        ]
         representative = in_alphabet[0] if in_alphabet else representative
     members.remove(representative)
     return InputClass(f"{low}..{high} of {' '.join(fields)}", representative, tuple(members))

@@ -152,8 +152,8 @@ class _Walk:
         kept = [of.python for name, of in device.device.outputs.items() if name not in self.left_out]
         self.shown_of = attrgetter(*kept) if self.left_out and kept else None
         self.class_letters = [
-            [n for n, values in enumerate(device.alphabet) if one.representative.items() <= values.items()]
-            for one in device.classes
+            [n for n, values in enumerate(device.alphabet) if class_.representative.items() <= values.items()]
+            for class_ in device.classes
         ]
         self.letters = [self._inputs(values) for values in device.alphabet]
         self.class_inputs: list[dict[tuple[int, int], Any]] = [{} for _ in device.classes]
@@ -223,7 +223,7 @@ class _Walk:
             scans=self.scans,
             class_scans=self.class_scans,
             covered={step: (covered[step], totals[step]) for step in totals},
-            classes={one.name: len(one.members) for one in device.classes},
+            classes={class_.name: len(class_.members) for class_ in device.classes},
             difference_count=self.count,
             differences=tuple(self.shown),
             problem=self._problem(),

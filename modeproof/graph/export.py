@@ -67,7 +67,7 @@ def view_names(place: Path, run: Run) -> tuple[str, ...]:
         modules = closure(read_modules(place, run.document), run.module)
     except Unjudged:
         return ()
-    bodies = {one.name: one.body for module in modules for one in module.definitions}
+    bodies = {definition.name: definition.body for module in modules for definition in module.definitions}
     followed: set[str] = set()
     while view in bodies and view not in followed:
         followed.add(view)
@@ -89,10 +89,10 @@ def as_export(device: DeviceGraph, names: Sequence[str], tick_ms: int) -> dict[s
     variables = tuple(names) if len(names) == width else tuple(f"part {n + 1}" for n in range(width))
     memory = list(device.device.memory.values())
     signals = {
-        spelled: one
-        for one in memory
-        if one.tla
-        for spelled in (one.tla, f"{device.device.id}{one.tla[:1].upper()}{one.tla[1:]}")
+        spelled: declared
+        for declared in memory
+        if declared.tla
+        for spelled in (declared.tla, f"{device.device.id}{declared.tla[:1].upper()}{declared.tla[1:]}")
     }
     declared = [signals.get(name) for name in variables]
     control = declared.index(memory[0]) if memory and memory[0] in declared else 0
@@ -131,11 +131,11 @@ def as_export(device: DeviceGraph, names: Sequence[str], tick_ms: int) -> dict[s
         ],
         "classes": [
             {
-                "name": one.name,
-                "fields": {name: _wire(device, name, value) for name, value in one.representative.items()},
-                "members": len(one.members),
+                "name": class_.name,
+                "fields": {name: _wire(device, name, value) for name, value in class_.representative.items()},
+                "members": len(class_.members),
             }
-            for one in device.classes
+            for class_ in device.classes
         ],
         "copied": _copied(device),
     }
@@ -149,7 +149,7 @@ def _remembered(device: DeviceGraph, signal: Signal | None, value: Any, tick_ms:
             return members[0] if members else None
         return members
     if isinstance(value, tuple):
-        return [_remembered(device, None, one, tick_ms) for one in value]
+        return [_remembered(device, None, member, tick_ms) for member in value]
     if isinstance(value, dict):
         return {key: _remembered(device, None, one, tick_ms) for key, one in value.items()}
     if signal is None:

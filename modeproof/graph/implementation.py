@@ -12,6 +12,8 @@ from modeproof.graph.values import ValueForms
 from modeproof.registers.rows import Device
 
 Step = Callable[[Any, Any], tuple[Any, Any]]
+REFERENCE = "refimpl"
+"""The package of our own implementation of each document."""
 
 
 @dataclass(frozen=True)

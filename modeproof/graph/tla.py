@@ -46,9 +46,9 @@ def canonical(value: Any) -> str:
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
     if isinstance(value, tuple):
-        return f"<<{', '.join(canonical(one) for one in value)}>>"
+        return f"<<{', '.join(canonical(member) for member in value)}>>"
     if isinstance(value, frozenset):
-        return "{" + ", ".join(sorted(canonical(one) for one in value)) + "}"
+        return "{" + ", ".join(sorted(canonical(member) for member in value)) + "}"
     if isinstance(value, dict):
         return "[" + ", ".join(f"{key} |-> {canonical(value[key])}" for key in sorted(value)) + "]"
     raise TypeError(f"no TLA+ value: {value!r}")

@@ -35,7 +35,7 @@ class ValueForms:
             good = type(value) is str and (not signal.values or value in signal.values)
         elif kind == "modes":
             good = isinstance(value, frozenset) and all(
-                type(one) is int and one in self.modes for one in value
+                type(member) is int and member in self.modes for member in value
             )
             if good:
                 return tuple(mode in value for mode in self.modes)

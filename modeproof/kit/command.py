@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program
+from modeproof.kit.bundle import Bundle
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import EXIT, Difference, Manner, Plan, Verdict, run_suite
+from modeproof.kit.judge import EXIT, Difference, Options, Plan, Verdict, run_suite
 from modeproof.kit.resume import Resume
-from modeproof.kit.shelf import Shelf
 from modeproof.kit.text import (
     as_junit,
     as_record,
@@ -132,7 +132,7 @@ def run_kit(args: argparse.Namespace) -> int:
         if args.vectors is not None:
             suites = [open_vectors(args)]
         else:
-            suites = Shelf.own().suites(args.target, args.suite or [FAST], args.relation)
+            suites = Bundle.own().suites(args.target, args.suite or [FAST], args.relation)
         verdicts = judge(args, suites)
         return EXIT[joint_word(verdicts)]
     except Unjudged as error:
@@ -185,7 +185,7 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
     if args.resume:
         resume = Resume(args.resume, suite, _program_words(args), args.relation, args.codes)
     plan = Plan(
-        manner=Manner(args.relation, args.latency, args.hold, args.slow, args.codes),
+        options=Options(args.relation, args.latency, args.hold, args.slow, args.codes),
         only=args.case,
         part=args.scans,
         jobs=args.jobs,
@@ -279,7 +279,7 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
 
 def quoted(text: str) -> str:
     """A word of a command line for sh and for Windows alike: in double quotes where it needs them."""
-    plain = text and all(one.isalnum() or one in "_-./:=+@%,\\" for one in text)
+    plain = text and all(char.isalnum() or char in "_-./:=+@%,\\" for char in text)
     return text if plain else '"' + text.replace('"', '\\"') + '"'
 
 

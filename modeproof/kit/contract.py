@@ -200,9 +200,9 @@ class Watch:
     def __init__(self, contract: Contract, latency: int = 0, unobserved: Iterable[str] = ()) -> None:
         hidden = frozenset(unobserved)
         self.contract, self.latency = contract, latency
-        self.judged = tuple(one for one in contract.properties if not one.outputs & hidden)
-        self.unjudged = tuple(one.id for one in contract.properties if one.outputs & hidden)
-        self.counts = dict.fromkeys((one.id for one in self.judged), 0)
+        self.judged = tuple(prop for prop in contract.properties if not prop.outputs & hidden)
+        self.unjudged = tuple(prop.id for prop in contract.properties if prop.outputs & hidden)
+        self.counts = dict.fromkeys((rule.id for rule in self.judged), 0)
         self._hidden = hidden
         self._signals = {**contract.inputs, **contract.outputs}
         self._words = [name for name, of in self._signals.items() if of.type == "word"]

@@ -15,11 +15,11 @@ from typing import Any
 
 from modeproof.kit.adapter import Program
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.relation import Failure, Hello, Manner, Session, read_hello
+from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
 from modeproof.kit.vectors import MONITOR, Case, Suite
 
-__all__ = ["CONFORMS", "DIFFERS", "UNJUDGED", "Difference", "Hello", "Manner", "Plan", "Verdict"]
+__all__ = ["CONFORMS", "DIFFERS", "UNJUDGED", "Difference", "Hello", "Options", "Plan", "Verdict"]
 __all__ += ["read_hello", "run_suite"]
 
 CONFORMS, DIFFERS, UNJUDGED = "CONFORMS", "DIFFERS", "UNJUDGED"
@@ -32,14 +32,14 @@ SHRINKING_S = 5.0
 
 @dataclass(frozen=True)
 class Plan:
-    """What is run: the `manner`, one case (`only`) or a part of it (`part`), how many programs at once
+    """What is run: the `options`, one case (`only`) or a part of it (`part`), how many programs at once
     (`jobs`).
 
     After `most` differing cases it ends. `effort` is how often a case may be run again to find a shorter one.
     Cases whose number (from 0) is in `skip` passed in an earlier run.
     """
 
-    manner: Manner = field(default_factory=Manner)
+    options: Options = field(default_factory=Options)
     only: str | None = None
     part: str | None = None
     jobs: int = 1
@@ -120,8 +120,8 @@ class Verdict:
     def causes(self) -> list[tuple[tuple[str, ...], list[Difference]]]:
         """The differences grouped by likely cause, the largest group first."""
         found: dict[tuple[str, ...], list[Difference]] = {}
-        for one in self.differences:
-            found.setdefault(one.cause, []).append(one)
+        for difference in self.differences:
+            found.setdefault(difference.cause, []).append(difference)
         return sorted(found.items(), key=lambda item: -len(item[1]))
 
 
@@ -147,7 +147,7 @@ def run_suite(
     UNJUDGED too.
     """
     plan = plan or Plan(only=only)
-    verdict = Verdict(UNJUDGED, suite.target, suite.name, plan.manner.relation)
+    verdict = Verdict(UNJUDGED, suite.target, suite.name, plan.options.relation)
     verdict.cases_total = 1 if plan.only is not None else suite.case_count
     run = _Run(suite, verdict, plan, on_progress, on_difference)
     run.on_passed = on_passed
@@ -226,7 +226,7 @@ class _Run:
             verdict.word, verdict.reason = UNJUDGED, self.troubles[0]
         elif verdict.differences:
             verdict.word = DIFFERS
-            if all(one.step == PROTOCOL for one in verdict.differences):
+            if all(difference.step == PROTOCOL for difference in verdict.differences):
                 verdict.reason = (
                     "the adapter answers a request that protocol 1 tells it to refuse; "
                     "this says nothing about the program behind it"
@@ -243,7 +243,7 @@ class _Run:
         try:
             program = start()
             try:
-                session = _open(self.suite, program, self.plan.manner)
+                session = _open(self.suite, program, self.plan.options)
                 self._greet(session)
                 while (one := self._next()) is not None:
                     self._case(session, *one)
@@ -343,9 +343,9 @@ class _Run:
         self.verdict.clauses = dict(sorted(clauses.items()))
 
 
-def _open(suite: Suite, program: Program, manner: Manner) -> Session:
+def _open(suite: Suite, program: Program, options: Options) -> Session:
     try:
-        return Session(suite, program, manner)
+        return Session(suite, program, options)
     except Unjudged as error:
         raise Unjudged(f"hello: {error}") from None
 
@@ -399,7 +399,7 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
     whole = Part(tuple(range(found.scan)))
     if plan.part is not None or plan.effort <= 0:
         return _with(suite, found, whole, True)
-    anything = plan.manner.relation == MONITOR
+    anything = plan.options.relation == MONITOR
     best = Shrinker(suite, found.case, failure.at, fails, anything).run()
     confirmed = best != whole
     if not confirmed:

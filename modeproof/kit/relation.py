@@ -42,7 +42,7 @@ class Hello:
 
 
 @dataclass(frozen=True)
-class Manner:
+class Options:
     """How it is judged: the relation, and for programs that need several scans how inputs are held.
 
     `latency` is the most scans that an input may need to have all its effects (None: as hello says);
@@ -83,18 +83,18 @@ class Failure:
 class Session:
     """One program under judgement. `place` says what it is doing, for messages."""
 
-    def __init__(self, suite: Suite, program: Program, manner: Manner) -> None:
-        self.suite, self.program, self.manner = suite, program, manner
-        if manner.relation not in suite.relations:
+    def __init__(self, suite: Suite, program: Program, options: Options) -> None:
+        self.suite, self.program, self.options = suite, program, options
+        if options.relation not in suite.relations:
             raise Unjudged(
-                f"suite {suite.name} is for relation {' or '.join(suite.relations)}, not {manner.relation}"
+                f"suite {suite.name} is for relation {' or '.join(suite.relations)}, not {options.relation}"
             )
         self._where: tuple[Any, ...] = ("hello",)
-        self.hello = read_hello(program.hello(suite.target), suite, manner.relation)
-        self.latency = self.hello.latency if manner.latency is None else manner.latency
+        self.hello = read_hello(program.hello(suite.target), suite, options.relation)
+        self.latency = self.hello.latency if options.latency is None else options.latency
         if not 0 <= self.latency <= MOST_LATENCY:
             raise Unjudged(f"a latency of 0 to {MOST_LATENCY} scans expected, not {self.latency}")
-        left_out = () if manner.codes else suite.codes
+        left_out = () if options.codes else suite.codes
         hidden = (*self.hello.unobserved, *left_out)
         self.not_compared = tuple(name for name in left_out if name not in self.hello.unobserved)
         self.compared = tuple(name for name in suite.outputs if name not in hidden)
@@ -102,10 +102,10 @@ class Session:
             why = ", or its values are ours alone (--codes compares those)" if left_out else ""
             raise Unjudged(f"every output is unobserved{why}, so nothing can be compared")
         self.watch: Watch | None = None
-        contract = suite.contract() if manner.relation != EXACT else None
+        contract = suite.contract() if options.relation != EXACT else None
         if contract is not None:
             self.watch = Watch(contract, self.latency, hidden)
-        if manner.relation == MONITOR and (self.watch is None or not self.watch.judged):
+        if options.relation == MONITOR and (self.watch is None or not self.watch.judged):
             raise Unjudged("no safety property can be judged on the outputs that are compared")
         self.scans = 0
         self._good: set[bytes] = set()
@@ -118,7 +118,7 @@ class Session:
     @property
     def place(self) -> str:
         """Case and scan, as far as it has come."""
-        return ", scan ".join(str(one) for one in self._where)
+        return ", scan ".join(str(part) for part in self._where)
 
     def case(self, case: Case) -> Failure | None:
         """Put one case to the program; the first failure, or None when all is right. May raise Unjudged."""
@@ -128,9 +128,9 @@ class Session:
         self._where = (case.id,)
         if self.watch is not None:
             self.watch.reset(self._slowed(case.params))
-        if self.manner.relation == EXACT:
+        if self.options.relation == EXACT:
             failure = self._exact(case)
-        elif self.manner.relation == SETTLED or (SETTLED in self.suite.relations and self.latency):
+        elif self.options.relation == SETTLED or (SETTLED in self.suite.relations and self.latency):
             failure = self._settled(case)
         else:
             failure = self._watched(case)
@@ -169,7 +169,7 @@ class Session:
 
     def _scan_by_scan(self, case: Case) -> Failure | None:
         """As `_exact`, for what is sent most: nothing here that is not needed."""
-        ask, slow, compared, checked = self.program.scan, self.manner.slow, self.compared, self._checked
+        ask, slow, compared, checked = self.program.scan, self.options.slow, self.compared, self._checked
         every, kept = len(compared) == len(self.suite.outputs), self._kept
         n = 0
         self._where = (case.id, self._counting)
@@ -200,12 +200,12 @@ class Session:
             for first in range(0, len(case.scans), BATCH):
                 part = case.scans[first : first + BATCH]
                 self._where = (case.id, f"{first + 1} to {first + len(part)}")
-                outs = self._adapter.scans([(scan.dt_ms * self.manner.slow, scan.inputs) for scan in part])
+                outs = self._adapter.scans([(scan.dt_ms * self.options.slow, scan.inputs) for scan in part])
                 for n, out in enumerate(outs):
                     self._where = (case.id, first + n + 1)
                     yield self._checked(out)
             return
-        ask, slow, checked, id = self.program.scan, self.manner.slow, self._checked, case.id
+        ask, slow, checked, id = self.program.scan, self.options.slow, self._checked, case.id
         for n, scan in enumerate(case.scans, 1):
             self._where = (id, n)
             if scan.request is not None:
@@ -249,7 +249,7 @@ class Session:
 
     def _settled(self, case: Case) -> Failure | None:
         before: Mapping[str, Any] | None = None
-        clock = _Clock(case, self.manner) if self.hello.real_time else None
+        clock = _Clock(case, self.options) if self.hello.real_time else None
         for first, last in groups(case):
             event, wanted = case.scans[first], case.scans[last].outputs
             allowed: dict[str, list[Any]] = {name: [] for name in self.compared}
@@ -262,7 +262,7 @@ class Session:
                 if failure is None and after > held - STABLE and _differ(out, wanted, self.compared):
                     when = f"held for {after} scans, and not what it settles to"
                     failure = self._difference(last, wanted, out, when, after)
-                if failure is not None and self.manner.relation == MONITOR and failure.broken is None:
+                if failure is not None and self.options.relation == MONITOR and failure.broken is None:
                     failure = None
                 if failure is not None:
                     return replace(failure, since=first)
@@ -273,7 +273,7 @@ class Session:
 
     def _held(self, case: Case, first: int, event: Scan, held: int) -> Iterator[Mapping[str, Any]]:
         """The outputs after an event and in the scans in which its inputs are held."""
-        times = [event.dt_ms * self.manner.slow, *[self.manner.hold_ms] * held]
+        times = [event.dt_ms * self.options.slow, *[self.options.hold_ms] * held]
         if self.hello.lists and self._adapter is not None:
             outs: Sequence[Mapping[str, Any]] = []
             for start in range(0, len(times), BATCH):
@@ -300,7 +300,7 @@ class Session:
     ) -> Failure | None:
         """What must hold in every scan, settled or not."""
         if self.watch is not None:
-            dt_ms = self.manner.hold_ms if after else event.dt_ms * self.manner.slow
+            dt_ms = self.options.hold_ms if after else event.dt_ms * self.options.slow
             broken = self.watch.scan(dt_ms, event.inputs, out)
             if broken is not None:
                 return self._broken(at, broken, wanted, out, after)
@@ -331,17 +331,17 @@ class Session:
         for n, out in enumerate(self._answers(case)):
             scan = case.scans[n]
             self.scans += 1
-            broken = self.watch.scan(scan.dt_ms * self.manner.slow, scan.inputs, out)
+            broken = self.watch.scan(scan.dt_ms * self.options.slow, scan.inputs, out)
             if broken is not None:
                 return self._broken(n, broken, scan.outputs, out, 0)
         return None
 
     def _slowed(self, params: Mapping[str, Any]) -> Mapping[str, Any]:
         """Parameters with all times longer; what the suite leaves out takes its default, longer too."""
-        if self.manner.slow == 1:
+        if self.options.slow == 1:
             return params
         longer = {
-            name: params.get(name, row["default"]) * self.manner.slow
+            name: params.get(name, row["default"]) * self.options.slow
             for name, row in self.suite.parameters.items()
             if row["type"] == "ms"
         }
@@ -361,9 +361,9 @@ class _Counting:
 class _Clock:
     """Real time goes on while inputs are held; more than the shortest time of a case would change it."""
 
-    def __init__(self, case: Case, manner: Manner) -> None:
-        self._slow = manner.slow
-        self._least = min((scan.dt_ms for scan in case.scans if scan.dt_ms), default=0) * manner.slow
+    def __init__(self, case: Case, options: Options) -> None:
+        self._slow = options.slow
+        self._least = min((scan.dt_ms for scan in case.scans if scan.dt_ms), default=0) * options.slow
         self._began, self._meant = time.monotonic(), 0
 
     def check(self, event: Scan) -> None:
@@ -397,7 +397,7 @@ def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -
     offered = answer.get("relations", [EXACT])
     # Who answers scan by scan also settles, and who settles can be watched.
     enough = {EXACT: (EXACT,), SETTLED: (EXACT, SETTLED), MONITOR: (EXACT, SETTLED, MONITOR)}[relation]
-    if not isinstance(offered, list) or not any(one in offered for one in enough):
+    if not isinstance(offered, list) or not any(accepted in offered for accepted in enough):
         raise Unjudged(f"the adapter does not offer relation {relation}: {shown(offered)}")
     time_is = answer.get("time", "virtual")
     if time_is not in ("virtual", "real") or (relation == EXACT and time_is != "virtual"):

@@ -44,7 +44,7 @@ class Signal:
         elif kind == "modes":
             good = (
                 type(value) is list
-                and all(type(one) is int and one in self.modes for one in value)
+                and all(type(mode) is int and mode in self.modes for mode in value)
                 and all(a < b for a, b in itertools.pairwise(value))
             )
             wanted = f"an ascending list of {', '.join(map(str, self.modes))}"
@@ -52,7 +52,7 @@ class Signal:
             good = (
                 value in self.values if type(value) is str and value else value is None and "" in self.values
             )
-            wanted = "one of " + ", ".join(json.dumps(one or None) for one in self.values)
+            wanted = "one of " + ", ".join(json.dumps(allowed or None) for allowed in self.values)
         else:
             low, high = self.minimum, self.maximum
             good = type(value) is int and (low is None or value >= low) and (high is None or value <= high)

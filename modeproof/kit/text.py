@@ -62,14 +62,14 @@ def together(verdicts: Sequence[Verdict]) -> str:
     """One line for several suites; UNJUDGED counts for more than DIFFERS."""
     word = joint_word(verdicts)
     if word == CONFORMS:
-        suites = " ".join(one.suite for one in verdicts)
+        suites = " ".join(verdict.suite for verdict in verdicts)
         return f"{CONFORMS}({verdicts[0].relation}, {suites}{_left_out(verdicts[0])})"
-    return f"{word}: {', '.join(f'{one.suite} {one.word}' for one in verdicts)}"
+    return f"{word}: {', '.join(f'{verdict.suite} {verdict.word}' for verdict in verdicts)}"
 
 
 def joint_word(verdicts: Sequence[Verdict]) -> str:
     """The worst word of several."""
-    words = {one.word for one in verdicts}
+    words = {verdict.word for verdict in verdicts}
     return next(word for word in (UNJUDGED, DIFFERS, CONFORMS) if word in words)
 
 
@@ -127,7 +127,7 @@ def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]
         lines.append("differs from the document")
     if suite is not None:
         for id in (*found.clauses, *found.findings):
-            if words := suite.said(id):
+            if words := suite.text(id):
                 lines.append(f"  {id:<12} {words}")
     lines += ["", f"{'output':<20} {'expected':<20} got"]
     for name, wanted in found.expected.items():
@@ -223,7 +223,7 @@ def as_junit(verdicts: Sequence[Verdict]) -> str:
     """JUnit XML: a suite is a testsuite, a case a testcase, what could not be judged an error."""
     lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<testsuites>"]
     for verdict in verdicts:
-        found = {one.case.id: one for one in verdict.differences}
+        found = {difference.case.id: difference for difference in verdict.differences}
         errors = 1 if verdict.word == UNJUDGED else 0
         name = quoteattr(f"{verdict.target} {verdict.relation} {verdict.suite}")
         lines.append(

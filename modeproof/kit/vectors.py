@@ -198,7 +198,7 @@ class Suite:
             state = before
         return tuple(reversed(way))
 
-    def said(self, id: str) -> str:
+    def text(self, id: str) -> str:
         """What the registers say of a clause or decision, in our words; nothing where they do not."""
         return str(self.header.get("texts", {}).get(id, ""))
 

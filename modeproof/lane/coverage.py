@@ -113,7 +113,7 @@ def _coverage_lines(record: dict[str, Any]) -> list[str]:
             lines += [f"  {name}  {entry['what']}" for entry in one["unreachable"] if entry["why"] == why]
             lines.append(f"      {why}")
     lines += record["result"]["problems"]
-    count = sum(len(one["unreachable"]) for one in devices.values())
+    count = sum(len(device["unreachable"]) for device in devices.values())
     words = "" if record["as_expected"] else f"; NOT: {len(record['result']['problems'])} problems"
     lines.append(
         f"coverage     {record['verdict']}; all but {count} unreachable places lie on a feasible path, "

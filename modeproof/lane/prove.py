@@ -114,7 +114,9 @@ def prove_documents(
             troubles[document] = error.message
 
     def slow_first(documents: Iterable[str]) -> list[Task[dict[str, Any]]]:
-        every = [(one.slow, document, one.name) for document in documents for one in theorems[document]]
+        every = [
+            (theorem.slow, document, theorem.name) for document in documents for theorem in theorems[document]
+        ]
         return [
             (prove_theorem, (place, document, name, inputs[document], limit_ms, shared[document]))
             for _, document, name in sorted(every, key=lambda one: not one[0])
@@ -147,7 +149,7 @@ def prove_documents(
             done(record)
         proved = {(record["document"], record["id"]) for record in records}
         tasks = [task for task in slow_first(theorems) if task[1][1:3] not in proved]
-        made = in_processes("proofs", [*beside, *tasks], progress, done, knowing=whole)
+        made = in_processes("proofs", [*beside, *tasks], progress, done, fork=whole)
         records += made[len(beside) :]
     for document in names:
         if whole and document not in troubles and _has_agreement(place, document):
@@ -162,10 +164,10 @@ def _theorems_to_prove(
 ) -> tuple[list[Any], dict[str, str]]:
     """The theorems that are asked for, and the hashes of what they rest on. Raises Unjudged for none."""
     theorems = [
-        one
-        for one in _theorems_of(document)
-        if (not patterns or any(fnmatch.fnmatchcase(one.name, p) for p in patterns))
-        and (patterns or lane != "smoke" or not one.slow)
+        theorem
+        for theorem in _theorems_of(document)
+        if (not patterns or any(fnmatch.fnmatchcase(theorem.name, p) for p in patterns))
+        and (patterns or lane != "smoke" or not theorem.slow)
     ]
     if not theorems:
         raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns) or 'anything'}")
@@ -222,7 +224,7 @@ def prove_theorem(
     """
     if str(place) not in sys.path:
         sys.path.insert(0, str(place))
-    one = next(one for one in _theorems_of(document) if one.name == name)
+    one = next(theorem for theorem in _theorems_of(document) if theorem.name == name)
     runner = importlib.import_module("proofs.runner")
     out = build(place) / "proofs" / document
     evidence.discard(place, document, name)

@@ -11,7 +11,7 @@ from modeproof.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.crosscheck import cross_check, value_fault
 from modeproof.registers.judge import Judgement, check_document, judge, judge_tree, matrix
-from modeproof.registers.load import documents, load_document, load_interface, read_register
+from modeproof.registers.load import load_document, load_interface, read_register
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import (
     About,
@@ -47,7 +47,6 @@ __all__ = [
     "check_document",
     "citations",
     "cross_check",
-    "documents",
     "judge",
     "judge_tree",
     "load_document",

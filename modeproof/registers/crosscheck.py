@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from modeproof.errors import suggestion
 from modeproof.registers.citations import Sources
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.rows import Device, Document, Problem, Signal
 from modeproof.registers.runs import Run
-from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import closure
 
 PERSON = "user"

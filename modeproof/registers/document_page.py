@@ -1,7 +1,7 @@
 """The page of a document, docs/<document>.md: what was shown, what not, and every finding in a few lines.
 
 The page is made from the registers. Only the tables of its counterexamples come from evidence; each stands
-between two marks with a digest of its text and of the row of its run. So the page can be compared with the
+between two marks with a digest of its text and of the pins of its run. So the page can be compared with the
 registers at any time: it must be what they give, around the tables that it holds.
 """
 
@@ -29,8 +29,6 @@ CLASSES = {
     "wording": "Wording: no effect once it is noticed",
 }
 _TABLE = re.compile(r"<!-- begin trace (\w+) (\w{12}) -->\n(.*?)<!-- end trace -->\n", re.DOTALL)
-_ASIDE = ("why", "strength", "lanes", "timeout_s", "heap_mb", "workers")
-"""What runs.toml says of a run that changes no counterexample."""
 _BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
 """A decision or a consequence that names readings by their number."""
 _MANY = 3
@@ -107,13 +105,11 @@ def tables_of(document: Document, text: str) -> dict[str, str]:
     return {run: table for run, (digest, table) in found.items() if digest == _digest(document, run, table)}
 
 
-def _digest(document: Document, run: str, table: str) -> str:
-    """What a table rests on: the row of its run in runs.toml, and its own text."""
-    rows = read_toml(document.root, document.folder / "runs.toml")["run"]
-    row: dict[str, Any] = next((row for row in rows if row["id"] == run), {})
-    pinned = {key: value for key, value in row.items() if key not in _ASIDE}
-    text = json.dumps([pinned, table], sort_keys=True, default=str)
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()[:12]
+def _digest(document: Document, name: str, table: str) -> str:
+    """What a table rests on: the pins of its run, and its own text."""
+    run = _run(document, name)
+    pins = None if run is None else [run.property, run.trace_length, run.distinct]
+    return hashlib.sha256(json.dumps([name, pins, table]).encode("utf-8")).hexdigest()[:12]
 
 
 def _first_difference(expected: str, text: str) -> int:
@@ -193,7 +189,7 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof prove --document {name}`",
         ],
     ]
-    rows += [_score(document, one) for one in load_scores(document.root, name)]
+    rows += [_score(one) for one in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
@@ -209,18 +205,18 @@ def _shown(document: Document, sources: Sources) -> str:
     )
 
 
-def _score(document: Document, one: Score) -> list[str]:
+def _score(one: Score) -> list[str]:
     edited, judge = WHAT[one.what]
-    share = f" ({100 * one.killed / one.different:.1f} %)" if one.different else ""
+    share = f" ({100 * one.killed / one.real:.1f} %)" if one.real else ""
     open_ones = one.survived - one.survived_explained
-    rest = [f"{one.killed} of {one.different}{share}"]
+    rest = [f"{one.killed} of {one.real}{share}"]
     if one.survived:
         explained = f"{open_ones} unexplained" if open_ones else "each explained"
         rest.append(f"{one.survived} not noticed, {explained}")
     if one.unmeasured:
         rest.append(f"{one.unmeasured} unmeasured")
     if one.earlier_text:
-        rest.append("**of an earlier text**")
+        rest.append("of an earlier text")
     return [
         f"planted faults in {edited} that {judge} notices ({one.judged_on})",
         "; ".join(rest),
@@ -268,8 +264,14 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
             f"{_sentence(one.story)}\n\n"
             f"What fails: {requirement}\n\n"
             f"<!-- begin {mark} -->\n{table}<!-- end trace -->\n\n"
-            f"`modeproof check {one.run} --trace`\n"
+            f"`modeproof check {one.run} --trace`{_tried(run)}\n"
         )
+
+
+def _tried(run: Run) -> str:
+    """Under which name the specification has the readings that a run tries."""
+    names = ", ".join(f"`{name}`" for name in run.readings)
+    return f" tries the reading {names}." if names else ""
 
 
 def falls_of(document: Document, run: Run) -> Property | None:
@@ -293,17 +295,16 @@ def _findings(document: Document) -> str:
         "shows it. We did not have\nthe drawings; where one could settle the matter (†), the finding is no "
         f"error of the document. All readings: [findings.toml](../{document.source('findings')}).",
     ]
-    steps = _steps(document)
     for name, words in CLASSES.items():
         rows = [one for one in document.findings if one.severity == name]
         if rows:
             lines += ["", f"### {words}", ""]
         for one in rows:
-            lines.append(_finding(document, one, steps))
+            lines.append(_finding(document, one))
     return "\n".join(lines) + "\n"
 
 
-def _finding(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
+def _finding(document: Document, one: Finding) -> str:
     mark = " †" if one.drawing_could_settle else ""
     parts = [f"- **{one.id}{mark}: {one.title}.** {_sentence(one.says)}"]
     if _BY_NUMBER.search(f"{one.decision} {one.consequence}"):
@@ -311,11 +312,11 @@ def _finding(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
         parts.append(f"*Readings:* {readings}.")
     parts.append(f"*Decided:* {_sentence(one.decision)}")
     if one.severity != "wording":
-        parts += [f"*Otherwise:* {_sentence(one.consequence)}", _evidence(document, one, steps)]
+        parts += [f"*Otherwise:* {_sentence(one.consequence)}", _evidence(document, one)]
     return " ".join(parts)
 
 
-def _evidence(document: Document, one: Finding, steps: Mapping[str, int]) -> str:
+def _evidence(document: Document, one: Finding) -> str:
     """What shows a finding, with the command."""
     runs = [run for name in one.evidence if (run := _run(document, name)) is not None]
     negatives = [run for run in runs if run.kind == "NEG"]
@@ -324,7 +325,7 @@ def _evidence(document: Document, one: Finding, steps: Mapping[str, int]) -> str
     if negatives:
         lengths: dict[str, set[int]] = {}
         for run in negatives[:_MANY]:
-            lengths.setdefault(run.property, set()).add(steps.get(run.id, 1) - 1)
+            lengths.setdefault(run.property, set()).add((run.trace_length or 1) - 1)
         said = [f"`{name}` fails {_after(found)}" for name, found in lengths.items()]
         names = " ".join(run.id for run in negatives[:_MANY])
         more = f" ({len(negatives) - _MANY} more in the report)" if len(negatives) > _MANY else ""
@@ -343,12 +344,6 @@ def _after(lengths: set[int]) -> str:
         return "in the first state"
     several = f"{', '.join(map(str, others))} and {last}" if others else str(last)
     return f"after {several} step" + ("" if several == "1" else "s")
-
-
-def _steps(document: Document) -> dict[str, int]:
-    """The pinned length of each counterexample, in states."""
-    rows = read_toml(document.root, document.folder / "runs.toml")["run"]
-    return {row["id"]: row["trace_length"] for row in rows if "trace_length" in row}
 
 
 def _faults(document: Document) -> Iterator[str]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from modeproof.errors import suggestion
 from modeproof.registers.rows import Document, Problem
-from modeproof.registers.schema import schema, suggestion
+from modeproof.registers.schema import schema
 
 CELL = re.compile(r"(?P<row>.+) at (?P<column>[^:,]+)(?P<rest>[^:]*): (?P<what>.+)")
 """A witness that is a cell of a matrix."""

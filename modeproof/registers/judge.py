@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from modeproof.places import documents
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.document_page import check_document_page
-from modeproof.registers.load import documents, load_document
+from modeproof.registers.load import load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.readings import check_readings, check_tops

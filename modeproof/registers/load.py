@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
+from modeproof.places import documents
 from modeproof.registers.files import read_toml
 from modeproof.registers.rows import (
     About,
@@ -23,14 +24,9 @@ from modeproof.registers.rows import (
     Signal,
 )
 from modeproof.registers.runs import load_runs
-from modeproof.registers.schema import check_schema, suggestion
+from modeproof.registers.schema import check_schema
 
 Table = Mapping[str, Any]
-
-
-def documents(root: Path) -> tuple[str, ...]:
-    """The names of all documents: the folders of `spec` that have a document.toml, in alphabetical order."""
-    return tuple(sorted(path.parent.name for path in (root / "spec").glob("*/document.toml")))
 
 
 def load_document(root: Path, name: str) -> Document:

@@ -15,11 +15,10 @@ from pathlib import Path
 
 import msgspec
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.registers.cfg import Cfg, Constant, parse_cfg
 from modeproof.registers.files import read_text, write_text
 from modeproof.registers.runs import Run
-from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import Module, closure, read_modules
 
 SUFFIX = "AsPrinted"

@@ -6,12 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.registers.made import decided_modules, reading_problems, replaced_by, replacements
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import Run
-from modeproof.registers.schema import suggestion
 from modeproof.registers.switches import has_literal
 from modeproof.registers.tla import Module, closure
 

@@ -14,9 +14,8 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.registers.files import read_toml
-from modeproof.registers.schema import suggestion
 from modeproof.registers.typed import typed
 
 Kind = Literal["MC", "LIVE", "NEG", "WIT", "OPEN"]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import difflib
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -12,7 +11,7 @@ from typing import Any
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import ValidationError
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 
 REGISTERS = ("document", "clauses", "interface", "properties", "findings", "assumptions")
 """The registers of every document that have a schema, in the order in which a reader meets them."""
@@ -45,20 +44,6 @@ def check_schema(register: str, source: str, data: Mapping[str, Any]) -> None:
         first = faults[0]
         more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
         raise Unjudged(f"{source}: {_place(data, list(first.absolute_path))}{_explain(first)}{more}")
-
-
-MANY = 40
-"""More names than these are not listed in one line, if one of them is close."""
-
-
-def suggestion(name: str, allowed: Iterable[str]) -> str:
-    """The words `did you mean ..; allowed: ..` for a name that is not allowed."""
-    names = list(allowed)
-    close = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
-    mean = f"did you mean {close[0]!r}? " if close else ""
-    if mean and len(names) > MANY:
-        return f"{mean}{len(names):,} names are allowed"
-    return f"{mean}allowed: {', '.join(names) if names else 'nothing'}"
 
 
 def _order(fault: ValidationError) -> tuple[list[tuple[int, int, str]], bool]:

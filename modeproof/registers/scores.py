@@ -43,7 +43,7 @@ class Score(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     files: Annotated[dict[str, Hash], msgspec.Meta(min_length=1)]
 
     @property
-    def different(self) -> int:
+    def real(self) -> int:
         """The mutants that behave differently, as far as we know: only these count."""
         return self.killed + self.survived + self.unmeasured
 

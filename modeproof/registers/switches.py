@@ -10,13 +10,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from modeproof.errors import suggestion
 from modeproof.registers.cfg import Constant
 from modeproof.registers.citations import Sources
 from modeproof.registers.made import read_cfg
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import Run
-from modeproof.registers.schema import suggestion
 from modeproof.registers.tla import Definition, Module
 
 _TEXT = re.compile(r'"([^"\n]*)"')

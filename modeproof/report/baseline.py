@@ -40,8 +40,8 @@ def read_report(path: Path) -> tuple[str, dict[str, Any]]:
     except (ValueError, RecursionError) as error:
         raise Unjudged(f"{path}: not JSON, so no report: {error}") from None
     seal = seal_of_json(text)
-    if not isinstance(content, dict) or seal is None or not isinstance(content.get("standing"), dict):
-        raise Unjudged(f"{path}: not a report of `modeproof report` (no seal, or no standing)")
+    if not isinstance(content, dict) or seal is None or not isinstance(content.get("snapshot"), dict):
+        raise Unjudged(f"{path}: not a report of `modeproof report` (no seal, or no snapshot)")
     if seal[0] != seal[1]:
         raise Unjudged(
             f"{path}: changed since it was written: its seal is {seal[0][:12]}, its text {seal[1][:12]}"

@@ -23,8 +23,8 @@ from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page
 from modeproof.report.missing import missing, mixed, unexpected
 from modeproof.report.part import Maker, Part, plain
 from modeproof.report.parts import makers
+from modeproof.report.snapshot import snapshot
 from modeproof.report.sources import HOLE, NOTE, Sources, Trouble, gather
-from modeproof.report.standing import standing
 from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
 
@@ -66,7 +66,7 @@ class Report:
 
 
 def _status(troubles: Sequence[Trouble]) -> int:
-    return min((one.status for one in troubles if one.status != NOTE), default=0)
+    return min((trouble.status for trouble in troubles if trouble.status != NOTE), default=0)
 
 
 def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseline()) -> Report:
@@ -75,25 +75,25 @@ def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseli
     `baseline` gives, for the digest of all that was read, the earlier report to compare with.
     """
     sources = gather(root)
-    found = [one for check in CHECKS for one in _checked(check, sources)]
+    found = [trouble for check in CHECKS for trouble in _checked(check, sources)]
     sources = replace(sources, troubles=(*sources.troubles, *found))
     made = {id: _made(id, maker, sources) for id, maker in makers() if id != LAST}
     try:
-        sources.shelf["standing"] = standing(sources)
+        sources.cache["snapshot"] = snapshot(sources)
     except ODD as error:
-        sources.shelf["standing"] = {**NOTHING, "verdicts": {"all": f"UNJUDGED: {_says(error)}"}}
-    sources.shelf["baseline"] = baseline(sources.digest)
+        sources.cache["snapshot"] = {**NOTHING, "verdicts": {"all": f"UNJUDGED: {_says(error)}"}}
+    sources.cache["baseline"] = baseline(sources.digest)
     made |= {id: _made(id, maker, sources) for id, maker in makers() if id == LAST}
     parts = _with_troubles([made[id] for id, _ in makers()], sources)
-    troubles = tuple(dict.fromkeys(t for one in parts for t in one.troubles))
+    troubles = tuple(dict.fromkeys(t for part in parts for t in part.troubles))
     text = seal_json(_as_json(sources, parts, troubles))
     seal = seal_of_json(text)
     return Report(
         seal_page(_page(sources, parts, troubles, seal[0] if seal else BLANK)),
         text,
         troubles,
-        {name: content for one in parts for name, content in one.attachments.items()},
-        sources.shelf["baseline"],
+        {name: content for part in parts for name, content in part.attachments.items()},
+        sources.cache["baseline"],
     )
 
 
@@ -104,7 +104,7 @@ def _made(id: str, maker: Maker, sources: Sources) -> Part:
         html = _rendered(part, ())
         plain(part.data)
         if id != FIRST:
-            sources.shelf[f"html of {id}"] = html
+            sources.cache[f"html of {id}"] = html
         return part
     except ODD as error:
         what = (
@@ -141,7 +141,7 @@ def _rendered(part: Part, troubles: tuple[Trouble, ...]) -> str:
 
 def _with_troubles(parts: list[Part], sources: Sources) -> list[Part]:
     """The parts, each with the troubles that concern it; the first has those that concern no other."""
-    known = {one.id for one in parts}
+    known = {part.id for part in parts}
     return [
         replace(
             one,
@@ -161,10 +161,12 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
         "digest": sources.digest,
         "status": _status(troubles),
         "troubles": plain(troubles),
-        "parts": {one.id: {"title": one.title, **plain(one.data)} for one in parts},
-        "standing": sources.shelf["standing"],
+        "parts": {part.id: {"title": part.title, **plain(part.data)} for part in parts},
+        "snapshot": sources.cache["snapshot"],
         "attachments": {
-            name: hashlib.sha256(data).hexdigest() for one in parts for name, data in one.attachments.items()
+            name: hashlib.sha256(data).hexdigest()
+            for part in parts
+            for name, data in part.attachments.items()
         },
         "files": dict(sorted(sources.files.items())),
     }
@@ -177,18 +179,18 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
     terms = Terms(sources)
     shown = [
         {
-            "id": one.id,
-            "title": one.title,
-            "troubles": one.troubles,
-            "bad": sum(1 for trouble in one.troubles if trouble.status),
+            "id": part.id,
+            "title": part.title,
+            "troubles": part.troubles,
+            "bad": sum(1 for trouble in part.troubles if trouble.status),
             "html": Markup(
-                terms.linked(one.id, sources.shelf.get(f"html of {one.id}") or _rendered(one, troubles))
+                terms.linked(part.id, sources.cache.get(f"html of {part.id}") or _rendered(part, troubles))
             ),
         }
-        for one in parts
+        for part in parts
     ]
-    payload = [(id, _packed(content)) for one in parts for id, content in one.payload.items()]
-    payload += [(f"file-{name}", _packed(data)) for one in parts for name, data in one.attachments.items()]
+    payload = [(id, _packed(content)) for part in parts for id, content in part.payload.items()]
+    payload += [(f"file-{name}", _packed(data)) for part in parts for name, data in part.attachments.items()]
     payload += _packed_tables()
     status = _status(troubles)
     return environment.get_template("report.html.j2").render(

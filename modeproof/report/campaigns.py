@@ -44,31 +44,31 @@ class Campaign:
     @cached_property
     def killed(self) -> Counter[str]:
         """By judge: mutants that it kills."""
-        return Counter(name for one in self.mutants for name in one["killers"])
+        return Counter(name for mutant in self.mutants for name in mutant["killers"])
 
     @cached_property
     def first(self) -> Counter[str]:
         """By judge: mutants that it was the first to kill."""
-        return Counter(one["killers"][0] for one in self.mutants if one["killers"])
+        return Counter(mutant["killers"][0] for mutant in self.mutants if mutant["killers"])
 
     @cached_property
     def alone(self) -> Counter[str]:
         """By judge: mutants that nothing else that was asked kills."""
-        return Counter(one["killers"][0] for one in self.mutants if len(one["killers"]) == 1)
+        return Counter(mutant["killers"][0] for mutant in self.mutants if len(mutant["killers"]) == 1)
 
     def counts(self, field: str = "") -> Mapping[str, Counter[str]]:
         """Verdicts by the value of a field (module, operator); of all under "" where none is named."""
         found: dict[str, Counter[str]] = {}
-        for one in self.mutants:
-            found.setdefault(str(one[field]) if field else "", Counter())[one["verdict"]] += 1
+        for mutant in self.mutants:
+            found.setdefault(str(mutant[field]) if field else "", Counter())[mutant["verdict"]] += 1
         return dict(sorted(found.items()))
 
     def matrix(self) -> tuple[tuple[str, ...], Mapping[str, Counter[str]]]:
         """The operators, and by judge how many mutants of each operator it kills."""
         cells: dict[str, Counter[str]] = {}
-        for one in self.mutants:
-            for name in one["killers"]:
-                cells.setdefault(name, Counter())[one["operator"]] += 1
+        for mutant in self.mutants:
+            for name in mutant["killers"]:
+                cells.setdefault(name, Counter())[mutant["operator"]] += 1
         return tuple(sorted({op for row in cells.values() for op in row})), cells
 
 

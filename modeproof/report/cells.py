@@ -44,7 +44,7 @@ class Cells:
 
     def columns(self, names: Sequence[str], variables: Sequence[str]) -> list[Column]:
         """The columns of these names: devices, vectors, variables of the specification, signals."""
-        vectors = {one.id: one for one in self.traces.vectors}
+        vectors = {vector.id: vector for vector in self.traces.vectors}
         found = []
         for name in names:
             if name in self.traces.devices:
@@ -87,7 +87,7 @@ class Cells:
         if self._types.get(signal) == "word" and isinstance(value, int):
             return self.word(signal, value)
         if isinstance(value, list):
-            return ", ".join(self.value("", one) for one in value) if value else NONE
+            return ", ".join(self.value("", item) for item in value) if value else NONE
         if value == -1 or value == "":
             return NONE
         return str(value)

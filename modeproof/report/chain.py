@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.rows import Clause, Document, Problem
-from modeproof.report.claims import Claim, citations_of, claims, proved, texts_of
+from modeproof.report.claims import Claim, citations_of, claims, texts_of, theorem_result
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, HOLE, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import ASIDE, status_of
 
 
@@ -43,9 +43,9 @@ class Chain:
     @property
     def status(self) -> int:
         """DIFFERS where it lacks something or a result is not as expected; HOLE where one is not there."""
-        if self.lacks or any(one.good is False for one in self.links):
+        if self.lacks or any(link.good is False for link in self.links):
             return DIFFERS
-        return HOLE if any(one.good is None and one.word != ASIDE for one in self.links) else 0
+        return HOLE if any(link.good is None and link.word != ASIDE for link in self.links) else 0
 
     @property
     def word(self) -> str:
@@ -79,9 +79,9 @@ class Traced:
 def traced(sources: Sources, document: Document) -> Traced:
     """The matrix with results: orphans first, then what is not as expected, then the register's order."""
     key = f"traced {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = _traced(sources, document)
-    found: Traced = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = _traced(sources, document)
+    found: Traced = sources.cache[key]
     return found
 
 
@@ -89,11 +89,11 @@ def _traced(sources: Sources, document: Document) -> Traced:
     cited = citations_of(sources, document)
     rows = matrix_of(document, cited)
     problems = orphans(document, rows, cited, texts_of(sources, document))
-    ids = {one.id for one in document.clauses}
+    ids = {declared.id for declared in document.clauses}
     lacking: dict[str, list[str]] = {}
-    for one in problems:
-        if one.place in ids:
-            lacking.setdefault(one.place, []).append(one.text)
+    for problem in problems:
+        if problem.place in ids:
+            lacking.setdefault(problem.place, []).append(problem.text)
     by_property: dict[str, list[Claim]] = {}
     for claim in claims(sources, document):
         by_property.setdefault(claim.of.id, []).append(claim)
@@ -112,7 +112,7 @@ def _traced(sources: Sources, document: Document) -> Traced:
     ]
     order = {DIFFERS: 1, HOLE: 2, 0: 3}
     chains.sort(key=lambda one: 0 if one.lacks else order[one.status])
-    return Traced(tuple(chains), tuple(one for one in problems if one.place not in ids))
+    return Traced(tuple(chains), tuple(problem for problem in problems if problem.place not in ids))
 
 
 def _property(name: str, own: Iterable[Claim]) -> Link:
@@ -122,31 +122,31 @@ def _property(name: str, own: Iterable[Claim]) -> Link:
         return Link(name, "not there", None)
     worst = found[0]
     if worst.status == 0:
-        worst = next((one for one in found if one.good), worst)
+        worst = next((claim for claim in found if claim.good), worst)
     evidence = worst.shown.evidence if worst.shown is not None else None
     return Link(name, worst.word, worst.good, "" if evidence is None else evidence.path)
 
 
 def _theorem(sources: Sources, document: Document, name: str) -> Link:
-    one = proved(sources, document, name)
+    one = theorem_result(sources, document, name)
     return Link(name, one.word, one.good, "" if one.evidence is None else one.evidence.path)
 
 
 def _vectors(sources: Sources, document: Document) -> Mapping[tuple[str, str], Link]:
     """By target and step: what the programs that were run against vectors came to."""
     found: dict[tuple[str, str], Link] = {}
-    for one in sources.of_kind(document.name, "conformance"):
-        if "suite" not in one.result:
+    for piece in sources.of_kind(document.name, "conformance"):
+        if "suite" not in piece.result:
             continue
-        status = status_of(as_it_counts(one))
-        for step, (have, total) in one.result.get("covered", {}).items():
+        status = status_of(as_it_counts(piece))
+        for step, (have, total) in piece.result.get("covered", {}).items():
             good = False if status == DIFFERS else True if not status and have == total and total else None
-            open_word = "of another text" if one.changed else "not in full" if not status else "not judged"
-            word = str(one.record["verdict"]) if good is not None else open_word
-            key = str(one.result.get("target", "")), str(step)
+            open_word = "of another text" if piece.changed else "not in full" if not status else "not judged"
+            word = str(piece.record["verdict"]) if good is not None else open_word
+            key = str(piece.result.get("target", "")), str(step)
             before = found.get(key)
             if before is None or good is False or (good and before.good is None):
-                found[key] = Link(f"{key[0]}/{step}", f"{word} ({one.result['suite']})", good, one.path)
+                found[key] = Link(f"{key[0]}/{step}", f"{word} ({piece.result['suite']})", good, piece.path)
     return found
 
 

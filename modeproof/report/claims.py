@@ -26,7 +26,7 @@ UNDECIDED = ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED")
 
 
 @dataclass(frozen=True)
-class Said:
+class Result:
     """What one run or theorem says; `evidence` is None where there is none."""
 
     id: str
@@ -91,25 +91,25 @@ class Claim:
 
     of: Property
     environment: str
-    runs: tuple[Said, ...]
-    theorems: tuple[Said, ...]
+    runs: tuple[Result, ...]
+    theorems: tuple[Result, ...]
     because: str
 
     @property
-    def shown(self) -> Said | None:
+    def shown(self) -> Result | None:
         """The run whose verdict counts: the worst of those that there are, else the one declared first."""
-        there = [one for one in self.runs if one.evidence is not None]
+        there = [run for run in self.runs if run.evidence is not None]
         bad = [one for one in there if one.status == DIFFERS] or [one for one in there if one.status]
-        declared = [one for one in self.runs if not one.aside] or list(self.runs)
+        declared = [run for run in self.runs if not run.aside] or list(self.runs)
         return next(iter([*bad, *there, *declared]), None)
 
     @property
     def status(self) -> int:
         """0; DIFFERS where a run or a theorem is not as expected; HOLE where none judges it."""
-        every = [one for one in (self.shown, *self.theorems) if one is not None]
+        every = [result for result in (self.shown, *self.theorems) if result is not None]
         if self.shown is None:
             return HOLE
-        return min((one.status for one in every if one.status), default=0)
+        return min((result.status for result in every if result.status), default=0)
 
     @property
     def good(self) -> bool | None:
@@ -135,17 +135,17 @@ class Claim:
     def engines(self) -> tuple[str, ...]:
         """The engines that agree that it holds."""
         found = []
-        if any(one.word == "HOLDS" and one.good for one in self.runs):
+        if any(run.word == "HOLDS" and run.good for run in self.runs):
             found.append("TLC")
-        if any(one.word == "PROVED" and one.good for one in self.theorems):
+        if any(theorem.word == "PROVED" and theorem.good for theorem in self.theorems):
             found += ["Z3", "cvc5"]
         return tuple(found)
 
     @property
     def disagreement(self) -> str:
         """What two engines say against each other; empty where they do not."""
-        good = [one for one in (*self.runs, *self.theorems) if one.word in ("HOLDS", "PROVED")]
-        bad = [one for one in (*self.runs, *self.theorems) if one.word == "VIOLATED"]
+        good = [run for run in (*self.runs, *self.theorems) if run.word in ("HOLDS", "PROVED")]
+        bad = [run for run in (*self.runs, *self.theorems) if run.word == "VIOLATED"]
         if not good or not bad:
             return ""
         return f"{good[0].id} says {good[0].word}, {bad[0].id} says {bad[0].word}"
@@ -154,73 +154,73 @@ class Claim:
 def claims(sources: Sources, document: Document) -> tuple[Claim, ...]:
     """Every property of the document in every environment, in the order of the register."""
     key = f"claims {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = tuple(_claims(sources, document))
-    found: tuple[Claim, ...] = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = tuple(_claims(sources, document))
+    found: tuple[Claim, ...] = sources.cache[key]
     return found
 
 
 def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
     named = theorems_of(sources, document)
     agreed = agreement(sources, document)
-    for one in document.properties:
-        for environment in one.environments:
+    for prop in document.properties:
+        for environment in prop.environments:
             runs = [
-                said(sources, document, run)
+                result_of(sources, document, run)
                 for run in document.runs
-                if run.kind in POSITIVE and run.environment == environment and one.tla in run.properties
+                if run.kind in POSITIVE and run.environment == environment and prop.tla in run.properties
             ]
-            row = agreed.get((one.id, environment))
+            row = agreed.get((prop.id, environment))
             if row is None:
-                theorems, because = named.get(one.id, ()), ""
+                theorems, because = named.get(prop.id, ()), ""
             else:
                 theorems, because = (row[0],) if row[0] else (), row[1]
             yield Claim(
-                one,
+                prop,
                 environment,
                 tuple(runs),
-                tuple(proved(sources, document, name) for name in theorems),
+                tuple(theorem_result(sources, document, name) for name in theorems),
                 because,
             )
 
 
-def said(sources: Sources, document: Document, run: Run) -> Said:
+def result_of(sources: Sources, document: Document, run: Run) -> Result:
     """What a declared run says."""
     lanes = " and ".join(run.lanes)
     evidence = sources.evidence[document.name].get(run.id)
-    return Said(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
+    return Result(run.id, evidence, f"a run of lane {lanes}", LANE not in run.lanes)
 
 
-def steps_of(one: Said) -> Figure | None:
+def steps_of(result: Result) -> Figure | None:
     """The steps of the counterexample that a run found; None where it found none.
 
     A trace of one state takes no step.
     """
-    if one.evidence is None or not one.evidence.result.get("trace"):
+    if result.evidence is None or not result.evidence.result.get("trace"):
         return None
-    return Figure(int(one.evidence.result["trace_length"]) - 1, one.evidence.path)
+    return Figure(int(result.evidence.result["trace_length"]) - 1, result.evidence.path)
 
 
-def proved(sources: Sources, document: Document, theorem: str) -> Said:
+def theorem_result(sources: Sources, document: Document, theorem: str) -> Result:
     """What there is of a theorem."""
-    return Said(theorem, sources.evidence[document.name].get(theorem), "no evidence")
+    return Result(theorem, sources.evidence[document.name].get(theorem), "no evidence")
 
 
 def theorems_of(sources: Sources, document: Document) -> Mapping[str, tuple[str, ...]]:
     """The names of the theorems that prove each property, by the property's id."""
     found: dict[str, list[str]] = {}
     for module in texts_of(sources, document).proofs:
-        for one in module.theorems:
-            for name in one.properties:
-                found.setdefault(name, []).append(one.name)
+        for theorem in module.theorems:
+            for name in theorem.properties:
+                found.setdefault(name, []).append(theorem.name)
     return {name: tuple(theorems) for name, theorems in found.items()}
 
 
 def theorem_rows(sources: Sources, document: Document) -> Iterator[tuple[str, PythonTheorem]]:
     """Every theorem of the document with its file, in the order of the files."""
     for module in texts_of(sources, document).proofs:
-        for one in module.theorems:
-            yield module.file, one
+        for theorem in module.theorems:
+            yield module.file, theorem
 
 
 def agreement(sources: Sources, document: Document) -> Mapping[tuple[str, str], tuple[str, str]]:
@@ -233,7 +233,7 @@ def agreement(sources: Sources, document: Document) -> Mapping[tuple[str, str], 
 def texts_of(sources: Sources, document: Document) -> Texts:
     """Specification, reference implementation and proofs of a document as texts, read once."""
     key = f"texts {document.name}"
-    if key not in sources.shelf:
+    if key not in sources.cache:
         try:
             texts = read_sources(document)
             files = [
@@ -242,23 +242,23 @@ def texts_of(sources: Sources, document: Document) -> Texts:
             ]
             for file in files:
                 sources.content(file)
-            sources.shelf[key] = texts, ""
+            sources.cache[key] = texts, ""
         except Unjudged as error:
-            sources.shelf[key] = Texts({}, (), ()), error.message
-    found: Texts = sources.shelf[key][0]
+            sources.cache[key] = Texts({}, (), ()), error.message
+    found: Texts = sources.cache[key][0]
     return found
 
 
 def fault_of_texts(sources: Sources, document: Document) -> str:
     """Why the texts of a document cannot be read; empty where they can."""
     texts_of(sources, document)
-    return str(sources.shelf[f"texts {document.name}"][1])
+    return str(sources.cache[f"texts {document.name}"][1])
 
 
 def citations_of(sources: Sources, document: Document) -> tuple[Citation, ...]:
     """Who cites what, found once."""
     key = f"citations {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = citations(document, texts_of(sources, document))
-    found: tuple[Citation, ...] = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = citations(document, texts_of(sources, document))
+    found: tuple[Citation, ...] = sources.cache[key]
     return found

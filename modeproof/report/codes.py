@@ -24,9 +24,9 @@ class Codes:
 def codes_of(sources: Sources, document: Document) -> dict[str, Codes]:
     """The codes by signal; nothing for a signal whose words have no meaning, or no known one."""
     key = f"codes {document.name}"
-    if key not in sources.shelf:
-        sources.shelf[key] = _read(sources, document)
-    found: dict[str, Codes] = sources.shelf[key]
+    if key not in sources.cache:
+        sources.cache[key] = _read(sources, document)
+    found: dict[str, Codes] = sources.cache[key]
     return found
 
 

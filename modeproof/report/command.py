@@ -63,7 +63,7 @@ def run(args: argparse.Namespace) -> int:
     given = None if args.previous is None else read_report(args.previous)[1]
     report = make(place, lambda digest: choose(folder, digest) if given is None else Baseline(given))
     write(report, folder)
-    for line in said(report.troubles):
+    for line in trouble_lines(report.troubles):
         print(line)
     print(f"report: {folder / PAGE} ({len(report.html.encode()):,} bytes)")
     _write_json(args, report.status, report=str(folder / PAGE), troubles=plain(report.troubles))
@@ -79,7 +79,7 @@ def made_by_verify(place: Path) -> list[str]:
     folder = build(place) / "report"
     report = make(place, lambda digest: choose(folder, digest))
     write(report, folder)
-    bad = [one for one in report.troubles if one.status != NOTE]
+    bad = [trouble for trouble in report.troubles if trouble.status != NOTE]
     line = f"{'report':<12} {BESIDE}/{PAGE}"
     if not bad:
         return [f"{line}: complete"]
@@ -98,13 +98,13 @@ def write(report: Report, folder: Path) -> None:
         write_whole(folder / name, content)
 
 
-def said(troubles: Sequence[Trouble]) -> Iterator[str]:
+def trouble_lines(troubles: Sequence[Trouble]) -> Iterator[str]:
     """The troubles for the terminal, the worst first; of many of one part the first, and how many more."""
     for status in (DIFFERS, HOLE, NOTE):
         parts: dict[str, list[Trouble]] = {}
-        for one in troubles:
-            if one.status == status:
-                parts.setdefault(one.part, []).append(one)
+        for trouble in troubles:
+            if trouble.status == status:
+                parts.setdefault(trouble.part, []).append(trouble)
         for part, some in parts.items():
             for one in some[:SHOWN]:
                 yield f"{WORDS[status]}  {one.what}" + (f"; run {one.remedy}" if one.remedy else "")
@@ -115,8 +115,8 @@ def said(troubles: Sequence[Trouble]) -> Iterator[str]:
 def _verify(args: argparse.Namespace, place: Path) -> int:
     file = args.verify if args.verify != Path(BESIDE) / PAGE else build(place) / "report" / PAGE
     found = recheck(place, file)
-    for one in found.differences:
-        print(f"{one.word:<8} {one.path}: {one.why}")
+    for difference in found.differences:
+        print(f"{difference.word:<8} {difference.path}: {difference.why}")
     words = {0: "as it was made", DIFFERS: "NOT as it was made", HOLE: "NOT complete"}[found.status]
     print(f"{file}: {found.compared} files: {words}")
     _write_json(args, found.status, report=str(file), differences=plain(found.differences))

@@ -109,30 +109,30 @@ def _each_run(
     return judge
 
 
-def _option(condition: Condition, one: Evidence) -> bool | None:
-    command = one.result.get("tlc_command")
+def _option(condition: Condition, piece: Evidence) -> bool | None:
+    command = piece.result.get("tlc_command")
     return None if command is None else f" {condition.value} " in f" {command} "
 
 
-def _no_option(condition: Condition, one: Evidence) -> bool | None:
-    given = _option(condition, one)
+def _no_option(condition: Condition, piece: Evidence) -> bool | None:
+    given = _option(condition, piece)
     return None if given is None else not given
 
 
-def _workers(condition: Condition, one: Evidence) -> bool | None:
-    workers: Any = one.result.get("workers")
+def _workers(condition: Condition, piece: Evidence) -> bool | None:
+    workers: Any = piece.result.get("workers")
     return None if workers is None else bool(workers == condition.value)
 
 
-def _queue(condition: Condition, one: Evidence) -> bool | None:
-    if one.record["verdict"] not in ("HOLDS", "REACHED"):
+def _queue(condition: Condition, piece: Evidence) -> bool | None:
+    if piece.record["verdict"] not in ("HOLDS", "REACHED"):
         return True
-    queue: Any = one.result.get("queue")
+    queue: Any = piece.result.get("queue")
     return None if queue is None else bool(queue == 0)
 
 
-def _pinned(condition: Condition, one: Evidence) -> bool | None:
-    pinned: Any = one.result.get("jar_pinned")
+def _pinned(condition: Condition, piece: Evidence) -> bool | None:
+    pinned: Any = piece.result.get("jar_pinned")
     return None if pinned is None else pinned is True
 
 
@@ -159,16 +159,16 @@ def _solvers(sources: Sources, condition: Condition) -> Met:
     bad: list[str] = []
     lost: list[str] = []
     count = 0
-    for one in sources.everything():
-        if one.record["kind"] != "proof":
+    for piece in sources.everything():
+        if piece.record["kind"] != "proof":
             continue
-        if one.changed:
-            lost.append(one.id)
+        if piece.changed:
+            lost.append(piece.id)
             continue
-        for query in one.result.get("queries", ()):
+        for query in piece.result.get("queries", ()):
             count += 1
             if not query["z3"] == query["cvc5"] == query["expected"]:
-                bad.append(f"{one.id}: {query['name']}")
+                bad.append(f"{piece.id}: {query['name']}")
     return _met("both solvers give the expected answer to every question", bad, count, lost)
 
 
@@ -178,9 +178,9 @@ def _compared(sources: Sources, condition: Condition) -> Met:
     count = 0
     for name, document in sources.documents.items():
         found = {
-            str(one.result["run"]).rpartition("/")[2]: one
-            for one in sources.of_kind(name, "conformance")
-            if "implementation_states" in one.result
+            str(piece.result["run"]).rpartition("/")[2]: piece
+            for piece in sources.of_kind(name, "conformance")
+            if "implementation_states" in piece.result
         }
         for run in document.runs:
             if run.graph is None or LANE not in run.lanes:

@@ -20,9 +20,9 @@ def contradictions(sources: Sources) -> Iterator[Trouble]:
 def _two_texts(sources: Sources) -> Iterator[Trouble]:
     """One file with two hashes: evidence of different source trees lies in one folder."""
     texts: dict[str, dict[str, list[str]]] = {}
-    for one in sources.everything():
-        for path, digest in one.record["inputs"].items():
-            texts.setdefault(path, {}).setdefault(digest, []).append(f"{one.record['document']}/{one.id}")
+    for piece in sources.everything():
+        for path, digest in piece.record["inputs"].items():
+            texts.setdefault(path, {}).setdefault(digest, []).append(f"{piece.record['document']}/{piece.id}")
     double = {path: of for path, of in sorted(texts.items()) if len(of) > 1}
     if double:
         items = tuple(
@@ -36,9 +36,9 @@ def _two_texts(sources: Sources) -> Iterator[Trouble]:
 
 def _engines(sources: Sources, name: str) -> Iterator[Trouble]:
     """A property that one engine holds and another refutes."""
-    for one in claims(sources, sources.documents[name]):
-        if one.disagreement:
-            text = f"{name}: {one.of.id} ({one.environment}): two engines disagree: {one.disagreement}"
+    for claim in claims(sources, sources.documents[name]):
+        if claim.disagreement:
+            text = f"{name}: {claim.of.id} ({claim.environment}): two engines disagree: {claim.disagreement}"
             yield Trouble(DIFFERS, "properties", text, f"modeproof verify --document {name}")
 
 
@@ -53,20 +53,22 @@ def _solvers(sources: Sources, name: str) -> Iterator[Trouble]:
 
 def _counts(sources: Sources, name: str) -> Iterator[Trouble]:
     """The graph that a run printed beside the one that a program was compared with: states, transitions."""
-    graphs = {one.id: one.result["graph"] for one in sources.of_kind(name, "tlc") if "graph" in one.result}
-    for one in sources.of_kind(name, "conformance"):
-        run = str(one.result.get("run", "")).partition("/")[2]
+    graphs = {
+        piece.id: piece.result["graph"] for piece in sources.of_kind(name, "tlc") if "graph" in piece.result
+    }
+    for piece in sources.of_kind(name, "conformance"):
+        run = str(piece.result.get("run", "")).partition("/")[2]
         graph = graphs.get(run)
         if not isinstance(graph, Mapping):
             continue
         for of_graph, of_comparison in (("states", "states"), ("edges", "transitions")):
-            before, after = graph.get(of_graph), one.result.get(of_comparison)
+            before, after = graph.get(of_graph), piece.result.get(of_comparison)
             if None not in (before, after) and before != after:
-                text = f"{name}: {run} printed {before:,} {of_graph}, and {one.id} compared {after:,}"
-                yield Trouble(DIFFERS, "conformance", text, str(one.record["command"]))
+                text = f"{name}: {run} printed {before:,} {of_graph}, and {piece.id} compared {after:,}"
+                yield Trouble(DIFFERS, "conformance", text, str(piece.record["command"]))
         recorded = {
-            path: digest for path, digest in one.record["inputs"].items() if path == graph.get("file")
+            path: digest for path, digest in piece.record["inputs"].items() if path == graph.get("file")
         }
         if recorded and graph.get("sha256") not in recorded.values():
-            text = f"{name}: {one.id} is of another graph than {run} printed"
-            yield Trouble(DIFFERS, "conformance", text, str(one.record["command"]))
+            text = f"{name}: {piece.id} is of another graph than {run} printed"
+            yield Trouble(DIFFERS, "conformance", text, str(piece.record["command"]))

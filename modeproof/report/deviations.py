@@ -11,7 +11,7 @@ from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 from modeproof.registers.switches import restored
-from modeproof.report.claims import Said, said
+from modeproof.report.claims import Result, result_of
 from modeproof.report.sources import Sources
 
 
@@ -21,13 +21,13 @@ class Deviation:
 
     run: Run
     readings: tuple[str, ...]
-    said: Said
+    result: Result
     findings: tuple[Finding, ...]
 
     @property
     def harmless(self) -> bool:
         """One reading is restored, and every property still holds within the bounds."""
-        return len(self.readings) == 1 and self.said.word == "HOLDS" and self.said.good is True
+        return len(self.readings) == 1 and self.result.word == "HOLDS" and self.result.good is True
 
 
 def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
@@ -41,8 +41,8 @@ def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
         Deviation(
             run,
             readings[run.id],
-            said(sources, document, run),
-            tuple(one for one in document.findings if run.id in one.evidence),
+            result_of(sources, document, run),
+            tuple(finding for finding in document.findings if run.id in finding.evidence),
         )
         for run in document.runs
         if readings.get(run.id)

@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 from modeproof.registers.rows import Document
 from modeproof.report.cell_text import for_xml
 from modeproof.report.claims import LANE, theorem_rows
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, Evidence, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 KINDS = ("tlc", "proof", "conformance", "agreement", "coverage", "registers", "strength")
@@ -39,8 +39,8 @@ def junit(sources: Sources) -> bytes:
     root = ElementTree.Element("testsuites", name="modeproof")
     for document in sources.documents.values():
         cases = sorted(_cases(sources, document), key=lambda one: (one.kind, one.id))
-        counts = [sum(1 for one in cases if one.status == status) for status in (DIFFERS, 2, SKIPPED)]
-        seconds = sum(float(one.evidence.record["seconds"]) for one in cases if one.evidence is not None)
+        counts = [sum(1 for case in cases if case.status == status) for status in (DIFFERS, 2, SKIPPED)]
+        seconds = sum(float(case.evidence.record["seconds"]) for case in cases if case.evidence is not None)
         suite = ElementTree.SubElement(
             root,
             "testsuite",
@@ -51,8 +51,8 @@ def junit(sources: Sources) -> bytes:
             skipped=str(counts[2]),
             time=f"{seconds:.3f}",
         )
-        for one in cases:
-            suite.append(_element(document, one))
+        for case in cases:
+            suite.append(_element(document, case))
     ElementTree.indent(root)
     content: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
     return content + b"\n"
@@ -89,21 +89,21 @@ def _element(document: Document, one: _Case) -> ElementTree.Element:
 def _cases(sources: Sources, document: Document) -> Iterator[_Case]:
     """What there is, and what is declared and is not there."""
     known = sources.evidence[document.name]
-    runs = {one.id: one for one in document.runs}
-    clauses_of = {one.tla: one.clauses for one in document.properties}
+    runs = {declared.id: declared for declared in document.runs}
+    clauses_of = {prop.tla: prop.clauses for prop in document.properties}
     theorems = {one.name: one for _, one in theorem_rows(sources, document)}
-    for one in known.values():
-        kind = str(one.record["kind"])
+    for piece in known.values():
+        kind = str(piece.record["kind"])
         if kind not in KINDS:
             continue
-        record = as_it_counts(one)
-        told = one.result.get("clauses")
+        record = as_it_counts(piece)
+        told = piece.result.get("clauses")
         cited = [str(name) for name in told] if isinstance(told, (list, dict)) else []
-        if one.id in runs:
-            cited = [*runs[one.id].clauses]
-            for name in runs[one.id].properties:
+        if piece.id in runs:
+            cited = [*runs[piece.id].clauses]
+            for name in runs[piece.id].properties:
                 cited += clauses_of.get(name, ())
-        yield _Case(kind, one.id, tuple(dict.fromkeys(cited)), one, status_of(record), record["reason"])
+        yield _Case(kind, piece.id, tuple(dict.fromkeys(cited)), piece, status_of(record), record["reason"])
     for run in document.runs:
         if run.id not in known:
             here = LANE in run.lanes

@@ -32,7 +32,9 @@ def missing(sources: Sources) -> Iterator[Trouble]:
         if not found:
             continue  # said once, where the folder is read
         for kind, ids in _declared(sources, document).items():
-            there = {id for one in found.values() if one.record["kind"] == kind for id in _ids(one.record)}
+            there = {
+                id for piece in found.values() if piece.record["kind"] == kind for id in _ids(piece.record)
+            }
             lost = tuple(id for id in ids if id not in there)
             if lost:
                 word = {"tlc": "runs", "proof": "theorems", "conformance": "graphs"}.get(kind, kind)
@@ -44,12 +46,14 @@ def missing(sources: Sources) -> Iterator[Trouble]:
                 remedy = f"modeproof verify --document {name}"
                 yield Trouble(HOLE, PART_OF[kind], what, remedy, lost)
         known = {
-            "tlc": {one.id for one in document.runs},
+            "tlc": {run.id for run in document.runs},
             "proof": set(theorems_of(sources, document)),
         }
         for kind, ids_known in known.items():
             strange = tuple(
-                one.id for one in found.values() if one.record["kind"] == kind and one.id not in ids_known
+                piece.id
+                for piece in found.values()
+                if piece.record["kind"] == kind and piece.id not in ids_known
             )
             if strange:
                 what = (
@@ -59,11 +63,11 @@ def missing(sources: Sources) -> Iterator[Trouble]:
 
 
 def _declared(sources: Sources, document: Document) -> dict[str, tuple[str, ...]]:
-    runs = [one for one in document.runs if LANE in one.lanes]
+    runs = [run for run in document.runs if LANE in run.lanes]
     return {
-        "tlc": tuple(one.id for one in runs),
+        "tlc": tuple(run.id for run in runs),
         "proof": theorems_of(sources, document),
-        "conformance": tuple(f"{document.name}/{one.id}" for one in runs if one.graph is not None),
+        "conformance": tuple(f"{document.name}/{run.id}" for run in runs if run.graph is not None),
         "registers": ("registers",),
     }
 
@@ -78,26 +82,28 @@ def _ids(record: object) -> tuple[str, ...]:
 
 def unexpected(sources: Sources) -> Iterator[Trouble]:
     """Evidence that says itself that it is not as expected, or not judged; one trouble each."""
-    for one in sources.everything():
-        status = status_of(one.record)
+    for piece in sources.everything():
+        status = status_of(piece.record)
         if status:
-            what = f"{one.record['document']}/{one.id}: {one.record['verdict']}: {one.record['reason']}"
-            part = PART_OF.get(str(one.record["kind"]), "verdict")
-            yield Trouble(DIFFERS if status == 1 else HOLE, part, what, str(one.record["command"]))
+            what = (
+                f"{piece.record['document']}/{piece.id}: {piece.record['verdict']}: {piece.record['reason']}"
+            )
+            part = PART_OF.get(str(piece.record["kind"]), "verdict")
+            yield Trouble(DIFFERS if status == 1 else HOLE, part, what, str(piece.record["command"]))
 
 
 def mixed(sources: Sources) -> Iterator[Trouble]:
     """Evidence by different versions of a tool or on different machines: said, not hidden."""
     made: dict[tuple[str, str], list[str]] = {}
-    for one in sources.everything():
-        name = f"{one.record['document']}/{one.id}"
-        for tool, entry in one.record["tools"].items():
+    for piece in sources.everything():
+        name = f"{piece.record['document']}/{piece.id}"
+        for tool, entry in piece.record["tools"].items():
             version = f"{entry['version']} ({entry['sha256'][:12]})" if entry["sha256"] else entry["version"]
             made.setdefault((str(tool), version), []).append(name)
-        computer = one.record["machine"]
+        computer = piece.record["machine"]
         words = f"{computer['system']}, {computer.get('cpu', '')}, {computer['cores']} cores"
         made.setdefault(("machine", words), []).append(name)
-    sources.shelf["made"] = made
+    sources.cache["made"] = made
     for tool in dict.fromkeys(tool for tool, _ in made):
         versions = {version: names for (of, version), names in made.items() if of == tool}
         if len(versions) > 1:

@@ -52,5 +52,5 @@ def plain(value: Any) -> Any:
     if isinstance(value, Enum):
         return value.value
     if is_dataclass(value) and not isinstance(value, type):
-        return plain({one.name: getattr(value, one.name) for one in fields(value)})
+        return plain({field_.name: getattr(value, field_.name) for field_ in fields(value)})
     return value

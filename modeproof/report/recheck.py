@@ -38,7 +38,9 @@ class Recheck:
     @property
     def status(self) -> int:
         """1 where something differs or is new, else 2 where something is gone, else 0."""
-        return min((one.status for one in self.differences if one.status != NOTE), default=0)
+        return min(
+            (difference.status for difference in self.differences if difference.status != NOTE), default=0
+        )
 
 
 def recheck(root: Path, file: Path) -> Recheck:
@@ -51,7 +53,9 @@ def recheck(root: Path, file: Path) -> Recheck:
         page = file.with_name(PAGE)
     else:
         record = file.with_name(NAME)
-    texts = {one: _text(one) for one in dict.fromkeys((file, page, record)) if one == file or one.exists()}
+    texts = {
+        path: _text(path) for path in dict.fromkeys((file, page, record)) if path == file or path.exists()
+    }
     found: list[Difference] = []
     listed: dict[Path, Mapping[str, str]] = {}
     for one, text in texts.items():

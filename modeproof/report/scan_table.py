@@ -46,7 +46,7 @@ def scan_table(walk: Mapping[str, Any], traces: Traces, cells: Cells) -> str:
     if still:
         same = ", ".join(f"{columns[n].heading} {shown[-1][n]}".replace("<br>", " ") for n in still)
         notes.append(f"The same in every row: {same}.")
-    notes += _instead(walk, traces, hidden)
+    notes += _instead(walk, traces, hidden, heads[0])
     text = markdown([*heads, *(columns[n].heading for n in moving)], lines)
     return text + "".join(f"\n{note}\n" for note in notes)
 
@@ -59,9 +59,8 @@ def _who(traces: Traces, row: Mapping[str, Any]) -> str:
     return traces.nobody.get(str(row["step"]), "environment")
 
 
-def _instead(walk: Mapping[str, Any], traces: Traces, hidden: int) -> list[str]:
-    """What each decided device does in the first scan of the table in which it goes another way."""
-    word = "scan" if walk["outputs"] else "step"
+def _instead(walk: Mapping[str, Any], traces: Traces, hidden: int, word: str) -> list[str]:
+    """What each decided device does in the first row of the table in which it goes another way."""
     steps = {row["at"]: row["step"] for row in walk["rows"]}
     notes = []
     for device, departures in walk.get("departures", {}).items():

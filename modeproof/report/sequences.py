@@ -151,7 +151,7 @@ def _story(read: VectorFile, case: Mapping[str, Any], device: Device, codes: Map
     first, last = stands[1], stands[-1]
     if missing := [name for name in names if name not in first]:
         raise ValueError(f"the first scan says nothing of {', '.join(missing)}")
-    moving = [name for name in names if len({one[name] for one in stands if name in one}) > 1]
+    moving = [name for name in names if len({stand[name] for stand in stands if name in stand}) > 1]
     shown = [
         replace(
             row,

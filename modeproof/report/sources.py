@@ -13,7 +13,8 @@ from typing import Any
 
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import read
-from modeproof.registers.load import documents, load_document
+from modeproof.places import documents
+from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 
 NOTE, DIFFERS, HOLE = 0, 1, 2
@@ -67,7 +68,7 @@ class Evidence:
     def artefacts(self) -> tuple[str, ...]:
         """The files that it made for the report and that are what it made; each is in `Sources.files`."""
         made: Mapping[str, str] = self.result.get("artefacts", {})
-        return tuple(one for one in made if one not in self.changed and one not in self.gone)
+        return tuple(file for file in made if file not in self.changed and file not in self.gone)
 
     @property
     def result(self) -> Mapping[str, Any]:
@@ -96,12 +97,12 @@ class Sources:
     evidence: Mapping[str, Mapping[str, Evidence]]
     files: dict[str, str]
     troubles: tuple[Trouble, ...] = ()
-    shelf: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
+    cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
 
     def of_kind(self, document: str, kind: str) -> list[Evidence]:
         """The evidence of a document of one kind (tlc, conformance, proof, agreement, registers, ..)."""
-        return [one for one in self.evidence[document].values() if one.record["kind"] == kind]
+        return [record for record in self.evidence[document].values() if record.record["kind"] == kind]
 
     def everything(self) -> Iterator[Evidence]:
         """All evidence, by document and id."""
@@ -165,19 +166,19 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
             artefacts = record["result"].get("artefacts", {})
             before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
             changed = tuple(one for one, digest in before.items() if hashes[one] not in (digest, None))
-            gone = tuple(one for one in before if hashes[one] is None)
+            gone = tuple(file for file in before if hashes[file] is None)
             files[shown] = hashes[shown] or ""
-            files |= {one: digest for one in before if (digest := hashes[one]) is not None}
+            files |= {file: digest for file in before if (digest := hashes[file]) is not None}
             evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
     ordered = sorted(found.values(), key=lambda one: (one.about.seed, one.name))
-    troubles += _stale({one.name: evidence[one.name] for one in ordered})
+    troubles += _stale({document.name: evidence[document.name] for document in ordered})
     return Sources(
         root,
-        {one.name: one for one in ordered},
-        {one.name: evidence[one.name] for one in ordered},
+        {document.name: document for document in ordered},
+        {document.name: evidence[document.name] for document in ordered},
         dict(sorted(files.items())),
         tuple(troubles),
     )
@@ -197,13 +198,13 @@ def _stale(evidence: Mapping[str, Mapping[str, Evidence]]) -> Iterator[Trouble]:
     for name, of in evidence.items():
         items: list[str] = []
         files: dict[str, int] = {}
-        for one in of.values():
-            for path in one.gone:
+        for piece in of.values():
+            for path in piece.gone:
                 if path.startswith("build/"):
-                    unmade.setdefault(path, []).append(one.id)
-            bad = (*one.changed, *(path for path in one.gone if not path.startswith("build/")))
+                    unmade.setdefault(path, []).append(piece.id)
+            bad = (*piece.changed, *(path for path in piece.gone if not path.startswith("build/")))
             if bad:
-                items.append(f"{one.id} ({', '.join(bad)})")
+                items.append(f"{piece.id} ({', '.join(bad)})")
                 files |= {path: files.get(path, 0) + 1 for path in bad}
         if items:
             most = sorted(files, key=lambda path: (-files[path], path))

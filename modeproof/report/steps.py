@@ -19,18 +19,18 @@ class Cited:
 
 def cited(sources: Sources, document: Document) -> tuple[Citation, ...]:
     """Every citation of a document, read once for all parts."""
-    shelf = f"citations of {document.name}"
-    if shelf not in sources.shelf:
-        sources.shelf[shelf] = citations(document, read_sources(document))
-    found: tuple[Citation, ...] = sources.shelf[shelf]
+    key = f"citations of {document.name}"
+    if key not in sources.cache:
+        sources.cache[key] = citations(document, read_sources(document))
+    found: tuple[Citation, ...] = sources.cache[key]
     return found
 
 
 def of_steps(sources: Sources, document: Document, device: Device) -> dict[str, Cited]:
     """By step of the device; a step whose action cites nothing has an empty row."""
     by_name = {
-        one.name: Cited(one.clauses, one.findings)
-        for one in cited(sources, document)
-        if one.kind == "definition" and one.room == "spec"
+        citation.name: Cited(citation.clauses, citation.findings)
+        for citation in cited(sources, document)
+        if citation.kind == "definition" and citation.room == "spec"
     }
     return {step: by_name.get(f"{device.module}!{step}", Cited()) for step in device.steps}

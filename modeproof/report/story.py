@@ -102,7 +102,9 @@ def from_walk(document: Document, traces: Traces, walk: Mapping[str, Any]) -> St
     rows = walk["rows"]
     names = list(traces.tops[walk["module"]].columns)
     columns = cells.columns(names, list(rows[0]["variables"]))
-    shown = [[_plain(cells.show(one, row["wires"], row["variables"])) for one in columns] for row in rows]
+    shown = [
+        [_plain(cells.show(column, row["wires"], row["variables"])) for column in columns] for row in rows
+    ]
     present = _present(document, traces, cells, rows[0]["variables"])
     states = [
         {device: str(row["variables"][cells.state_variable(device, row["variables"])]) for device in present}
@@ -127,7 +129,7 @@ def from_variables(document: Document, traces: Traces | None, trace: Sequence[Ma
     names = sorted(trace[0]["variables"])
     step = traces.step if traces is not None else "step"
     columns = [Column(name, name, (name,), "variable") for name in names if name != step]
-    shown = [[state["variables"][one.id] for one in columns] for state in trace]
+    shown = [[state["variables"][column.id] for column in columns] for state in trace]
     present: tuple[str, ...] = ()
     cells = Cells(document.interface, traces, {}) if traces is not None else None
     if traces is not None and cells is not None:
@@ -136,7 +138,9 @@ def from_variables(document: Document, traces: Traces | None, trace: Sequence[Ma
     for at, state in enumerate(trace):
         variables = state["variables"]
         taken = variables.get(step, "").strip('"') or ("" if at == 0 else str(state.get("action", "")))
-        owner = next((one.id for one in document.interface.devices.values() if taken in one.steps), OUTSIDE)
+        owner = next(
+            (device.id for device in document.interface.devices.values() if taken in device.steps), OUTSIDE
+        )
         states = (
             {one: variables[cells.state_variable(one, variables)].strip('"') for one in present}
             if cells is not None
@@ -239,19 +243,19 @@ def _instead(traces: Traces, cells: Cells, walk: Mapping[str, Any]) -> dict[int,
     for device, departures in walk["departures"].items():
         short = traces.devices[device].short if device in traces.devices else device
         followed = {one["at"]: one for one in walk["decided"].get(device, ())}
-        for one in departures:
-            row = rows[one["at"]]
-            text = f"{short}, as decided: {one['step']} instead of {row['step']}"
-            if one["step"] == row["step"]:
-                text = f"{short}, as decided: {one['step']} too, but to another end"
-            scan = followed.get(one["at"], {})
+        for departure in departures:
+            row = rows[departure["at"]]
+            text = f"{short}, as decided: {departure['step']} instead of {row['step']}"
+            if departure["step"] == row["step"]:
+                text = f"{short}, as decided: {departure['step']} too, but to another end"
+            scan = followed.get(departure["at"], {})
             wires = row["wires"]
             differing = [
                 f"{name} {_plain(cells.value(name, value))}, not {_plain(cells.value(name, wires[name]))}"
                 for name, value in scan.get("outputs", {}).items()
                 if name in wires and wires[name] != value
             ]
-            found.setdefault(one["at"], []).append("; ".join([text, *differing]))
+            found.setdefault(departure["at"], []).append("; ".join([text, *differing]))
     return found
 
 

@@ -33,7 +33,7 @@ def blocks(text: str) -> list[dict[str, Any]]:
             found.append({"kind": "table", "heads": rows[0], "rows": rows[2:]})
         elif lines[0].startswith("- "):
             items = re.split(r"(?:\A|\n)- ", block)[1:]
-            found.append({"kind": "list", "items": [pieces(" ".join(one.split())) for one in items]})
+            found.append({"kind": "list", "items": [pieces(" ".join(item.split())) for item in items]})
         elif not block.startswith("<!--"):
             found.append({"kind": "paragraph", "pieces": pieces(" ".join(block.split()))})
     return found

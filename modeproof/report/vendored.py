@@ -71,7 +71,9 @@ def _package(name: str, use: str) -> Package:
     except metadata.PackageNotFoundError:
         return Package(name, "not installed", "", use)
     classifiers = [
-        one.rpartition(" :: ")[2] for one in about.get_all("Classifier") or () if one.startswith("License")
+        classifier.rpartition(" :: ")[2]
+        for classifier in about.get_all("Classifier") or ()
+        if classifier.startswith("License")
     ]
     texts = [about[key] for key in ("License-Expression", "License") if key in about]
     text = str(texts[0]).strip() if texts else ""

@@ -12,7 +12,7 @@ from typing import Any
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal, loads, read_signals, shown
 from modeproof.kit.vectors import Suite, open_suite
-from modeproof.s7.plc import S7Program, connect
+from modeproof.s7.program import S7Program, connect
 
 FIELDS = {
     "hello": {"protocol", "target"},

@@ -14,7 +14,7 @@ follows from its signal:
     text   BYTE or INT, its place in the list of values from 0; BOOL where there are two
     int    INT or DINT                   ms     INT, DINT or TIME
 
-Symbols that begin with @ are for the stepping of the program (see `modeproof.s7.plc`). Nothing here needs
+Symbols that begin with @ are for the stepping of the program (see `modeproof.s7.program`). Nothing here needs
 a network or a library.
 """
 

@@ -17,6 +17,7 @@ from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_o
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.lock import only_one
 from modeproof.places import documents, root
+from modeproof.processes import cores
 from modeproof.progress import Progress
 from modeproof.strength.campaign import (
     Campaign,
@@ -30,7 +31,7 @@ from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.register import load_strength, load_vectors, path_of, theorems_path
 from modeproof.strength.results import read_results
 from modeproof.strength.scores import record_score
-from modeproof.tlc.schedule import cores, memory_mb
+from modeproof.tlc.schedule import memory_mb
 
 TLC_MB = 768
 """Memory that a run of TLC on a mutant needs."""

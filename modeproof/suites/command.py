@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from modeproof import evidence
-from modeproof.conformance import REFERENCE
 from modeproof.errors import Unjudged
 from modeproof.graph.device import compared_files, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
-from modeproof.graph.implementation import load_implementation
+from modeproof.graph.implementation import REFERENCE, load_implementation
 from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT

@@ -17,8 +17,8 @@ from typing import Any
 from modeproof import kit, s7
 from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
+from modeproof.kit.bundle import CONTENTS, FOLDER
 from modeproof.kit.compact import compact, same
-from modeproof.kit.shelf import CONTENTS, FOLDER
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
 from modeproof.suites.build import suite_file
 from modeproof.suites.kinds import SUITES

@@ -15,6 +15,7 @@ from typing import Any
 from modeproof import evidence
 from modeproof.errors import Unjudged
 from modeproof.places import build, documents
+from modeproof.processes import cores
 from modeproof.progress import Progress
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.load import load_document
@@ -28,7 +29,7 @@ from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.resume import declaration_sha256
-from modeproof.tlc.schedule import Job, cores, machine_mb, memory_mb, run_all
+from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
 _STATES_A_SECOND = {"LIVE": 8_000, "OPEN": 50_000}

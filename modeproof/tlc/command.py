@@ -12,6 +12,7 @@ from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.ground.options import add_command, write_json
 from modeproof.lock import only_one
 from modeproof.places import root
+from modeproof.processes import cores
 from modeproof.progress import Progress
 from modeproof.registers.runs import LANES
 from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_problems, select
@@ -19,7 +20,6 @@ from modeproof.tlc.distributed import Where, refusal
 from modeproof.tlc.messages import essence, format_trace
 from modeproof.tlc.repin import Move, apply, ask_reason, cfg_diff, moves, refuse_in_ci
 from modeproof.tlc.resume import why_again
-from modeproof.tlc.schedule import cores
 from modeproof.tlc.toolchain import find_toolchain
 
 

@@ -25,11 +25,6 @@ class Job:
     seconds: float
 
 
-def cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 ORDINARY_MB = 5120
 """All heaps together have no more than this, so that the machine can be used for other things meanwhile."""
 

@@ -40,11 +40,11 @@ class Alphabet:
         odd = {name for name, value in values.items() if letter[name] != value}
         if not odd:
             return True
-        for one in self.graph.classes:
-            if not odd & one.representative.keys() or not one.representative.items() <= letter.items():
+        for class_ in self.graph.classes:
+            if not odd & class_.representative.keys() or not class_.representative.items() <= letter.items():
                 continue
-            if self._is_member(one, values):
-                odd -= one.representative.keys()
+            if self._is_member(class_, values):
+                odd -= class_.representative.keys()
         return not odd
 
     def _is_member(self, one: InputClass, values: Mapping[str, Any]) -> bool:

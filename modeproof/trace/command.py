@@ -123,10 +123,10 @@ def run(args: argparse.Namespace) -> int:
 def read_log(args: argparse.Namespace, target: Target) -> Log:
     """The log that the arguments name. Raises Unjudged for whatever in it cannot be right."""
     params = {}
-    for one in args.param:
-        name, equals, text = one.partition("=")
+    for given in args.param:
+        name, equals, text = given.partition("=")
         if not equals:
-            raise Unjudged(f"--param {one}: NAME=VALUE was expected")
+            raise Unjudged(f"--param {given}: NAME=VALUE was expected")
         inner = name.rpartition(".")[2]
         signals = [
             part.device.parameters[inner] for part in target.parts.values() if inner in part.device.parameters
@@ -157,7 +157,7 @@ def _write(
     folder = place / "spec" / target.document
     registers = [folder / f"{name}.toml" for name in ("interface", "traces", "classes", "runs")]
     inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
-    options = [f"--param {quoted(one)}" for one in args.param]
+    options = [f"--param {quoted(given)}" for given in args.param]
     options += ["--from anywhere"] if args.begins == "anywhere" else []
     options += ["--samples"] if args.samples else []
     options += ["--codes"] if args.codes else []

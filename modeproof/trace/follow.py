@@ -126,7 +126,7 @@ class Follower:
 def passes(passed: Mapping[str, str], row: Row, inputs: Sequence[Row]) -> bool:
     """Whether the outputs that repeat an input do so, as far as both were observed."""
     return all(
-        any(row.outputs[output] == one.inputs.get(given, row.outputs[output]) for one in inputs)
+        any(row.outputs[output] == value.inputs.get(given, row.outputs[output]) for value in inputs)
         for output, given in passed.items()
         if output in row.outputs
     )
@@ -163,7 +163,7 @@ def _follow(
         left_open.append("what no line tells about a wire")
     wires = Wires(target, followers)
     before: Row | None = None
-    runs = tuple(one.graph.run for one in followers.values())
+    runs = tuple(candidate.graph.run for candidate in followers.values())
     for n, row in enumerate(log.rows):
         follower = followers.get(row.device)
         wrong = wires.wrong(row)
@@ -175,7 +175,7 @@ def _follow(
             return Followed(n, tuple(left_open), runs, states, wrong)
         wires.write(row)
         before = row
-    states = max((len(one.states) for one in followers.values()), default=0)
+    states = max((len(candidate.states) for candidate in followers.values()), default=0)
     return Followed(len(log.rows), tuple(left_open), runs, states)
 
 

@@ -93,7 +93,7 @@ class Guards:
             return []
         scope = _Scope(self.made, self._root.params, [self._argument], None)
         return [
-            tuple(conjunct for one in found for conjunct in self._conjuncts(one))
+            tuple(conjunct for known in found for conjunct in self._conjuncts(known))
             for found in self._walk(self._root.body, scope, step, ())
         ]
 
@@ -124,7 +124,7 @@ class Guards:
     def view(self, name: str) -> tuple[str, ...]:
         """The variables of a tuple."""
         definition = self.tree.find(name)
-        return () if definition is None else tuple(one.operator for one in definition.body.operands)
+        return () if definition is None else tuple(operand.operator for operand in definition.body.operands)
 
     # -------------------------------------------------------------------------------------- from scan to step
 
@@ -134,14 +134,14 @@ class Guards:
         if not self._leads_to(node, step):
             return
         if node.kind == "builtin" and node.operator in OR:
-            for one in disjuncts(node):
-                yield from self._walk(one, scope, step, context)
+            for disjunct in disjuncts(node):
+                yield from self._walk(disjunct, scope, step, context)
         elif node.kind == "builtin" and node.operator in AND:
-            for one in conjuncts(node):
-                if self._leads_to(one, step):
-                    yield from self._walk(one, scope, step, context)
-                elif one.level <= 1:
-                    context = (*context, _Condition(one, scope))
+            for conjunct in conjuncts(node):
+                if self._leads_to(conjunct, step):
+                    yield from self._walk(conjunct, scope, step, context)
+                elif conjunct.level <= 1:
+                    context = (*context, _Condition(conjunct, scope))
         elif node.operator == "$IfThenElse":
             condition, then, other = node.operands
             yield from self._walk(then, scope, step, (*context, _Condition(condition, scope)))
@@ -157,50 +157,59 @@ class Guards:
             assert definition is not None
             inner = self._inside(node, definition, scope)
             if node.operator == step:
-                last = [_Condition(one, inner) for one in conjuncts(definition.body) if one.level <= 1]
+                last = [
+                    _Condition(conjunct, inner)
+                    for conjunct in conjuncts(definition.body)
+                    if conjunct.level <= 1
+                ]
                 yield (*context, *last)
             else:
                 yield from self._walk(definition.body, inner, step, context)
 
     def _inside(self, node: Node, definition: Definition, scope: _Scope) -> _Scope:
-        args = [self.tree.text(one.place) for one in node.operands]
+        args = [self.tree.text(operand.place) for operand in node.operands]
         return _Scope(self.made, definition.params, args, scope)
 
     def _leads_to(self, node: Node, step: str) -> bool:
-        for one in node.walk():
-            if one.kind == "defined":
-                if one.operator == step:
+        for child in node.walk():
+            if child.kind == "defined":
+                if child.operator == step:
                     return True
-                if one.operator in self._steps:
+                if child.operator in self._steps:
                     continue
-                definition = self.tree.find(one.operator)
+                definition = self.tree.find(child.operator)
                 if definition is not None and definition.level >= 2 and self._leads_to(definition.body, step):
                     return True
         return False
 
     # --------------------------------------------------------------------------------------------- conditions
 
-    def _conjuncts(self, one: _Condition) -> Iterator[Conjunct]:
-        if not one.denied:
-            yield from self._open(one.node, one.scope, (), 0)
+    def _conjuncts(self, condition: _Condition) -> Iterator[Conjunct]:
+        if not condition.denied:
+            yield from self._open(condition.node, condition.scope, (), 0)
             return
-        definition = self.tree.find(one.node.operator) if one.node.kind == "defined" else None
-        text = f"~({self.tree.text(one.node.place)})"
+        definition = self.tree.find(condition.node.operator) if condition.node.kind == "defined" else None
+        text = f"~({self.tree.text(condition.node.place)})"
         meaning = "" if definition is None else self.tree.text(definition.place)
-        expression = one.scope.lift(f"~(\n{self._laid_out(one.node)}\n)")
-        yield Conjunct(text, one.node.place, (), meaning, expression, ())
+        expression = condition.scope.lift(f"~(\n{self._laid_out(condition.node)}\n)")
+        yield Conjunct(text, condition.node.place, (), meaning, expression, ())
 
     def _open(self, node: Node, scope: _Scope, chain: tuple[str, ...], depth: int) -> Iterator[Conjunct]:
-        for one in conjuncts(node):
-            definition = self.tree.find(one.operator) if one.kind == "defined" else None
-            text = self.tree.text(one.place)
+        for conjunct in conjuncts(node):
+            definition = self.tree.find(conjunct.operator) if conjunct.kind == "defined" else None
+            text = self.tree.text(conjunct.place)
             if definition is not None and depth < _DEEPEST and definition.body.kind != "let":
-                inner = self._inside(one, definition, scope)
+                inner = self._inside(conjunct, definition, scope)
                 yield from self._open(definition.body, inner, (*chain, text), depth + 1)
             else:
-                sides = [own.lift(self._laid_out(side)) for side, own in self._sides(one, scope)]
+                sides = [own.lift(self._laid_out(side)) for side, own in self._sides(conjunct, scope)]
                 yield Conjunct(
-                    text, one.place, chain, self._meaning(one), scope.lift(self._laid_out(one)), tuple(sides)
+                    text,
+                    conjunct.place,
+                    chain,
+                    self._meaning(conjunct),
+                    scope.lift(self._laid_out(conjunct)),
+                    tuple(sides),
                 )
 
     def _laid_out(self, node: Node) -> str:
@@ -225,29 +234,31 @@ class Guards:
         """
         denied = self._denied(node)
         if denied is None:
-            yield from ((side, scope) for one in disjuncts(node) for side in _compared(one))
+            yield from ((side, scope) for disjunct in disjuncts(node) for side in _compared(disjunct))
         else:
             inner = self._inside(*denied, scope)
-            yield from ((side, inner) for one in conjuncts(denied[1].body) for side in _compared(one))
+            yield from (
+                (side, inner) for conjunct in conjuncts(denied[1].body) for side in _compared(conjunct)
+            )
 
     # --------------------------------------------------------------------------------------------- variables
 
     def _sets(self, node: Node, depth: int) -> Iterator[str]:
-        for one in node.walk():
-            if one.operator in ("'", "UNCHANGED"):
-                yield from self._variables(one.operands[0], 0)
-            elif one.kind == "defined" and depth < _DEEPEST:
-                definition = self.tree.find(one.operator)
+        for child in node.walk():
+            if child.operator in ("'", "UNCHANGED"):
+                yield from self._variables(child.operands[0], 0)
+            elif child.kind == "defined" and depth < _DEEPEST:
+                definition = self.tree.find(child.operator)
                 if definition is not None and definition.level >= 2:
                     yield from self._sets(definition.body, depth + 1)
 
     def _variables(self, node: Node, depth: int) -> Iterator[str]:
         variables = {name for names in self.tree.variables.values() for name in names}
-        for one in node.walk():
-            if one.kind == "declared" and one.operator in variables:
-                yield one.operator
-            elif one.kind == "defined" and depth < _DEEPEST:
-                definition = self.tree.find(one.operator)
+        for child in node.walk():
+            if child.kind == "declared" and child.operator in variables:
+                yield child.operator
+            elif child.kind == "defined" and depth < _DEEPEST:
+                definition = self.tree.find(child.operator)
                 if definition is not None:
                     yield from self._variables(definition.body, depth + 1)
 

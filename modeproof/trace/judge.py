@@ -206,7 +206,7 @@ def why_not(
     if found.status == 0 or (anywhere and found.accepted == 0):
         return None
     row = found.log.rows[found.accepted]
-    alone = [one for one in targets_of(place, target.document) if set(one.parts) == {row.device}]
+    alone = [other for other in targets_of(place, target.document) if set(other.parts) == {row.device}]
     if not alone:
         return None
     views = found.matched.views

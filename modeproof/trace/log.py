@@ -7,9 +7,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.registers.rows import Device, Signal
-from modeproof.registers.schema import suggestion
 from modeproof.trace.targets import Target
 
 LONGEST_MS = 1_000_000_000

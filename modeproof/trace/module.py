@@ -98,7 +98,9 @@ class Reading:
     def deadlines(self, device: Device) -> Iterable[int]:
         """The device's parameters in ms."""
         given = self.log.params[device.id]
-        return (int(given[one.name]) for one in device.parameters.values() if one.type == "ms")
+        return (
+            int(given[parameter.name]) for parameter in device.parameters.values() if parameter.type == "ms"
+        )
 
     def line(self, row: Row, passed: Mapping[str, str], free_time: bool) -> str:
         """One line as a record: `in` the set of possible inputs, `out` the outputs that were observed."""
@@ -153,16 +155,16 @@ def _placeholder(
     name: str,
 ) -> str:
     if group == WORDS:
-        words = {word for one in readings for word in words_of(target, one.log, name)}
+        words = {word for reading in readings for word in words_of(target, reading.log, name)}
         return "{" + ", ".join(map(str, sorted(words))) + "}"
     if group == SEEN:
         device = target.parts[name].device
         found = {
             input_record(device, values, None): None
-            for one in readings
-            for row in one.log.rows
+            for reading in readings
+            for row in reading.log.rows
             if row.device == name
-            for values in one.candidates(row)
+            for values in reading.candidates(row)
         }
         return "<<" + ", ".join(found) + ">>"
     signal = target.parts[group].device.parameters[name]

@@ -17,10 +17,9 @@ from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.graph.values import NONE
 from modeproof.registers.rows import Device, Signal
-from modeproof.registers.schema import suggestion
 from modeproof.trace.lines import read_text
 from modeproof.trace.log import Builder, Log, Row
 from modeproof.trace.targets import Target

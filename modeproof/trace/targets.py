@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.errors import Unjudged, suggestion
 from modeproof.graph.values import ValueForms
 from modeproof.places import documents
 from modeproof.registers.load import load_interface, read_register
 from modeproof.registers.rows import Device
-from modeproof.registers.schema import suggestion
 
 PLACEHOLDER = re.compile(r"\$([a-z][a-z0-9_]*)\.(\w+)")
 SEEN, WORDS = "seen", "words"
@@ -60,7 +59,7 @@ class Target:
 
     def timed(self, device: str) -> bool:
         """Whether the device counts time: some of its memory is milliseconds."""
-        return any(one.type == "ms" for one in self.parts[device].device.memory.values())
+        return any(signal.type == "ms" for signal in self.parts[device].device.memory.values())
 
 
 def targets_of(place: Path, document: str) -> tuple[Target, ...]:
@@ -117,12 +116,14 @@ def _check_placeholder(
 
 def find_target(place: Path, name: str, document: str | None = None) -> Target:
     """The target of this name. Raises Unjudged when there is none, or more than one."""
-    known = [one for each in documents(place) for one in targets_of(place, each)]
-    found = [one for one in known if one.id == name and document in (None, one.document)]
+    known = [listed for each in documents(place) for listed in targets_of(place, each)]
+    found = [listed for listed in known if listed.id == name and document in (None, listed.document)]
     if not found:
         where = f" in {document}" if document else ""
-        names = ", ".join(dict.fromkeys(one.id for one in known)) or "none"
+        names = ", ".join(dict.fromkeys(listed.id for listed in known)) or "none"
         raise Unjudged(f"no log can be of {name!r}{where}; there are: {names}")
     if len(found) > 1:
-        raise Unjudged(f"{name} is in {' and '.join(one.document for one in found)}; choose with --document")
+        raise Unjudged(
+            f"{name} is in {' and '.join(listed.document for listed in found)}; choose with --document"
+        )
     return found[0]

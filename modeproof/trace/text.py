@@ -36,7 +36,7 @@ def _observed(target: Target, found: Judgement) -> list[str]:
     for name, part in target.parts.items():
         signals = [*part.device.inputs, *part.device.outputs]
         seen = found.log.observed(name)
-        blind = [one for one in signals if one not in seen and one not in found.log.not_compared]
+        blind = [signal for signal in signals if signal not in seen and signal not in found.log.not_compared]
         if blind:
             lines.append(f"not observed of {name}: {', '.join(blind)}")
     if found.log.not_compared:
@@ -112,7 +112,7 @@ def _taken(target: Target, row: Row, taken: Taken) -> list[str]:
         )
         lines.append(f"{name:<{width}}  {expected:<9}  {logged}")
     lines.append(f"the specification takes {taken.step} ({taken.place}: {', '.join(taken.cites)})")
-    lines += [f"  {one.place}: {one.text}" for one in taken.effects]
+    lines += [f"  {effect.place}: {effect.text}" for effect in taken.effects]
     lines += [f"  {place}: {text}" for text, place in taken.outputs]
     return lines
 
@@ -177,30 +177,30 @@ def _why_record(target: Target, row: Row, why: Why) -> dict[str, Any]:
         },
         "taken": [
             {
-                "step": one.step,
-                "place": str(one.place),
-                "cites": list(one.cites),
+                "step": action.step,
+                "place": str(action.place),
+                "cites": list(action.cites),
                 "expected": {
                     name: target.forms.to_wire(device.outputs[name], value)
-                    for name, value in one.expected.items()
+                    for name, value in action.expected.items()
                 },
-                "wrong": list(one.wrong),
-                "effects": [{"place": str(each.place), "text": each.text} for each in one.effects],
-                "outputs": [{"place": str(place), "text": text} for text, place in one.outputs],
+                "wrong": list(action.wrong),
+                "effects": [{"place": str(each.place), "text": each.text} for each in action.effects],
+                "outputs": [{"place": str(place), "text": text} for text, place in action.outputs],
             }
-            for one in why.taken
+            for action in why.taken
         ],
         "missed": [
             {
-                "step": one.step,
-                "place": str(one.place),
-                "cites": list(one.cites),
-                "conjunct": one.conjunct.text,
-                "at": str(one.conjunct.place),
-                "in": list(one.conjunct.chain),
-                "sides": list(one.sides),
+                "step": action.step,
+                "place": str(action.place),
+                "cites": list(action.cites),
+                "conjunct": action.conjunct.text,
+                "at": str(action.conjunct.place),
+                "in": list(action.conjunct.chain),
+                "sides": list(action.sides),
             }
-            for one in why.missed
+            for action in why.missed
         ],
         "lost_scans": why.lost,
     }

@@ -106,7 +106,7 @@ def explain(
     tree = read_tree(place / "spec" / target.document, target.module, tools, place / "spec" / "common")
     asked = _Question(place, target, reading, row, possible[:MOST_STATES], list(near), tree, passed)
     taken, missed = asked.answer(tools, cites)
-    fits = any(not one.wrong for one in taken)
+    fits = any(not action.wrong for action in taken)
     return Why(
         device=device.id,
         states=len(possible),
@@ -226,7 +226,7 @@ class _Question:
         missed: dict[str, tuple[int, Missed]] = {}
         for _, _, _, number, first, sides in (row for row in rows if row[0] == "PATH"):
             step, path = self.paths[number - 1]
-            if first == 0 or any(one.step == step for one in taken.values()):
+            if first == 0 or any(action.step == step for action in taken.values()):
                 continue
             if step not in missed or missed[step][0] < first:
                 conjunct = path[first - 1]
@@ -261,7 +261,7 @@ class _Question:
             cites=cited(cites, step),
             expected={name: expected[name] for name in device.outputs if name in expected},
             wrong=wrong,
-            effects=tuple(one for one in self.guards.effects(step) if one.sets & depends),
+            effects=tuple(effect for effect in self.guards.effects(step) if effect.sets & depends),
             outputs=tuple(dict.fromkeys(defined[name][:2] for name in wrong if name in defined)),
         )
 

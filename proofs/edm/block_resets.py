@@ -12,7 +12,7 @@ from proofs.edm.invariant import JUDGE
 from proofs.edm.observer import SEEN, reset_edge
 from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
@@ -42,7 +42,7 @@ def reset_error(one: Scanned) -> z3.BoolRef:
     return z3.And(one.sends.Error, z3.Not(one.sends.ResetRequest))
 
 
-def reset_needs_edge(one: Scanned) -> Said:
+def reset_needs_edge(one: Scanned) -> Obligation:
     free = z3.And(z3.Not(one.sent.Error), one.inputs.S_StartReset)
     gone = z3.And(one.sent.ResetRequest, ends_well(one))
     return TRUE, z3.Implies(gone, z3.Or(reset_edge(one), free))
@@ -69,7 +69,7 @@ def neither_inhibit_nor_error_goes_without_an_edge() -> Queries:
     yield JUDGE.without(reset_needs_edge, "EDMError22", "WiresAreRemembered")
 
 
-def cause_is_gone(one: Scanned) -> Said:
+def cause_is_gone(one: Scanned) -> Obligation:
     return TRUE, z3.Implies(z3.And(asked(one, True), ends_well(one)), both_are(one, True))
 
 
@@ -83,13 +83,13 @@ def no_error_is_reset_over_its_cause() -> Queries:
     """An error is reset only in a call with both feedbacks TRUE."""
     yield from JUDGE.in_every_scan(cause_is_gone)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(ends_well(one))
 
     yield JUDGE.too_strong("never", never, "EDMError33")
 
 
-def errors_are_left(one: Scanned) -> Said:
+def errors_are_left(one: Scanned) -> Obligation:
     left = z3.And(one.sent.Error, one.sends.Ready, z3.Not(one.sends.Error))
     back = z3.And(one.sends.ResetRequest, z3.Not(one.inputs.Reset))
     return TRUE, z3.Implies(left, z3.If(one.sent.ResetRequest, one.sends.SafetyDemand, back))
@@ -107,13 +107,13 @@ def an_error_has_one_way_out() -> Queries:
     """
     yield from JUDGE.in_every_scan(errors_are_left)
 
-    def stays(one: Scanned) -> Said:
+    def stays(one: Scanned) -> Obligation:
         return one.inputs.Activate, one.sends.Error
 
     yield JUDGE.too_strong("no error is left", stays, "InitError")
 
 
-def held_reset(one: Scanned) -> Said:
+def held_reset(one: Scanned) -> Obligation:
     waits = z3.And(one.sent.ResetRequest, z3.Or(one.sent.Error, z3.Not(one.inputs.S_StartReset)))
     return TRUE, z3.Implies(z3.And(waits, one.inputs.Activate, held(one)), reset_error(one))
 
@@ -125,7 +125,7 @@ def a_held_reset_is_an_error_where_its_edge_is_waited_for() -> Queries:
     yield JUDGE.without(held_reset, "Init", "WiresAreRemembered")
 
 
-def two_edges(one: Scanned) -> Said:
+def two_edges(one: Scanned) -> Obligation:
     both = z3.And(reset_edge(one), control_rises(one), z3.Not(one.inputs.S_StartReset))
     return TRUE, z3.Implies(z3.And(asked(one, False), one.inputs.Activate, both), reset_error(one))
 
@@ -142,7 +142,7 @@ def reset_and_request_that_rise_together_are_an_error() -> Queries:
     yield JUDGE.without(two_edges, "Init", "WiresAreRemembered")
 
 
-def starts_by_itself(one: Scanned) -> Said:
+def starts_by_itself(one: Scanned) -> Obligation:
     free = z3.And(asked(one, False), one.inputs.Activate, one.inputs.S_StartReset)
     return TRUE, z3.Implies(free, one.sends.SafetyDemand)
 
@@ -157,18 +157,18 @@ def without_inhibit_nothing_is_waited_for() -> Queries:
     """From Init an active call with S_StartReset TRUE ends in the state with the output off on request."""
     yield from JUDGE.in_every_scan(starts_by_itself)
 
-    def with_inhibit_too(one: Scanned) -> Said:
+    def with_inhibit_too(one: Scanned) -> Obligation:
         return one.inputs.Activate, one.sends.SafetyDemand
 
     yield JUDGE.too_strong("with inhibit too", with_inhibit_too, "Init")
 
 
-def removes_inhibit(one: Scanned) -> Said:
+def removes_inhibit(one: Scanned) -> Obligation:
     edge = z3.And(reset_edge(one), z3.Not(control_rises(one)))
     return TRUE, z3.Implies(z3.And(asked(one, False), one.inputs.Activate, edge), one.sends.SafetyDemand)
 
 
-def resets_at_once(one: Scanned) -> Said:
+def resets_at_once(one: Scanned) -> Obligation:
     edge = z3.And(reset_edge(one), both_are(one, True))
     return TRUE, z3.Implies(z3.And(asked(one, True), one.inputs.Activate, edge), one.sends.SafetyDemand)
 
@@ -197,7 +197,7 @@ def the_edge_resets_an_error_whose_cause_is_gone_in_its_call() -> Queries:
     yield JUDGE.without(resets_at_once, "EDMError11", "WiresAreRemembered")
 
 
-def error_needs_cause(one: Scanned) -> Said:
+def error_needs_cause(one: Scanned) -> Obligation:
     found = z3.And(z3.Not(one.sent.Error), one.sends.Error)
     on = z3.And(z3.Not(on_time(one)), z3.Not(both_are(one, False)))
     requested = z3.And(one.inputs.S_OutControl, z3.Or(SEEN.released, one.before.stop_seen))
@@ -222,7 +222,7 @@ def no_error_comes_for_nothing() -> Queries:
     yield JUDGE.without(error_needs_cause, "OutputEnable", "TimeIsThatOnTheWires")
 
 
-def code_names_the_cause(one: Scanned) -> Said:
+def code_names_the_cause(one: Scanned) -> Obligation:
     i, on = one.inputs, one.sent.S_EDM_Out
     first, second = on == i.S_EDM1, on == i.S_EDM2  # wrong: TRUE with the output on, FALSE with it off
     which = z3.If(z3.Not(second), 1, z3.If(z3.Not(first), 2, 3))
@@ -252,7 +252,7 @@ def the_code_names_the_cause() -> Queries:
     yield JUDGE.without(code_names_the_cause, "Init", "WiresAreRemembered")
 
 
-def keeps_the_code(one: Scanned) -> Said:
+def keeps_the_code(one: Scanned) -> Obligation:
     before, after = one.sent.DiagCode, one.sends.DiagCode
     numbered = z3.And(one.sent.Error, before != 0xC001, before != 0xC100, one.sends.Error)
     same = (before & 0xFFF0) == (after & 0xFFF0)

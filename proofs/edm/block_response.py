@@ -14,11 +14,11 @@ from proofs.edm.rows import FROM_ANYWHERE
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, claim, theorem
 
 
-def switches_on_at_once(one: Scanned) -> Said:
+def switches_on_at_once(one: Scanned) -> Obligation:
     may = z3.And(one.sent.SafetyDemand, one.inputs.Activate, both_are(one, True), SEEN.released)
     return TRUE, z3.Implies(z3.And(may, one.inputs.S_OutControl), one.sends.S_EDM_Out)
 
@@ -66,7 +66,7 @@ def quiet(one: Scanned) -> z3.BoolRef:
     return z3.And(i.Activate, follow, i.Reset != one.before.reset_before, i.S_OutControl == wanted)
 
 
-def comes_closer(one: Scanned) -> Said:
+def comes_closer(one: Scanned) -> Obligation:
     if one.was(ON):
         return quiet(one), TRUE if one.becomes(ON) else FALSE
     return quiet(one), calls_left(one, before=False) < calls_left(one, before=True)
@@ -90,12 +90,12 @@ def the_output_is_on_again_within_four_calls() -> Queries:
         ends = left == 0 if scans.control == ON else z3.And(left >= 1, left <= 4)
         yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
 
-    def faster(one: Scanned) -> Said:
+    def faster(one: Scanned) -> Obligation:
         return quiet(one), TRUE if one.becomes(ON) else FALSE
 
     yield FROM_ANYWHERE.too_strong("one call is enough", faster, "EDMError33")
 
-    def not_taken_back(one: Scanned) -> Said:
+    def not_taken_back(one: Scanned) -> Obligation:
         i = one.inputs
         given = z3.And(i.Activate, both_are(one, True), i.Reset != one.before.reset_before, i.S_OutControl)
         return given, TRUE if one.becomes(ON) else FALSE

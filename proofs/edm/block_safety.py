@@ -15,7 +15,7 @@ from proofs.edm.observer import SEEN
 from proofs.edm.rows import FROM_ANYWHERE, NUMBERS
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
@@ -41,7 +41,7 @@ def stays_on(one: Scanned) -> z3.BoolRef:
     return z3.And(one.sent.S_EDM_Out, one.sends.S_EDM_Out)
 
 
-def stop_at_once(one: Scanned) -> Said:
+def stop_at_once(one: Scanned) -> Obligation:
     stopped = z3.Or(z3.Not(one.inputs.Activate), z3.Not(one.inputs.S_OutControl))
     return stopped, z3.Not(one.sends.S_EDM_Out)
 
@@ -56,13 +56,13 @@ def a_stop_request_switches_off_in_its_own_call() -> Queries:
     """In a call that is not active, or with S_OutControl FALSE, S_EDM_Out is FALSE."""
     yield from JUDGE.in_every_scan(stop_at_once)
 
-    def always_off(one: Scanned) -> Said:
+    def always_off(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.sends.S_EDM_Out)
 
     yield JUDGE.too_strong("also without a stop", always_off, "OutputEnable")
 
 
-def inactive_at_once(one: Scanned) -> Said:
+def inactive_at_once(one: Scanned) -> Obligation:
     return TRUE, one.sends.Ready == one.inputs.Activate
 
 
@@ -76,7 +76,7 @@ def ready_is_activate_of_the_same_call() -> Queries:
     """After every call Ready is what Activate was in it."""
     yield from JUDGE.in_every_scan(inactive_at_once)
 
-    def and_on(one: Scanned) -> Said:
+    def and_on(one: Scanned) -> Obligation:
         return one.inputs.Activate, one.sends.S_EDM_Out
 
     yield JUDGE.too_strong("and the output with it", and_on, "Idle")
@@ -95,7 +95,7 @@ FOLLOWS: Final = {
 """Where one transition leads from each state, besides to Idle."""
 
 
-def one_transition(one: Scanned) -> Said:
+def one_transition(one: Scanned) -> Obligation:
     state = control(BLOCK, one.before)
     return TRUE, TRUE if one.becomes(state, "Idle", *FOLLOWS[state]) else FALSE
 
@@ -110,13 +110,13 @@ def a_call_takes_one_transition_at_most() -> Queries:
     """From any memory a call stays in its state, ends in Idle, or takes one of its state's transitions."""
     yield from FROM_ANYWHERE.in_every_scan(one_transition)
 
-    def stays(one: Scanned) -> Said:
+    def stays(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes(control(BLOCK, one.before), "Idle") else FALSE
 
     yield FROM_ANYWHERE.too_strong("it takes none but to Idle", stays, "OutputDisable")
 
 
-def starts_with_inhibit(one: Scanned) -> Said:
+def starts_with_inhibit(one: Scanned) -> Obligation:
     if not one.was("Idle"):  # every_state_has_its_row: the one state without Ready
         return None
     o = one.sends
@@ -133,13 +133,13 @@ def activation_shows_the_inhibit_for_one_call_at_least() -> Queries:
     """A call that makes the block active shows the inhibit and no output, whatever else is TRUE."""
     yield from JUDGE.in_every_scan(starts_with_inhibit)
 
-    def and_goes_on(one: Scanned) -> Said:
+    def and_goes_on(one: Scanned) -> Obligation:
         return TRUE, one.sends.SafetyDemand
 
     yield JUDGE.too_strong("and goes on at once", and_goes_on, "Idle")
 
 
-def switch_on_needs_initial_state(one: Scanned) -> Said:
+def switch_on_needs_initial_state(one: Scanned) -> Obligation:
     ready = z3.And(one.sent.SafetyDemand, both_are(one, True), one.inputs.S_OutControl)
     return TRUE, z3.Implies(switches_on(one), ready)
 
@@ -156,13 +156,13 @@ def both_contactors_are_dropped_out_at_switching_on() -> Queries:
     """
     yield from JUDGE.in_every_scan(switch_on_needs_initial_state)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(switches_on(one))
 
     yield JUDGE.too_strong("never", never, "OutputDisable")
 
 
-def wrong_only_for_a_time(one: Scanned) -> Said:
+def wrong_only_for_a_time(one: Scanned) -> Obligation:
     return TRUE, z3.Implies(stays_on(one), z3.Or(on_time(one), both_are(one, False)))
 
 
@@ -180,12 +180,12 @@ def the_output_stays_over_a_wrong_feedback_less_than_monitoring_time() -> Querie
     yield JUDGE.without(wrong_only_for_a_time, "OutputEnable", "TimeIsThatOnTheWires")
 
 
-def missed_pick_up(one: Scanned) -> Said:
+def missed_pick_up(one: Scanned) -> Obligation:
     late = z3.And(one.sent.S_EDM_Out, one.inputs.Activate, z3.Not(on_time(one)), z3.Not(both_are(one, False)))
     return TRUE, z3.Implies(late, one.sends.Error)
 
 
-def missed_drop_out(one: Scanned) -> Said:
+def missed_drop_out(one: Scanned) -> Obligation:
     late = z3.And(
         one.sent.SafetyDemand, one.inputs.Activate, z3.Not(on_time(one)), z3.Not(both_are(one, True))
     )
@@ -220,7 +220,7 @@ def a_missed_drop_out_is_an_error_whatever_else_the_call_asks() -> Queries:
     yield JUDGE.without(missed_drop_out, "OutputDisable", "TimeIsThatOnTheWires")
 
 
-def reset_never_starts(one: Scanned) -> Said:
+def reset_never_starts(one: Scanned) -> Obligation:
     return TRUE, z3.Implies(z3.And(stop_first(one.params), switches_on(one)), SEEN.released)
 
 
@@ -237,7 +237,7 @@ def with_stop_first_the_reset_button_never_starts() -> Queries:
     yield from JUDGE.in_every_scan(reset_never_starts)
     yield JUDGE.without(reset_never_starts, "OutputDisable", "StopWasSeen")
 
-    def with_at_once_too(one: Scanned) -> Said:
+    def with_at_once_too(one: Scanned) -> Obligation:
         return TRUE, z3.Implies(switches_on(one), SEEN.released)
 
     yield JUDGE.too_strong("with at_once too", with_at_once_too, "OutputDisable")

@@ -9,7 +9,7 @@ import z3
 from proofs.edm.devices import BLOCK
 from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, theorem
 
 FROM_ANYWHERE: Final = Judge(BLOCK, ())
@@ -58,7 +58,7 @@ def every_state_has_its_row() -> Queries:
     """
     yield from FROM_ANYWHERE.after_every_scan(row_of_the_state)
 
-    def never_on(one: Scanned) -> Said:
+    def never_on(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.sends.S_EDM_Out)
 
     yield FROM_ANYWHERE.too_strong("the output is never on", never_on, "OutputDisable")
@@ -95,7 +95,7 @@ def the_code_tells_the_row() -> Queries:
     """
     yield from FROM_ANYWHERE.after_every_scan(code_tells_the_row)
 
-    def by_the_bit_everywhere(one: Scanned) -> Said:
+    def by_the_bit_everywhere(one: Scanned) -> Obligation:
         return TRUE, one.sends.ResetRequest == (one.sends.DiagCode & 0x0400 != 0)
 
     yield FROM_ANYWHERE.too_strong(

@@ -28,7 +28,7 @@ from proofs.enable_switch.vocabulary import (
 )
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, theorem
 
 ANYWHERE: Final = Judge(SWITCH, ())
@@ -74,7 +74,7 @@ def _plain(one: Scanned) -> z3.BoolRef:
     return z3.And(in_the_mode(one), in_time(one), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
 
 
-def patterns_decide(one: Scanned) -> Said:
+def patterns_decide(one: Scanned) -> Obligation:
     row, after = TABLE[control(one.device, one.before)], control(one.device, one.after)
     if after not in row.values():
         return TRUE, z3.Not(_plain(one))
@@ -94,7 +94,7 @@ def each_pattern_in_each_state_has_its_answer() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(patterns_decide)
 
-    def whatever_the_time(one: Scanned) -> Said:
+    def whatever_the_time(one: Scanned) -> Obligation:
         return in_the_mode(one), TRUE if one.becomes(*TABLE["ChangeToStage1"].values()) else FALSE
 
     yield ANYWHERE.too_strong("whatever the time is", whatever_the_time, "ChangeToStage1")
@@ -111,7 +111,7 @@ def ways_out(before: str, ends_errors: bool) -> set[str]:
     return rows | ({"BasicMode"} if in_operation or (ends_errors and before in ERRORS) else set())
 
 
-def one_transition(one: Scanned) -> Said:
+def one_transition(one: Scanned) -> Obligation:
     before, after = control(one.device, one.before), control(one.device, one.after)
     ends_errors = one.params.MODE_ENDS_ERROR
     ways = [
@@ -135,13 +135,13 @@ def a_call_leads_to_a_neighbour_or_stays() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(one_transition)
 
-    def never_to_basic_mode(one: Scanned) -> Said:
+    def never_to_basic_mode(one: Scanned) -> Obligation:
         return TRUE, FALSE if one.becomes("BasicMode") else TRUE
 
     yield ANYWHERE.too_strong("an error is never left that way", never_to_basic_mode, "ResetError1")
 
 
-def resets_lead_back(one: Scanned) -> Said:
+def resets_lead_back(one: Scanned) -> Obligation:
     """What a reset leads to, by state."""
     i = one.inputs
     held = z3.And(i.Reset, one.before.reset_before)
@@ -173,7 +173,7 @@ def a_reset_at_stage_0_ends_the_error_in_that_call() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(resets_lead_back)
 
-    def without_stage_0(one: Scanned) -> Said:
+    def without_stage_0(one: Scanned) -> Obligation:
         return z3.And(in_the_mode(one), one.inputs.S_AutoReset), TRUE if one.becomes("Stage0") else FALSE
 
     yield ANYWHERE.too_strong("at any stage", without_stage_0, "PlausibilityErrorAtStage0")
@@ -196,13 +196,13 @@ def released(one: Scanned) -> z3.BoolRef:
     return z3.And(in_the_mode(one), shows(i, STAGE_0), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
 
 
-def comes_closer(one: Scanned) -> Said:
+def comes_closer(one: Scanned) -> Obligation:
     before, after = rank(control(one.device, one.before)), rank(control(one.device, one.after))
     remembered = z3.Not(one.after.reset_before)
     return released(one), z3.And(remembered, TRUE if after < before or after == before == 0 else FALSE)
 
 
-def the_edge_resets(one: Scanned) -> Said:
+def the_edge_resets(one: Scanned) -> Obligation:
     if not one.was(*RELEASED):
         return None
     i = one.inputs
@@ -210,7 +210,7 @@ def the_edge_resets(one: Scanned) -> Said:
     return given, TRUE if one.becomes("Stage0") else FALSE
 
 
-def stage_1_enables(one: Scanned) -> Said:
+def stage_1_enables(one: Scanned) -> Obligation:
     if not one.was("Stage0", "ChangeToStage1"):
         return None
     given = z3.And(in_the_mode(one), in_time(one), shows(one.inputs, STAGE_1))
@@ -224,7 +224,7 @@ def a_released_switch_leads_to_stage_0_or_to_the_wait_for_a_reset() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(comes_closer)
 
-    def one_call(one: Scanned) -> Said:
+    def one_call(one: Scanned) -> Obligation:
         return released(one), TRUE if rank(control(one.device, one.after)) == 0 else FALSE
 
     yield ANYWHERE.too_strong("one call is enough", one_call, "ChangeToStage0")
@@ -237,7 +237,7 @@ def then_the_edge_of_reset_leads_to_stage_0() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(the_edge_resets)
 
-    def any_reset(one: Scanned) -> Said:
+    def any_reset(one: Scanned) -> Obligation:
         said = the_edge_resets(one)
         return None if said is None else (z3.And(in_the_mode(one), one.inputs.Reset), said[1])
 
@@ -259,13 +259,13 @@ def then_stage_1_enables() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(stage_1_enables)
 
-    def too_late_as_well(one: Scanned) -> Said:
+    def too_late_as_well(one: Scanned) -> Obligation:
         return z3.And(in_the_mode(one), shows(one.inputs, STAGE_1)), one.sends.S_EnableSwitchOut
 
     yield ANYWHERE.too_strong("too late as well", too_late_as_well, "ChangeToStage1")
 
 
-def kept_in_error(one: Scanned) -> Said:
+def kept_in_error(one: Scanned) -> Obligation:
     """An error without its parameter keeps to its own states."""
     if not one.was(*ERRORS):
         return None
@@ -284,13 +284,13 @@ def an_error_stays_the_error_that_it_is() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(kept_in_error)
 
-    def whatever_the_parameter(one: Scanned) -> Said:
+    def whatever_the_parameter(one: Scanned) -> Obligation:
         return one.inputs.Activate, TRUE if one.becomes(*ERRORS, "Stage0") else FALSE
 
     yield ANYWHERE.too_strong("whatever the parameter is", whatever_the_parameter, "ResetError3")
 
 
-def parameter_ends_errors(one: Scanned) -> Said:
+def parameter_ends_errors(one: Scanned) -> Obligation:
     if not one.was(*ERRORS):
         return None
     off = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive), one.params.MODE_ENDS_ERROR)
@@ -304,7 +304,7 @@ def the_parameter_lets_the_end_of_the_mode_end_every_error() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(parameter_ends_errors)
 
-    def without_it(one: Scanned) -> Said:
+    def without_it(one: Scanned) -> Obligation:
         off = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive))
         return off, TRUE if one.becomes("BasicMode") else FALSE
 

@@ -23,7 +23,7 @@ from proofs.enable_switch.vocabulary import (
 )
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
@@ -39,7 +39,7 @@ def every_call_of_the_switch_keeps_its_invariant() -> Queries:
 # ---------------------------------------------------------------- the enable
 
 
-def enable_needs_its_conditions(one: Scanned) -> Said:
+def enable_needs_its_conditions(one: Scanned) -> Obligation:
     if not one.becomes("Stage1"):
         return TRUE, z3.Not(one.sends.S_EnableSwitchOut)
     return one.sends.S_EnableSwitchOut, z3.And(in_the_mode(one), shows(one.inputs, STAGE_1))
@@ -59,13 +59,13 @@ def the_switch_enables_only_in_a_call_that_sees_stage_1_in_the_mode() -> Queries
     """
     yield from JUDGE.in_every_scan(enable_needs_its_conditions)
 
-    def whenever_it_sees_that(one: Scanned) -> Said:
+    def whenever_it_sees_that(one: Scanned) -> Obligation:
         return z3.And(in_the_mode(one), shows(one.inputs, STAGE_1)), one.sends.S_EnableSwitchOut
 
     yield JUDGE.too_strong("and whenever it sees that", whenever_it_sees_that, "Stage2")
 
 
-def enable_needs_stage_0(one: Scanned) -> Said:
+def enable_needs_stage_0(one: Scanned) -> Obligation:
     rises = z3.And(one.sends.S_EnableSwitchOut, z3.Not(one.sent.S_EnableSwitchOut))
     if one.becomes("Stage1") and not one.was("Stage1"):
         return rises, SEEN.last_stage == 0
@@ -89,7 +89,7 @@ def the_enable_comes_out_of_stage_0_alone() -> Queries:
 # ---------------------------------------------------------------- Activate and the mode
 
 
-def activate_goes_first(one: Scanned) -> Said:
+def activate_goes_first(one: Scanned) -> Obligation:
     return TRUE, one.sends.Ready == one.inputs.Activate
 
 
@@ -98,13 +98,13 @@ def the_end_of_activate_goes_before_everything() -> Queries:
     """After every call Ready is what Activate was in it, whatever the state and the other inputs are."""
     yield from JUDGE.in_every_scan(activate_goes_first)
 
-    def always_ready(one: Scanned) -> Said:
+    def always_ready(one: Scanned) -> Obligation:
         return TRUE, one.sends.Ready
 
     yield JUDGE.too_strong("and Ready stays", always_ready, "EquivalenceError")
 
 
-def mode_ends_operation(one: Scanned) -> Said:
+def mode_ends_operation(one: Scanned) -> Obligation:
     off = z3.Not(one.inputs.S_SafetyActive)
     quiet = z3.And(z3.Not(one.sends.S_EnableSwitchOut), z3.Not(one.sends.SafetyDemand))
     basic = one.sends.DiagCode == 0x8002
@@ -119,7 +119,7 @@ def without_the_mode_the_switch_demands_and_enables_nothing() -> Queries:
     """
     yield from JUDGE.in_every_scan(mode_ends_operation)
 
-    def errors_too(one: Scanned) -> Said:
+    def errors_too(one: Scanned) -> Obligation:
         return z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive)), one.sends.DiagCode == 0x8002
 
     yield JUDGE.too_strong("and errors end as well", errors_too, "EquivalenceError")
@@ -137,7 +137,7 @@ def _by_a_reset(one: Scanned) -> z3.BoolRef:
     return z3.And(shows(one.inputs, STAGE_0), one.sent.ResetRequest, z3.Or(one.inputs.S_AutoReset, edge))
 
 
-def error_needs_reset(one: Scanned) -> Said:
+def error_needs_reset(one: Scanned) -> Obligation:
     kept = z3.Not(one.params.MODE_ENDS_ERROR)
     if one.was(*RELEASED) and not one.becomes("Idle", *ERRORS):
         return z3.And(kept, _ends(one)), _by_a_reset(one)
@@ -156,18 +156,18 @@ def an_error_ends_at_stage_0_and_by_a_reset() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_reset)
 
-    def in_the_mode_alone(one: Scanned) -> Said:
+    def in_the_mode_alone(one: Scanned) -> Obligation:
         return _ends(one), one.inputs.S_SafetyActive
 
     yield JUDGE.too_strong("and in the mode alone", in_the_mode_alone, "EquivalenceErrorAtStage0")
 
-    def never_by_the_mode(one: Scanned) -> Said:
+    def never_by_the_mode(one: Scanned) -> Obligation:
         return _ends(one), _by_a_reset(one)
 
     yield JUDGE.too_strong("also with the parameter", never_by_the_mode, "EquivalenceError")
 
 
-def error_needs_reset_in_the_mode(one: Scanned) -> Said:
+def error_needs_reset_in_the_mode(one: Scanned) -> Obligation:
     ends = z3.And(_ends(one), one.inputs.S_SafetyActive)
     if one.was(*RELEASED) and one.becomes("Stage0"):
         return ends, _by_a_reset(one)
@@ -186,13 +186,13 @@ def in_the_mode_an_error_ends_by_a_reset_whatever_the_parameter_is() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_reset_in_the_mode)
 
-    def without_stage_0(one: Scanned) -> Said:
+    def without_stage_0(one: Scanned) -> Obligation:
         return z3.And(_ends(one), one.inputs.S_SafetyActive), one.inputs.Reset
 
     yield JUDGE.too_strong("and never without Reset", without_stage_0, "OperationErrorAtStage0")
 
 
-def held_reset_never_resets(one: Scanned) -> Said:
+def held_reset_never_resets(one: Scanned) -> Obligation:
     counts = z3.Implies(one.params.MODE_ENDS_ERROR, one.inputs.S_SafetyActive)
     ends = z3.And(_ends(one), z3.Not(one.inputs.S_AutoReset), counts)
     if one.was(*RELEASED) and one.becomes("Stage0", "BasicMode"):
@@ -212,7 +212,7 @@ def a_reset_that_is_held_never_resets() -> Queries:
     yield JUDGE.without(held_reset_never_resets, "PlausibilityErrorAtStage0", "ResetIsRemembered")
 
 
-def held_reset_is_an_error(one: Scanned) -> Said:
+def held_reset_is_an_error(one: Scanned) -> Obligation:
     i = one.inputs
     kept = z3.And(i.Activate, z3.Implies(one.params.MODE_ENDS_ERROR, i.S_SafetyActive))
     stays = TRUE if one.becomes(*RESET_ERRORS) else FALSE
@@ -233,7 +233,7 @@ def a_reset_that_is_held_is_reported_until_it_is_released() -> Queries:
     """
     yield from JUDGE.in_every_scan(held_reset_is_an_error)
 
-    def reset_alone(one: Scanned) -> Said:
+    def reset_alone(one: Scanned) -> Obligation:
         said = held_reset_is_an_error(one)
         return None if said is None else (z3.And(one.inputs.Activate, one.inputs.Reset), said[1])
 
@@ -249,7 +249,7 @@ def _over(one: Scanned, lasted: z3.ArithRef) -> z3.BoolRef:
     return z3.And(lasted != NONE, over)
 
 
-def disagreement_ends_in_error(one: Scanned) -> Said:
+def disagreement_ends_in_error(one: Scanned) -> Obligation:
     late = z3.And(_over(one, SEEN.apart), sees(one).apart != NONE)
     return (late, one.sends.Error) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
@@ -267,13 +267,13 @@ def channels_that_differ_for_the_discrepancy_time_end_in_an_error() -> Queries:
     yield from JUDGE.in_every_scan(disagreement_ends_in_error)
     yield JUDGE.without(disagreement_ends_in_error, "ChangeToStage0", "DisagreementIsTimed")
 
-    def at_once(one: Scanned) -> Said:
+    def at_once(one: Scanned) -> Obligation:
         return sees(one).apart != NONE, one.sends.Error
 
     yield JUDGE.too_strong("any difference at once", at_once, "Stage1")
 
 
-def contradiction_ends_in_error(one: Scanned) -> Said:
+def contradiction_ends_in_error(one: Scanned) -> Obligation:
     late = z3.And(_over(one, SEEN.contrary), sees(one).contrary != NONE)
     return (late, one.sends.Error) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
@@ -287,7 +287,7 @@ def three_channels_true_for_the_discrepancy_time_end_in_an_error() -> Queries:
     yield JUDGE.without(contradiction_ends_in_error, "ChangeToStage1", "ContradictionIsTimed")
 
 
-def enable_comes_in_time(one: Scanned) -> Said:
+def enable_comes_in_time(one: Scanned) -> Obligation:
     late = _over(one, SEEN.apart)
     return (late, z3.Not(one.sends.S_EnableSwitchOut)) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
@@ -300,14 +300,14 @@ def channels_that_come_together_too_late_do_not_enable() -> Queries:
     yield from JUDGE.in_every_scan(enable_comes_in_time)
     yield JUDGE.without(enable_comes_in_time, "ChangeToStage1", "DisagreementIsTimed")
 
-    def one_ms_before(one: Scanned) -> Said:
+    def one_ms_before(one: Scanned) -> Obligation:
         early = SEEN.apart + one.inputs.dt_ms + 1 >= one.params.DiscrepancyTimeCh1_Ch3_ms
         return z3.And(SEEN.apart != NONE, early), z3.Not(one.sends.S_EnableSwitchOut)
 
     yield JUDGE.too_strong("a millisecond before it is over", one_ms_before, "ChangeToStage1")
 
 
-def timer_counts(one: Scanned) -> Said:
+def timer_counts(one: Scanned) -> Obligation:
     """The timer starts in the call that sees the change begin, adds up, and ends with the change."""
     if not one.becomes(*TIMED):
         return TRUE, one.after.elapsed_ms == 0
@@ -326,7 +326,7 @@ def the_time_of_a_change_starts_with_it_and_adds_up() -> Queries:
     yield JUDGE.too_strong("it never runs", lambda one: (TRUE, one.after.elapsed_ms == 0), "ChangeToStage1")
 
 
-def ends_by_its_cause(one: Scanned) -> Said:
+def ends_by_its_cause(one: Scanned) -> Obligation:
     """Which error a change that is too late ends in."""
     late = one.before.elapsed_ms + one.inputs.dt_ms >= one.params.DiscrepancyTimeCh1_Ch3_ms
     if not one.was(*TIMED):
@@ -346,7 +346,7 @@ def a_change_that_is_too_late_ends_in_the_error_of_its_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(ends_by_its_cause)
 
-    def equal_channels(one: Scanned) -> Said:
+    def equal_channels(one: Scanned) -> Obligation:
         unequal = one.inputs.S_EnableSwitchCh1 != one.inputs.S_EnableSwitchCh3
         return (TRUE, unequal) if one.becomes("EquivalenceError") else None
 

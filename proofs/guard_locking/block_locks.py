@@ -13,7 +13,7 @@ from proofs.guard_locking.block_safety import secure
 from proofs.guard_locking.devices import chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
 from proofs.guard_locking.observer import SEEN, request_edge
-from proofs.sentences import Said, Sentence
+from proofs.sentences import Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
 UNLOCKED = ("GuardOpenAndUnlocked", "GuardClosedButUnlocked")
@@ -24,7 +24,7 @@ def unlocks(one: Scanned) -> z3.BoolRef:
     return z3.And(z3.Not(one.sent.S_UnlockGuard), one.sends.S_UnlockGuard)
 
 
-def unlock_needs_safe_zone(one: Scanned) -> Said:
+def unlock_needs_safe_zone(one: Scanned) -> Obligation:
     if not one.becomes(*UNLOCKED):
         return TRUE, z3.Not(one.sends.S_UnlockGuard)
     return TRUE, z3.Implies(unlocks(one), one.inputs.S_SafetyActive)
@@ -45,7 +45,7 @@ def a_guard_is_unlocked_only_with_the_zone_safe() -> Queries:
     yield JUDGE.too_strong("and with a request", asked, "WaitForOperator")
 
 
-def unlocked_only_while_safe(one: Scanned) -> Said:
+def unlocked_only_while_safe(one: Scanned) -> Obligation:
     strict = chosen(one.params, "ZONE_LOST", "error")
     return TRUE, z3.Implies(z3.And(strict, one.sends.S_UnlockGuard), one.inputs.S_SafetyActive)
 
@@ -62,13 +62,13 @@ def the_guard_is_unlocked_no_longer_than_the_zone_is_safe() -> Queries:
     """
     yield from JUDGE.in_every_scan(unlocked_only_while_safe)
 
-    def anyway(one: Scanned) -> Said:
+    def anyway(one: Scanned) -> Obligation:
         return one.sends.S_UnlockGuard, one.inputs.S_SafetyActive
 
     yield JUDGE.too_strong("with tolerated too", anyway, "GuardClosedButUnlocked")
 
 
-def no_error_locks_safe_zone(one: Scanned) -> Said:
+def no_error_locks_safe_zone(one: Scanned) -> Obligation:
     if not one.was(*UNLOCKED):
         return None
     return TRUE, z3.Implies(
@@ -86,14 +86,14 @@ def no_error_takes_the_unlock_signal_away_from_a_safe_zone() -> Queries:
     """Under all parameters a call that ends the unlock signal with an error found S_SafetyActive FALSE."""
     yield from JUDGE.in_every_scan(no_error_locks_safe_zone)
 
-    def nor_ends_it(one: Scanned) -> Said:
+    def nor_ends_it(one: Scanned) -> Obligation:
         ends = z3.And(one.sent.S_UnlockGuard, z3.Not(one.sends.S_UnlockGuard))
         return ends, z3.Not(one.inputs.S_SafetyActive)
 
     yield JUDGE.too_strong("nor does anything else", nor_ends_it, "GuardClosedButUnlocked")
 
 
-def unlock_needs_request(one: Scanned) -> Said:
+def unlock_needs_request(one: Scanned) -> Obligation:
     asked = z3.Or(one.inputs.UnlockRequest, z3.Not(one.inputs.S_GuardMonitoring))
     return TRUE, z3.Implies(unlocks(one), asked)
 
@@ -111,7 +111,7 @@ def a_closed_guard_is_unlocked_only_on_request() -> Queries:
     yield JUDGE.too_strong("by an edge", anew, "WaitForOperator")
 
 
-def request_while_locked(one: Scanned) -> Said:
+def request_while_locked(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     not_level = z3.Not(chosen(one.params, "UNLOCK_ON", "level"))
@@ -133,7 +133,7 @@ def a_locked_guard_is_unlocked_by_a_request_that_rose_while_it_is_locked() -> Qu
     yield JUDGE.without(request_while_locked, LOCKED, "PendingWasAsked")
 
 
-def request_now(one: Scanned) -> Said:
+def request_now(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     given = z3.And(chosen(one.params, "UNLOCK_ON", "edge"), one.sends.S_UnlockGuard)
@@ -159,7 +159,7 @@ def _unlocked(one: Scanned) -> z3.BoolRef:
     return z3.And(one.sends.S_UnlockGuard, z3.Not(one.sends.S_GuardLocked))
 
 
-def held_request_unlocks(one: Scanned) -> Said:
+def held_request_unlocks(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     return z3.And(chosen(one.params, "UNLOCK_ON", "level"), _asked_safely(one)), _unlocked(one)
@@ -180,7 +180,7 @@ def with_the_level_a_request_that_stands_unlocks() -> Queries:
     yield JUDGE.too_strong("with the edge too", anyway, LOCKED)
 
 
-def request_unlocks_at_once(one: Scanned) -> Said:
+def request_unlocks_at_once(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     return z3.And(_asked_safely(one), request_edge(one)), _unlocked(one)
@@ -195,13 +195,13 @@ def a_request_that_rises_with_the_zone_safe_unlocks_in_that_call() -> Queries:
     """
     yield from JUDGE.in_every_scan(request_unlocks_at_once)
 
-    def unsafe(one: Scanned) -> Said:
+    def unsafe(one: Scanned) -> Obligation:
         return z3.And(one.inputs.Activate, secure(one), request_edge(one)), one.sends.S_UnlockGuard
 
     yield JUDGE.too_strong("whatever the zone does", unsafe, LOCKED)
 
 
-def latched_request_unlocks(one: Scanned) -> Said:
+def latched_request_unlocks(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     waits = z3.And(chosen(one.params, "UNLOCK_ON", "latched"), one.before.request_pending)
@@ -223,7 +223,7 @@ def with_a_latched_request_the_zone_being_safe_unlocks() -> Queries:
     yield JUDGE.too_strong("one that rose before", anyway, LOCKED)
 
 
-def stays_unlocked_while_requested(one: Scanned) -> Said:
+def stays_unlocked_while_requested(one: Scanned) -> Obligation:
     i = one.inputs
     if not one.was(*UNLOCKED):
         return None
@@ -243,7 +243,7 @@ def as_long_as_it_is_requested_the_guard_stays_unlocked() -> Queries:
     yield JUDGE.too_strong("as long as it is active", active, "GuardClosedButUnlocked")
 
 
-def stays_unlocked_while_open(one: Scanned) -> Said:
+def stays_unlocked_while_open(one: Scanned) -> Obligation:
     i = one.inputs
     if not one.was(*UNLOCKED):
         return None
@@ -260,13 +260,13 @@ def the_bolt_is_not_thrown_while_the_guard_is_open() -> Queries:
     """
     yield from JUDGE.in_every_scan(stays_unlocked_while_open)
 
-    def unsafe(one: Scanned) -> Said:
+    def unsafe(one: Scanned) -> Obligation:
         return z3.And(one.inputs.Activate, z3.Not(one.inputs.S_GuardMonitoring)), one.sends.S_UnlockGuard
 
     yield JUDGE.too_strong("whatever the zone does", unsafe, "GuardOpenAndUnlocked")
 
 
-def locks_without_request(one: Scanned) -> Said:
+def locks_without_request(one: Scanned) -> Obligation:
     if not one.was("GuardClosedButUnlocked"):
         return None
     i = one.inputs
@@ -285,13 +285,13 @@ def without_a_request_a_closed_guard_is_asked_to_lock() -> Queries:
     """
     yield from JUDGE.in_every_scan(locks_without_request)
 
-    def when_open(one: Scanned) -> Said:
+    def when_open(one: Scanned) -> Obligation:
         return z3.Not(one.inputs.UnlockRequest), z3.Not(one.sends.S_UnlockGuard)
 
     yield JUDGE.too_strong("an open one too", when_open, "GuardClosedButUnlocked")
 
 
-def locked_whatever_the_zone(one: Scanned) -> Said:
+def locked_whatever_the_zone(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     unsafe = z3.Not(one.inputs.S_SafetyActive)
@@ -310,13 +310,13 @@ def a_locked_guard_stays_enabled_whatever_the_zone_does() -> Queries:
     """
     yield from JUDGE.in_every_scan(locked_whatever_the_zone)
 
-    def safe(one: Scanned) -> Said:
+    def safe(one: Scanned) -> Obligation:
         return z3.And(one.inputs.Activate, secure(one)), one.sends.S_GuardLocked
 
     yield JUDGE.too_strong("and safe", safe, LOCKED)
 
 
-def stays_locked(one: Scanned) -> Said:
+def stays_locked(one: Scanned) -> Obligation:
     if not one.was(LOCKED):
         return None
     unasked = z3.Not(one.inputs.UnlockRequest)
@@ -328,7 +328,7 @@ def without_a_request_a_locked_guard_stays_enabled() -> Queries:
     """An active call that finds an enabled guard closed and locked, and no request, leaves it enabled."""
     yield from JUDGE.in_every_scan(stays_locked)
 
-    def bolt(one: Scanned) -> Said:
+    def bolt(one: Scanned) -> Obligation:
         unasked = z3.Not(one.inputs.UnlockRequest)
         return z3.And(one.inputs.Activate, unasked), one.sends.S_GuardLocked
 

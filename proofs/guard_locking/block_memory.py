@@ -9,11 +9,11 @@ from proofs.explorer.scanned import Scanned
 from proofs.guard_locking.devices import chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
 from proofs.guard_locking.observer import request_edge
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def remembers_the_wires(one: Scanned) -> Said:
+def remembers_the_wires(one: Scanned) -> Obligation:
     i, after = one.inputs, one.after
     return TRUE, z3.And(after.reset_before == i.Reset, after.unlock_request_before == i.UnlockRequest)
 
@@ -23,13 +23,13 @@ def every_call_remembers_reset_and_request() -> Queries:
     """Every call, active or not, leaves Reset and UnlockRequest as it read them."""
     yield from JUDGE.in_every_scan(remembers_the_wires)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.after.reset_before)
 
     yield JUDGE.too_strong("nothing is remembered", never, "Idle")
 
 
-def pending(one: Scanned) -> Said:
+def pending(one: Scanned) -> Obligation:
     latched = chosen(one.params, "UNLOCK_ON", "latched")
     stands = z3.And(one.inputs.UnlockRequest, z3.Or(request_edge(one), one.before.request_pending))
     there = TRUE if one.becomes(LOCKED) else FALSE
@@ -43,13 +43,13 @@ def a_request_is_pending_only_where_it_is_latched() -> Queries:
     """
     yield from JUDGE.in_every_scan(pending)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.after.request_pending)
 
     yield JUDGE.too_strong("never", never, LOCKED)
 
 
-def inhibit(one: Scanned) -> Said:
+def inhibit(one: Scanned) -> Obligation:
     wanted = chosen(one.params, "START_UP_INHIBIT", "until_reset")
     if one.was("Init") and one.becomes("WaitForOperator"):
         carried = z3.And(wanted, z3.Not(one.inputs.S_StartReset))
@@ -67,7 +67,7 @@ def a_start_up_inhibit_is_carried_to_the_first_enable() -> Queries:
     """
     yield from JUDGE.in_every_scan(inhibit)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.after.start_up_inhibit)
 
     yield JUDGE.too_strong("never", never, "Init")

@@ -13,7 +13,7 @@ from proofs.guard_locking.block_safety import secure, start_up_inhibited
 from proofs.guard_locking.devices import BLOCK, chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
 from proofs.guard_locking.observer import request_edge, reset_edge
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, claim, theorem
 
 FROM_ANYWHERE: Final = Judge(BLOCK, ())
@@ -36,7 +36,7 @@ CALLS: Final = {
 """How many quiet calls lead to the enable, when Reset was FALSE and when it was TRUE in the call before."""
 
 
-def answers_at_once(one: Scanned) -> Said:
+def answers_at_once(one: Scanned) -> Obligation:
     """A call that stays has not seen what its state waits for."""
     i = one.inputs
     guard, zone, request, reset = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest, i.Reset
@@ -72,7 +72,7 @@ def a_call_that_stays_has_not_seen_what_it_waits_for() -> Queries:
     """
     yield from JUDGE.in_every_scan(answers_at_once)
 
-    def leaves(one: Scanned) -> Said:
+    def leaves(one: Scanned) -> Obligation:
         return one.inputs.Activate, FALSE if one.becomes("WaitForReset") else TRUE
 
     yield JUDGE.too_strong("it never stays", leaves, "WaitForReset")
@@ -82,7 +82,7 @@ ERRORS: Final = ("SafetyLost", "ResetError1", "ResetError2", "ResetError3")
 """Why a call ends in one of them, `an_error_has_a_cause_in_that_call` says."""
 
 
-def leaves_for_a_cause(one: Scanned) -> Said:
+def leaves_for_a_cause(one: Scanned) -> Obligation:
     """A call that leaves its state without an error has seen why."""
     state = control(BLOCK, one.before)
     if one.becomes(state, *ERRORS):
@@ -136,7 +136,7 @@ def a_call_that_leaves_its_state_has_seen_why() -> Queries:
     """
     yield from JUDGE.in_every_scan(leaves_for_a_cause)
 
-    def by_edge(one: Scanned) -> Said:
+    def by_edge(one: Scanned) -> Obligation:
         said = leaves_for_a_cause(one)
         return None if said is None else (said[0], reset_edge(one))
 
@@ -157,7 +157,7 @@ def quiet(one: Scanned) -> z3.BoolRef:
     return z3.And(calm, i.Reset != one.before.reset_before)
 
 
-def comes_closer(one: Scanned) -> Said:
+def comes_closer(one: Scanned) -> Obligation:
     if one.was(LOCKED):
         return quiet(one), TRUE if one.becomes(LOCKED) else FALSE
     return quiet(one), calls_left(one, before=False) < calls_left(one, before=True)
@@ -181,12 +181,12 @@ def the_block_enables_again_within_five_calls() -> Queries:
         ends = left == 0 if scans.control == LOCKED else z3.And(left >= 1, left <= 5)
         yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
 
-    def faster(one: Scanned) -> Said:
+    def faster(one: Scanned) -> Obligation:
         return quiet(one), TRUE if one.becomes(LOCKED) else FALSE
 
     yield FROM_ANYWHERE.too_strong("one call is enough", faster, "SafetyReturn")
 
-    def held(one: Scanned) -> Said:
+    def held(one: Scanned) -> Obligation:
         said = comes_closer(one)
         i = one.inputs
         calm = z3.And(i.Activate, secure(one), i.S_SafetyActive, z3.Not(i.UnlockRequest))
@@ -195,7 +195,7 @@ def the_block_enables_again_within_five_calls() -> Queries:
     yield FROM_ANYWHERE.too_strong("with a Reset that is held", held, "SafetyReturn")
 
 
-def lets_in(one: Scanned) -> Said:
+def lets_in(one: Scanned) -> Obligation:
     if not one.was("WaitForOperator"):
         return None
     i = one.inputs
@@ -215,7 +215,7 @@ def who_asks_where_nothing_is_enabled_gets_in_at_once() -> Queries:
     """
     yield from JUDGE.in_every_scan(lets_in)
 
-    def unasked(one: Scanned) -> Said:
+    def unasked(one: Scanned) -> Obligation:
         return z3.And(one.inputs.Activate, one.inputs.S_SafetyActive), one.sends.S_UnlockGuard
 
     yield JUDGE.too_strong("without a request", unasked, "WaitForOperator")

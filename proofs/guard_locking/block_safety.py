@@ -15,7 +15,7 @@ from proofs.explorer.scanned import Scanned
 from proofs.guard_locking.devices import chosen
 from proofs.guard_locking.invariant import JUDGE
 from proofs.guard_locking.observer import SEEN, reset_edge, sees
-from proofs.sentences import Said, Sentence
+from proofs.sentences import Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
 ROWS: Final = {
@@ -145,7 +145,7 @@ def before_the_first_call_every_output_is_false() -> Queries:
     yield JUDGE.too_strong("and after every call", always, "Idle")
 
 
-def inactive_at_once(one: Scanned) -> Said:
+def inactive_at_once(one: Scanned) -> Obligation:
     idle = z3.And(nothing(one.sends), TRUE if one.becomes("Idle") else FALSE)
     return TRUE, z3.And(one.sends.Ready == one.inputs.Activate, z3.Implies(z3.Not(one.inputs.Activate), idle))
 
@@ -165,7 +165,7 @@ def without_activate_every_output_is_false_in_that_call() -> Queries:
     yield JUDGE.too_strong("in every call", idle, "SafetyLost")
 
 
-def enable_needs_secured_guard(one: Scanned) -> Said:
+def enable_needs_secured_guard(one: Scanned) -> Obligation:
     if not one.becomes("GuardClosedAndLocked"):
         return TRUE, z3.Not(one.sends.S_GuardLocked)
     return TRUE, z3.And(one.sends.S_GuardLocked, one.inputs.Activate, secure(one))
@@ -189,7 +189,7 @@ def no_enable_without_a_closed_and_locked_guard_in_that_call() -> Queries:
 # ---------------------------------------------------------------- inhibits and Reset
 
 
-def no_automatic_restart(one: Scanned) -> Said:
+def no_automatic_restart(one: Scanned) -> Obligation:
     return TRUE, z3.Implies(enables(one), z3.Or(reset_edge(one), allowed(one)))
 
 
@@ -214,7 +214,7 @@ def start_up_inhibited(one: Scanned) -> z3.BoolRef:
     return z3.And(SEEN.starting, chosen(one.params, "START_UP_INHIBIT", "until_reset"))
 
 
-def start_up_inhibit_needs_reset(one: Scanned) -> Said:
+def start_up_inhibit_needs_reset(one: Scanned) -> Obligation:
     free = z3.And(one.sent.DiagCode == 0x8001, one.inputs.S_StartReset)
     given = z3.And(enables(one), start_up_inhibited(one))
     return TRUE, z3.Implies(given, z3.Or(reset_edge(one), free))
@@ -230,13 +230,13 @@ def a_start_up_inhibit_ends_by_an_edge_of_reset() -> Queries:
     yield from JUDGE.in_every_scan(start_up_inhibit_needs_reset)
     yield JUDGE.without(start_up_inhibit_needs_reset, "WaitForReset", "InhibitIsCarried")
 
-    def anyway(one: Scanned) -> Said:
+    def anyway(one: Scanned) -> Obligation:
         return z3.And(enables(one), SEEN.starting), reset_edge(one)
 
     yield JUDGE.too_strong("with until_opened too", anyway, "WaitForReset")
 
 
-def loss_needs_reset(one: Scanned) -> Said:
+def loss_needs_reset(one: Scanned) -> Obligation:
     return TRUE, z3.Implies(one.sends.S_GuardLocked, z3.Not(sees(one).lost))
 
 
@@ -251,7 +251,7 @@ def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
     yield JUDGE.without(loss_needs_reset, "WaitForReset", "LossIsWaitedOut")
 
 
-def loss_needs_guard_back(one: Scanned) -> Said:
+def loss_needs_guard_back(one: Scanned) -> Obligation:
     strict = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
     return TRUE, z3.Implies(z3.And(strict, one.sends.S_GuardLocked), z3.Not(sees(one).unguarded))
 
@@ -267,7 +267,7 @@ def after_a_loss_nothing_is_enabled_before_an_edge_of_reset_behind_the_guard() -
     yield JUDGE.without(loss_needs_guard_back, "WaitForReset", "GuardComesBack")
 
 
-def static_reset_resets_nothing(one: Scanned) -> Said:
+def static_reset_resets_nothing(one: Scanned) -> Obligation:
     waits = z3.Or(*[one.sent.DiagCode == code for code in (0x8014, 0xC001, 0xC002, 0xC003)])
     there = z3.Or(
         one.sends.DiagCode == one.sent.DiagCode,
@@ -290,13 +290,13 @@ def a_reset_that_does_not_move_resets_nothing() -> Queries:
     yield from JUDGE.in_every_scan(static_reset_resets_nothing)
     yield JUDGE.without(static_reset_resets_nothing, "SafetyReturn", "WiresAreRemembered")
 
-    def pressed(one: Scanned) -> Said:
+    def pressed(one: Scanned) -> Obligation:
         return one.inputs.Reset, z3.Not(enables(one))
 
     yield JUDGE.too_strong("nor does one that is pressed", pressed, "WaitForReset")
 
 
-def static_reset_is_found(one: Scanned) -> Said:
+def static_reset_is_found(one: Scanned) -> Obligation:
     found = one.sends.DiagCode
     wanted = {
         "Init": z3.Implies(edge_awaited(one), found == 0xC001),
@@ -316,7 +316,7 @@ def a_reset_that_does_not_move_is_found() -> Queries:
     """
     yield from JUDGE.in_every_scan(static_reset_is_found)
 
-    def pressed(one: Scanned) -> Said:
+    def pressed(one: Scanned) -> Obligation:
         said = static_reset_is_found(one)
         return None if said is None else (z3.And(one.inputs.Activate, one.inputs.Reset), said[1])
 
@@ -326,7 +326,7 @@ def a_reset_that_does_not_move_is_found() -> Queries:
 # ---------------------------------------------------------------- losses and errors
 
 
-def loss_is_an_error(one: Scanned) -> Said:
+def loss_is_an_error(one: Scanned) -> Obligation:
     if not one.was("GuardClosedAndLocked"):
         return None
     o = one.sends
@@ -346,7 +346,7 @@ def the_loss_of_a_locked_guard_is_an_error_in_that_call() -> Queries:
     """
     yield from JUDGE.in_every_scan(loss_is_an_error)
 
-    def any_call(one: Scanned) -> Said:
+    def any_call(one: Scanned) -> Obligation:
         return one.inputs.Activate, one.sends.Error
 
     yield JUDGE.too_strong("every call", any_call, "GuardClosedAndLocked")
@@ -375,7 +375,7 @@ def edge_awaited(one: Scanned) -> z3.BoolRef:
     return TRUE if one.was("SafetyReturn") else FALSE
 
 
-def error_needs_cause(one: Scanned) -> Said:
+def error_needs_cause(one: Scanned) -> Obligation:
     found = z3.And(static(one), edge_awaited(one))
     cause = z3.If(one.sends.DiagCode == 0xC004, loss_seen(one), found)
     return TRUE, z3.Implies(z3.And(z3.Not(one.sent.Error), one.sends.Error), cause)
@@ -394,7 +394,7 @@ def an_error_has_a_cause_in_that_call() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_cause)
 
-    def zone(one: Scanned) -> Said:
+    def zone(one: Scanned) -> Obligation:
         return one.sends.Error, z3.Not(one.inputs.S_SafetyActive)
 
     yield JUDGE.too_strong("always the zone", zone, "GuardClosedAndLocked")
@@ -404,7 +404,7 @@ RETURNS: Final = {"ResetError1": "Init", "ResetError2": "SafetyReturn", "ResetEr
 """Where a reset error was found, and leads back to."""
 
 
-def error_ends_with_cause(one: Scanned) -> Said:
+def error_ends_with_cause(one: Scanned) -> Obligation:
     if not one.was("SafetyLost", *RETURNS):
         return None
     i = one.inputs
@@ -429,7 +429,7 @@ def an_error_ends_with_its_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_ends_with_cause)
 
-    def for_ever(one: Scanned) -> Said:
+    def for_ever(one: Scanned) -> Obligation:
         return one.inputs.Activate, one.sends.Error
 
     yield JUDGE.too_strong("it never ends", for_ever, "ResetError2")
@@ -452,7 +452,7 @@ TRANSITIONS: Final = {
 """The table of transitions; besides, every state stays, or goes to Idle without Activate."""
 
 
-def in_the_table(one: Scanned) -> Said:
+def in_the_table(one: Scanned) -> Obligation:
     before = next(name for name in TRANSITIONS if one.was(name))
     return TRUE, TRUE if one.becomes("Idle", before, *TRANSITIONS[before]) else FALSE
 
@@ -462,13 +462,13 @@ def a_call_takes_one_transition_of_the_table() -> Queries:
     """Every call stays in its state, ends in Idle, or takes one transition of the table."""
     yield from JUDGE.in_every_scan(in_the_table)
 
-    def stays(one: Scanned) -> Said:
+    def stays(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes("Idle", "Init") else FALSE
 
     yield JUDGE.too_strong("it always stays", stays, "Init")
 
 
-def code_tells_the_guard(one: Scanned) -> Said:
+def code_tells_the_guard(one: Scanned) -> Obligation:
     closed = one.inputs.S_GuardMonitoring
     by_request = TRUE if one.was("WaitForOperator") else FALSE
     return TRUE, z3.And(
@@ -489,7 +489,7 @@ def the_code_of_an_unlocked_guard_tells_whether_it_is_open() -> Queries:
     """
     yield from JUDGE.in_every_scan(code_tells_the_guard)
 
-    def open_is_open(one: Scanned) -> Said:
+    def open_is_open(one: Scanned) -> Obligation:
         return one.sends.DiagCode == 0x8012, z3.Not(one.inputs.S_GuardMonitoring)
 
     yield JUDGE.too_strong("also on the way from a request", open_is_open, "WaitForOperator")

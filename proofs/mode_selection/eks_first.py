@@ -1,7 +1,7 @@
 """What the EKS owes besides: it begins without a key, and its output outlasts LA by one scan.
 
 No property of the specification says these of the EKS alone; without them an edit of the code would pass all
-theorems (docs/strength-impl.md).
+theorems (docs/mode_selection.md).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import z3
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.eks_safety import JUDGE, same_vector
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
@@ -27,7 +27,7 @@ def the_eks_begins_without_a_key() -> Queries:
     yield from JUDGE.at_power_up(begins_empty)
 
 
-def output_outlasts_la(one: Scanned) -> Said:
+def output_outlasts_la(one: Scanned) -> Obligation:
     if not (one.was("Signal") and one.becomes("ClearOutputs")):
         return None
     return TRUE, same_vector(one)

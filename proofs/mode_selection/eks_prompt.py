@@ -16,7 +16,7 @@ from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.eks_safety import JUDGE, SEEN, read_is, same_key
 from proofs.mode_selection.invariants import REMEMBERING, WORKING, key_accepted, no_key
 from proofs.mode_selection.vocabulary import none_set, vector
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 IN_ORDER: Final = frozenset(
@@ -36,7 +36,7 @@ def _pair(one: Scanned) -> tuple[str, str]:
     return control(one.device, one.before), control(one.device, one.after)
 
 
-def reader_steps_in_order(one: Scanned) -> Said:
+def reader_steps_in_order(one: Scanned) -> Obligation:
     return TRUE, TRUE if _pair(one) in IN_ORDER | REMOVALS else FALSE
 
 
@@ -60,13 +60,13 @@ def the_eks_leaves_no_step_out() -> Queries:
     """Every scan goes on to the next step of the EKS or waits; only the removal is reached from the side."""
     yield from JUDGE.in_every_scan(reader_steps_in_order)
 
-    def never_aside(one: Scanned) -> Said:
+    def never_aside(one: Scanned) -> Obligation:
         return TRUE, TRUE if _pair(one) in IN_ORDER else FALSE
 
     yield JUDGE.too_strong("nor that", never_aside, "TestOnes")
 
 
-def la_before_outputs(one: Scanned) -> Said:
+def la_before_outputs(one: Scanned) -> Obligation:
     begins = z3.And(none_set(vector(one.sent)), z3.Not(none_set(vector(one.sends))))
     if one.was("StartTest", "TestZeros"):
         return begins, one.sent.LA
@@ -78,14 +78,14 @@ def the_eks_sets_la_a_scan_before_its_outputs() -> Queries:
     """A scan that sets an output where none was set begins with LA on."""
     yield from JUDGE.in_every_scan(la_before_outputs)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         begins = z3.And(none_set(vector(one.sent)), z3.Not(none_set(vector(one.sends))))
         return TRUE, z3.Not(begins)
 
     yield JUDGE.too_strong("and sets none at all", never, "TestZeros")
 
 
-def right_keys_pass(one: Scanned) -> Said:
+def right_keys_pass(one: Scanned) -> Obligation:
     if one.was("Rejected") or not one.becomes("Rejected"):
         return None
     return TRUE, z3.Not(z3.And(SEEN.agrees, key_accepted(one.params, one.before.key)))
@@ -100,13 +100,13 @@ def the_eks_rejects_no_right_key() -> Queries:
     """A scan that rejects a key has found its checksum, operating state, access code or level wrong."""
     yield from JUDGE.in_every_scan(right_keys_pass)
 
-    def by_the_checksum(one: Scanned) -> Said:
+    def by_the_checksum(one: Scanned) -> Obligation:
         return None if right_keys_pass(one) is None else (TRUE, z3.Not(SEEN.agrees))
 
     yield JUDGE.too_strong("always the checksum", by_the_checksum, "CheckLevel")
 
 
-def fault_needs_cause(one: Scanned) -> Said:
+def fault_needs_cause(one: Scanned) -> Obligation:
     if one.was("Fault") or not one.becomes("Fault"):
         return None
     return TRUE, z3.Not(one.inputs.registers_zero) if one.was("CheckRegisters") else FALSE
@@ -117,7 +117,7 @@ def the_eks_latches_a_fault_only_over_registers_that_are_not_zero() -> Queries:
     """A scan that leads to Fault is the register check after a removal, and finds the registers not zero."""
     yield from JUDGE.in_every_scan(fault_needs_cause)
 
-    def without_a_key(one: Scanned) -> Said:
+    def without_a_key(one: Scanned) -> Obligation:
         return None if fault_needs_cause(one) is None else (TRUE, z3.Not(one.inputs.inserted))
 
     yield JUDGE.too_strong("and no key", without_a_key, "CheckRegisters")
@@ -142,7 +142,7 @@ def the_eks_remembers_a_key_only_while_it_is_in() -> Queries:
     yield JUDGE.without(sentence, "Signal", "PulseAloneTakesTime")
 
 
-def reader_answers_at_once(one: Scanned) -> Said:
+def reader_answers_at_once(one: Scanned) -> Obligation:
     before, after = _pair(one)
     if before != after:
         return None
@@ -170,7 +170,7 @@ def the_eks_waits_only_for_what_is_not_there() -> Queries:
     """
     yield from JUDGE.in_every_scan(reader_answers_at_once)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return None if reader_answers_at_once(one) is None else (TRUE, FALSE)
 
     yield JUDGE.too_strong("and there is always something", never, "Rejected")

@@ -19,7 +19,7 @@ from proofs.mode_selection.devices import CHECKSUM_AGREES, EKS
 from proofs.mode_selection.invariants import EKS_INVARIANT, key_accepted
 from proofs.mode_selection.ranges import codes
 from proofs.mode_selection.vocabulary import all_set, none_set, one_set, several_set, vector
-from proofs.sentences import Judge, Said, Sentence
+from proofs.sentences import Judge, Obligation, Sentence
 from proofs.theorem import Queries, theorem
 from proofs.words import constant
 
@@ -118,7 +118,7 @@ def the_eks_sets_no_output_without_la() -> Queries:
     """
     yield from JUDGE.after_every_scan(no_output_without_la)
 
-    def at_once(one: Scanned) -> Said:
+    def at_once(one: Scanned) -> Obligation:
         return z3.Not(one.sends.LA), none_set(vector(one.sends))
 
     yield JUDGE.too_strong("nor in that scan", at_once, "Signal")
@@ -150,7 +150,7 @@ def the_eks_sets_la_only_for_an_accepted_key() -> Queries:
     yield JUDGE.without(sentence, "Signal", "KeyWasAccepted")
 
 
-def la_drops_at_once(one: Scanned) -> Said:
+def la_drops_at_once(one: Scanned) -> Obligation:
     agrees = sees(one).agrees
     right = z3.And(key_accepted(one.params, one.inputs), agrees, read_is(one, one.after.key))
     gone = z3.And(one.sent.LA, z3.Not(read_is(one, one.before.key)))
@@ -171,7 +171,7 @@ def the_eks_drops_la_in_the_scan_without_its_key() -> Queries:
     yield JUDGE.without(la_drops_at_once, "SetLA", "KeyWasAccepted")
 
 
-def pulse_before_output(one: Scanned) -> Said:
+def pulse_before_output(one: Scanned) -> Obligation:
     appears = z3.And(one_set(vector(one.sends)), z3.Not(same_vector(one)))
     after_zeros = z3.And(none_set(vector(one.sent)), one.sent.LA, one.sends.LA)
     if one.was("TestZeros"):
@@ -187,13 +187,13 @@ def the_eks_sets_its_output_only_after_all_and_none() -> Queries:
     """
     yield from JUDGE.in_every_scan(pulse_before_output)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(z3.And(one_set(vector(one.sends)), z3.Not(same_vector(one))))
 
     yield JUDGE.too_strong("never", never, "TestZeros")
 
 
-def pulse_halves_last(one: Scanned) -> Said:
+def pulse_halves_last(one: Scanned) -> Obligation:
     running = in_half(one.was("TestZeros"), one.sent)
     given = z3.And(running, read_is(one, one.before.key))
     stands = z3.And(same_vector(one), in_half(one.becomes("TestZeros"), one.sends))
@@ -211,7 +211,7 @@ def each_half_of_the_test_pulse_lasts_as_long_as_it_is_set() -> Queries:
         yield JUDGE.without(pulse_halves_last, start, "TimerIsTheTimeOfThisHalf")
 
 
-def fault_is_latched(one: Scanned) -> Said:
+def fault_is_latched(one: Scanned) -> Obligation:
     stays = TRUE if one.becomes("Fault") else FALSE
     if one.was("Fault"):
         return TRUE, stays
@@ -223,7 +223,7 @@ def the_eks_keeps_a_fault_of_its_registers() -> Queries:
     """Registers that are not zero after a removal lead to Fault in that scan, and no scan leaves Fault."""
     yield from JUDGE.in_every_scan(fault_is_latched)
 
-    def always(one: Scanned) -> Said:
+    def always(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes("Fault") else FALSE
 
     yield JUDGE.too_strong("whatever the registers are", always, "CheckRegisters")

@@ -1,7 +1,7 @@
 """What else the F-PLC owes to each scan: an answer to each word, times that begin and end where they must.
 
 No property of the specification says these of the F-PLC alone; without them an edit of the code would pass
-all theorems (docs/strength-impl.md).
+all theorems (docs/mode_selection.md).
 """
 
 # ruff: noqa: SIM300 -- the names of words are upper case
@@ -20,7 +20,7 @@ from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import CLOCKED
 from proofs.mode_selection.observer import Seen
 from proofs.mode_selection.vocabulary import code, mode, permits
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 DWELLING: Final = ("Start", "Settle", "Error")
@@ -29,7 +29,7 @@ GOING_ON: Final = (("PulseOnes", "PulseZeros"), ("PulseZeros", "OneOutput"), ("C
 """From one step to the next the time of the insertion, or of the removal, goes on."""
 
 
-def selection_is_answered(one: Scanned) -> Said:
+def selection_is_answered(one: Scanned) -> Obligation:
     if not one.was("CheckSelection"):
         return None
     i, chosen = one.inputs, mode("SE", one.inputs.MW03)
@@ -48,13 +48,13 @@ def each_selection_has_one_answer() -> Queries:
     """
     yield from JUDGE.in_every_scan(selection_is_answered)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return None if selection_is_answered(one) is None else (TRUE, one.sends.ERROR)
 
     yield JUDGE.too_strong("always the error mode", never, "CheckSelection")
 
 
-def level_is_published(one: Scanned) -> Said:
+def level_is_published(one: Scanned) -> Obligation:
     if not one.was("Authorize"):
         return None
     shown = one.sends.MW01 == code("RE", one.before.accepted)
@@ -69,7 +69,7 @@ def the_fplc_publishes_the_level_or_refuses_an_early_word() -> Queries:
     yield from JUDGE.in_every_scan(level_is_published)
 
 
-def pulse_is_seen_in_its_scan(one: Scanned) -> Said:
+def pulse_is_seen_in_its_scan(one: Scanned) -> Obligation:
     if not one.was("Idle"):
         return None
     return one.inputs.LA, TRUE if one.becomes("PulseOnes") else FALSE
@@ -84,7 +84,7 @@ def la_begins_the_insertion_whatever_the_outputs_show() -> Queries:
 # ---------------------------------------------------------------- times
 
 
-def begins_at_zero(one: Scanned) -> Said:
+def begins_at_zero(one: Scanned) -> Obligation:
     before, after = control(FPLC, one.before), control(FPLC, one.after)
     if before == after or after not in CLOCKED:
         return None
@@ -101,7 +101,7 @@ def every_time_of_the_fplc_begins_at_zero() -> Queries:
     """
     yield from JUDGE.in_every_scan(begins_at_zero)
 
-    def always(one: Scanned) -> Said:
+    def always(one: Scanned) -> Obligation:
         return None if begins_at_zero(one) is None else (TRUE, one.after.elapsed_ms == 0)
 
     yield JUDGE.too_strong("never goes on", always, "Clear")
@@ -118,7 +118,7 @@ def no_dwell_time_of_the_fplc_counts_beyond_its_end() -> Queries:
     """
     yield from JUDGE.after_every_scan(dwell_in_range)
 
-    def less(one: Scanned) -> Said:
+    def less(one: Scanned) -> Obligation:
         return TRUE, one.after.elapsed_ms < one.params.T_DWELL_ms
 
     yield JUDGE.too_strong("and never reaches it", less, "Error")

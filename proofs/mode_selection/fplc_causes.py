@@ -1,7 +1,7 @@
 """What the F-PLC bears without giving up, and that it does what was asked when all is there.
 
 No property of the specification says these of the F-PLC alone; without them an edit of the code would pass
-all theorems (docs/strength-impl.md).
+all theorems (docs/mode_selection.md).
 """
 
 # ruff: noqa: SIM300 -- the names of words are upper case
@@ -17,11 +17,11 @@ from proofs.mode_selection.fplc_prompt import signalled
 from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import TRANSACTION
 from proofs.mode_selection.vocabulary import code
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def outputs_may_switch_one_by_one(one: Scanned) -> Said:
+def outputs_may_switch_one_by_one(one: Scanned) -> Obligation:
     if not one.was("PulseOnes", "PulseZeros"):
         return None
     limit = one.params.T_ON_ms if one.was("PulseOnes") else one.params.T_SEQ_ms
@@ -36,14 +36,14 @@ def in_the_test_pulse_outputs_may_switch_one_by_one() -> Queries:
     """
     yield from JUDGE.in_every_scan(outputs_may_switch_one_by_one)
 
-    def at_any_time(one: Scanned) -> Said:
+    def at_any_time(one: Scanned) -> Obligation:
         said = outputs_may_switch_one_by_one(one)
         return None if said is None else (one.inputs.LA, said[1])
 
     yield JUDGE.too_strong("at any time", at_any_time, "PulseZeros")
 
 
-def settle_needs_cause(one: Scanned) -> Said:
+def settle_needs_cause(one: Scanned) -> Obligation:
     if one.was("Settle") or not one.becomes("Settle"):
         return None
     if one.was("CheckSelection"):
@@ -66,7 +66,7 @@ def the_fplc_gives_up_a_selection_only_for_a_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(settle_needs_cause)
 
-    def by_mw03_alone(one: Scanned) -> Said:
+    def by_mw03_alone(one: Scanned) -> Obligation:
         if settle_needs_cause(one) is None:
             return None
         return TRUE, one.inputs.MW03 != code("SE", one.before.selection)
@@ -74,7 +74,7 @@ def the_fplc_gives_up_a_selection_only_for_a_cause() -> Queries:
     yield JUDGE.too_strong("by MW03 alone", by_mw03_alone, "Match")
 
 
-def checks_what_is_there(one: Scanned) -> Said:
+def checks_what_is_there(one: Scanned) -> Obligation:
     if one.was("AwaitSelection") and one.becomes("CheckSelection"):
         return TRUE, one.inputs.MW03 != 0
     if one.was("AwaitAcknowledgment") and one.becomes("CheckAcknowledgment"):
@@ -90,7 +90,7 @@ def the_fplc_checks_only_a_word_that_is_there() -> Queries:
     yield from JUDGE.in_every_scan(checks_what_is_there)
 
 
-def switches_when_all_stands(one: Scanned) -> Said:
+def switches_when_all_stands(one: Scanned) -> Obligation:
     if not one.was("Switch"):
         return None
     acknowledged = one.inputs.MW07 == code("SW", one.before.selection)
@@ -105,7 +105,7 @@ def the_fplc_switches_when_all_words_stand() -> Queries:
     """
     yield from JUDGE.in_every_scan(switches_when_all_stands)
 
-    def by_the_key_alone(one: Scanned) -> Said:
+    def by_the_key_alone(one: Scanned) -> Obligation:
         said = switches_when_all_stands(one)
         return None if said is None else (signalled(one), said[1])
 

@@ -20,7 +20,7 @@ from proofs.mode_selection.fplc_safety import TIMED, deadline, now
 from proofs.mode_selection.invariants import CLOCKED, HOLDING, TRANSACTION
 from proofs.mode_selection.observer import INSERTION
 from proofs.mode_selection.vocabulary import NONE, code, mode
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 WAITING: Final = (
@@ -53,7 +53,7 @@ def _pair(one: Scanned) -> tuple[str, str]:
     return control(one.device, one.before), control(one.device, one.after)
 
 
-def steps_in_order(one: Scanned) -> Said:
+def steps_in_order(one: Scanned) -> Obligation:
     return TRUE, TRUE if _pair(one) in IN_ORDER | FROM_THE_SIDE else FALSE
 
 
@@ -84,13 +84,13 @@ def the_fplc_leaves_no_step_out() -> Queries:
     """
     yield from JUDGE.in_every_scan(steps_in_order)
 
-    def never_aside(one: Scanned) -> Said:
+    def never_aside(one: Scanned) -> Obligation:
         return TRUE, TRUE if _pair(one) in IN_ORDER else FALSE
 
     yield JUDGE.too_strong("nor those", never_aside, "Match")
 
 
-def time_goes_on(one: Scanned) -> Said:
+def time_goes_on(one: Scanned) -> Obligation:
     before, after = _pair(one)
     if before != after or before not in CLOCKED:
         return None
@@ -105,7 +105,7 @@ def the_fplc_counts_the_time_of_every_scan_that_waits() -> Queries:
     """
     yield from JUDGE.in_every_scan(time_goes_on)
 
-    def faster(one: Scanned) -> Said:
+    def faster(one: Scanned) -> Obligation:
         return None if time_goes_on(one) is None else (TRUE, one.after.elapsed_ms > now(one))
 
     yield JUDGE.too_strong("and runs ahead", faster, "Settle")
@@ -117,7 +117,7 @@ def selection_stands(one: Scanned) -> z3.BoolRef:
     return stands
 
 
-def acknowledgment_needs_echo(one: Scanned) -> Said:
+def acknowledgment_needs_echo(one: Scanned) -> Obligation:
     if not one.was("AwaitSelection", "CheckSelection", "EchoSelection"):
         return None
     early = z3.And(signalled(one), one.inputs.MW07 != 0)
@@ -138,14 +138,14 @@ def the_fplc_refuses_an_acknowledgment_before_the_echo() -> Queries:
     """
     yield from JUDGE.in_every_scan(acknowledgment_needs_echo)
 
-    def any_time(one: Scanned) -> Said:
-        said = z3.And(signalled(one), one.inputs.MW07 != 0)
-        return said, TRUE if one.becomes("Error") else FALSE
+    def any_time(one: Scanned) -> Obligation:
+        obligation = z3.And(signalled(one), one.inputs.MW07 != 0)
+        return obligation, TRUE if one.becomes("Error") else FALSE
 
     yield JUDGE.too_strong("and after it too", any_time, "AwaitAcknowledgment")
 
 
-def changed_selection_is_withdrawn(one: Scanned) -> Said:
+def changed_selection_is_withdrawn(one: Scanned) -> Obligation:
     if not one.was(*TRANSACTION):
         return None
     changed = z3.And(signalled(one), z3.Not(selection_stands(one)))
@@ -164,15 +164,15 @@ def the_fplc_takes_back_a_selection_that_no_longer_stands() -> Queries:
     """
     yield from JUDGE.in_every_scan(changed_selection_is_withdrawn)
 
-    def a_code_is_an_error(one: Scanned) -> Said:
-        said = changed_selection_is_withdrawn(one)
+    def a_code_is_an_error(one: Scanned) -> Obligation:
+        obligation = changed_selection_is_withdrawn(one)
         refused = z3.And(one.inputs.MW07 != 0, TRUE if one.becomes("Settle") else FALSE)
-        return None if said is None else (said[0], z3.Not(refused))
+        return None if obligation is None else (obligation[0], z3.Not(refused))
 
     yield JUDGE.too_strong("but not beside a word in MW07", a_code_is_an_error, "Switch")
 
 
-def acknowledgment_is_judged(one: Scanned) -> Said:
+def acknowledgment_is_judged(one: Scanned) -> Obligation:
     if not one.was("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"):
         return None
     stands = z3.And(signalled(one), selection_stands(one))
@@ -202,8 +202,8 @@ def the_fplc_has_one_answer_to_each_acknowledgment() -> Queries:
     """
     yield from JUDGE.in_every_scan(acknowledgment_is_judged)
 
-    def never_refused(one: Scanned) -> Said:
-        said = acknowledgment_is_judged(one)
-        return None if said is None else (said[0], z3.BoolVal(not one.becomes("Error")))
+    def never_refused(one: Scanned) -> Obligation:
+        obligation = acknowledgment_is_judged(one)
+        return None if obligation is None else (obligation[0], z3.BoolVal(not one.becomes("Error")))
 
     yield JUDGE.too_strong("and is never refused", never_refused, "Match")

@@ -16,7 +16,7 @@ from proofs.mode_selection.fplc_safety import TIMED, deadline, now, zeros_everyw
 from proofs.mode_selection.invariants import CLOCKED, HOLDING, TRANSACTION
 from proofs.mode_selection.observer import INSERTION, REMOVAL, Seen
 from proofs.mode_selection.vocabulary import NONE, all_set, none_set, only_of, several_set, vector
-from proofs.sentences import Said, Sentence
+from proofs.sentences import Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
 ZEROS_AWAITED: Final = ("Start", "AwaitZeros", "Error")
@@ -32,7 +32,7 @@ def signalled(one: Scanned) -> z3.BoolRef:
     return z3.And(one.inputs.LA, only_of(vector(one.inputs), one.before.accepted))
 
 
-def no_needless_wait(one: Scanned) -> Said:
+def no_needless_wait(one: Scanned) -> Obligation:
     c, flags = control(one.device, one.before), vector(one.inputs)
     if not one.becomes(c):
         return None
@@ -72,13 +72,13 @@ def the_fplc_waits_only_for_what_is_not_there() -> Queries:
     """
     yield from JUDGE.in_every_scan(no_needless_wait)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return None if no_needless_wait(one) is None else (TRUE, FALSE)
 
     yield JUDGE.too_strong("nor for anything else", never, "OneOutput")
 
 
-def error_needs_cause(one: Scanned) -> Said:
+def error_needs_cause(one: Scanned) -> Obligation:
     c = control(one.device, one.before)
     if c == "Error" or not one.becomes("Error"):
         return None
@@ -103,13 +103,13 @@ def the_fplc_enters_the_error_mode_only_for_a_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_cause)
 
-    def outputs_alone(one: Scanned) -> Said:
+    def outputs_alone(one: Scanned) -> Obligation:
         return None if error_needs_cause(one) is None else (TRUE, several_set(vector(one.inputs)))
 
     yield JUDGE.too_strong("two outputs alone", outputs_alone, "AwaitSelection")
 
 
-def removal_needs_cause(one: Scanned) -> Said:
+def removal_needs_cause(one: Scanned) -> Obligation:
     if one.was(*REMOVAL) or not one.becomes(*REMOVAL):
         return None
     if one.was(*HOLDING):
@@ -127,13 +127,13 @@ def the_fplc_begins_a_removal_only_when_la_or_its_output_is_gone() -> Queries:
     """A scan that begins the removal finds LA off, or, once an output was accepted, another vector."""
     yield from JUDGE.in_every_scan(removal_needs_cause)
 
-    def la_alone(one: Scanned) -> Said:
+    def la_alone(one: Scanned) -> Obligation:
         return None if removal_needs_cause(one) is None else (TRUE, z3.Not(one.inputs.LA))
 
     yield JUDGE.too_strong("by LA alone", la_alone, "Settle")
 
 
-def insertion_needs_key(one: Scanned) -> Said:
+def insertion_needs_key(one: Scanned) -> Obligation:
     if one.was(*INSERTION) or not one.becomes(*INSERTION):
         return None
     return TRUE, one.inputs.LA if one.was("Idle") else FALSE

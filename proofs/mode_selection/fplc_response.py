@@ -21,7 +21,7 @@ from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import HOLDING
 from proofs.mode_selection.observer import INSERTION
 from proofs.mode_selection.vocabulary import none_set, vector
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, claim, theorem
 from proofs.theorem import control as control_query
 
@@ -49,7 +49,7 @@ def rank(c: str) -> int:
     return RANK.get(c, 4)
 
 
-def comes_closer(one: Scanned) -> Said:
+def comes_closer(one: Scanned) -> Obligation:
     """A quiet scan goes on to a later state, or adds the time passed to a dwell time that is not over."""
     before, after = control(FPLC, one.before), control(FPLC, one.after)
     if rank(after) < rank(before) or (before, after) == ("Idle", "Idle"):
@@ -71,12 +71,12 @@ def quiet_scans_lead_the_fplc_to_idle() -> Queries:
     """
     yield from JUDGE.in_every_scan(comes_closer)
 
-    def always_closer(one: Scanned) -> Said:
+    def always_closer(one: Scanned) -> Obligation:
         return quiet(one), TRUE if rank(control(FPLC, one.after)) < rank(control(FPLC, one.before)) else FALSE
 
     yield JUDGE.too_strong("always a state closer", always_closer, "AwaitZeros")
 
-    def not_quiet(one: Scanned) -> Said:
+    def not_quiet(one: Scanned) -> Obligation:
         said = comes_closer(one)
         return None if said is None else (z3.Not(one.inputs.LA), said[1])
 
@@ -99,7 +99,7 @@ def way_left(c: str, s: Any, p: Any) -> z3.ArithRef:
     return ahead + z3.If(s.elapsed_ms < p.T_DWELL_ms, p.T_DWELL_ms - s.elapsed_ms, 0)
 
 
-def shrinks(one: Scanned) -> Said:
+def shrinks(one: Scanned) -> Obligation:
     """The time left shrinks by BETWEEN, or the F-PLC is in Idle."""
     given = z3.And(quiet(one), BETWEEN >= 1, one.inputs.dt_ms >= BETWEEN)
     if one.was("Idle"):
@@ -125,7 +125,7 @@ def the_fplc_is_idle_again_within_a_stated_number_of_scans() -> Queries:
         most = z3.And(idle, left <= 4 * BETWEEN + 2 * params.T_DWELL_ms)
         yield from claim(f"the number in {scans.control}", given, most, LOGIC)
 
-    def faster(one: Scanned) -> Said:
+    def faster(one: Scanned) -> Obligation:
         said = shrinks(one)
         return None if said is None else (said[0], TRUE if one.becomes("Idle") else FALSE)
 
@@ -266,7 +266,7 @@ def a_removal_over_zeros_ends_without_the_error_mode() -> Queries:
 
     yield from _bound(without_error, bound, times_of_a_good_removal)
 
-    def no_error(one: Scanned) -> Said:
+    def no_error(one: Scanned) -> Obligation:
         zero_waited = z3.And(quiet(one), one.before.elapsed_ms < one.params.T_DWELL_ms)
         return zero_waited, FALSE if one.becomes("Error") else TRUE
 

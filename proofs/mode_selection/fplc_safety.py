@@ -30,7 +30,7 @@ from proofs.mode_selection.vocabulary import (
     several_set,
     vector,
 )
-from proofs.sentences import Said, Sentence
+from proofs.sentences import Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
 TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL))
@@ -166,7 +166,7 @@ def the_fplc_drops_the_mode_in_error_where_it_is_so_set() -> Queries:
 # ---------------------------------------------------------------- the switchover
 
 
-def switch_needs_matching_pair(one: Scanned) -> Said:
+def switch_needs_matching_pair(one: Scanned) -> Obligation:
     if not switched(one):
         return None
     m, i = one.after.mode, one.inputs
@@ -189,7 +189,7 @@ def the_fplc_switches_only_on_the_pair_of_this_insertion() -> Queries:
         yield JUDGE.without(switch_needs_matching_pair, "Switch", conjunct)
 
 
-def authorization_respected(one: Scanned) -> Said:
+def authorization_respected(one: Scanned) -> Obligation:
     if not switched(one):
         return None
     signalled = [
@@ -215,7 +215,7 @@ def the_fplc_never_switches_beyond_the_signalled_level() -> Queries:
     yield JUDGE.without(authorization_respected, "Switch", "SelectionIsPermitted")
 
 
-def authorization_by_the_text(one: Scanned) -> Said:
+def authorization_by_the_text(one: Scanned) -> Obligation:
     if not switched(one):
         return None
     flags, m = vector(one.inputs), one.after.mode
@@ -241,7 +241,7 @@ def the_fplc_switches_by_the_text_alone_where_it_is_so_set() -> Queries:
     yield JUDGE.too_strong("by any table of permissions", authorization_by_the_text, "Switch")
 
 
-def no_change_without_la(one: Scanned) -> Said:
+def no_change_without_la(one: Scanned) -> Obligation:
     return (TRUE, one.inputs.LA) if switched(one) else None
 
 
@@ -253,7 +253,7 @@ def the_fplc_switches_nothing_without_la() -> Queries:
     yield JUDGE.too_strong("nor without STR", str_too, "Switch")
 
 
-def no_change_beside_switchover(one: Scanned) -> Said:
+def no_change_beside_switchover(one: Scanned) -> Obligation:
     if one.was("Switch") and one.becomes("Settle"):
         return TRUE, z3.Or(one.after.mode == one.before.mode, is_mode(one.after.mode))
     return TRUE, one.after.mode == one.before.mode if not one.becomes("Error") else mode_is_held(one)
@@ -278,7 +278,7 @@ def nothing_but_the_switchover_changes_the_mode() -> Queries:
 # ---------------------------------------------------------------- faults of the EKS, removal
 
 
-def two_outputs_lead_to_error(one: Scanned) -> Said:
+def two_outputs_lead_to_error(one: Scanned) -> Obligation:
     if one.was("PulseOnes", "PulseZeros"):
         return None
     several = several_set(vector(one.inputs))
@@ -300,13 +300,13 @@ def two_outputs_lead_the_fplc_to_error_in_that_scan() -> Queries:
     """
     yield from JUDGE.in_every_scan(two_outputs_lead_to_error)
 
-    def without_window(one: Scanned) -> Said:
+    def without_window(one: Scanned) -> Obligation:
         return several_set(vector(one.inputs)), TRUE if one.becomes("Error") else z3.BoolVal(False)
 
     yield JUDGE.too_strong("in the pulse window too", without_window, "PulseOnes")
 
 
-def removal_seen_at_once(one: Scanned) -> Said:
+def removal_seen_at_once(one: Scanned) -> Obligation:
     if not one.was(*HOLDING):
         return None
     gone = z3.Not(z3.And(one.inputs.LA, only_of(vector(one.inputs), one.before.accepted)))
@@ -328,7 +328,7 @@ def the_fplc_ends_a_transaction_in_the_scan_without_its_key() -> Queries:
     yield JUDGE.without(removal_seen_at_once, "AwaitSelection", "OneOutputAccepted")
 
 
-def idle_only_over_zeros(one: Scanned) -> Said:
+def idle_only_over_zeros(one: Scanned) -> Obligation:
     return (TRUE, zeros_everywhere(one)) if one.becomes("Idle") and not one.was("Idle") else None
 
 
@@ -342,13 +342,13 @@ def the_fplc_comes_to_idle_only_over_zeros() -> Queries:
     """A scan that leads to Idle finds LA, all five outputs, MW03 and MW07 zero, and the dwell time over."""
     yield from JUDGE.in_every_scan(idle_only_over_zeros)
 
-    def later(one: Scanned) -> Said:
+    def later(one: Scanned) -> Obligation:
         return (TRUE, now(one) > one.params.T_DWELL_ms) if idle_only_over_zeros(one) else None
 
     yield JUDGE.too_strong("and a millisecond more", later, "AwaitZeros")
 
 
-def error_only_over_zeros(one: Scanned) -> Said:
+def error_only_over_zeros(one: Scanned) -> Obligation:
     goes_off = z3.And(one.sent.ERROR, z3.Not(one.sends.ERROR))
     if one.was("Error"):
         return goes_off, zeros_everywhere(one)
@@ -367,7 +367,7 @@ def the_error_mode_ends_only_over_zeros() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_only_over_zeros)
 
-    def later(one: Scanned) -> Said:
+    def later(one: Scanned) -> Obligation:
         return z3.Not(one.sends.ERROR), now(one) > one.params.T_DWELL_ms
 
     yield JUDGE.too_strong("and a millisecond more", later, "Error")
@@ -376,7 +376,7 @@ def the_error_mode_ends_only_over_zeros() -> Queries:
 # ---------------------------------------------------------------- what the words rest on
 
 
-def selection_needs_level(one: Scanned) -> Said:
+def selection_needs_level(one: Scanned) -> Obligation:
     if not (one.was("CheckSelection") and one.becomes("EchoSelection")):
         return None
     return TRUE, permits(one.params, mode("RE", one.sent.MW01), mode("SE", one.inputs.MW03))
@@ -394,7 +394,7 @@ def the_fplc_accepts_a_selection_only_under_the_level_that_it_shows() -> Queries
     """
     yield from JUDGE.in_every_scan(selection_needs_level)
 
-    def own_mode(one: Scanned) -> Said:
+    def own_mode(one: Scanned) -> Obligation:
         return (
             None if selection_needs_level(one) is None else (TRUE, one.after.selection == one.after.authority)
         )
@@ -402,7 +402,7 @@ def the_fplc_accepts_a_selection_only_under_the_level_that_it_shows() -> Queries
     yield JUDGE.too_strong("only its own mode", own_mode, "CheckSelection")
 
 
-def echo_needs_selection(one: Scanned) -> Said:
+def echo_needs_selection(one: Scanned) -> Obligation:
     if z3.is_bv_value(one.sends.MW05) and one.sends.MW05.as_long() == 0:
         return None
     shown, flags = mode("CH", one.sends.MW05), vector(one.inputs)
@@ -419,7 +419,7 @@ def the_fplc_echoes_only_what_stands_in_mw03() -> Queries:
     yield JUDGE.without(echo_needs_selection, "EchoSelection", "SelectionIsPermitted")
 
 
-def level_needs_pulse(one: Scanned) -> Said:
+def level_needs_pulse(one: Scanned) -> Obligation:
     appears = z3.And(one.sent.MW01 == 0, one.sends.MW01 != 0)
     if one.was("Authorize", "Settle") and one.becomes("AwaitSelection"):
         return appears, SEEN.pulse == 2
@@ -457,13 +457,13 @@ def no_wait_of_the_fplc_outlasts_its_deadline() -> Queries:
     """After every scan the timer of a state that has a deadline is below it."""
     yield from JUDGE.after_every_scan(no_wait_beyond_deadline)
 
-    def sooner(one: Scanned) -> Said:
+    def sooner(one: Scanned) -> Obligation:
         return (TRUE, now(one) + 1 < one.params.T_REM_ms) if one.becomes("AwaitZeros") else None
 
     yield JUDGE.too_strong("nor comes within a millisecond of it", sooner, "AwaitZeros")
 
 
-def expiry_ends_the_wait(one: Scanned) -> Said:
+def expiry_ends_the_wait(one: Scanned) -> Obligation:
     for c in TIMED:
         if one.was(c):
             ends = one.becomes("Error") or (c in INSERTION and one.becomes("Clear"))
@@ -483,7 +483,7 @@ def every_wait_with_a_deadline_ends_in_the_scan_that_reaches_it() -> Queries:
     """
     yield from JUDGE.in_every_scan(expiry_ends_the_wait)
 
-    def success_counts(one: Scanned) -> Said:
+    def success_counts(one: Scanned) -> Obligation:
         said = expiry_ends_the_wait(one)
         return None if said is None else (said[0], TRUE if one.becomes("Error") else z3.BoolVal(False))
 
@@ -515,7 +515,7 @@ def all_waits_of_the_fplc_together_stay_within_their_deadline() -> Queries:
         yield JUDGE.without(JUDGE.after_a_scan(shared_deadline_holds), start, "TimerIsTheTimeWaited")
 
 
-def removal_timer_goes_on(one: Scanned) -> Said:
+def removal_timer_goes_on(one: Scanned) -> Obligation:
     if not (one.was(*REMOVAL) and one.becomes(*REMOVAL)):
         return None
     return TRUE, one.after.elapsed_ms >= now(one)
@@ -528,7 +528,7 @@ def nothing_restarts_the_timer_of_a_removal() -> Queries:
     """
     yield from JUDGE.in_every_scan(removal_timer_goes_on)
 
-    def faster(one: Scanned) -> Said:
+    def faster(one: Scanned) -> Obligation:
         said = removal_timer_goes_on(one)
         return None if said is None else (TRUE, one.after.elapsed_ms > now(one))
 

@@ -14,7 +14,7 @@ from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.panel_safety import JUDGE, touched
 from proofs.mode_selection.vocabulary import LEVELS, NONE, code, mode
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
@@ -48,7 +48,7 @@ def the_screen_of_the_panel_shows_what_it_does() -> Queries:
     yield JUDGE.without(sentence, "Inhibited", "OpenAtALevel")
 
 
-def field_selects_its_mode(one: Scanned) -> Said:
+def field_selects_its_mode(one: Scanned) -> Obligation:
     begins = z3.And(one.sent.SelectMSO == 0, one.sends.SelectMSO != 0)
     fields = [
         z3.And(
@@ -68,14 +68,14 @@ def the_field_of_a_mode_selects_that_mode() -> Queries:
     """In a scan in which the panel begins to send a selection it is the mode whose field was touched."""
     yield from JUDGE.in_every_scan(field_selects_its_mode)
 
-    def the_highest(one: Scanned) -> Said:
+    def the_highest(one: Scanned) -> Obligation:
         said = field_selects_its_mode(one)
         return None if said is None else (said[0], one.after.selection == one.after.offered)
 
     yield JUDGE.too_strong("and the highest one", the_highest, "Select")
 
 
-def closes_at_once(one: Scanned) -> Said:
+def closes_at_once(one: Scanned) -> Obligation:
     other = z3.And(one.before.offered != NONE, level(one) != one.before.offered)
     if one.was("Inhibited"):
         return TRUE, z3.Implies(other, shows(one, "inhibited"))
@@ -89,13 +89,13 @@ def the_panel_closes_in_the_scan_with_another_level() -> Queries:
     """
     yield from JUDGE.in_every_scan(closes_at_once)
 
-    def at_any_level(one: Scanned) -> Said:
+    def at_any_level(one: Scanned) -> Obligation:
         return one.before.offered != NONE, shows(one, "inhibited")
 
     yield JUDGE.too_strong("at any level", at_any_level, "Confirm")
 
 
-def closes_over_an_echo(one: Scanned) -> Said:
+def closes_over_an_echo(one: Scanned) -> Obligation:
     if one.sent.screen != "select":
         return None
     return one.inputs.CheckMSO != 0, shows(one, "inhibited")
@@ -106,13 +106,13 @@ def the_panel_closes_over_an_echo_that_nobody_asked_for() -> Queries:
     """In a scan that finds modes offered and CheckMSO not zero, the screen is inhibited."""
     yield from JUDGE.in_every_scan(closes_over_an_echo)
 
-    def always(one: Scanned) -> Said:
+    def always(one: Scanned) -> Obligation:
         return None if closes_over_an_echo(one) is None else (TRUE, shows(one, "inhibited"))
 
     yield JUDGE.too_strong("and without one", always, "Select")
 
 
-def ends_with_the_echo(one: Scanned) -> Said:
+def ends_with_the_echo(one: Scanned) -> Obligation:
     if not one.was("AwaitSwitch", "Withdrawn"):
         return None
     gone = z3.And(level(one) == one.before.offered, one.inputs.CheckMSO == 0)
@@ -126,14 +126,14 @@ def a_selection_on_the_panel_ends_in_the_scan_without_its_echo() -> Queries:
     """
     yield from JUDGE.in_every_scan(ends_with_the_echo)
 
-    def any_word(one: Scanned) -> Said:
+    def any_word(one: Scanned) -> Obligation:
         said = ends_with_the_echo(one)
         return None if said is None else (level(one) == one.before.offered, said[1])
 
     yield JUDGE.too_strong("whatever CheckMSO shows", any_word, "Withdrawn")
 
 
-def panel_answers_at_once(one: Scanned) -> Said:
+def panel_answers_at_once(one: Scanned) -> Obligation:
     c, before, CheckMSO = control(one.device, one.before), one.before, one.inputs.CheckMSO
     if not one.becomes(c):
         return None
@@ -163,7 +163,7 @@ def the_panel_waits_only_for_what_is_not_there() -> Queries:
     """
     yield from JUDGE.in_every_scan(panel_answers_at_once)
 
-    def no_touch(one: Scanned) -> Said:
+    def no_touch(one: Scanned) -> Obligation:
         said = panel_answers_at_once(one)
         return None if said is None else (said[0], touched(one, ""))
 

@@ -14,7 +14,7 @@ from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.devices import HMI
 from proofs.mode_selection.invariants import HMI_INVARIANT
 from proofs.mode_selection.vocabulary import LEVELS, NONE, code, mode, none_set, permits
-from proofs.sentences import Judge, Said, Sentence
+from proofs.sentences import Judge, Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
 JUDGE: Final = Judge(HMI, HMI_INVARIANT)
@@ -64,7 +64,7 @@ def the_inhibited_panel_sends_zeros() -> Queries:
     yield JUDGE.too_strong("and so does the open one", zero, "AwaitEcho")
 
 
-def selection_needs_enable(one: Scanned) -> Said:
+def selection_needs_enable(one: Scanned) -> Obligation:
     level = mode("RE", one.inputs.ReadAuthorization)
     sends = z3.Implies(one.sends.SelectMSO != 0, permits(one.params, level, mode("SE", one.sends.SelectMSO)))
     if one.was("Inhibited") and not one.becomes("Inhibited"):
@@ -85,7 +85,7 @@ def the_panel_selects_only_under_a_level_and_opens_without_an_echo() -> Queries:
     yield JUDGE.without(selection_needs_enable, "Confirm", "SelectionIsOffered")
 
 
-def selection_needs_touch(one: Scanned) -> Said:
+def selection_needs_touch(one: Scanned) -> Obligation:
     begins = z3.And(one.sends.SelectMSO != 0, one.sends.SelectMSO != one.sent.SelectMSO)
     ways = [
         z3.And(
@@ -109,14 +109,14 @@ def the_panel_sends_only_a_selection_that_was_touched() -> Queries:
     """In a scan that begins to send a selection the field of that mode was touched, and it was enabled."""
     yield from JUDGE.in_every_scan(selection_needs_touch)
 
-    def first_field(one: Scanned) -> Said:
+    def first_field(one: Scanned) -> Obligation:
         said = selection_needs_touch(one)
         return None if said is None else (said[0], touched(one, "select:0"))
 
     yield JUDGE.too_strong("always the first field", first_field, "Select")
 
 
-def acknowledgment_needs_confirm(one: Scanned) -> Said:
+def acknowledgment_needs_confirm(one: Scanned) -> Obligation:
     begins = z3.And(one.sends.SwitchMSO != 0, one.sends.SwitchMSO != one.sent.SwitchMSO)
     acknowledged = mode("SW", one.sends.SwitchMSO)
     if not (one.was("Confirm") and one.becomes("AwaitSwitch")):
@@ -136,13 +136,13 @@ def the_panel_acknowledges_only_what_the_user_confirmed() -> Queries:
     """
     yield from JUDGE.in_every_scan(acknowledgment_needs_confirm)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, one.sends.SwitchMSO == 0
 
     yield JUDGE.too_strong("never", never, "Confirm")
 
 
-def inhibit_at_once(one: Scanned) -> Said:
+def inhibit_at_once(one: Scanned) -> Obligation:
     o = one.sends
     closed = z3.And(o.SelectMSO == 0, o.SwitchMSO == 0, none_set(o.enabled))
     gone = mode("RE", one.inputs.ReadAuthorization) == NONE
@@ -160,7 +160,7 @@ def the_panel_closes_in_the_scan_without_a_level() -> Queries:
     """
     yield from JUDGE.in_every_scan(inhibit_at_once)
 
-    def at_any_word(one: Scanned) -> Said:
+    def at_any_word(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes("Inhibited") else FALSE
 
     yield JUDGE.too_strong("at any word", at_any_word, "Select")

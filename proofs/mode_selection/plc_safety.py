@@ -13,7 +13,7 @@ import z3
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.devices import PLC
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, theorem
 
 JUDGE: Final = Judge(PLC, ())
@@ -24,7 +24,7 @@ SOURCE: Final = MappingProxyType(
 ORDER: Final = ("CopyReadAuthorization", "CopyMW03", "CopyCheckMSO", "CopyMW07")
 
 
-def copies_unchanged(one: Scanned) -> Said:
+def copies_unchanged(one: Scanned) -> Obligation:
     words = [
         z3.And(
             z3.Or(getattr(one.after, to) == getattr(one.before, to), _copied(one, to)),
@@ -49,13 +49,13 @@ def the_plc_sends_each_word_unchanged() -> Queries:
     """After every scan each word that the PLC sends is what it was, or what its source shows in this scan."""
     yield from JUDGE.in_every_scan(copies_unchanged)
 
-    def nothing_new(one: Scanned) -> Said:
+    def nothing_new(one: Scanned) -> Obligation:
         return TRUE, one.after.MW03 == one.before.MW03
 
     yield JUDGE.too_strong("no word ever changes", nothing_new, "CopyMW03")
 
 
-def copies_take_turns(one: Scanned) -> Said:
+def copies_take_turns(one: Scanned) -> Obligation:
     due = next(name for name in ORDER if one.was(name))
     if not one.becomes(ORDER[(ORDER.index(due) + 1) % len(ORDER)]):
         return TRUE, FALSE
@@ -75,7 +75,7 @@ def the_plc_leaves_no_copy_out() -> Queries:
     """
     yield from JUDGE.in_every_scan(copies_take_turns)
 
-    def keeps_the_turn(one: Scanned) -> Said:
+    def keeps_the_turn(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes("CopyMW07") else FALSE
 
     yield JUDGE.too_strong("the turn stays", keeps_the_turn, "CopyMW07")

@@ -8,7 +8,7 @@ import z3
 
 from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.theorem import Queries, theorem
 
@@ -86,7 +86,7 @@ def every_state_has_its_row_of_the_table() -> Queries:
     """
     yield from JUDGE.after_every_scan(row_of_the_state)
 
-    def row_of_idle(one: Scanned) -> Said:
+    def row_of_idle(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.sends.Ready)
 
     yield JUDGE.too_strong("the row of Idle", row_of_idle, "ESPEFreeNoTest")
@@ -111,7 +111,7 @@ def the_code_tells_its_outputs() -> Queries:
     """
     yield from JUDGE.after_every_scan(code_tells_its_outputs)
 
-    def and_the_enable_output(one: Scanned) -> Said:
+    def and_the_enable_output(one: Scanned) -> Obligation:
         return TRUE, one.sends.S_OSSD_Out == (one.sends.DiagCode & 0x0010 != 0)
 
     yield JUDGE.too_strong("and a fifth the enable output", and_the_enable_output, "TestActive")
@@ -135,7 +135,7 @@ def nothing_is_pending_while_the_block_enables() -> Queries:
     """
     yield from JUDGE.after_every_scan(enable_means_nothing_pending)
 
-    def and_tested(one: Scanned) -> Said:
+    def and_tested(one: Scanned) -> Obligation:
         return TRUE, z3.Implies(one.sends.S_OSSD_Out, one.sends.TestExecuted)
 
     yield JUDGE.too_strong("and the sensor was tested", and_tested, "Init")
@@ -156,7 +156,7 @@ def the_sender_is_off_in_the_first_phase_only() -> Queries:
     """At power-up and after every call S_TestOut is FALSE exactly in the first phase of a test."""
     yield from JUDGE.after_every_scan(test_out_only_in_test_request)
 
-    def in_both(one: Scanned) -> Said:
+    def in_both(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.sends.S_TestOut) if one.becomes("TestActive") else TRUE
 
     yield JUDGE.too_strong("in both phases", in_both, "TestActive")

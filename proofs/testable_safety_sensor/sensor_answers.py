@@ -12,7 +12,7 @@ import z3
 
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.invariants import RESET_ERRORS, SEEN, TEST_ERRORS, valid
 from proofs.testable_safety_sensor.rows import TRUE_IN
@@ -61,13 +61,13 @@ def every_state_shows_its_printed_code() -> Queries:
     """At power-up and after every call DiagCode is the number that the document prints for the state."""
     yield from JUDGE.after_every_scan(code_is_the_printed_one)
 
-    def as_before(one: Scanned) -> Said:
+    def as_before(one: Scanned) -> Obligation:
         return TRUE, one.sends.DiagCode == one.sent.DiagCode
 
     yield JUDGE.too_strong("it stays as it was", as_before, "Init")
 
 
-def demand_needs_dark_sensor(one: Scanned) -> Said:
+def demand_needs_dark_sensor(one: Scanned) -> Obligation:
     return TRUE, z3.Implies(one.sends.SafetyDemand, z3.Not(one.inputs.S_OSSD_In))
 
 
@@ -81,13 +81,13 @@ def a_demand_is_shown_only_over_a_dark_sensor() -> Queries:
     """Every call that finds the sensor free leaves SafetyDemand FALSE."""
     yield from JUDGE.in_every_scan(demand_needs_dark_sensor)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(one.sends.SafetyDemand)
 
     yield JUDGE.too_strong("never", never, "ESPEFreeTestOk")
 
 
-def reset_ends_at_once(one: Scanned) -> Said:
+def reset_ends_at_once(one: Scanned) -> Obligation:
     i = one.inputs
     asked = z3.And(one.sent.ResetRequest, i.S_OSSD_In, valid(one.params))
     if one.was("TestError1C410"):
@@ -113,14 +113,14 @@ def a_reset_that_is_asked_for_acts_in_its_call() -> Queries:
     yield from JUDGE.in_every_scan(reset_ends_at_once)
     yield JUDGE.without(reset_ends_at_once, "WaitForReset2", "EdgesAreRemembered")
 
-    def whatever_the_sensor(one: Scanned) -> Said:
+    def whatever_the_sensor(one: Scanned) -> Obligation:
         given = z3.And(one.inputs.Activate, edge(one), one.sent.ResetRequest)
         return given, z3.And(one.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("whatever the sensor is", whatever_the_sensor, "WaitForReset1")
 
 
-def reset_error_needs_held_reset(one: Scanned) -> Said:
+def reset_error_needs_held_reset(one: Scanned) -> Obligation:
     after = control(SENSOR, one.after)
     if after not in RESET_ERRORS:
         return None
@@ -148,14 +148,14 @@ def a_reset_error_is_about_a_reset_that_is_held() -> Queries:
     yield from JUDGE.in_every_scan(reset_error_needs_held_reset)
     yield JUDGE.without(reset_error_needs_held_reset, "EndExternalTest", "EdgesAreRemembered")
 
-    def without_auto_reset(one: Scanned) -> Said:
+    def without_auto_reset(one: Scanned) -> Obligation:
         said = reset_error_needs_held_reset(one)
         return None if said is None else (TRUE, z3.Not(one.inputs.S_AutoReset))
 
     yield JUDGE.too_strong("and S_AutoReset is FALSE", without_auto_reset, "WaitForReset1")
 
 
-def manual_test_is_seen(one: Scanned) -> Said:
+def manual_test_is_seen(one: Scanned) -> Obligation:
     if not one.was("ExternalFunctionTest"):
         return None
     falls = z3.And(one.inputs.Activate, SEEN.sensor, z3.Not(one.inputs.S_OSSD_In))
@@ -173,14 +173,14 @@ def a_manual_test_is_seen_when_it_begins() -> Queries:
     yield from JUDGE.in_every_scan(manual_test_is_seen)
     yield JUDGE.without(manual_test_is_seen, "ExternalFunctionTest", "EdgesAreRemembered")
 
-    def by_level(one: Scanned) -> Said:
+    def by_level(one: Scanned) -> Obligation:
         said = manual_test_is_seen(one)
         return None if said is None else (z3.And(one.inputs.Activate, z3.Not(one.inputs.S_OSSD_In)), said[1])
 
     yield JUDGE.too_strong("by level", by_level, "ExternalFunctionTest")
 
 
-def parameter_error_needs_cause(one: Scanned) -> Said:
+def parameter_error_needs_cause(one: Scanned) -> Obligation:
     if not one.becomes("ParameterError"):
         return None
     return TRUE, z3.Not(valid(one.params))
@@ -196,13 +196,13 @@ def a_parameter_error_is_about_test_time() -> Queries:
     """C000 is shown only with a TestTime below 0 or above 150 ms."""
     yield from JUDGE.in_every_scan(parameter_error_needs_cause)
 
-    def above(one: Scanned) -> Said:
+    def above(one: Scanned) -> Obligation:
         return None if not one.becomes("ParameterError") else (TRUE, one.params.TestTime_ms > 150)
 
     yield JUDGE.too_strong("above alone", above, "Init")
 
 
-def active_at_once(one: Scanned) -> Said:
+def active_at_once(one: Scanned) -> Obligation:
     return one.inputs.Activate, z3.And(one.sends.Ready, TRUE)
 
 
@@ -216,7 +216,7 @@ def a_call_with_activate_is_active() -> Queries:
     """Every call with Activate TRUE leaves Ready TRUE."""
     yield from JUDGE.in_every_scan(active_at_once)
 
-    def after_one_more(one: Scanned) -> Said:
+    def after_one_more(one: Scanned) -> Obligation:
         return TRUE, z3.And(one.sends.Ready, TRUE)
 
     yield JUDGE.too_strong("without it too", after_one_more, "Idle")

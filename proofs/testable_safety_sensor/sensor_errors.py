@@ -13,7 +13,7 @@ import z3
 
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.invariants import (
     MANUAL,
@@ -43,7 +43,7 @@ def static(one: Scanned) -> z3.BoolRef:
     return z3.And(one.inputs.Reset, SEEN.reset)
 
 
-def code_tells_resettable(one: Scanned) -> Said:
+def code_tells_resettable(one: Scanned) -> Obligation:
     fits = z3.And(one.inputs.S_OSSD_In, one.inputs.NoExternalTest)
     if one.becomes("TestError1C410"):
         return TRUE, z3.And(fits, one.sends.DiagCode == 0xC410)
@@ -64,13 +64,13 @@ def c410_is_shown_exactly_with_the_sensor_free_and_no_manual_test() -> Queries:
     """
     yield from JUDGE.in_every_scan(code_tells_resettable)
 
-    def as_before(one: Scanned) -> Said:
+    def as_before(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes("TestError1C010", "ResetError3", "Idle") else FALSE
 
     yield JUDGE.too_strong("it stays as it was", as_before, "TestError1C010")
 
 
-def error_left_only_as_documented(one: Scanned) -> Said:
+def error_left_only_as_documented(one: Scanned) -> Obligation:
     before, after = control(SENSOR, one.before), control(SENSOR, one.after)
     if before not in TEST_ERRORS | RESET_ERRORS | PARAMETER_ERRORS:
         return None
@@ -100,7 +100,7 @@ def errors_are_left_only_as_documented() -> Queries:
     yield from JUDGE.in_every_scan(error_left_only_as_documented)
     yield JUDGE.without(error_left_only_as_documented, "TestError1C410", "EdgesAreRemembered")
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return one.inputs.Activate, z3.And(one.sends.Error, TRUE)
 
     yield JUDGE.too_strong("no error is left", never, "ResetError6")
@@ -118,7 +118,7 @@ def kept(one: Scanned, state: str) -> z3.BoolRef:
     return TRUE if state in PARAMETER_ERRORS else z3.Not(z3.And(p.AUTO_RESET_ERRORS, i.S_AutoReset))
 
 
-def static_reset_is_found(one: Scanned) -> Said:
+def static_reset_is_found(one: Scanned) -> Obligation:
     before, after = control(SENSOR, one.before), control(SENSOR, one.after)
     found = [error for error, states in WATCHED.items() if before in states]
     if not found:
@@ -150,14 +150,14 @@ def a_static_reset_is_found_wherever_a_reset_is_waited_for() -> Queries:
     yield from JUDGE.in_every_scan(static_reset_is_found)
     yield JUDGE.without(static_reset_is_found, "EndExternalTest", "EdgesAreRemembered")
 
-    def whatever_the_constants(one: Scanned) -> Said:
+    def whatever_the_constants(one: Scanned) -> Obligation:
         said = static_reset_is_found(one)
         return None if said is None else (z3.And(one.inputs.Activate, static(one)), said[1])
 
     yield JUDGE.too_strong("whatever the constants", whatever_the_constants, "WaitForReset2")
 
 
-def a_held_reset_never_resets(one: Scanned) -> Said:
+def a_held_reset_never_resets(one: Scanned) -> Obligation:
     return z3.And(static(one), z3.Not(automatic(one))), z3.Not(rises(one, "S_OSSD_Out"))
 
 
@@ -175,7 +175,7 @@ def a_static_reset_never_resets() -> Queries:
     yield JUDGE.without(a_held_reset_never_resets, "WaitForReset1", "EdgesAreRemembered")
 
 
-def reset_error_keeps_test_executed(one: Scanned) -> Said:
+def reset_error_keeps_test_executed(one: Scanned) -> Obligation:
     before, after = control(SENSOR, one.before), control(SENSOR, one.after)
     if after not in RESET_ERRORS:
         return None
@@ -193,14 +193,14 @@ def a_reset_error_keeps_the_result_of_the_test() -> Queries:
     """A reset error is reached from the state that it belongs to, and TestExecuted stays as it was."""
     yield from JUDGE.in_every_scan(reset_error_keeps_test_executed)
 
-    def without_a_result(one: Scanned) -> Said:
+    def without_a_result(one: Scanned) -> Obligation:
         said = reset_error_keeps_test_executed(one)
         return None if said is None else (TRUE, z3.Not(one.sends.TestExecuted))
 
     yield JUDGE.too_strong("and there is none", without_a_result, "WaitForReset2")
 
 
-def external_test_is_complete(one: Scanned) -> Said:
+def external_test_is_complete(one: Scanned) -> Obligation:
     if one.was(*TEST_ERRORS):
         if one.becomes(*MANUAL):
             return TRUE, z3.Not(one.inputs.NoExternalTest)
@@ -225,18 +225,18 @@ def after_a_failed_test_the_manual_test_is_complete_or_there_is_none() -> Querie
     yield from JUDGE.in_every_scan(external_test_is_complete)
     yield JUDGE.without(external_test_is_complete, "EndExternalTest", "CycleOfTheManualTest")
 
-    def always_a_manual_one(one: Scanned) -> Said:
+    def always_a_manual_one(one: Scanned) -> Obligation:
         return TRUE, z3.Not(rises(one, "S_OSSD_Out"))
 
     yield JUDGE.too_strong("always a manual one", always_a_manual_one, "TestError1C410")
 
 
-def parameter_error_stays(one: Scanned) -> Said:
+def parameter_error_stays(one: Scanned) -> Obligation:
     shows = TRUE if one.was("Idle", "ResetError1") else z3.And(one.sends.Error, TRUE)
     return z3.And(z3.Not(valid(one.params)), one.inputs.Activate), z3.And(z3.Not(one.sends.S_OSSD_Out), shows)
 
 
-def _refusable(one: Scanned) -> Said:
+def _refusable(one: Scanned) -> Obligation:
     """Asked where a TestTime out of its range can be met at all."""
     return parameter_error_stays(one) if one.was("Idle", "Init", *PARAMETER_ERRORS) else None
 
@@ -255,7 +255,7 @@ def a_test_time_out_of_its_range_never_enables() -> Queries:
     """
     yield from JUDGE.in_every_scan(_refusable)
 
-    def whatever_test_time_is(one: Scanned) -> Said:
+    def whatever_test_time_is(one: Scanned) -> Obligation:
         return one.inputs.Activate, z3.And(one.sends.Error, TRUE)
 
     yield JUDGE.too_strong("whatever TestTime is", whatever_test_time_is, "Init")
@@ -288,7 +288,7 @@ TRANSITIONS: Final = frozenset(
 """Every pair of states that a call may join."""
 
 
-def one_transition(one: Scanned) -> Said:
+def one_transition(one: Scanned) -> Obligation:
     pair = control(SENSOR, one.before), control(SENSOR, one.after)
     return TRUE, TRUE if pair in TRANSITIONS else FALSE
 
@@ -298,7 +298,7 @@ def every_call_takes_one_of_the_listed_transitions_or_stays() -> Queries:
     """From every state every call stays, or takes one of the listed transitions."""
     yield from JUDGE.in_every_scan(one_transition)
 
-    def stays(one: Scanned) -> Said:
+    def stays(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes(control(SENSOR, one.before)) else FALSE
 
     yield JUDGE.too_strong("it stays", stays, "Idle")

@@ -15,7 +15,7 @@ import z3
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control, memory
-from proofs.sentences import Judge, Said
+from proofs.sentences import Judge, Obligation
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.invariants import PARAMETER_ERRORS, TESTING, valid
 from proofs.theorem import Queries, claim, theorem
@@ -67,7 +67,7 @@ def calls_left(c: str, s: Any) -> z3.ArithRef:
     return _pressed(s, 3, 2)
 
 
-def comes_closer(one: Scanned) -> Said:
+def comes_closer(one: Scanned) -> Obligation:
     """A served call leaves a call less, or the block enables and goes on to."""
     if one.was(*PARAMETER_ERRORS):
         return None
@@ -106,12 +106,12 @@ def a_served_block_enables_within_six_calls_and_goes_on_to() -> Queries:
         most = z3.And(left >= (0 if scans.control in ENABLED else 1), left <= MOST)
         yield from claim(f"the number in {scans.control}", JUDGE.premises(scans), most, LOGIC)
 
-    def in_one_call(one: Scanned) -> Said:
+    def in_one_call(one: Scanned) -> Obligation:
         return served(one), z3.And(one.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("one call is enough", in_one_call, "TestError1C010")
 
-    def without_an_answer(one: Scanned) -> Said:
+    def without_an_answer(one: Scanned) -> Obligation:
         return z3.And(one.inputs.Activate, one.inputs.S_OSSD_In), z3.And(one.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("whether the sensor answers or not", without_an_answer, "TestRequest")
@@ -124,7 +124,7 @@ def tested_within(c: str, s: Any) -> z3.ArithRef:
     return z3.IntVal({"TestRequest": 2, "TestActive": 1}.get(c, 0))
 
 
-def test_comes_closer(one: Scanned) -> Said:
+def test_comes_closer(one: Scanned) -> Obligation:
     """A served call with StartTest pressed and released leaves a call less up to TestExecuted."""
     if not one.was("ESPEFreeNoTest", *TESTING):
         return None
@@ -148,7 +148,7 @@ def a_test_is_passed_within_four_calls() -> Queries:
     """
     yield from JUDGE.in_every_scan(test_comes_closer)
 
-    def within_three(one: Scanned) -> Said:
+    def within_three(one: Scanned) -> Obligation:
         said = test_comes_closer(one)
         return None if said is None else (said[0], FALSE if one.becomes("ESPEFreeNoTest") else TRUE)
 

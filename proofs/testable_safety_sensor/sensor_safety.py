@@ -13,7 +13,7 @@ import z3
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned
-from proofs.sentences import Judge, Said, Sentence
+from proofs.sentences import Judge, Obligation, Sentence
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.invariants import (
     MANUAL,
@@ -54,14 +54,14 @@ def the_block_remembers_the_inputs_of_every_call() -> Queries:
     stood there in that call.
     """
 
-    def remembered(one: Scanned) -> Said:
+    def remembered(one: Scanned) -> Obligation:
         s, i = one.after, one.inputs
         kept = (s.reset_before == i.Reset, s.start_test_before == i.StartTest, s.sensor_before == i.S_OSSD_In)
         return TRUE, z3.And(*kept)
 
     yield from JUDGE.in_every_scan(remembered)
 
-    def only_while_active(one: Scanned) -> Said:
+    def only_while_active(one: Scanned) -> Obligation:
         return TRUE, one.after.reset_before == z3.And(one.inputs.Reset, one.inputs.Activate)
 
     yield JUDGE.too_strong("only while active", only_while_active, "Idle")
@@ -70,7 +70,7 @@ def the_block_remembers_the_inputs_of_every_call() -> Queries:
 # ---------------------------------------------------------------- TRUE
 
 
-def enable_needs_free_sensor(one: Scanned) -> Said:
+def enable_needs_free_sensor(one: Scanned) -> Obligation:
     dark = z3.And(one.sends.S_OSSD_Out, z3.Not(one.inputs.S_OSSD_In))
     return TRUE, TRUE if one.becomes("TestActive") else z3.Not(dark)
 
@@ -87,7 +87,7 @@ def the_block_enables_over_a_dark_sensor_in_the_second_phase_of_a_test_only() ->
     """
     yield from JUDGE.in_every_scan(enable_needs_free_sensor)
 
-    def nor_there(one: Scanned) -> Said:
+    def nor_there(one: Scanned) -> Obligation:
         return TRUE, z3.Not(z3.And(one.sends.S_OSSD_Out, z3.Not(one.inputs.S_OSSD_In)))
 
     yield JUDGE.too_strong("nor there", nor_there, "TestRequest")
@@ -116,13 +116,13 @@ def a_test_masks_the_sensor_for_less_than_test_time() -> Queries:
     yield JUDGE.without(sentence, "TestActive", "DarkInTheSecondPhase")
     yield JUDGE.without(sentence, "TestActive", "TestedWithinBoth")
 
-    def half(one: Scanned) -> Said:
+    def half(one: Scanned) -> Obligation:
         seen = JUDGE.sees(one)
         return TRUE, z3.Or(seen.dark < 0, 2 * seen.dark <= one.params.TestTime_ms)
 
     yield JUDGE.too_strong("for half of it", half, "TestActive")
 
-    def once(one: Scanned) -> Said:
+    def once(one: Scanned) -> Obligation:
         return TRUE, z3.Or(JUDGE.sees(one).tested <= 0, JUDGE.sees(one).tested <= one.params.TestTime_ms)
 
     yield JUDGE.too_strong("a test lasts TestTime at most", once, "TestActive")
@@ -151,7 +151,7 @@ def the_sender_is_off_for_less_than_test_time_and_one_call() -> Queries:
     yield JUDGE.without(JUDGE.after_a_scan(sender_off_bounded), "TestRequest", "TimeIsThatOfThePhase")
 
 
-def latency(one: Scanned) -> Said:
+def latency(one: Scanned) -> Obligation:
     """A call over a dark sensor that ends the output, and how long ago the sensor was first seen dark."""
     if not one.was("ESPEFreeNoTest", "ESPEFreeTestOk", "TestRequest", "TestActive"):
         return None
@@ -171,13 +171,13 @@ def a_person_in_the_field_is_answered_within_test_time_and_one_call() -> Queries
     """
     yield from JUDGE.in_every_scan(latency)
 
-    def within_test_time(one: Scanned) -> Said:
+    def within_test_time(one: Scanned) -> Obligation:
         said = latency(one)
         return None if said is None else (said[0], SEEN.dark + one.inputs.dt_ms < one.params.TestTime_ms)
 
     yield JUDGE.too_strong("within TestTime", within_test_time, "TestActive")
 
-    def stays_dark(one: Scanned) -> Said:
+    def stays_dark(one: Scanned) -> Obligation:
         """The sensor is still dark TestTime after it was first seen so."""
         late = z3.And(SEEN.dark >= 0, SEEN.dark + one.inputs.dt_ms >= one.params.TestTime_ms)
         return z3.And(late, z3.Not(one.inputs.S_OSSD_In)), z3.Not(one.sends.S_OSSD_Out)
@@ -200,7 +200,7 @@ def a_demand_that_begins_and_ends_in_a_test_is_only_seen_as_the_test() -> Querie
     leaves S_OSSD_Out TRUE and TestExecuted TRUE: no output shows which it was.
     """
 
-    def passes(one: Scanned) -> Said:
+    def passes(one: Scanned) -> Obligation:
         if not one.was("TestActive"):
             return None
         in_time = SEEN.dark + one.inputs.dt_ms < one.params.TestTime_ms
@@ -213,7 +213,7 @@ def a_demand_that_begins_and_ends_in_a_test_is_only_seen_as_the_test() -> Querie
     yield control_query("control: it happens", example, LOGIC)
 
 
-def inactive_at_once(one: Scanned) -> Said:
+def inactive_at_once(one: Scanned) -> Obligation:
     off = z3.Not(one.sends.S_OSSD_Out) if one.becomes("Idle") else FALSE
     return z3.Not(one.inputs.Activate), off
 
@@ -223,7 +223,7 @@ def without_activate_the_call_ends_in_idle() -> Queries:
     """Every call without Activate, from any state, ends in Idle, with S_OSSD_Out FALSE."""
     yield from JUDGE.in_every_scan(inactive_at_once)
 
-    def always(one: Scanned) -> Said:
+    def always(one: Scanned) -> Obligation:
         return TRUE, TRUE if one.becomes("Idle") else FALSE
 
     yield JUDGE.too_strong("and every other", always, "Idle")
@@ -254,7 +254,7 @@ def automatic(one: Scanned) -> z3.BoolRef:
     return FALSE
 
 
-def no_restart_by_itself(one: Scanned) -> Said:
+def no_restart_by_itself(one: Scanned) -> Obligation:
     given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In)
     return rises(one, "S_OSSD_Out"), z3.And(given, z3.Or(edge(one), automatic(one)))
 
@@ -262,7 +262,7 @@ def no_restart_by_itself(one: Scanned) -> Said:
 def _spoken(sentence: Sentence) -> Sentence:
     """Not asked of paths that cannot enable."""
 
-    def of(one: Scanned) -> Said:
+    def of(one: Scanned) -> Obligation:
         said = sentence(one)
         return None if said is None or z3.is_false(z3.simplify(said[0])) else said
 
@@ -292,13 +292,13 @@ def the_block_never_enables_by_itself() -> Queries:
     yield from JUDGE.in_every_scan(_spoken(no_restart_by_itself))
     yield JUDGE.without(_spoken(no_restart_by_itself), "WaitForReset1", "EdgesAreRemembered")
 
-    def always_an_edge(one: Scanned) -> Said:
+    def always_an_edge(one: Scanned) -> Obligation:
         return rises(one, "S_OSSD_Out"), edge(one)
 
     yield JUDGE.too_strong("always by an edge", _spoken(always_an_edge), "ESPEInterrupted2")
 
 
-def failed_test_needs_reset(one: Scanned) -> Said:
+def failed_test_needs_reset(one: Scanned) -> Obligation:
     if not one.was(*TEST_ERRORS, *MANUAL):
         return None
     return z3.And(rises(one, "S_OSSD_Out"), z3.Not(one.params.AUTO_RESET_ERRORS)), edge(one)
@@ -316,13 +316,13 @@ def after_a_failed_test_only_a_reset_enables() -> Queries:
     """
     yield from JUDGE.in_every_scan(_spoken(failed_test_needs_reset))
 
-    def with_the_other_value(one: Scanned) -> Said:
+    def with_the_other_value(one: Scanned) -> Obligation:
         return rises(one, "S_OSSD_Out"), edge(one)
 
     yield JUDGE.too_strong("with AUTO_RESET_ERRORS too", _spoken(with_the_other_value), "TestError1C410")
 
 
-def start_inhibit_holds(one: Scanned) -> Said:
+def start_inhibit_holds(one: Scanned) -> Obligation:
     off = z3.And(one.inputs.S_StartReset, TRUE) if one.was("Init") else FALSE
     return TRUE, z3.Implies(z3.And(rises(one, "S_OSSD_Out"), SEEN.starting), z3.Or(edge(one), off))
 
@@ -337,7 +337,7 @@ def the_start_up_inhibit_outlives_an_interruption() -> Queries:
     yield JUDGE.without(start_inhibit_holds, "ESPEInterrupted2", "StartInhibitPending")
 
 
-def switched_off_inhibit_ends(one: Scanned) -> Said:
+def switched_off_inhibit_ends(one: Scanned) -> Obligation:
     i, p, out = one.inputs, one.params, z3.And(one.sends.S_OSSD_Out, TRUE)
     free = z3.And(i.Activate, i.S_OSSD_In)
     if one.was("Init"):
@@ -368,14 +368,14 @@ def an_inhibit_that_is_switched_off_is_not_waited_for() -> Queries:
     """
     yield from JUDGE.in_every_scan(switched_off_inhibit_ends)
 
-    def with_the_other_value_too(one: Scanned) -> Said:
+    def with_the_other_value_too(one: Scanned) -> Obligation:
         given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In, one.inputs.S_AutoReset)
         return given, z3.And(one.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("without AUTO_RESET_ERRORS", with_the_other_value_too, "EndExternalTest")
 
 
-def reset_only_where_requested(one: Scanned) -> Said:
+def reset_only_where_requested(one: Scanned) -> Obligation:
     kept = z3.Not(z3.Or(one.inputs.S_StartReset, one.inputs.S_AutoReset))
     return kept, z3.Implies(rises(one, "S_OSSD_Out"), one.sent.ResetRequest)
 
@@ -392,13 +392,13 @@ def a_reset_enables_only_where_it_was_asked_for() -> Queries:
     """
     yield from JUDGE.in_every_scan(reset_only_where_requested)
 
-    def whatever_the_constants(one: Scanned) -> Said:
+    def whatever_the_constants(one: Scanned) -> Obligation:
         return rises(one, "S_OSSD_Out"), z3.And(one.sent.ResetRequest, TRUE)
 
     yield JUDGE.too_strong("whatever the constants", _spoken(whatever_the_constants), "ESPEInterrupted1")
 
 
-def demand_is_shown(one: Scanned) -> Said:
+def demand_is_shown(one: Scanned) -> Obligation:
     judged = ("ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest")
     still = ("ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest")
     if not one.was(*judged, *still):
@@ -419,7 +419,7 @@ def a_lost_sensor_is_shown_at_once() -> Queries:
     """
     yield from JUDGE.in_every_scan(demand_is_shown)
 
-    def as_a_demand(one: Scanned) -> Said:
+    def as_a_demand(one: Scanned) -> Obligation:
         said = demand_is_shown(one)
         return None if said is None else (said[0], z3.And(one.sends.SafetyDemand, TRUE))
 

@@ -13,7 +13,7 @@ import z3
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, Scans, control
-from proofs.sentences import Said
+from proofs.sentences import Obligation
 from proofs.testable_safety_sensor.invariants import SEEN, TEST_ERRORS, TESTING
 from proofs.testable_safety_sensor.sensor_safety import JUDGE, rises
 from proofs.theorem import Queries, claim, theorem
@@ -36,7 +36,7 @@ def over(one: Scanned) -> z3.BoolRef:
 # ---------------------------------------------------------------- its start
 
 
-def test_needs_edge(one: Scanned) -> Said:
+def test_needs_edge(one: Scanned) -> Obligation:
     if not one.becomes("TestRequest") or one.was("TestRequest"):
         return TRUE, TRUE
     return TRUE, z3.And(one.sent.TestPossible, asked_for(one))
@@ -53,13 +53,13 @@ def a_test_begins_only_by_an_edge_while_it_is_possible() -> Queries:
     yield from JUDGE.in_every_scan(test_needs_edge)
     yield JUDGE.without(test_needs_edge, "ESPEFreeTestOk", "EdgesAreRemembered")
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, FALSE if one.becomes("TestRequest") else TRUE
 
     yield JUDGE.too_strong("never", never, "ESPEFreeNoTest")
 
 
-def test_starts_at_once(one: Scanned) -> Said:
+def test_starts_at_once(one: Scanned) -> Obligation:
     if not one.was(*POSSIBLE):
         return None
     begins = TRUE if one.becomes("TestRequest") else FALSE
@@ -78,7 +78,7 @@ def every_such_edge_starts_a_test() -> Queries:
     """
     yield from JUDGE.in_every_scan(test_starts_at_once)
 
-    def over_a_dark_sensor(one: Scanned) -> Said:
+    def over_a_dark_sensor(one: Scanned) -> Obligation:
         said = test_starts_at_once(one)
         return None if said is None else (z3.And(one.inputs.Activate, TRUE), said[1])
 
@@ -132,7 +132,7 @@ def start_test_has_no_effect_while_no_test_is_possible() -> Queries:
 # ---------------------------------------------------------------- its end
 
 
-def slow_test_fails(one: Scanned) -> Said:
+def slow_test_fails(one: Scanned) -> Obligation:
     if not one.was(*TESTING):
         return None
     failed = z3.And(one.sends.Error, z3.Not(one.sends.S_OSSD_Out), z3.Not(one.sends.TestExecuted))
@@ -163,7 +163,7 @@ def a_test_longer_than_test_time_or_without_reaction_always_fails() -> Queries:
     yield from JUDGE.in_every_scan(slow_test_fails)
     yield JUDGE.without(slow_test_fails, "TestActive", "TimeIsThatOfThePhase")
 
-    def a_ms_before(one: Scanned) -> Said:
+    def a_ms_before(one: Scanned) -> Obligation:
         said = slow_test_fails(one)
         early = SEEN.phase + one.inputs.dt_ms + 1 >= one.params.TestTime_ms
         return None if said is None else (z3.And(one.inputs.Activate, early), said[1])
@@ -171,7 +171,7 @@ def a_test_longer_than_test_time_or_without_reaction_always_fails() -> Queries:
     yield JUDGE.too_strong("a millisecond before", a_ms_before, "TestRequest")
 
 
-def each_phase_has_its_time(one: Scanned) -> Said:
+def each_phase_has_its_time(one: Scanned) -> Obligation:
     if not one.was(*TESTING):
         return None
     return TRUE, over(one) if one.becomes(*TEST_ERRORS) else TRUE
@@ -185,13 +185,13 @@ def no_other_test_fails() -> Queries:
     yield from JUDGE.in_every_scan(each_phase_has_its_time)
     yield JUDGE.without(each_phase_has_its_time, "TestRequest", "TimeIsThatOfThePhase")
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return None if not one.was(*TESTING) else (TRUE, FALSE if one.becomes(*TEST_ERRORS) else TRUE)
 
     yield JUDGE.too_strong("no test fails", never, "TestActive")
 
 
-def reaction_is_seen(one: Scanned) -> Said:
+def reaction_is_seen(one: Scanned) -> Obligation:
     if not one.was(*TESTING):
         return None
     free = one.inputs.S_OSSD_In
@@ -218,7 +218,7 @@ def a_reaction_in_time_is_seen_at_once() -> Queries:
     yield JUDGE.without(reaction_is_seen, "TestActive", "TimeIsThatOfThePhase")
 
 
-def test_executed_is_true(one: Scanned) -> Said:
+def test_executed_is_true(one: Scanned) -> Obligation:
     if not one.becomes("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
         return TRUE, z3.Not(rises(one, "TestExecuted"))
     if not one.was("TestActive"):
@@ -240,13 +240,13 @@ def test_executed_says_the_truth() -> Queries:
     yield from JUDGE.in_every_scan(test_executed_is_true)
     yield JUDGE.without(test_executed_is_true, "TestActive", "DarkInTheSecondPhase")
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, z3.Not(rises(one, "TestExecuted"))
 
     yield JUDGE.too_strong("never", never, "TestActive")
 
 
-def test_executed_stays(one: Scanned) -> Said:
+def test_executed_stays(one: Scanned) -> Obligation:
     if not one.was("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
         return None
     ends = z3.Not(one.sends.TestExecuted)
@@ -265,7 +265,7 @@ def test_executed_stays_until_the_next_test() -> Queries:
     """While the block is active TestExecuted ends only in a call that begins another test."""
     yield from JUDGE.in_every_scan(test_executed_stays)
 
-    def also_inactive(one: Scanned) -> Said:
+    def also_inactive(one: Scanned) -> Obligation:
         said = test_executed_stays(one)
         return None if said is None else (TRUE, said[1])
 

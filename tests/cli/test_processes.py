@@ -27,7 +27,7 @@ def live(path):
 if __name__ == "__main__":
     KNOWN.append("made before")
     tasks = [(live, (one,)) for one in sys.argv[2:]] or [(known, ())] * 3
-    print(processes.in_processes("work", tasks, Progress(), lambda one: None, knowing=sys.argv[1] == "yes"))
+    print(processes.in_processes("work", tasks, Progress(), lambda one: None, fork=sys.argv[1] == "yes"))
 """
 
 
@@ -38,8 +38,8 @@ def _program(folder: Path) -> str:
 
 
 def test_processes_know_what_was_made_before_only_when_that_is_asked_for(tmp_path: Path) -> None:
-    def said(knowing: str) -> str:
-        command = [sys.executable, _program(tmp_path), knowing]
+    def said(fork: str) -> str:
+        command = [sys.executable, _program(tmp_path), fork]
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
     assert said("yes") == str([["made before"]] * 3)

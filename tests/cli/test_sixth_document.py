@@ -83,8 +83,7 @@ def done(root: Path) -> dict[str, tuple[int, str]]:
     commands: list[Sequence[str]] = [
         ["verify", "--quiet"],
         ["prove", "--coverage", "--quiet"],
-        ["prove", "--render"],
-        ["findings", "--render", "--quiet"],
+        ["render"],
         ["conform", "gate", "--adapter", f"{adapter} gate", "--suite", "fast", "--quiet"],
         ["conform", "beacon", "--adapter", f"{adapter} beacon", "--suite", "tour", "--quiet"],
         ["conform", "beacon", "--adapter", f"{adapter} beacon", "--suite", "tour", "--codes", "--quiet"],
@@ -139,17 +138,16 @@ def test_its_verdicts_name_what_the_document_does_not_give(done: dict[str, Any])
     assert done["conform gate"][1].endswith("CONFORMS(exact, brief refusals sic times sequences)\n")
 
 
-def test_its_pages_are_rendered_and_told_of(done: dict[str, Any], root: Path) -> None:
-    page = (root / "docs/sluice/findings/SLF-01.md").read_text(encoding="utf-8")
-    assert "## `OPENS_AT_ONCE` restored: `OpensOverBeacon` falls in 2 steps" in page
-    assert "PROVED: The gate begins to open only in a scan in which it reads that the beacon is lit." in page
-    assert "| 2 | gate | **`OpenGate`** |" in page or "`OpenGate`" in page
-    proofs = (root / "docs/sluice/proofs.md").read_text(encoding="utf-8")
-    assert "3 theorems" in proofs and "| `gate` | 3 | 6 |" in proofs
+def test_its_page_is_rendered_and_told_of(done: dict[str, Any], root: Path) -> None:
+    page = (root / "docs/sluice.md").read_text(encoding="utf-8")
+    assert "`OpensOverBeacon` fails after 2 steps" in page
+    assert "theorems about our program for all words and times, by two solvers | 3 |" in page
+    assert "| 2 | `OpenGate` |" in page, page
+    assert "in scan 2 the gate reads the same, and it executes `AwaitBeacon`, not `OpenGate`" in page
     (root / "README.md").write_text("<!-- begin documents -->\n<!-- end documents -->\n", encoding="utf-8")
-    ((status, _),) = modeproof(root, "registers --render")
+    ((status, _),) = modeproof(root, "render")
     text = (root / "README.md").read_text(encoding="utf-8")
-    assert status == 0 and "[proofs](docs/sluice/proofs.md)" in text and "`gate`, `beacon`" in text
+    assert status == 0 and "(docs/sluice.md)" in text and "`gate`, `beacon`" in text
 
 
 FAULTS = (

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
+from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite, open_suite
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,7 +42,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def judged(program: Path, suite: Suite, relation: str, effort: int = 0) -> Verdict:
-    return run_suite(suite, lambda: Adapter([str(program)]), plan=Plan(Manner(relation), effort=effort))
+    return run_suite(suite, lambda: Adapter([str(program)]), plan=Plan(Options(relation), effort=effort))
 
 
 @pytest.mark.parametrize("relation", ["settled", "monitor"])

@@ -29,7 +29,7 @@ from examples.faulty.run import (
 )
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
+from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
 from modeproof.processes import in_forks
 from tests.any_machine import PATIENCE_S
@@ -122,7 +122,7 @@ def test_what_only_our_own_codes_show_is_rejected_with_them(
 ) -> None:
     pack = judged(target)
     verdict = run_suite(
-        pack.suites["brief"], lambda: Adapter([str(pack.programs[fault.id])]), plan=Plan(Manner(codes=True))
+        pack.suites["brief"], lambda: Adapter([str(pack.programs[fault.id])]), plan=Plan(Options(codes=True))
     )
     assert (verdict.word, verdict.reason) == ("DIFFERS", "")
 

@@ -18,7 +18,7 @@ from modeproof.graph.equal import compare
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.builtin import Builtin
-from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
+from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.kinds import SUITES
@@ -81,7 +81,7 @@ class Bright(OwnCodes):
 
 
 def judged(suite: Suite, start: Callable[[], Any], relation: str = "exact", codes: bool = False) -> Verdict:
-    return run_suite(suite, start, plan=Plan(Manner(relation, codes=codes), effort=10))
+    return run_suite(suite, start, plan=Plan(Options(relation, codes=codes), effort=10))
 
 
 def test_the_header_marks_them_and_the_vectors_carry_them(tmp_path: Path) -> None:

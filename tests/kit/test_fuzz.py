@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import Manner, Plan, run_suite
+from modeproof.kit.judge import Options, Plan, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
@@ -102,7 +102,7 @@ def test_nor_under_the_other_relations(at: int, odd: object, relation: str, jobs
             right = super().hello(target)
             return odd if at == 12 and isinstance(odd, dict) else right
 
-    verdict = run_suite(sic, Odd, plan=Plan(Manner(relation), jobs=jobs))
+    verdict = run_suite(sic, Odd, plan=Plan(Options(relation), jobs=jobs))
     assert verdict.word in ("CONFORMS", "DIFFERS", "UNJUDGED") and "\n" not in verdict.reason
     if verdict.word == "UNJUDGED":
         assert verdict.reason

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import Manner, Plan, Verdict, run_suite
+from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.relation import groups
 from modeproof.kit.text import as_record, as_text
 from modeproof.kit.vectors import Case, Suite, open_suite
@@ -37,14 +37,14 @@ def tour(tmp_path: Path) -> Suite:
     return made(tmp_path, "tour")
 
 
-def judged(suite: Suite, start: Callable[[], Any], relation: str, **manner: Any) -> Verdict:
+def judged(suite: Suite, start: Callable[[], Any], relation: str, **options: Any) -> Verdict:
     programs: list[Lamp] = []
 
     def started() -> Any:
         programs.append(start())
         return programs[-1]
 
-    verdict = run_suite(suite, started, plan=Plan(Manner(relation, **manner), effort=30))
+    verdict = run_suite(suite, started, plan=Plan(Options(relation, **options), effort=30))
     assert all(one.closed for one in programs), "a program was not closed"
     return verdict
 
@@ -183,7 +183,7 @@ def test_a_program_in_real_time_can_be_judged_once_it_settles(
     clock = Clock()
     set_clock(monkeypatch, clock, "modeproof.kit.relation")
     case = timed(sic)
-    verdict = run_suite(sic, lambda: RealTime(clock, 0.001), plan=Plan(Manner("settled"), only=case.id))
+    verdict = run_suite(sic, lambda: RealTime(clock, 0.001), plan=Plan(Options("settled"), only=case.id))
     assert verdict.word == "CONFORMS" and clock.now_s > 0.5
     exact = run_suite(sic, lambda: RealTime(clock, 0.001), plan=Plan(only=case.id))
     assert exact.word == "UNJUDGED" and "exact" in exact.reason
@@ -194,7 +194,7 @@ def test_holding_may_take_as_long_as_the_shortest_time_of_the_case_and_no_longer
 ) -> None:
     clock, case = Clock(), timed(sic)
     set_clock(monkeypatch, clock, "modeproof.kit.relation")
-    plan = Plan(Manner("settled"), only=case.id)
+    plan = Plan(Options("settled"), only=case.id)
     scans = run_suite(sic, lambda: RealTime(clock, 0.0), plan=plan).scans
     enough = min(scan.dt_ms for scan in case.scans if scan.dt_ms) / 1000 / scans
     assert run_suite(sic, lambda: RealTime(clock, enough * 0.9), plan=plan).word == "CONFORMS"
@@ -203,7 +203,7 @@ def test_holding_may_take_as_long_as_the_shortest_time_of_the_case_and_no_longer
 
 def test_time_that_holding_takes_beside_that_of_the_case_is_unjudged(sic: Suite) -> None:
     """By the clock on the wall; a busy machine only makes it worse."""
-    verdict = run_suite(sic, lambda: RealTime(time, 0.06), plan=Plan(Manner("settled"), only=timed(sic).id))
+    verdict = run_suite(sic, lambda: RealTime(time, 0.06), plan=Plan(Options("settled"), only=timed(sic).id))
     assert verdict.word == "UNJUDGED" and "--slow" in verdict.reason
 
 
@@ -239,7 +239,7 @@ def answer(m, out):
         (lists, "exact", "UNJUDGED"),
     ):
         command = program(tmp_path, code)
-        plan = Plan(Manner(relation))
+        plan = Plan(Options(relation))
         assert run_suite(sic, lambda command=command: Adapter(command, PATIENT_S), plan=plan).word == word, (
             code
         )

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Difference, Manner, Plan, run_suite
+from modeproof.kit.judge import Difference, Options, Plan, run_suite
 from modeproof.kit.shrink import Part, cut, read_part
 from modeproof.kit.text import as_text
 from modeproof.kit.vectors import Case, Suite, open_suite
@@ -52,7 +52,7 @@ def tour(tmp_path: Path) -> Suite:
 
 
 def found(suite: Suite, lamp: type[Lamp], relation: str = "exact", effort: int = 60) -> Difference:
-    difference = run_suite(suite, lamp, plan=Plan(Manner(relation), effort=effort)).difference
+    difference = run_suite(suite, lamp, plan=Plan(Options(relation), effort=effort)).difference
     assert difference is not None
     return difference
 

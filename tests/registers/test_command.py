@@ -6,14 +6,25 @@ import csv
 import json
 import shutil
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from modeproof.registers import Unjudged, load_document, render_properties_table
-from modeproof.registers.tables import check_pages
+from modeproof.registers import Unjudged, load_document
+from modeproof.registers.tables import check_pages, pages, render_blocks
+from tests.registers.test_document_page import made
 
 Command = Callable[..., int]
+
+
+def render(root: Path, page: str) -> str:
+    """Render the blocks of a page; its text then."""
+    loaded, path = [load_document(root, "door")], root / page
+    assert path in pages(root)
+    text = render_blocks(path.read_text(encoding="utf-8"), loaded, page)
+    path.write_text(text, encoding="utf-8")
+    return text
 
 
 def test_a_sound_tree_gives_status_0_and_the_counts(
@@ -71,23 +82,8 @@ def test_a_place_that_cannot_be_written_is_one_line(tree: Any, registers_command
         registers_command(tree.root, "--json", str(tree.root / "README.md" / "m.json"))
 
 
-@pytest.mark.parametrize("marker", ["<!-- begin properties -->", "<!-- begin properties door -->"])
-def test_a_drifted_table_is_found_and_rendered_anew(
-    tree: Any, registers_command: Command, marker: str
-) -> None:
-    tree.write("docs/page.md", f"before\n{marker}\nold\n<!-- end -->\nafter\n")
-    assert registers_command(tree.root) == 1
-    assert registers_command(tree.root, "--render") == 0
-    text = (tree.root / "docs/page.md").read_text(encoding="utf-8")
-    table = render_properties_table(load_document(tree.root, "door"))
-    assert text == f"before\n{marker}\n{table}<!-- end -->\nafter\n"
-    assert "| `OpenIsUnlocked` | While the door is open the bolt is in. |" in table
-    tree.edit("spec/door/properties.toml", "the bolt is in", "the bolt is out")
-    assert registers_command(tree.root) == 1
-
-
 def test_a_block_without_end_is_found(tree: Any) -> None:
-    tree.write("README.md", "<!-- begin properties -->\n")
+    tree.write("README.md", "<!-- begin documents -->\n")
     problems = check_pages(tree.root, [load_document(tree.root, "door")])
     assert [str(problem) for problem in problems] == [
         "README.md: a rendered block has no end, or is malformed"
@@ -97,23 +93,23 @@ def test_a_block_without_end_is_found(tree: Any) -> None:
 def test_a_picture_that_lost_a_signal_is_found_and_drawn_anew(tree: Any, registers_command: Command) -> None:
     tree.write("README.md", "<!-- begin picture door -->\n<!-- end picture -->\n")
     assert registers_command(tree.root) == 1
-    assert registers_command(tree.root, "--render") == 0
-    text = (tree.root / "README.md").read_text(encoding="utf-8")
+    text = render(tree.root, "README.md")
     latch = load_document(tree.root, "door").interface.devices["latch"]
     assert text.startswith("<!-- begin picture door -->\n```mermaid\nflowchart TB\n")
     assert all(name in text for name in [*latch.inputs, *latch.outputs])
+    assert registers_command(tree.root) == 0
     tree.write("README.md", text.replace(next(iter(latch.inputs)), "lost"))
     assert registers_command(tree.root) == 1
 
 
-def test_an_index_lists_each_document_with_the_pages_that_it_has(
+def test_an_index_lists_each_document_with_the_page_that_it_has(
     tree: Any, registers_command: Command
 ) -> None:
     tree.write("docs/README.md", "<!-- begin documents -->\n<!-- end documents -->\n")
-    assert registers_command(tree.root, "--render") == 0
-    text = (tree.root / "docs/README.md").read_text(encoding="utf-8")
-    assert "- **`door`** A door. Targets: `latch`. [registers and TLA+](../spec/door).\n" in text
-    tree.write("docs/door/findings.md", "x\n")
+    assert "- **`door`** A door. Targets: `latch`. [registers and TLA+](../spec/door).\n" in render(
+        tree.root, "docs/README.md"
+    )
+    tree.write("docs/door.md", made(tree.root))
     assert registers_command(tree.root) == 1, "a page that the index does not name"
-    assert registers_command(tree.root, "--render") == 0
-    assert "[findings](door/findings.md)." in (tree.root / "docs/README.md").read_text(encoding="utf-8")
+    assert "[what was shown and found](door.md), [registers and TLA+]" in render(tree.root, "docs/README.md")
+    assert registers_command(tree.root) == 0

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from modeproof.places import root
-from modeproof.registers import documents, load_document
-from modeproof.registers.fault_table import check_faults, render_fault_matrix, render_faults_table
+from modeproof.places import documents, root
+from modeproof.registers import load_document
+from modeproof.registers.fault_table import check_faults
 from modeproof.registers.rows import Document, Fall, Fault, Matrix
 
 
@@ -66,12 +66,3 @@ def test_a_property_that_no_run_of_the_row_checks_is_found(document: Document) -
 
 def test_a_matrix_whose_run_has_no_cells_is_found(document: Document) -> None:
     assert "no run whose witnesses are cells" in texts(replace(document, matrix=Matrix("MC_Nothing", "copy")))
-
-
-def test_the_tables_show_every_fault_and_every_row_of_the_matrix(document: Document) -> None:
-    table = render_faults_table(document)
-    assert table.count("\n") == len(document.faults) + 2
-    assert document.matrix is not None
-    run = next(run for run in document.runs if run.id == document.matrix.run)
-    rows = {witness.split(" at ")[0] for witness in run.witnesses}
-    assert render_fault_matrix(document).count("\n") == len(rows) + 2

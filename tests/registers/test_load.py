@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from modeproof.registers import Unjudged, documents, load_document, load_interface
+from modeproof.places import documents
+from modeproof.registers import Unjudged, load_document, load_interface
 from modeproof.registers.schema import REGISTERS, schema
 
 

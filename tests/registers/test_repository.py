@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.registers import documents, judge, judge_tree, load_document
+from modeproof.places import documents
+from modeproof.registers import judge, judge_tree, load_document
 from modeproof.registers.judge import Judgement
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -145,6 +145,9 @@ class = "safety"
 drawing_could_settle = true
 switches = ["EAGER", "LAZY"]
 evidence = ["NEG_Box_eager", "MC_Box_lazy", "NEG_Box_hasty"]
+[finding.telling]
+run = "NEG_Box_eager"
+story = "Nothing is in the door, and the box shuts."
 
 [[finding]]
 id = "E-02"
@@ -231,7 +234,8 @@ def evidence_of_the_box(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MODEPROOF_ROOT", str(root))
         assert main(["check", "--quiet", "MC_Box_lazy", "NEG_Box_eager", "NEG_Box_hasty"]) == 0
-        assert main(["findings", "--render", "--quiet"]) == 0
+        assert main(["walks", "--quiet"]) == 0
+        assert main(["render"]) == 0
     return root
 
 

@@ -10,8 +10,8 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.report.build import make
+from modeproof.report.snapshot import pins_of
 from modeproof.report.sources import gather
-from modeproof.report.standing import pins_of
 from tests.report.paper import change, put, without
 from tests.report.whole import make_whole
 

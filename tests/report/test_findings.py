@@ -1,9 +1,8 @@
-"""`modeproof findings` from evidence to page, on a box whose literal reading does not wait for its door."""
+"""`modeproof render` from evidence to page, on a box whose literal reading does not wait for its door."""
 
 from __future__ import annotations
 
 import json
-import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -12,12 +11,15 @@ from typing import Any
 import pytest
 
 from modeproof.cli import main
-from modeproof.registers import load_document
-from modeproof.registers.stamps import check_findings_pages
+from modeproof.registers import load_document, read_sources
+from modeproof.registers.document_page import check_document_page
+
+PAGE = "docs/box.md"
 
 
-def stamps(root: Path) -> list[str]:
-    return [str(one) for one in check_findings_pages(load_document(root, "box"))]
+def problems(root: Path) -> list[str]:
+    document = load_document(root, "box")
+    return [one.text for one in check_document_page(document, read_sources(document))]
 
 
 def change(root: Path, name: str, old: str, new: str) -> None:
@@ -26,79 +28,56 @@ def change(root: Path, name: str, old: str, new: str) -> None:
     (root / name).write_text(text.replace(old, new), encoding="utf-8")
 
 
-def test_the_page_shows_trace_and_decided_behaviour_and_rendering_again_gives_the_same_bytes(
+def test_the_page_shows_a_counterexample_and_renders_again_to_the_same(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    page = (checked / "docs/box/findings/E-01.md").read_text(encoding="utf-8")
+    page = (checked / PAGE).read_text(encoding="utf-8")
     for expected in (
-        "# E-01: does it wait for the door",
-        "A drawing could settle which reading is meant, so this is no error of the document",
-        "## `EAGER` restored: `ShutsOverDoor` falls in 1 step",
-        "It shuts only over the door.",
-        "Otherwise: It shuts on a hand.",
-        "the bounds of MC_Box (any door)",
-        ".venv/bin/modeproof check NEG_Box_eager --trace",
+        "### E-01: does it wait for the door\n\nNothing is in the door, and the box shuts.",
+        "What fails: It shuts only over the door. (`ShutsOverDoor`)",
+        "| scan | executes | box is in | WORD | lamps |",
         "| 0 | power-up | Open | 0 | none |",
         "| 1 | `Close` | **Shut** | **0F10 =<br>code&nbsp;1** | **lamp** |",
         "The same in every row: door 0, SPARE 0.",
-        "In step 1 (marked ▶) the box with no reading restored does otherwise",
-        "| ▶ 1 | 0 | `Close` | **`Wait`** | Shut | **Open** |",
-        "- `Close` (box): BX-1-1, E-01",
-        "## `LAZY` restored: nothing falls",
-        # a run that records no step and replaces a definition: TLC finds the step again
-        "## Without A-01: `ShutsOverDoor` falls in 1 step",
-        "It lets go of what the decided behaviour rests on: A-01, one door.",
-        "No device differs from the decided behaviour here",
+        "What we decided: in scan 1 the box reads the same, and it executes `Wait`, not `Close`.",
+        "`modeproof check NEG_Box_eager --trace`",
+        "*Otherwise:* It shuts on a hand. `ShutsOverDoor` fails after 1 step: "
+        "`modeproof check NEG_Box_eager NEG_Box_hasty --trace`.",
     ):
         assert expected in page, page
-    assert not (checked / "docs/box/findings/E-02.md").exists()
-    index = (checked / "docs/box/findings.md").read_text(encoding="utf-8")
-    assert "2 findings: 1 of class safety, 0 availability, 1 wording" in index
-    assert (
-        "VIOLATED, as expected: `ShutsOverDoor` falls in 1 step" in index
-        and "no model can show a slip" in index
-    )
-    table = (checked / "docs/box/deviations.md").read_text(encoding="utf-8")
-    assert re.search(r"\| `EAGER` \| \[E-01\].* \| `ShutsOverDoor` \| 1 \| \d+\.\d \| arbitrary \|", table)
-    assert "nothing: harmless within the bounds" in table
-    assert "| none; without A-01 | [E-01]" in table and page.count("| 1 | `Close` | **Shut** |") == 2
-    assert stamps(checked) == []
-
-    before = {path: path.read_bytes() for path in (checked / "docs").rglob("*.md")}
+    assert problems(checked) == []
     for walk in (checked / "build/walks/box").iterdir():
         walk.unlink()
-    assert main(["findings", "--render", "--quiet"]) == 0
-    assert {path: path.read_bytes() for path in (checked / "docs").rglob("*.md")} == before
-    assert main(["findings", "--quiet"]) == 0
-    assert "3 of 3 pages as registers and evidence give them" in capsys.readouterr().out
-
-
-def test_each_kind_of_drift_is_found(checked: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    page = "docs/box/findings/E-01.md"
-
-    change(checked, page, "It shuts only", "It never shuts")
-    assert any("E-01.md: the page was changed by hand" in one for one in stamps(checked))
     capsys.readouterr()
-    assert main(["findings", "--quiet"]) == 1
-    assert "E-01.md: the page differs from what registers and evidence give" in capsys.readouterr().out
+    assert main(["render", "--check"]) == 0 and main(["render"]) == 0
+    assert capsys.readouterr().out == "nothing has changed\n" * 2
+    assert (checked / PAGE).read_text(encoding="utf-8") == page
 
-    assert main(["findings", "--render", "--quiet"]) == 0
-    change(checked, "spec/box/findings.toml", "It shuts on a hand.", "It shuts on a foot.")
-    assert any("E-01.md: the registers have changed" in one for one in stamps(checked))
-    change(checked, "spec/box/findings.toml", "It shuts on a foot.", "It shuts on a hand.")
+
+def test_a_page_that_drifted_is_said_and_rendered_anew(
+    checked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    change(checked, PAGE, "| **Shut** |", "| Shut |")
+    assert len(problems(checked)) == 1
+    capsys.readouterr()
+    assert main(["render", "--check"]) == 1
+    assert capsys.readouterr().out == "docs/box.md differs from registers and evidence\n"
+    assert main(["render"]) == 0 and problems(checked) == []
     change(checked, "spec/box/runs.toml", "trace_length = 2", "trace_length = 3")
-    assert any("E-01.md: the pins of its runs" in one for one in stamps(checked))
-    change(checked, "spec/box/runs.toml", "trace_length = 3", "trace_length = 2")
-    assert stamps(checked) == []
+    assert len(problems(checked)) == 1
 
-    (checked / page).rename(checked / "docs/box/findings/E-03.md")
-    found = stamps(checked)
-    assert any("E-01.md: the page is missing" in one for one in found)
-    assert any("E-03.md: no finding with evidence has this page" in one for one in found)
-    assert main(["findings", "--render", "--quiet"]) == 0
-    assert not (checked / "docs/box/findings/E-03.md").exists()
-    change(checked, page, "<!-- rendered", "<!-- written")
-    assert any("E-01.md: the page has no stamp" in one for one in stamps(checked))
+
+def test_without_evidence_the_table_of_an_unchanged_run_is_kept(
+    checked: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = (checked / PAGE).read_text(encoding="utf-8")
+    shutil.rmtree(checked / "build")
+    change(checked, "spec/box/findings.toml", "It shuts on a hand.", "It shuts on a foot.")
+    assert len(problems(checked)) == 1
+    assert main(["render"]) == 0
+    assert "NEG_Box_eager: its table is kept as it was: no evidence" in capsys.readouterr().out
+    assert (checked / PAGE).read_text(encoding="utf-8") == page.replace("on a hand", "on a foot")
+    assert problems(checked) == []
 
 
 def _no_evidence(root: Path) -> None:
@@ -134,12 +113,12 @@ def _other_specification(root: Path) -> None:
 @pytest.mark.parametrize(
     ("spoil", "expected"),
     [
-        (_no_evidence, "no evidence to render"),
-        (_other_cfg, "its evidence is of another models/NEG_Box_eager.cfg"),
-        (_other_pin, "its evidence has 2 where runs.toml pins 3"),
+        (_no_evidence, ": no evidence;"),
+        (_other_cfg, "spec/box/models/NEG_Box_eager.cfg has changed since"),
+        (_other_pin, "its evidence has trace_length 2, runs.toml 3"),
         (_other_verdict, "its evidence is not as expected: INCONCLUSIVE"),
-        (_other_property, "its evidence violates TypeOK, not ShutsOverDoor"),
-        (_other_specification, "the specification does not allow state 2 of its counterexample any more"),
+        (_other_property, "its evidence has violated TypeOK, runs.toml ShutsOverDoor"),
+        (_other_specification, "spec/box/Box.tla has changed since"),
     ],
 )
 def test_evidence_that_is_missing_or_of_something_else_writes_nothing_and_names_run_and_command(
@@ -151,7 +130,7 @@ def test_evidence_that_is_missing_or_of_something_else_writes_nothing_and_names_
     shutil.rmtree(checked / "docs")
     spoil(checked)
     capsys.readouterr()
-    assert main(["findings", "--render", "--quiet"]) == 2
+    assert main(["render"]) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and expected in said
     assert "NEG_Box_eager" in said and "run modeproof check NEG_Box_eager" in said
@@ -173,11 +152,3 @@ def test_a_negative_run_that_holds_names_the_switch_that_changes_nothing(
         "ShutsOverDoor was to be violated, and is not: EAGER restored breaks nothing"
         in capsys.readouterr().out
     )
-
-
-def test_a_document_without_the_register_has_no_pages(
-    checked: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    (checked / "spec/box/replay.toml").unlink()
-    assert main(["findings"]) == 2
-    assert "no document has a replay.toml" in capsys.readouterr().err

@@ -12,7 +12,8 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.errors import Unjudged
-from modeproof.registers.load import documents, load_document
+from modeproof.places import documents
+from modeproof.registers.load import load_document
 from modeproof.report import build, parts
 from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
@@ -149,7 +150,7 @@ def test_the_json_is_what_its_schema_says(root: Path) -> None:
     validator = jsonschema.Draft202012Validator(json.loads(SCHEMA.read_text(encoding="utf-8")))
     validator.check_schema(validator.schema)
     assert list(validator.iter_errors(content)) == []
-    for key in ("digest", "troubles", "parts", "standing", "files"):
+    for key in ("digest", "troubles", "parts", "snapshot", "files"):
         broken = {name: value for name, value in content.items() if name != key}
         assert list(validator.iter_errors(broken)), key
     content["status"] = 3
@@ -383,7 +384,7 @@ def test_a_place_that_cannot_be_written_is_one_line(
     assert "cannot be written" in err and len(err.splitlines()) == 1
 
 
-@pytest.mark.parametrize("text", [None, "", "{}", '{"standing": {}}', "[1]"])
+@pytest.mark.parametrize("text", [None, "", "{}", '{"snapshot": {}}', "[1]"])
 def test_a_previous_report_that_is_none_is_one_line(
     root: Path, text: str | None, capsys: pytest.CaptureFixture[str]
 ) -> None:

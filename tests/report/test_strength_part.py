@@ -113,6 +113,15 @@ def test_a_campaign_that_is_not_recorded_shows_as_a_hole_with_the_command_that_r
     assert "no campaign is recorded; <code>modeproof mutate impl --judge vectors" in make(root).html
 
 
+def test_without_evidence_the_counts_kept_in_git_are_shown(root: Path) -> None:
+    counts = "killed = 7\nequivalent = 0\ninvalid = 0\nsurvived = 1\nsurvived_explained = 1\nunmeasured = 0\n"
+    row = f'[[campaign]]\nwhat = "impl"\njudged_on = "2026-11-22"\ncommand = "x"\n{counts}'
+    (root / "spec/box/scores.toml").write_text(f"{row}earlier_text = true\n[campaign.files]\n")
+    found = part(gather(root)).data["documents"][0]["campaigns"][1]
+    assert (found["recorded"], found["score"]["killed"].value, found["score"]["real"].value) == (None, 7, 8)
+    assert "of an earlier text" in make(root).html
+
+
 def test_the_text_of_an_edit_cannot_become_markup(root: Path) -> None:
     html = make(root).html
     assert HOSTILE not in html and "&lt;img src=x" in html

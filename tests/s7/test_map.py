@@ -14,7 +14,7 @@ from modeproof.kit.signals import Signal
 from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
 from modeproof.s7.map import Place, decode, encode, parse_address, proposed_map, read_map
-from modeproof.s7.plc import blocks_of, number_at, split_address
+from modeproof.s7.program import blocks_of, number_at, split_address
 from tests.any_machine import SHARED_FIXTURE
 from tests.s7.server import FREE, STEPPED
 

@@ -10,8 +10,8 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.kit.vectors import open_suite
-from modeproof.places import root
-from modeproof.registers.load import documents, load_interface
+from modeproof.places import documents, root
+from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import check_vectors
 from modeproof.suites.kinds import SUITES
 from tests.suites.test_command import toy as toy  # the fixture

@@ -103,13 +103,13 @@ def place(sizes: Mapping[str, Size], chains: Sequence[Chain], *, aside: bool = F
             {name: Point(at.y, at.x) for name, at in found.middle.items()},
             tuple(tuple(_turned(path) for path in paths) for paths in found.lines),
         )
-    for one in chains:
-        if one.source == one.target or set(one.boxes) - set(sizes):
-            raise ValueError(f"a chain from {one.source!r} to {one.target!r} cannot be placed")
+    for chain in chains:
+        if chain.source == chain.target or set(chain.boxes) - set(sizes):
+            raise ValueError(f"a chain from {chain.source!r} to {chain.target!r} cannot be placed")
     upwards = _upwards(sizes, chains)
     links: dict[tuple[str, str], None] = {}
-    for one in chains:
-        boxes = one.boxes[::-1] if one in upwards else one.boxes
+    for chain in chains:
+        boxes = chain.boxes[::-1] if chain in upwards else chain.boxes
         links.update(dict.fromkeys(pairwise(boxes)))
     middle: dict[str, Point] = {}
     drawn: dict[tuple[str, str], str] = {}
@@ -127,9 +127,9 @@ def place(sizes: Mapping[str, Size], chains: Sequence[Chain], *, aside: bool = F
     lines = tuple(
         tuple(
             drawn[link] if link in drawn else _reversed(drawn[link[1], link[0]])
-            for link in pairwise(one.boxes)
+            for link in pairwise(chain.boxes)
         )
-        for one in chains
+        for chain in chains
     )
     return Placed(left - 2 * ACROSS + MARGIN, height + MARGIN, middle, lines)
 

@@ -58,9 +58,9 @@ class Entry:
 def entries(steps: Sequence[Step]) -> tuple[Entry, ...]:
     """The steps that lead to one state from many others, those from the same states together."""
     sources: dict[tuple[str, str], list[str]] = {}
-    for one in steps:
-        if one.source != one.target:
-            sources.setdefault((one.target, one.name), []).append(one.source)
+    for step in steps:
+        if step.source != step.target:
+            sources.setdefault((step.target, step.name), []).append(step.source)
     grouped: dict[tuple[str, tuple[str, ...]], list[str]] = {}
     for (target, name), comes in sources.items():
         if len(comes) >= MANY:
@@ -78,15 +78,15 @@ def state_chart(
 ) -> Markup:
     """The picture. `cites` holds the ids that each step cites; `id` begins the ids within the picture."""
     listed = entries(steps)
-    hidden = {(one.target, name) for one in listed for name in one.names}
+    hidden = {(arrow.target, name) for arrow in listed for name in arrow.names}
     pairs: dict[tuple[str, str], list[str]] = {}
-    for one in steps:
-        if one.source != one.target and (one.target, one.name) not in hidden:
-            pairs.setdefault((one.source, one.target), []).append(one.name)
-    drawn = [one for one in boxes if one.entered]
+    for step in steps:
+        if step.source != step.target and (step.target, step.name) not in hidden:
+            pairs.setdefault((step.source, step.target), []).append(step.name)
+    drawn = [box for box in boxes if box.entered]
     contents = {
-        one.name: _content(one, steps, [e for e in listed if e.target == one.name], cites, drawn)
-        for one in drawn
+        arrow.name: _content(arrow, steps, [e for e in listed if e.target == arrow.name], cites, drawn)
+        for arrow in drawn
     }
     labels = {f"{n}": _label(names, cites) for n, names in enumerate(pairs.values())}
     sizes = {name: _size([line for part in parts for line in part]) for name, parts in contents.items()}
@@ -99,7 +99,8 @@ def state_chart(
         for n, chain in enumerate(chains)
     ]
     states = [
-        _state(one, contents[one.name], sizes[one.name], placed.middle[one.name], listed) for one in drawn
+        _state(arrow, contents[arrow.name], sizes[arrow.name], placed.middle[arrow.name], listed)
+        for arrow in drawn
     ]
     return picture(
         placed.width, placed.height, title, arrow_head(head), *moves, *states, class_="chart", id=id
@@ -127,14 +128,16 @@ def _content(
         for step in entry.names:
             lines_of += wrapped([COMES, step], WIDE_STATE, kind="step", size=STEP)
             lines_of += wrapped(cites.get(step, ()), WIDE_STATE, kind="cites", size=CLAUSE)
-        lines_of += wrapped(_from(entry, [one.name for one in drawn]), WIDE_STATE, kind="from", size=CLAUSE)
+        lines_of += wrapped(
+            _from(entry, [arrow.name for arrow in drawn]), WIDE_STATE, kind="from", size=CLAUSE
+        )
         parts.append(lines_of)
     return parts
 
 
 def _from(entry: Entry, all_states: Sequence[str]) -> list[str]:
     """The words that say where an entry comes from."""
-    others = [one for one in all_states if one != entry.target and one not in entry.sources]
+    others = [state for state in all_states if state != entry.target and state not in entry.sources]
     if not others:
         return ["from", "every", "other", "state"]
     if len(others) < len(entry.sources) and len(others) <= FEW:
@@ -143,7 +146,7 @@ def _from(entry: Entry, all_states: Sequence[str]) -> list[str]:
 
 
 def _commas(names: Sequence[str]) -> list[str]:
-    return [f"{one}," for one in names[:-1]] + [names[-1]]
+    return [f"{name}," for name in names[:-1]] + [names[-1]]
 
 
 def _label(names: Sequence[str], cites: Mapping[str, Sequence[str]]) -> list[Line]:
@@ -155,7 +158,7 @@ def _label(names: Sequence[str], cites: Mapping[str, Sequence[str]]) -> list[Lin
 
 
 def _size(shown: Sequence[Line]) -> Size:
-    return Size(max(one.width for one in shown) + 2 * PAD + CORNER, height_of(shown) + PAD)
+    return Size(max(line.width for line in shown) + 2 * PAD + CORNER, height_of(shown) + PAD)
 
 
 def _move(
@@ -192,7 +195,7 @@ def _state(
     for n, part in enumerate(parts):
         if n > 0 and part:
             shown.append(element("path", class_="rule", d=f"M{left + 4:.1f} {y:.1f}H{right - 4:.1f}"))
-        comes = [one for one in listed if one.target == box.name][n - 3] if n > 2 else None
+        comes = [arrow for arrow in listed if arrow.target == box.name][n - 3] if n > 2 else None
         text = lines(part, middle.x, y)
         if comes is not None:
             text = element("g", text, class_="entry", data_to=box.name, data_from=" ".join(comes.sources))

@@ -51,17 +51,17 @@ def number(value: str | float) -> str:
 def lines(shown: Sequence[Line], x: float, top: float, anchor: str = "middle") -> Markup:
     """Lines of text below each other; `top` is the upper edge of the first."""
     found, y = [], top
-    for one in shown:
-        y += one.height
+    for line in shown:
+        y += line.height
         found.append(
             element(
                 "text",
-                escape(one.text),
+                escape(line.text),
                 x=x,
-                y=y - one.height * 0.28,
-                font_size=one.size,
+                y=y - line.height * 0.28,
+                font_size=line.size,
                 text_anchor=None if anchor == "start" else anchor,
-                class_=one.kind or None,
+                class_=line.kind or None,
             )
         )
     return Markup("").join(found)
@@ -69,7 +69,7 @@ def lines(shown: Sequence[Line], x: float, top: float, anchor: str = "middle") -
 
 def height_of(shown: Iterable[Line]) -> float:
     """Pixels."""
-    return sum(one.height for one in shown)
+    return sum(line.height for line in shown)
 
 
 def wrapped(

@@ -52,7 +52,7 @@ class Cable:
 
 def system_picture(boxes: Sequence[Box], cables: Sequence[Cable], *, id: str, title: str) -> Markup:
     """Boxes and cables, downwards. `id` begins the ids within the picture."""
-    contents = {one.id: _box(one) for one in boxes}
+    contents = {box.id: _box(box) for box in boxes}
     labels = {f"label {n}": _label(one) for n, one in enumerate(cables)}
     sizes = {name: _size(shown) for name, shown in {**contents, **labels}.items()}
     chains = [Chain(one.source, one.target, f"label {n}") for n, one in enumerate(cables)]
@@ -79,14 +79,14 @@ def system_picture(boxes: Sequence[Box], cables: Sequence[Cable], *, id: str, ti
                 data_to=chain.target,
             )
         )
-    for one in boxes:
-        x, y = corner(one.id)
-        size = sizes[one.id]
+    for box in boxes:
+        x, y = corner(box.id)
+        size = sizes[box.id]
         shape = element(
-            "rect", x=x, y=y, width=size.width, height=size.height, rx=size.height / 2 if one.outside else 4
+            "rect", x=x, y=y, width=size.width, height=size.height, rx=size.height / 2 if box.outside else 4
         )
-        text = lines(contents[one.id], placed.middle[one.id].x, y + PAD / 2)
-        drawn.append(element("g", shape, text, class_="outside" if one.outside else "device"))
+        text = lines(contents[box.id], placed.middle[box.id].x, y + PAD / 2)
+        drawn.append(element("g", shape, text, class_="outside" if box.outside else "device"))
     return picture(placed.width, placed.height, title, arrow_head(head), *drawn, class_="flow", id=id)
 
 
@@ -95,11 +95,11 @@ def block_picture(
 ) -> Markup:
     """One block with its pins: name and type inside, the tag of the document's wiring and the ids outside."""
     inside = [
-        max((Line(_named(one), "", SIGNAL).width for one in pins), default=0.0) for pins in (inputs, outputs)
+        max((Line(_named(pin), "", SIGNAL).width for pin in pins), default=0.0) for pins in (inputs, outputs)
     ]
-    beside = [max((_beside(one) for one in pins), default=0.0) for pins in (inputs, outputs)]
+    beside = [max((_beside(pin) for pin in pins), default=0.0) for pins in (inputs, outputs)]
     header = [Line(box.id, "name", NAME), *wrapped(box.title.split(), WIDE + 16, kind="cites", size=CLAUSE)]
-    width = max(inside[0] + inside[1] + 6 * PAD, max(one.width for one in header) + 2 * PAD)
+    width = max(inside[0] + inside[1] + 6 * PAD, max(line.width for line in header) + 2 * PAD)
     left = beside[0] + STUB + PAD
     top, body = PAD, height_of(header) + 2 * PAD
     height = body + ROW * max(len(inputs), len(outputs)) + PAD
@@ -147,32 +147,32 @@ def block_picture(
     )
 
 
-def _named(one: Wire) -> str:
-    return f"{one.name}: {one.type}"
+def _named(wire: Wire) -> str:
+    return f"{wire.name}: {wire.type}"
 
 
-def _beside(one: Wire) -> float:
-    return max(Line(text, "", CLAUSE).width for text in (one.tag, " ".join(one.cites)))
+def _beside(wire: Wire) -> float:
+    return max(Line(text, "", CLAUSE).width for text in (wire.tag, " ".join(wire.cites)))
 
 
-def _box(one: Box) -> list[Line]:
-    if one.outside:
-        return [Line(one.title, "name", NAME)]
-    return [Line(one.id, "name", NAME), *wrapped(one.title.split(), WIDE, kind="cites", size=CLAUSE)]
+def _box(box: Box) -> list[Line]:
+    if box.outside:
+        return [Line(box.title, "name", NAME)]
+    return [Line(box.id, "name", NAME), *wrapped(box.title.split(), WIDE, kind="cites", size=CLAUSE)]
 
 
 def _label(cable: Cable) -> list[Line]:
     """The signals of one type in a row, then what they cite."""
     by_type: dict[str, list[str]] = {}
-    for one in cable.wires:
-        by_type.setdefault(one.type, []).append(one.name)
+    for wire in cable.wires:
+        by_type.setdefault(wire.type, []).append(wire.name)
     shown = []
     for kind, names in by_type.items():
         words = [f"{name}," for name in names[:-1]] + [f"{names[-1]}: {kind}"]
         shown += wrapped(words, WIDE, kind="step", size=SIGNAL)
-    cites = dict.fromkeys(id for one in cable.wires for id in one.cites)
+    cites = dict.fromkeys(id for wire in cable.wires for id in wire.cites)
     return [*shown, *wrapped(cites, WIDE + 4, kind="cites", size=CLAUSE)]
 
 
 def _size(shown: Sequence[Line]) -> Size:
-    return Size(max(one.width for one in shown) + 2 * PAD, height_of(shown) + PAD)
+    return Size(max(line.width for line in shown) + 2 * PAD, height_of(shown) + PAD)

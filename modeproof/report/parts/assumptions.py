@@ -7,7 +7,7 @@ from typing import Any
 
 from modeproof.registers.rows import Assumption, Document
 from modeproof.registers.runs import Run
-from modeproof.report.claims import Said, said, steps_of
+from modeproof.report.claims import Result, result_of, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
 
@@ -17,23 +17,22 @@ ID = "assumptions"
 def part(sources: Sources) -> Part:
     """One entry a document."""
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Assumptions and abstractions", {"documents": found}, tuple(troubles))
 
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
-    runs = {one.id: one for one in document.runs}
+    runs = {run.id: run for run in document.runs}
     rests = _rests_on(sources, document)
-    shown: list[Said] = []
+    shown: list[Result] = []
     rows = []
-    for one in document.assumptions:
-        breaking = [said(sources, document, runs[name]) for name in one.breaks if name in runs]
+    for assumption in document.assumptions:
+        breaking = [result_of(sources, document, runs[name]) for name in assumption.breaks if name in runs]
         shown += breaking
-        rows.append(_row(document, one, breaking, runs, rests.get(one.id, ())))
-        if not one.breaks and not one.breaks_open.strip():
-            what = (
-                f"{document.name}: {one.id}: neither a run shows what breaks without it, nor is it said why"
-            )
+        rows.append(_row(document, assumption, breaking, runs, rests.get(assumption.id, ())))
+        if not assumption.breaks and not assumption.breaks_open.strip():
+            where = f"{document.name}: {assumption.id}"
+            what = f"{where}: no run shows what breaks without it, and no reason is given"
             troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
     return {
         "id": document.name,
@@ -45,21 +44,21 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
 
 def _row(
     document: Document,
-    one: Assumption,
-    breaking: list[Said],
+    assumption: Assumption,
+    breaking: list[Result],
     runs: Mapping[str, Run],
     claims: tuple[tuple[str, str], ...],
 ) -> dict[str, Any]:
     hazards = {each.tla: each for each in document.properties}
     return {
-        "id": one.id,
-        "title": one.title,
-        "text": one.text,
-        "kind": one.kind,
-        "clauses": list(one.clauses),
-        "who": one.who,
-        "check": one.check,
-        "open": one.breaks_open,
+        "id": assumption.id,
+        "title": assumption.title,
+        "text": assumption.text,
+        "kind": assumption.kind,
+        "clauses": list(assumption.clauses),
+        "who": assumption.who,
+        "check": assumption.check,
+        "open": assumption.breaks_open,
         "breaks": [
             {
                 **each.data,

@@ -6,17 +6,17 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from modeproof.report.part import Part
+from modeproof.report.snapshot import snapshot
 from modeproof.report.sources import HOLE, Sources, Trouble
-from modeproof.report.standing import standing
 
 NONE = "none"
 
 
 def part(sources: Sources) -> Part:
     """What differs from the baseline that the shelf holds; nothing where there is none."""
-    baseline = sources.shelf.get("baseline")
+    baseline = sources.cache.get("baseline")
     before = baseline.report if baseline is not None else None
-    now = sources.shelf.get("standing") or standing(sources)
+    now = sources.cache.get("snapshot") or snapshot(sources)
     troubles: tuple[Trouble, ...] = ()
     if baseline is not None and baseline.problem:
         what = f"the previous report cannot be compared with: {baseline.problem}"
@@ -25,7 +25,7 @@ def part(sources: Sources) -> Part:
     if before is not None:
         data = {
             "baseline": {"digest": before["digest"], "sha256": before["sha256"]},
-            "groups": list(_groups(before["standing"], now)),
+            "groups": list(_groups(before["snapshot"], now)),
         }
     return Part("changes", "Changes since the previous report", data, troubles)
 

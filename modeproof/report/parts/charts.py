@@ -48,9 +48,9 @@ def _charts(
 ) -> dict[str, Evidence]:
     """The comparisons that hold a chart of this device, by run, in the order of runs.toml."""
     by_run = {
-        str(one.result.get("run", "")).rsplit("/", 1)[-1]: one
-        for one in sources.of_kind(document.name, "conformance")
-        if one.result.get("device") == device.id
+        str(piece.result.get("run", "")).rsplit("/", 1)[-1]: piece
+        for piece in sources.of_kind(document.name, "conformance")
+        if piece.result.get("device") == device.id
     }
     found, missing = {}, []
     for run in document.runs:
@@ -78,9 +78,9 @@ def _is_chart(value: Any) -> bool:
 
 
 def _chart(
-    document: Document, device: Device, run: str, one: Evidence, cites: Mapping[str, Cited]
+    document: Document, device: Device, run: str, piece: Evidence, cites: Mapping[str, Cited]
 ) -> dict[str, Any]:
-    chart = one.result["chart"]
+    chart = piece.result["chart"]
     boxes = [
         Box(
             name,
@@ -97,11 +97,11 @@ def _chart(
     anchor = f"chart-{document.name}-{device.id}"
     return {
         "run": run,
-        "source": one.path,
+        "source": piece.path,
         "states": [
             {
                 "id": box.name,
-                "states": Figure(chart["states"][box.name], one.path),
+                "states": Figure(chart["states"][box.name], piece.path),
                 "initial": box.initial,
                 "error": box.error,
                 "outputs": {key: _word(value) for key, value in chart["outputs"].get(box.name, {}).items()},
@@ -115,7 +115,7 @@ def _chart(
                 "to": move["target"],
                 "clauses": cites.get(move["step"], Cited()).clauses,
                 "findings": cites.get(move["step"], Cited()).findings,
-                "transitions": Figure(move["transitions"], one.path),
+                "transitions": Figure(move["transitions"], piece.path),
             }
             for move in chart["moves"]
         ],
@@ -137,18 +137,18 @@ def _word(value: Any) -> str:
     return "none" if value is None or value == "" else str(value)
 
 
-def _variant(run: str, one: Evidence, first: Evidence) -> dict[str, Any]:
+def _variant(run: str, piece: Evidence, first: Evidence) -> dict[str, Any]:
     """What is another in the chart of another graph of the same device."""
-    here, there = _moves(one), _moves(first)
+    here, there = _moves(piece), _moves(first)
     return {
         "run": run,
-        "environment": one.record["environment"],
-        "source": one.path,
+        "environment": piece.record["environment"],
+        "source": piece.path,
         "added": [{"from": a, "step": b, "to": c} for a, b, c in here if (a, b, c) not in there],
         "missing": [{"from": a, "step": b, "to": c} for a, b, c in there if (a, b, c) not in here],
-        "never_entered": sorted(name for name, count in one.result["chart"]["states"].items() if not count),
+        "never_entered": sorted(name for name, count in piece.result["chart"]["states"].items() if not count),
     }
 
 
-def _moves(one: Evidence) -> dict[tuple[str, str, str], None]:
-    return {(move["source"], move["step"], move["target"]): None for move in one.result["chart"]["moves"]}
+def _moves(piece: Evidence) -> dict[tuple[str, str, str], None]:
+    return {(move["source"], move["step"], move["target"]): None for move in piece.result["chart"]["moves"]}

@@ -8,8 +8,8 @@ from modeproof.errors import Unjudged
 from modeproof.registers.tools import SOURCE, Check, ToolProblem, load_tools
 from modeproof.report.conditions import Met, judged
 from modeproof.report.part import Part
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 ID = "confidence"
@@ -27,18 +27,18 @@ def part(sources: Sources) -> Part:
         trouble = Trouble(HOLE, ID, f"known problems of the tools cannot be read: {error.message}")
         return Part(ID, "Tool confidence", data, (trouble,))
     troubles: list[Trouble] = []
-    data["checks"] = [_check(sources, one) for one in register.checks]
-    data["problems"] = [_problem(sources, one, troubles) for one in register.problems]
+    data["checks"] = [_check(sources, check) for check in register.checks]
+    data["problems"] = [_problem(sources, problem, troubles) for problem in register.problems]
     return Part(ID, "Tool confidence", data, tuple(troubles))
 
 
 def _tools(sources: Sources) -> list[dict[str, Any]]:
     """Each version of each tool, and how much evidence was made with it."""
     made: dict[tuple[str, str, str], list[str]] = {}
-    for one in sources.everything():
-        for name, entry in one.record["tools"].items():
+    for piece in sources.everything():
+        for name, entry in piece.record["tools"].items():
             key = (str(name), str(entry["version"]), str(entry["sha256"] or ""))
-            made.setdefault(key, []).append(one.path)
+            made.setdefault(key, []).append(piece.path)
     return [
         {
             "id": name,
@@ -50,36 +50,36 @@ def _tools(sources: Sources) -> list[dict[str, Any]]:
     ]
 
 
-def _check(sources: Sources, one: Check) -> dict[str, Any]:
+def _check(sources: Sources, check: Check) -> dict[str, Any]:
     statuses = [
-        status_of(as_it_counts(each)) for each in sources.everything() if each.record["kind"] == one.kind
+        status_of(as_it_counts(each)) for each in sources.everything() if each.record["kind"] == check.kind
     ]
     good = None if not statuses or 2 in statuses else True
     return {
-        "engine": one.engine,
-        "by": one.by,
-        "kind": one.kind,
+        "engine": check.engine,
+        "by": check.by,
+        "kind": check.kind,
         "good": False if DIFFERS in statuses else good,
         "as_expected": Figure(sum(1 for status in statuses if not status), "build/evidence/"),
         "all": Figure(len(statuses), "build/evidence/"),
     }
 
 
-def _problem(sources: Sources, one: ToolProblem, troubles: list[Trouble]) -> dict[str, Any]:
-    conditions = [judged(sources, each) for each in one.holds]
+def _problem(sources: Sources, problem: ToolProblem, troubles: list[Trouble]) -> dict[str, Any]:
+    conditions = [judged(sources, each) for each in problem.holds]
     for each in conditions:
         if each.good is False:
-            what = f"{one.id}, {one.title}: the judgement does not stand: {each.says}: {each.found}"
+            what = f"{problem.id}, {problem.title}: the judgement does not stand: {each.says}: {each.found}"
             troubles.append(Trouble(DIFFERS, ID, what, f"look at {SOURCE}"))
     return {
-        "id": one.id,
-        "tool": one.tool,
-        "title": one.title,
-        "references": [one.reference, *one.also],
-        "what": one.what,
-        "affects": one.affects,
-        "judgement": one.judgement,
-        "because": one.because,
+        "id": problem.id,
+        "tool": problem.tool,
+        "title": problem.title,
+        "references": [problem.reference, *problem.also],
+        "what": problem.what,
+        "affects": problem.affects,
+        "judgement": problem.judgement,
+        "because": problem.because,
         "good": _all(conditions),
         "conditions": [
             {"good": each.good, "says": each.says, "found": each.found, "figure": each.figure}
@@ -90,6 +90,6 @@ def _problem(sources: Sources, one: ToolProblem, troubles: list[Trouble]) -> dic
 
 def _all(conditions: list[Met]) -> bool | None:
     """Whether every condition holds; None where there is none, or one that cannot be judged."""
-    if any(one.good is False for one in conditions):
+    if any(condition.good is False for condition in conditions):
         return False
-    return True if conditions and all(one.good for one in conditions) else None
+    return True if conditions and all(condition.good for condition in conditions) else None

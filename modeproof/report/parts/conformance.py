@@ -9,8 +9,8 @@ from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.report.claims import LANE
 from modeproof.report.part import Part
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, HOLE, Evidence, Figure, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 ID = "conformance"
@@ -23,7 +23,7 @@ RELATIONS = (
 
 def part(sources: Sources) -> Part:
     """One entry a document: graphs, programs, coverage."""
-    found = [_document(sources, one) for one in sources.documents.values()]
+    found = [_document(sources, document) for document in sources.documents.values()]
     return Part(ID, "Conformance", {"relations": RELATIONS, "documents": found})
 
 
@@ -31,11 +31,11 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
     every = sources.of_kind(document.name, "conformance")
     compared: dict[str, list[Evidence]] = {}
     programs = []
-    for one in every:
-        if "implementation_states" in one.result:
-            compared.setdefault(str(one.result["run"]).rpartition("/")[2], []).append(one)
+    for piece in every:
+        if "implementation_states" in piece.result:
+            compared.setdefault(str(piece.result["run"]).rpartition("/")[2], []).append(piece)
         else:
-            programs.append(one)
+            programs.append(piece)
     return {
         "id": document.name,
         "title": document.about.title,
@@ -44,7 +44,7 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
             for run in document.runs
             if run.graph is not None
         ],
-        "programs": [_program(document, one) for one in programs],
+        "programs": [_program(document, program) for program in programs],
     }
 
 
@@ -61,61 +61,68 @@ def _graph(sources: Sources, document: Document, run: Run, compared: list[Eviden
         "command": f"modeproof conform {run.graph.device} --builtin refimpl --document {document.name}",
         "compared": [
             {
-                **_verdict(one),
-                "implementation": one.result.get("implementation", ""),
-                "implementation_states": one.figure("result", "implementation_states"),
-                "replayed": one.figure("result", "replayed"),
-                "transitions": one.figure("result", "transitions"),
-                "class_scans": one.figure("result", "class_scans"),
-                "classes": _counts(one, "classes"),
-                "not_compared": list(one.result.get("not_compared", ())),
-                "difference_count": one.figure("result", "difference_count"),
-                "steps": _covered(one, "covered"),
+                **_verdict(piece),
+                "implementation": piece.result.get("implementation", ""),
+                "implementation_states": piece.figure("result", "implementation_states"),
+                "replayed": piece.figure("result", "replayed"),
+                "transitions": piece.figure("result", "transitions"),
+                "class_scans": piece.figure("result", "class_scans"),
+                "classes": _counts(piece, "classes"),
+                "not_compared": list(piece.result.get("not_compared", ())),
+                "difference_count": piece.figure("result", "difference_count"),
+                "steps": _covered(piece, "covered"),
             }
-            for one in compared
+            for piece in compared
         ],
     }
 
 
-def _program(document: Document, one: Evidence) -> dict[str, Any]:
-    says = one.result.get("says")
+def _program(document: Document, piece: Evidence) -> dict[str, Any]:
+    says = piece.result.get("says")
     return {
-        **_verdict(one),
-        "id": one.id,
-        "target": one.result.get("target", one.result.get("device", "")),
-        "program": one.result.get("adapter", one.result.get("implementation", "")),
-        "suite": one.result.get("suite", ""),
-        "relation": one.result.get("relation", ""),
+        **_verdict(piece),
+        "id": piece.id,
+        "target": piece.result.get("target", piece.result.get("device", "")),
+        "program": piece.result.get("adapter", piece.result.get("implementation", "")),
+        "suite": piece.result.get("suite", ""),
+        "relation": piece.result.get("relation", ""),
         "says": says if isinstance(says, Mapping) else None,
-        "cases": one.figure("result", "cases"),
-        "scans": one.figure("result", "scans"),
-        "seconds": one.figure("seconds", unit="s"),
-        "unobserved": list(one.result.get("unobserved", ())),
-        "not_compared": list(one.result.get("not_compared", ())),
-        "steps": _covered(one, "covered"),
-        "clauses": _covered(one, "clauses"),
-        "command": one.record["command"],
+        "cases": piece.figure("result", "cases"),
+        "scans": piece.figure("result", "scans"),
+        "seconds": piece.figure("seconds", unit="s"),
+        "unobserved": list(piece.result.get("unobserved", ())),
+        "not_compared": list(piece.result.get("not_compared", ())),
+        "steps": _covered(piece, "covered"),
+        "clauses": _covered(piece, "clauses"),
+        "command": piece.record["command"],
     }
 
 
-def _verdict(one: Evidence) -> dict[str, Any]:
-    record = as_it_counts(one)
+def _verdict(piece: Evidence) -> dict[str, Any]:
+    record = as_it_counts(piece)
     return {
-        "word": one.record["verdict"],
-        "verdict": one.figure("verdict"),
+        "word": piece.record["verdict"],
+        "verdict": piece.figure("verdict"),
         "good": {0: True, DIFFERS: False, HOLE: None}[status_of(record)],
         "why": record["reason"],
     }
 
 
-def _counts(one: Evidence, key: str) -> list[dict[str, Any]]:
-    return [{"id": name, "count": Figure(count, one.path)} for name, count in one.result.get(key, {}).items()]
+def _counts(piece: Evidence, key: str) -> list[dict[str, Any]]:
+    return [
+        {"id": name, "count": Figure(count, piece.path)} for name, count in piece.result.get(key, {}).items()
+    ]
 
 
-def _covered(one: Evidence, key: str) -> list[dict[str, Any]]:
+def _covered(piece: Evidence, key: str) -> list[dict[str, Any]]:
     """By step or clause: of how many transitions how many were taken; what is not complete comes first."""
     rows = [
-        {"id": name, "have": Figure(have, one.path), "total": Figure(total, one.path), "full": have == total}
-        for name, (have, total) in one.result.get(key, {}).items()
+        {
+            "id": name,
+            "have": Figure(have, piece.path),
+            "total": Figure(total, piece.path),
+            "full": have == total,
+        }
+        for name, (have, total) in piece.result.get(key, {}).items()
     ]
     return sorted(rows, key=lambda row: bool(row["full"]))

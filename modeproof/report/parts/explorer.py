@@ -39,9 +39,11 @@ def part(sources: Sources) -> Part:
         f"{document.name}/{device.id}": _device(sources, document, device)
         for document in sources.documents.values()
         for device in document.interface.devices.values()
-        if any(one["document"] == document.name and one["device"] == device.id for one in graphs)
+        if any(graph["document"] == document.name and graph["device"] == device.id for graph in graphs)
     }
-    payload[ABOUT] = _json({"devices": devices, "graphs": {one["id"]: one["checked"] for one in graphs}})
+    payload[ABOUT] = _json(
+        {"devices": devices, "graphs": {graph["id"]: graph["checked"] for graph in graphs}}
+    )
     return Part(ID, "Trace explorer", {"graphs": graphs, "devices": devices}, tuple(troubles), payload)
 
 
@@ -57,9 +59,9 @@ def _graph(
     device = document.interface.devices[run.graph.device]
     compared = next(
         (
-            one
-            for one in sources.of_kind(document.name, "conformance")
-            if one.result.get("run") == f"{document.name}/{run.id}" and "states" in one.result
+            piece
+            for piece in sources.of_kind(document.name, "conformance")
+            if piece.result.get("run") == f"{document.name}/{run.id}" and "states" in piece.result
         ),
         None,
     )
@@ -89,16 +91,16 @@ def _graph(
         "good": None if compared is None or compared.changed else bool(compared.record["as_expected"]),
         "shown": content is not None,
         "checked": [
-            one.id
-            for one in document.properties
-            if checked is not None and not checked.changed and _holds(one, run, checked)
+            prop.id
+            for prop in document.properties
+            if checked is not None and not checked.changed and _holds(prop, run, checked)
         ],
     }
 
 
-def _holds(one: Property, run: Run, checked: Evidence) -> bool:
+def _holds(prop: Property, run: Run, checked: Evidence) -> bool:
     """Whether the run that printed the graph checked the property on it, and it holds."""
-    return bool({one.id, one.tla} & set(run.properties)) and checked.record["as_expected"] is True
+    return bool({prop.id, prop.tla} & set(run.properties)) and checked.record["as_expected"] is True
 
 
 def _export(
@@ -146,15 +148,15 @@ def _device(sources: Sources, document: Document, device: Device) -> dict[str, A
         "actions": _actions(sources, document, device),
         "properties": [
             {
-                "id": one.id,
-                "title": one.title,
-                "sentence": one.sentence,
-                "hazard": one.hazard,
-                "of": OF[one.kind],
-                "clauses": list(one.clauses),
+                "id": prop.id,
+                "title": prop.title,
+                "sentence": prop.sentence,
+                "hazard": prop.hazard,
+                "of": OF[prop.kind],
+                "clauses": list(prop.clauses),
             }
-            for one in document.properties
-            if device.id in _speaks_of(sources, document, one)
+            for prop in document.properties
+            if device.id in _speaks_of(sources, document, prop)
         ],
     }
 
@@ -173,9 +175,9 @@ def _actions(sources: Sources, document: Document, device: Device) -> dict[str, 
     ids = ids_of(document)
     found: dict[str, str] = {}
     for module in closure(texts_of(sources, document).modules, device.module):
-        for one in module.definitions:
-            if one.name in device.steps:
-                found.setdefault(one.name, one.comment)
+        for definition in module.definitions:
+            if definition.name in device.steps:
+                found.setdefault(definition.name, definition.comment)
     cited = {step: ids.read(found.get(step, "")) for step in device.steps}
     return {
         step: {"clauses": list(clauses), "findings": list(findings)}
@@ -183,12 +185,12 @@ def _actions(sources: Sources, document: Document, device: Device) -> dict[str, 
     }
 
 
-def _speaks_of(sources: Sources, document: Document, one: Property) -> set[str]:
+def _speaks_of(sources: Sources, document: Document, prop: Property) -> set[str]:
     """The devices of a property: those that its text reaches; of several, those whose clauses it cites."""
     texts = texts_of(sources, document).modules
-    reached = {module.name for module in closure(texts, one.module)}
+    reached = {module.name for module in closure(texts, prop.module)}
     devices = {of.id for of in document.interface.devices.values() if of.module in reached}
     if len(devices) < 2:
         return devices
-    cited = {of for clause in document.clauses if clause.id in one.clauses for of in clause.device}
+    cited = {of for clause in document.clauses if clause.id in prop.clauses for of in clause.device}
     return devices & cited

@@ -8,7 +8,7 @@ from typing import Any
 from modeproof.registers.fault_table import CELL
 from modeproof.registers.rows import Document, Fault
 from modeproof.registers.runs import Run
-from modeproof.report.claims import Said, said, steps_of
+from modeproof.report.claims import Result, result_of, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import Sources, Trouble
 
@@ -18,14 +18,14 @@ ID = "faults"
 def part(sources: Sources) -> Part:
     """One entry a document; `faults` is empty where a document declares no table."""
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Faults from outside", {"documents": found}, tuple(troubles))
 
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
-    runs = {one.id: one for one in document.runs}
-    shown: list[Said] = []
-    rows = [_row(sources, document, one, runs, shown) for one in document.faults]
+    runs = {run.id: run for run in document.runs}
+    shown: list[Result] = []
+    rows = [_row(sources, document, fault, runs, shown) for fault in document.faults]
     return {
         "id": document.name,
         "title": document.about.title,
@@ -36,20 +36,22 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
 
 
 def _row(
-    sources: Sources, document: Document, one: Fault, runs: Mapping[str, Run], shown: list[Said]
+    sources: Sources, document: Document, fault: Fault, runs: Mapping[str, Run], shown: list[Result]
 ) -> dict[str, Any]:
-    holding = [said(sources, document, runs[name]) for name in one.runs if name in runs]
-    falling = [(fall, said(sources, document, runs[fall.run])) for fall in one.falls if fall.run in runs]
+    holding = [result_of(sources, document, runs[name]) for name in fault.runs if name in runs]
+    falling = [
+        (fall, result_of(sources, document, runs[fall.run])) for fall in fault.falls if fall.run in runs
+    ]
     shown += [*holding, *(each for _, each in falling)]
     return {
-        "id": one.id,
-        "class": one.kind,
-        "title": one.title,
-        "model": one.model,
-        "detected_by": list(one.detected_by),
-        "not_detected": one.not_detected,
-        "not_modelled": one.not_modelled,
-        "holds": list(one.holds),
+        "id": fault.id,
+        "class": fault.kind,
+        "title": fault.title,
+        "model": fault.model,
+        "detected_by": list(fault.detected_by),
+        "not_detected": fault.not_detected,
+        "not_modelled": fault.not_modelled,
+        "holds": list(fault.holds),
         "runs": [each.data for each in holding],
         "falls": [
             {**each.data, "property": fall.property, "needs": fall.needs, "steps": steps_of(each)}
@@ -63,8 +65,8 @@ def _matrix(sources: Sources, document: Document, runs: Mapping[str, Run]) -> di
     if document.matrix is None or document.matrix.run not in runs:
         return None
     run = runs[document.matrix.run]
-    saying = said(sources, document, run)
-    reached = saying.evidence.result.get("reached", ()) if saying.evidence is not None else ()
+    result = result_of(sources, document, run)
+    reached = result.evidence.result.get("reached", ()) if result.evidence is not None else ()
     cells: dict[str, dict[str, list[dict[str, Any]]]] = {}
     columns: dict[str, None] = {}
     for witness in run.witnesses:
@@ -77,7 +79,7 @@ def _matrix(sources: Sources, document: Document, runs: Mapping[str, Run]) -> di
         row.setdefault(match["column"], []).append({"text": text, "reached": witness in reached})
     return {
         "title": document.matrix.title,
-        "run": saying.data,
+        "run": result.data,
         "columns": list(columns),
         "rows": [
             {"name": name, "cells": [row.get(column, []) for column in columns]}

@@ -7,7 +7,7 @@ from typing import Any
 
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
-from modeproof.report.claims import Said, proved, said, steps_of, theorem_rows
+from modeproof.report.claims import Result, result_of, steps_of, theorem_result, theorem_rows
 from modeproof.report.deviations import Deviation, deviations
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
@@ -18,91 +18,99 @@ ID = "findings"
 def part(sources: Sources) -> Part:
     """One entry a document: its findings, and what each reading does when it alone is restored."""
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Findings in the documents", {"documents": found}, tuple(troubles))
 
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
-    runs = {one.id: one for one in document.runs}
+    runs = {run.id: run for run in document.runs}
     sentences = {one.name: one.sentence for _, one in theorem_rows(sources, document)}
-    clauses = {one.id for one in document.clauses}
-    shown: list[Said] = []
+    clauses = {clause.id for clause in document.clauses}
+    shown: list[Result] = []
     findings = []
-    for one in document.findings:
+    for finding in document.findings:
         rows = []
-        for name in one.evidence:
+        for name in finding.evidence:
             if name in clauses:
                 rows.append({"kind": "clause", "id": name})
                 continue
-            saying = said(sources, document, runs[name]) if name in runs else proved(sources, document, name)
-            shown.append(saying)
-            rows.append(_evidence(saying, runs, sentences))
-        findings.append(_finding(document, one, rows))
-        if not one.evidence and not one.evidence_open.strip():
-            what = f"{document.name}: {one.id} names no evidence and does not say why"
+            result = (
+                result_of(sources, document, runs[name])
+                if name in runs
+                else theorem_result(sources, document, name)
+            )
+            shown.append(result)
+            rows.append(_evidence(result, runs, sentences))
+        findings.append(_finding(document, finding, rows))
+        if not finding.evidence and not finding.evidence_open.strip():
+            what = f"{document.name}: {finding.id} names no evidence and does not say why"
             troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
     every = deviations(sources, document)
-    shown += [one.said for one in every]
+    shown += [row.result for row in every]
     return {
         "id": document.name,
         "title": document.about.title,
         "register": document.source("findings"),
         "findings": findings,
-        "alone": [_deviation(document, one) for one in every if len(one.readings) == 1],
-        "together": [_deviation(document, one) for one in every if len(one.readings) > 1],
+        "alone": [_deviation(document, row) for row in every if len(row.readings) == 1],
+        "together": [_deviation(document, row) for row in every if len(row.readings) > 1],
     }
 
 
-def _finding(document: Document, one: Finding, evidence: list[dict[str, Any]]) -> dict[str, Any]:
+def _finding(document: Document, finding: Finding, evidence: list[dict[str, Any]]) -> dict[str, Any]:
     return {
-        "id": one.id,
-        "title": one.title,
-        "class": one.severity,
-        "clauses": list(one.clauses),
-        "says": one.says,
-        "readings": list(one.readings),
-        "consequence": one.consequence,
-        "decision": one.decision,
-        "switches": list(one.switches),
-        "drawing": one.drawing_could_settle,
+        "id": finding.id,
+        "title": finding.title,
+        "class": finding.severity,
+        "clauses": list(finding.clauses),
+        "says": finding.says,
+        "readings": list(finding.readings),
+        "consequence": finding.consequence,
+        "decision": finding.decision,
+        "switches": list(finding.switches),
+        "drawing": finding.drawing_could_settle,
         "evidence": evidence,
-        "open": one.evidence_open,
-        "properties": [each.id for each in document.properties if one.id in each.findings],
+        "open": finding.evidence_open,
+        "properties": [each.id for each in document.properties if finding.id in each.findings],
     }
 
 
-def _evidence(one: Said, runs: Mapping[str, Run], sentences: Mapping[str, str]) -> dict[str, Any]:
-    run = runs.get(one.id)
+def _evidence(result: Result, runs: Mapping[str, Run], sentences: Mapping[str, str]) -> dict[str, Any]:
+    run = runs.get(result.id)
     if run is None:
-        return {"kind": "theorem", **one.data, "sentence": sentences.get(one.id, "")}
+        return {"kind": "theorem", **result.data, "sentence": sentences.get(result.id, "")}
     return {
         "kind": "run",
-        **one.data,
+        **result.data,
         "violates": run.property,
         "environment": run.environment,
         "strength": run.strength,
-        "steps": steps_of(one),
+        "steps": steps_of(result),
     }
 
 
-def _deviation(document: Document, one: Deviation) -> dict[str, Any]:
-    falls = next((each for each in document.properties if one.run.property in (each.tla, each.id)), None)
+def _deviation(document: Document, deviation: Deviation) -> dict[str, Any]:
+    falls = next(
+        (each for each in document.properties if deviation.run.property in (each.tla, each.id)), None
+    )
     return {
-        **one.said.data,
-        "readings": list(one.readings),
-        "findings": [{"id": each.id, "title": each.title} for each in one.findings],
-        "falls": one.run.property,
+        **deviation.result.data,
+        "readings": list(deviation.readings),
+        "findings": [{"id": each.id, "title": each.title} for each in deviation.findings],
+        "falls": deviation.run.property,
         "property": None if falls is None else falls.id,
         "hazard": "" if falls is None else falls.hazard,
-        "harmless": one.harmless,
-        "reached": _reached(one.said),
-        "steps": steps_of(one.said),
-        "environment": one.run.environment,
-        "strength": one.run.strength,
-        "seconds": None if one.said.evidence is None else one.said.evidence.figure("seconds", unit="s"),
+        "harmless": deviation.harmless,
+        "reached": _reached(deviation.result),
+        "steps": steps_of(deviation.result),
+        "environment": deviation.run.environment,
+        "strength": deviation.run.strength,
+        "seconds": None
+        if deviation.result.evidence is None
+        else deviation.result.evidence.figure("seconds", unit="s"),
     }
 
 
-def _reached(one: Said) -> list[str]:
+def _reached(result: Result) -> list[str]:
     """What a run of witnesses has reached under the readings."""
-    return [] if one.evidence is None else list(one.evidence.result.get("reached", ()))
+    return [] if result.evidence is None else list(result.evidence.result.get("reached", ()))

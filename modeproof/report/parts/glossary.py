@@ -10,5 +10,7 @@ from modeproof.report.terms import REGISTER, terms_of
 def part(sources: Sources) -> Part:
     """One entry a term, in the order of the alphabet."""
     terms, troubles = terms_of(sources)
-    rows = [{"word": one.word, "says": one.says, "forms": one.forms, "anchor": one.anchor} for one in terms]
+    rows = [
+        {"word": term.word, "says": term.says, "forms": term.forms, "anchor": term.anchor} for term in terms
+    ]
     return Part("glossary", "Glossary", {"register": REGISTER, "terms": rows}, troubles)

@@ -6,8 +6,8 @@ from typing import Any
 
 from modeproof.registers.rows import Document
 from modeproof.report.part import Part
+from modeproof.report.snapshot import lines_of
 from modeproof.report.sources import HOLE, Sources, Trouble
-from modeproof.report.standing import lines_of
 from modeproof.report.text import blocks
 from modeproof.report.verdicts import ASIDE
 
@@ -24,7 +24,7 @@ def part(sources: Sources) -> Part:
         "limits",
         "What this does not show",
         {
-            "documents": [_document(sources, one) for one in sources.documents.values()],
+            "documents": [_document(sources, document) for document in sources.documents.values()],
             "page": PAGE,
             "text": blocks(content.decode("utf-8", "replace")) if content else [],
         },
@@ -37,29 +37,29 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
         "id": document.name,
         "title": document.about.title,
         "assumptions": [
-            {"id": one.id, "title": one.title, "text": one.breaks_open}
-            for one in document.assumptions
-            if one.kind == "assumption" and one.breaks_open
+            {"id": assumption.id, "title": assumption.title, "text": assumption.breaks_open}
+            for assumption in document.assumptions
+            if assumption.kind == "assumption" and assumption.breaks_open
         ],
         "abstractions": [
-            {"id": one.id, "title": one.title, "text": one.text, "kind": one.kind}
-            for one in document.assumptions
-            if one.kind != "assumption"
+            {"id": assumption.id, "title": assumption.title, "text": assumption.text, "kind": assumption.kind}
+            for assumption in document.assumptions
+            if assumption.kind != "assumption"
         ],
         "findings": [
-            {"id": one.id, "title": one.title, "text": one.evidence_open}
-            for one in document.findings
-            if one.evidence_open
+            {"id": finding.id, "title": finding.title, "text": finding.evidence_open}
+            for finding in document.findings
+            if finding.evidence_open
         ],
         "drawings": [
-            {"id": one.id, "title": one.title, "text": one.decision}
-            for one in document.findings
-            if one.drawing_could_settle
+            {"id": finding.id, "title": finding.title, "text": finding.decision}
+            for finding in document.findings
+            if finding.drawing_could_settle
         ],
         "faults": [
-            {"id": one.id, "title": one.title, "text": one.not_detected, "left": one.not_modelled}
-            for one in document.faults
-            if one.not_detected or one.not_modelled
+            {"id": fault.id, "title": fault.title, "text": fault.not_detected, "left": fault.not_modelled}
+            for fault in document.faults
+            if fault.not_detected or fault.not_modelled
         ],
         "aside": [
             {"id": line.property, "environment": line.environment}

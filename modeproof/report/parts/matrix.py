@@ -35,15 +35,15 @@ def part(sources: Sources) -> Part:
         found = traced(sources, document)
         troubles += _orphans(document, found)
         documents.append(_document(document, found))
-        lines += [_line(one) for one in found.chains]
+        lines += [_line(chain) for chain in found.chains]
     files = {"matrix.csv": _csv(lines), "junit.xml": junit(sources)}
     return Part(ID, "Traceability matrix", {"documents": documents}, tuple(troubles), attachments=files)
 
 
 def _orphans(document: Document, found: Traced) -> list[Trouble]:
     """All orphans of a document in one trouble."""
-    items = [f"{one.clause.id}: {text}" for one in found.chains for text in one.lacks]
-    items += [f"{one.file}: {one.place}: {one.text}" for one in found.astray]
+    items = [f"{chain.clause.id}: {text}" for chain in found.chains for text in chain.lacks]
+    items += [f"{problem.file}: {problem.place}: {problem.text}" for problem in found.astray]
     if not items:
         return []
     more = f" and {len(items) - 1} more" if len(items) > 1 else ""
@@ -58,66 +58,68 @@ def _document(document: Document, found: Traced) -> dict[str, Any]:
         "title": document.about.title,
         "register": source,
         "count": Figure(len(found.chains), source),
-        "shown": Figure(sum(1 for one in found.chains if one.good), source),
-        "orphans": sum(1 for one in found.chains if one.lacks) + len(found.astray),
-        "astray": [{"file": one.file, "place": one.place, "text": one.text} for one in found.astray],
-        "rows": [_row(one) for one in found.chains],
+        "shown": Figure(sum(1 for chain in found.chains if chain.good), source),
+        "orphans": sum(1 for chain in found.chains if chain.lacks) + len(found.astray),
+        "astray": [
+            {"file": problem.file, "place": problem.place, "text": problem.text} for problem in found.astray
+        ],
+        "rows": [_row(chain) for chain in found.chains],
     }
 
 
-def _row(one: Chain) -> dict[str, Any]:
+def _row(chain: Chain) -> dict[str, Any]:
     return {
-        "clause": one.clause.id,
-        "kind": one.clause.kind,
-        "title": one.clause.title,
-        "text": one.clause.text,
-        "because": one.clause.because,
-        "device": list(one.clause.device),
-        "action": list(one.row.action),
-        "definition": list(one.row.definition),
-        "step": list(one.row.step),
-        "property": [_link(each) for each in one.properties],
-        "theorem": [_link(each) for each in one.theorems],
-        "vector": [_link(each) for each in one.vectors],
-        "finding": list(one.row.finding),
-        "assumption": list(one.row.assumption),
-        "lacks": list(one.lacks),
-        "links": len(one.links),
-        "word": one.word,
-        "good": one.good,
+        "clause": chain.clause.id,
+        "kind": chain.clause.kind,
+        "title": chain.clause.title,
+        "text": chain.clause.text,
+        "because": chain.clause.because,
+        "device": list(chain.clause.device),
+        "action": list(chain.row.action),
+        "definition": list(chain.row.definition),
+        "step": list(chain.row.step),
+        "property": [_link(each) for each in chain.properties],
+        "theorem": [_link(each) for each in chain.theorems],
+        "vector": [_link(each) for each in chain.vectors],
+        "finding": list(chain.row.finding),
+        "assumption": list(chain.row.assumption),
+        "lacks": list(chain.lacks),
+        "links": len(chain.links),
+        "word": chain.word,
+        "good": chain.good,
     }
 
 
-def _link(one: Link) -> dict[str, Any]:
+def _link(link: Link) -> dict[str, Any]:
     return {
-        "id": one.id,
-        "word": Figure(one.word, one.evidence) if one.evidence else None,
-        "text": one.word,
-        "good": one.good,
+        "id": link.id,
+        "word": Figure(link.word, link.evidence) if link.evidence else None,
+        "text": link.word,
+        "good": link.good,
     }
 
 
-def _line(one: Chain) -> list[str]:
+def _line(chain: Chain) -> list[str]:
     """A row of the CSV: what leads to a result has it behind its name."""
 
     def results(links: Sequence[Link]) -> str:
         return "; ".join(f"{each.id}: {each.word}" for each in links)
 
-    row = one.row
+    row = chain.row
     named = (row.device, row.action, row.definition, row.step)
     return [
-        one.document.name,
-        one.clause.id,
-        one.clause.kind,
-        one.clause.title,
+        chain.document.name,
+        chain.clause.id,
+        chain.clause.kind,
+        chain.clause.title,
         *("; ".join(names) for names in named),
-        results(one.properties),
-        results(one.theorems),
-        results(one.vectors),
+        results(chain.properties),
+        results(chain.theorems),
+        results(chain.vectors),
         "; ".join(row.finding),
         "; ".join(row.assumption),
-        one.word,
-        "; ".join(one.lacks),
+        chain.word,
+        "; ".join(chain.lacks),
     ]
 
 

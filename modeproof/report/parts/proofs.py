@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
-from modeproof.report.claims import proved, theorem_rows
+from modeproof.report.claims import theorem_result, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.proofs import never_needed
+from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import Evidence, Figure, Sources
-from modeproof.report.standing import as_it_counts
 from modeproof.report.verdicts import status_of
 
 ID = "proofs"
@@ -19,7 +19,9 @@ SOLVERS = ("z3", "cvc5")
 
 def part(sources: Sources) -> Part:
     """One entry a document."""
-    return Part(ID, "Proofs", {"documents": [_document(sources, one) for one in sources.documents.values()]})
+    return Part(
+        ID, "Proofs", {"documents": [_document(sources, document) for document in sources.documents.values()]}
+    )
 
 
 def _document(sources: Sources, document: Document) -> dict[str, Any]:
@@ -29,9 +31,9 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
     ]
     own = sources.of_kind(document.name, "proof")
     tools: dict[str, list[str]] = {name: [] for name in SOLVERS}
-    for one in own:
+    for proof in own:
         for name in SOLVERS:
-            version = str(one.record["tools"].get(name, {}).get("version", "not recorded"))
+            version = str(proof.record["tools"].get(name, {}).get("version", "not recorded"))
             if version not in tools[name]:
                 tools[name].append(version)
     folder = f"build/evidence/{document.name}/"
@@ -40,31 +42,31 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
         "title": document.about.title,
         "theorems": rows,
         "count": Figure(len(own), folder),
-        "questions": Figure(sum(len(_queries(one)) for one in own), folder),
+        "questions": Figure(sum(len(_queries(proof)) for proof in own), folder),
         "solvers": {name: sorted(versions) for name, versions in tools.items()},
-        "never_needed": never_needed([one.record for one in own]) if own else [],
-        "cores": Figure(sum(1 for one in own for q in _claims(one) if q.get("core") is not None), folder),
-        "claims": Figure(sum(len(_claims(one)) for one in own), folder),
+        "never_needed": never_needed([proof.record for proof in own]) if own else [],
+        "cores": Figure(sum(1 for proof in own for q in _claims(proof) if q.get("core") is not None), folder),
+        "claims": Figure(sum(len(_claims(proof)) for proof in own), folder),
         "agreement": _agreement(sources, document),
         "coverage": _coverage(sources, document),
         "command": f"modeproof prove --document {document.name}",
     }
 
 
-def _queries(one: Evidence) -> Sequence[Mapping[str, Any]]:
-    found: Sequence[Mapping[str, Any]] = one.result.get("queries", ())
+def _queries(piece: Evidence) -> Sequence[Mapping[str, Any]]:
+    found: Sequence[Mapping[str, Any]] = piece.result.get("queries", ())
     return found
 
 
-def _claims(one: Evidence) -> list[Mapping[str, Any]]:
-    return [query for query in _queries(one) if query["expected"] == "unsat"]
+def _claims(piece: Evidence) -> list[Mapping[str, Any]]:
+    return [query for query in _queries(piece) if query["expected"] == "unsat"]
 
 
 def _theorem(sources: Sources, document: Document, file: str, name: str, sentence: str) -> dict[str, Any]:
-    saying = proved(sources, document, name)
-    one = saying.evidence
+    result = theorem_result(sources, document, name)
+    one = result.evidence
     answer = {
-        **saying.data,
+        **result.data,
         "file": file,
         "sentence": sentence,
         "clauses": [],
@@ -146,15 +148,15 @@ def _coverage(sources: Sources, document: Document) -> list[dict[str, Any]]:
     return [
         {
             "device": name,
-            "states": Figure(of["states"], one.path),
-            "paths": Figure(of["paths"], one.path),
+            "states": Figure(of["states"], piece.path),
+            "paths": Figure(of["paths"], piece.path),
             **{
-                key: {"have": Figure(of[key][0], one.path), "total": Figure(of[key][1], one.path)}
+                key: {"have": Figure(of[key][0], piece.path), "total": Figure(of[key][1], piece.path)}
                 for key in ("lines", "branches", "answers")
             },
             "unreachable": [{"what": each["what"], "why": each["why"]} for each in of["unreachable"]],
             "unexplained": list(of["unexplained"]),
         }
-        for one in sources.of_kind(document.name, "coverage")
-        for name, of in one.result.get("devices", {}).items()
+        for piece in sources.of_kind(document.name, "coverage")
+        for name, of in piece.result.get("devices", {}).items()
     ]

@@ -9,7 +9,7 @@ from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
 from modeproof.report.campaigns import KINDS, Campaign, campaign
-from modeproof.report.claims import Claim, Said, claims, said, steps_of, texts_of, theorem_rows
+from modeproof.report.claims import Claim, Result, claims, result_of, steps_of, texts_of, theorem_rows
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble
 
@@ -21,7 +21,7 @@ SHOWN = 12
 def part(sources: Sources) -> Part:
     """One entry a document, and in it one a property."""
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Properties", {"documents": found}, tuple(troubles))
 
 
@@ -29,21 +29,21 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
     every = claims(sources, document)
     killing = campaign(sources, document.name, "spec")
     properties = [
-        _property(sources, document, one, [c for c in every if c.of is one], killing, troubles)
-        for one in document.properties
+        _property(sources, document, prop, [c for c in every if c.of is prop], killing, troubles)
+        for prop in document.properties
     ]
     return {
         "id": document.name,
         "title": document.about.title,
         "strength_command": KINDS["spec"][2].format(document.name),
         "properties": properties,
-        "runs": [_run(sources, document, one) for one in document.runs],
+        "runs": [_run(sources, document, run) for run in document.runs],
     }
 
 
 def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
     """A row of the table of all runs of the model checker."""
-    one = said(sources, document, run)
+    one = result_of(sources, document, run)
     record = None if one.evidence is None else one.evidence
     return {
         **one.data,
@@ -66,36 +66,40 @@ def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
 def _property(
     sources: Sources,
     document: Document,
-    one: Property,
+    prop: Property,
     own: list[Claim],
     killing: Campaign | None,
     troubles: list[Trouble],
 ) -> dict[str, Any]:
-    name = f"{document.name}: {one.id}"
-    for what, text in (("sentence", one.sentence), ("hazard", one.hazard), ("clause", "".join(one.clauses))):
+    name = f"{document.name}: {prop.id}"
+    for what, text in (
+        ("sentence", prop.sentence),
+        ("hazard", prop.hazard),
+        ("clause", "".join(prop.clauses)),
+    ):
         if not text.strip():
             troubles.append(Trouble(HOLE, ID, f"{name} has no {what}", "modeproof registers"))
-    witness = _witness(sources, document, one)
+    witness = _witness(sources, document, prop)
     if witness["status"] == DIFFERS:
         troubles.append(Trouble(witness["status"], ID, f"{name}: {witness['why']}", witness["command"]))
-    formal = _formal(sources, document, one)
+    formal = _formal(sources, document, prop)
     if formal is None:
-        what = f"{name}: its definition {one.tla} is not found in module {one.module}"
+        what = f"{name}: its definition {prop.tla} is not found in module {prop.module}"
         troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
     return {
-        "id": one.id,
-        "title": one.title,
-        "kind": one.kind,
-        "sentence": one.sentence,
-        "hazard": one.hazard,
-        "clauses": list(one.clauses),
-        "findings": list(one.findings),
+        "id": prop.id,
+        "title": prop.title,
+        "kind": prop.kind,
+        "sentence": prop.sentence,
+        "hazard": prop.hazard,
+        "clauses": list(prop.clauses),
+        "findings": list(prop.findings),
         "register": document.source("properties"),
         "formal": formal,
         "environments": [_environment(claim) for claim in own],
         "theorems": _theorems(sources, document, own),
         "witness": witness,
-        "kills": _kills(killing, one),
+        "kills": _kills(killing, prop),
     }
 
 
@@ -112,8 +116,8 @@ def _environment(claim: Claim) -> dict[str, Any]:
         "engines": list(claim.engines),
         "disagreement": claim.disagreement,
         "run": None if shown is None else shown.id,
-        "other_runs": [one.data for one in claim.runs if one is not shown],
-        "theorems": [one.data for one in claim.theorems],
+        "other_runs": [run.data for run in claim.runs if run is not shown],
+        "theorems": [theorem.data for theorem in claim.theorems],
         "because": claim.because,
         "distinct": None if evidence is None else evidence.figure("result", "distinct"),
         "generated": None if evidence is None else evidence.figure("result", "generated"),
@@ -121,11 +125,11 @@ def _environment(claim: Claim) -> dict[str, Any]:
     }
 
 
-def _formal(sources: Sources, document: Document, one: Property) -> dict[str, Any] | None:
+def _formal(sources: Sources, document: Document, prop: Property) -> dict[str, Any] | None:
     modules = texts_of(sources, document).modules
-    for module in closure(modules, one.module):
+    for module in closure(modules, prop.module):
         for definition in module.definitions:
-            if definition.name == one.tla:
+            if definition.name == prop.tla:
                 lines = [line.rstrip() for line in definition.body.splitlines()]
                 text = textwrap.dedent("\n".join(line for line in lines if line))
                 return {"file": module.file, "line": definition.line, "text": text}
@@ -139,20 +143,20 @@ def _theorems(sources: Sources, document: Document, own: list[Claim]) -> list[di
     return [{**one.data, "sentence": sentences.get(name, "")} for name, one in names.items()]
 
 
-def _witness(sources: Sources, document: Document, one: Property) -> dict[str, Any]:
+def _witness(sources: Sources, document: Document, prop: Property) -> dict[str, Any]:
     """The situation that the property speaks of, and the run that reached it."""
-    declared = [run for run in document.runs if one.antecedent and one.antecedent in run.witnesses]
-    runs = [Said(run.id, sources.evidence[document.name].get(run.id)) for run in declared]
+    declared = [run for run in document.runs if prop.antecedent and prop.antecedent in run.witnesses]
+    runs = [Result(run.id, sources.evidence[document.name].get(run.id)) for run in declared]
     reached = [
         each
         for each in runs
         if each.evidence is not None
         and each.status == 0
-        and one.antecedent in each.evidence.result.get("reached", ())
+        and prop.antecedent in each.evidence.result.get("reached", ())
     ]
     answer = {
-        "antecedent": one.antecedent,
-        "reason": one.reason,
+        "antecedent": prop.antecedent,
+        "reason": prop.reason,
         "run": None,
         "verdict": None,
         "status": 0,
@@ -163,28 +167,28 @@ def _witness(sources: Sources, document: Document, one: Property) -> dict[str, A
         evidence = reached[0].evidence
         assert evidence is not None
         return {**answer, "run": reached[0].id, "verdict": Figure("REACHED", evidence.path)}
-    if not one.antecedent:
+    if not prop.antecedent:
         return answer
     if not runs:
-        why, command = f"no run looks for {one.antecedent}", "modeproof registers"
+        why, command = f"no run looks for {prop.antecedent}", "modeproof registers"
         return {**answer, "status": HOLE, "why": why, "command": command}
     first = runs[0]
     command = f"modeproof check {document.name}/{first.id}"
     status = first.status or DIFFERS
-    why = f"{first.id} has not reached {one.antecedent}" + (f": {first.why}" if first.why else "")
+    why = f"{first.id} has not reached {prop.antecedent}" + (f": {first.why}" if first.why else "")
     return {**answer, "run": first.id, "status": status, "why": why, "command": command}
 
 
-def _kills(killing: Campaign | None, one: Property) -> dict[str, Any] | None:
+def _kills(killing: Campaign | None, prop: Property) -> dict[str, Any] | None:
     """What of the recorded campaign it kills; None where there is no campaign."""
     if killing is None:
         return None
     source = killing.evidence.path
-    mutants = [mutant["id"] for mutant in killing.mutants if one.tla in mutant["killers"]]
+    mutants = [mutant["id"] for mutant in killing.mutants if prop.tla in mutant["killers"]]
     return {
-        "asked": Figure(killing.judges.get(one.tla, 0), source),
-        "killed": Figure(killing.killed[one.tla], source),
-        "alone": Figure(killing.alone[one.tla], source),
+        "asked": Figure(killing.judges.get(prop.tla, 0), source),
+        "killed": Figure(killing.killed[prop.tla], source),
+        "alone": Figure(killing.alone[prop.tla], source),
         "mutants": mutants[:SHOWN],
         "more": max(0, len(mutants) - SHOWN),
     }

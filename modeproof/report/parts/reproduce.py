@@ -21,18 +21,18 @@ def part(sources: Sources) -> Part:
                     "id": name,
                     "evidence": [
                         {
-                            "id": one.id,
-                            "kind": one.record["kind"],
-                            "verdict": one.record["verdict"],
-                            "as_expected": one.record["as_expected"],
-                            "command": one.record["command"],
-                            "started": one.record["started"],
-                            "seconds": one.figure("seconds", unit="s"),
-                            "sha256": Figure(one.sha256, one.path),
-                            "inputs": len(one.record["inputs"]),
-                            "stale": bool(one.changed),
+                            "id": record.id,
+                            "kind": record.record["kind"],
+                            "verdict": record.record["verdict"],
+                            "as_expected": record.record["as_expected"],
+                            "command": record.record["command"],
+                            "started": record.record["started"],
+                            "seconds": record.figure("seconds", unit="s"),
+                            "sha256": Figure(record.sha256, record.path),
+                            "inputs": len(record.record["inputs"]),
+                            "stale": bool(record.changed),
                         }
-                        for one in evidence.values()
+                        for record in evidence.values()
                     ],
                 }
                 for name, evidence in sources.evidence.items()
@@ -46,11 +46,11 @@ def part(sources: Sources) -> Part:
 def _made(sources: Sources) -> list[dict[str, Any]]:
     """Each tool and machine with the version or hash that evidence names, and how many pieces do."""
     counts: dict[tuple[str, str, str], int] = {}
-    for one in sources.everything():
-        for tool, entry in one.record["tools"].items():
+    for piece in sources.everything():
+        for tool, entry in piece.record["tools"].items():
             key = (str(tool), str(entry["version"]), str(entry["sha256"] or ""))
             counts[key] = counts.get(key, 0) + 1
-        machine: Mapping[str, Any] = one.record["machine"]
+        machine: Mapping[str, Any] = piece.record["machine"]
         words = f"{machine['system']}, {machine['arch']}, {machine.get('cpu', '')}, {machine['cores']} cores"
         key = ("machine", words, "")
         counts[key] = counts.get(key, 0) + 1

@@ -36,14 +36,14 @@ KINDS = (
 
 def part(sources: Sources) -> Part:
     """One table for each document and kind; the same rows as CSV."""
-    documents = [_document(one) for one in sources.documents.values()]
+    documents = [_document(document) for document in sources.documents.values()]
     return Part(
         "review",
         "Review sheet",
         {
             "documents": documents,
             "file": FILE,
-            "count": sum(len(group["rows"]) for one in documents for group in one["groups"]),
+            "count": sum(len(group["rows"]) for document in documents for group in document["groups"]),
         },
         attachments={FILE: _csv(documents)},
     )
@@ -72,12 +72,12 @@ def _rows(document: Document) -> Iterator[dict[str, Any]]:
         yield _row("finding", finding.id, f"finding-{finding.id}", finding.title, text, finding.clauses) | {
             "register": document.source("findings")
         }
-    for one in document.assumptions:
-        kind = "assumption" if one.kind == "assumption" else "abstraction"
-        text = f"{one.text} Who ensures it: {one.who}. How to check it: {one.check}."
-        yield _row(kind, one.id, f"assumption-{one.id}", one.title, text, one.clauses) | {
-            "register": document.source("assumptions")
-        }
+    for assumption in document.assumptions:
+        kind = "assumption" if assumption.kind == "assumption" else "abstraction"
+        text = f"{assumption.text} Who ensures it: {assumption.who}. How to check it: {assumption.check}."
+        yield _row(
+            kind, assumption.id, f"assumption-{assumption.id}", assumption.title, text, assumption.clauses
+        ) | {"register": document.source("assumptions")}
     for prop in document.properties:
         text = f"{prop.sentence} Hazard if violated: {prop.hazard}"
         anchor = f"property-{document.name}-{prop.id}"
@@ -110,7 +110,7 @@ def _csv(documents: list[dict[str, Any]]) -> bytes:
             for row in group["rows"]:
                 text = f"{row['title']}: {row['text']}" if row["kind"] == "paraphrase" else row["text"]
                 cells = (document["id"], row["kind"], row["id"], group["question"], text)
-                writer.writerow([_plain(one) for one in (*cells, " ".join(row["clauses"]))] + [""] * 4)
+                writer.writerow([_plain(cell) for cell in (*cells, " ".join(row["clauses"]))] + [""] * 4)
     return out.getvalue().encode("utf-8-sig")
 
 

@@ -13,12 +13,14 @@ LEFT_OUT = "not modelled"
 
 def part(sources: Sources) -> Part:
     """One entry a document."""
-    return Part("scope", "Scope", {"documents": [_document(one) for one in sources.documents.values()]})
+    return Part(
+        "scope", "Scope", {"documents": [_document(document) for document in sources.documents.values()]}
+    )
 
 
 def _document(document: Document) -> dict[str, Any]:
     about = document.about
-    kinds = dict.fromkeys(one.kind for one in document.clauses)
+    kinds = dict.fromkeys(clause.kind for clause in document.clauses)
     clauses = document.source("clauses")
     return {
         "id": document.name,
@@ -34,17 +36,17 @@ def _document(document: Document) -> dict[str, Any]:
         "sources": about.sources,
         "register": document.source("document"),
         "devices": [
-            _device(one, document.source("interface")) for one in document.interface.devices.values()
+            _device(device, document.source("interface")) for device in document.interface.devices.values()
         ],
         "clauses": Figure(len(document.clauses), clauses),
         "kinds": [
-            {"kind": kind, "count": Figure(sum(one.kind == kind for one in document.clauses), clauses)}
+            {"kind": kind, "count": Figure(sum(clause.kind == kind for clause in document.clauses), clauses)}
             for kind in kinds
         ],
         "left_out": [
-            {"id": one.id, "title": one.title, "because": one.because}
-            for one in document.clauses
-            if one.kind == LEFT_OUT or one.because
+            {"id": clause.id, "title": clause.title, "because": clause.because}
+            for clause in document.clauses
+            if clause.kind == LEFT_OUT or clause.because
         ],
     }
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.registers.rows import Document
+from modeproof.registers.scores import load_scores
 from modeproof.report.campaigns import KINDS, WORDS, Campaign, campaign, id_of
 from modeproof.report.part import Part
 from modeproof.report.sources import NOTE, Figure, Sources, Trouble
@@ -22,7 +23,7 @@ def part(sources: Sources) -> Part:
     No lane runs campaigns: one that is not recorded shows as a hole in its place and changes no status.
     """
     troubles: list[Trouble] = []
-    found = [_document(sources, one, troubles) for one in sources.documents.values()]
+    found = [_document(sources, document, troubles) for document in sources.documents.values()]
     return Part(ID, "Strength: planted faults", {"words": WORDS, "documents": found}, tuple(troubles))
 
 
@@ -39,10 +40,22 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
         if found is None:
             what = f"{document.name}: no campaign is recorded: faults in {edited}, judged by {judges}"
             troubles.append(Trouble(NOTE, ID, what, command.format(document.name)))
-            campaigns.append({**about, "recorded": None})
+            campaigns.append({**about, "recorded": None, "score": _score(sources, document, kind)})
         else:
             campaigns.append({**about, "recorded": _campaign(document, found)})
     return {"id": document.name, "title": document.about.title, "campaigns": campaigns}
+
+
+def _score(sources: Sources, document: Document, kind: str) -> dict[str, Any] | None:
+    """The counts of a campaign as they are kept with the registers; None where there are none."""
+    register = document.source("scores")
+    for score in load_scores(document.root, document.name):
+        if score.what == kind:
+            sources.content(register)
+            names = ("killed", "real", "survived", "survived_explained", "unmeasured", "judged_on")
+            figures = {name: Figure(getattr(score, name), register) for name in names}
+            return {**figures, "earlier_text": score.earlier_text, "command": score.command}
+    return None
 
 
 def _campaign(document: Document, one: Campaign) -> dict[str, Any]:
@@ -105,7 +118,7 @@ def _stated(document: Document, kind: str, name: str) -> str | None:
     """The property of the register by this name in the specification; None where it is none."""
     if kind != "spec":
         return None
-    return next((one.id for one in document.properties if one.tla == name), None)
+    return next((prop.id for prop in document.properties if prop.tla == name), None)
 
 
 def _survivors(one: Campaign) -> list[dict[str, Any]]:

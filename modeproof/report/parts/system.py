@@ -18,7 +18,9 @@ OUTSIDE_IN, OUTSIDE_OUT = " from outside", " to outside"
 
 def part(sources: Sources) -> Part:
     """One entry a document."""
-    return Part("system", "System", {"documents": [_document(one) for one in sources.documents.values()]})
+    return Part(
+        "system", "System", {"documents": [_document(document) for document in sources.documents.values()]}
+    )
 
 
 def _document(document: Document) -> dict[str, Any]:
@@ -33,8 +35,8 @@ def _document(document: Document) -> dict[str, Any]:
         title = f"The block {only.id} with its inputs and outputs"
         drawn = block_picture(
             Box(only.id, only.title),
-            [_wire(one, one.clauses) for one in only.inputs.values()],
-            [_wire(one, one.clauses) for one in only.outputs.values()],
+            [_wire(other, other.clauses) for other in only.inputs.values()],
+            [_wire(output, output.clauses) for output in only.outputs.values()],
             id=id,
             title=title,
         )
@@ -45,7 +47,7 @@ def _document(document: Document) -> dict[str, Any]:
         "title": document.about.title,
         "register": document.source("interface"),
         "outside": outside,
-        "devices": [_device(one) for one in devices.values()],
+        "devices": [_device(device) for device in devices.values()],
         "signals": [{key: value for key, value in row.items() if key != "wire"} for row in rows],
         "picture": Picture(title, drawn),
     }
@@ -99,12 +101,16 @@ def _signals(devices: Mapping[str, Device]) -> list[dict[str, Any]]:
     rows = []
     for source in devices.values():
         for name, signal in source.outputs.items():
-            readers = [one for one in devices.values() if one.id != source.id and name in one.inputs]
+            readers = [
+                declared
+                for declared in devices.values()
+                if declared.id != source.id and name in declared.inputs
+            ]
             for reader in readers:
                 rows.append(_row(signal, source.id, reader.id, (signal, reader.inputs[name])))
             if not readers:
                 rows.append(_row(signal, source.id, "", (signal,)))
-    outputs = {(name, one.id) for one in devices.values() for name in one.outputs}
+    outputs = {(name, declared.id) for declared in devices.values() for name in declared.outputs}
     for reader in devices.values():
         for name, signal in reader.inputs.items():
             if not any(known == name and device != reader.id for known, device in outputs):
@@ -113,16 +119,16 @@ def _signals(devices: Mapping[str, Device]) -> list[dict[str, Any]]:
 
 
 def _row(signal: Signal, source: str, target: str, said: tuple[Signal, ...]) -> dict[str, Any]:
-    clauses = tuple(dict.fromkeys(id for one in said for id in one.clauses))
+    clauses = tuple(dict.fromkeys(id for other in said for id in other.clauses))
     return {
         "id": signal.name,
         "type": signal.type,
         "from": source,
         "to": target,
-        "tag": ", ".join(dict.fromkeys(one.tag for one in said if one.tag)),
-        "ours": any(one.project for one in said),
+        "tag": ", ".join(dict.fromkeys(other.tag for other in said if other.tag)),
+        "ours": any(other.project for other in said),
         "clauses": clauses,
-        "why": "; ".join(dict.fromkeys(one.why for one in said)),
+        "why": "; ".join(dict.fromkeys(other.why for other in said)),
         "wire": _wire(signal, clauses),
     }
 
@@ -139,7 +145,7 @@ def _flow(
         ends = row["from"] or OUTSIDE_IN, row["to"] or OUTSIDE_OUT
         cables.setdefault(ends, []).append(row["wire"])
     used = {end for ends in cables for end in ends}
-    boxes = [Box(one.id, one.title) for one in devices.values()]
+    boxes = [Box(device.id, device.title) for device in devices.values()]
     if OUTSIDE_IN in used:
         boxes.insert(0, Box(OUTSIDE_IN, f"from outside: {outside}", outside=True))
     if OUTSIDE_OUT in used:

@@ -28,7 +28,7 @@ def part(sources: Sources) -> Part:
     """An index of all traces, the shortest of each finding as a table, and all of them for the viewer."""
     troubles: list[Trouble] = []
     stories: dict[str, Any] = {}
-    documents = [_document(sources, one, troubles, stories) for one in sources.documents.values()]
+    documents = [_document(sources, document, troubles, stories) for document in sources.documents.values()]
     text = json.dumps(stories, ensure_ascii=False, separators=(",", ":"))
     return Part(
         ID,
@@ -96,8 +96,8 @@ def _published(
     if of.hole:
         what = f"{document.name}: the sequences of {of.target} cannot be shown: {of.hole}"
         troubles.append(Trouble(HOLE, ID, what, REMEDY))
-    for one in of.sequences:
-        stories[anchor(document.name, one.id)] = _told_sequence(document, one)
+    for sequence in of.sequences:
+        stories[anchor(document.name, sequence.id)] = _told_sequence(document, sequence)
     return {
         "target": of.target,
         "guarantees": of.guarantees,
@@ -106,46 +106,51 @@ def _published(
         "remedy": REMEDY if of.hole else "",
         "cases": [
             {
-                "id": anchor(document.name, one.id),
-                "case": one.id,
-                "why": one.why,
-                "basis": one.basis,
-                "finding": one.finding,
-                "clauses": list(one.clauses),
-                "parameters": one.parameters,
-                "scans": Figure(len(one.story.rows) - 1, of.path),
+                "id": anchor(document.name, sequence.id),
+                "case": sequence.id,
+                "why": sequence.why,
+                "basis": sequence.basis,
+                "finding": sequence.finding,
+                "clauses": list(sequence.clauses),
+                "parameters": sequence.parameters,
+                "scans": Figure(len(sequence.story.rows) - 1, of.path),
             }
-            for one in of.sequences
+            for sequence in of.sequences
         ],
         "first": [
-            {"id": anchor(document.name, one.id), "case": one.id, "why": one.why, **_on_paper(one.story)}
-            for one in of.sequences[:1]
+            {
+                "id": anchor(document.name, sequence.id),
+                "case": sequence.id,
+                "why": sequence.why,
+                **_on_paper(sequence.story),
+            }
+            for sequence in of.sequences[:1]
         ],
     }
 
 
-def _told_sequence(document: Document, one: Sequence) -> dict[str, Any]:
+def _told_sequence(document: Document, sequence: Sequence) -> dict[str, Any]:
     """What the viewer reads of one sequence."""
     return {
         "kind": SEQUENCE,
         "document": document.name,
-        "run": one.id,
+        "run": sequence.id,
         "property": [],
-        "findings": [one.finding] if one.finding else [],
-        "why": one.why,
-        "basis": one.basis,
-        "clauses": list(one.clauses),
-        "parameters": one.parameters,
-        **_drawn(one.story),
+        "findings": [sequence.finding] if sequence.finding else [],
+        "why": sequence.why,
+        "basis": sequence.basis,
+        "clauses": list(sequence.clauses),
+        "parameters": sequence.parameters,
+        **_drawn(sequence.story),
     }
 
 
 def _drawn(story: Story) -> dict[str, Any]:
     return {
-        "lanes": [asdict(one) for one in story.lanes],
+        "lanes": [asdict(lane) for lane in story.lanes],
         "columns": story.columns,
         "constant": story.constant,
-        "rows": [asdict(one) for one in story.rows],
+        "rows": [asdict(row) for row in story.rows],
     }
 
 
@@ -158,17 +163,17 @@ def _traces(document: Document) -> Traces | None:
         return None
 
 
-def _story(sources: Sources, document: Document, traces: Traces | None, one: Evidence) -> Story:
-    trace = one.result["trace"]
-    walk = None if traces is None else _walk(sources, document, one)
+def _story(sources: Sources, document: Document, traces: Traces | None, piece: Evidence) -> Story:
+    trace = piece.result["trace"]
+    walk = None if traces is None else _walk(sources, document, piece)
     if traces is not None and walk is not None and walk["module"] in traces.tops:
         return from_walk(document, traces, walk)
     return from_variables(document, traces, trace)
 
 
-def _walk(sources: Sources, document: Document, one: Evidence) -> dict[str, Any] | None:
+def _walk(sources: Sources, document: Document, piece: Evidence) -> dict[str, Any] | None:
     """The walk of this very trace, made with the specification as it is, else None."""
-    path = f"build/walks/{document.name}/{one.id}.json"
+    path = f"build/walks/{document.name}/{piece.id}.json"
     try:
         content = (sources.root / path).read_bytes()
         walk = json.loads(content)
@@ -177,18 +182,18 @@ def _walk(sources: Sources, document: Document, one: Evidence) -> dict[str, Any]
     whole = {"module", "rows", "decided", "departures", "tables", "inputs", "trace_sha256"}
     if not isinstance(walk, dict) or not whole <= set(walk):
         return None
-    if walk["trace_sha256"] != digest_of(one.result["trace"]):
+    if walk["trace_sha256"] != digest_of(piece.result["trace"]):
         return None
-    if len(walk["rows"]) != len(one.result["trace"]):
+    if len(walk["rows"]) != len(piece.result["trace"]):
         return None
     for name, digest in walk["inputs"].items():
-        if one.record["inputs"].get(name, digest) != digest:
+        if piece.record["inputs"].get(name, digest) != digest:
             return None
     sources.content(path)  # from now on one of the files that the report rests on
     return walk
 
 
-def _index_row(document: Document, run: Run, one: Evidence, story: Story) -> dict[str, Any]:
+def _index_row(document: Document, run: Run, piece: Evidence, story: Story) -> dict[str, Any]:
     findings = [
         found.id for found in document.findings if run.id in found.evidence or found.id in run.findings
     ]
@@ -196,14 +201,14 @@ def _index_row(document: Document, run: Run, one: Evidence, story: Story) -> dic
         "id": anchor(document.name, run.id),
         "document": document.name,
         "run": run.id,
-        "property": str(one.result.get("violated") or run.property),
-        "verdict": one.figure("verdict"),
-        "steps": Figure(len(story.rows) - 1, one.path),
+        "property": str(piece.result.get("violated") or run.property),
+        "verdict": piece.figure("verdict"),
+        "steps": Figure(len(story.rows) - 1, piece.path),
         "findings": findings,
         "assumptions": [row.id for row in document.assumptions if run.id in row.breaks],
         "clauses": list(run.clauses),
         "environment": run.environment,
-        "loop": str(one.result.get("loop") or ""),
+        "loop": str(piece.result.get("loop") or ""),
         "wires": story.full,
     }
 

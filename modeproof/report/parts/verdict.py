@@ -8,8 +8,8 @@ from typing import Any
 from modeproof.registers.rows import Document
 from modeproof.report.campaigns import KINDS, id_of
 from modeproof.report.part import Part
+from modeproof.report.snapshot import as_it_counts, lines_of, mutants_of
 from modeproof.report.sources import Evidence, Figure, Sources
-from modeproof.report.standing import as_it_counts, lines_of, mutants_of
 from modeproof.report.verdicts import ASIDE, NOT_AS_DECLARED, Line, status_of
 
 GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (
@@ -27,7 +27,7 @@ ASIDE_OF_TABLE = ("registers",)
 
 def part(sources: Sources) -> Part:
     """Documents by environment and by kind of evidence; each property with verdict and strength."""
-    documents = [_document(sources, one) for one in sources.documents.values()]
+    documents = [_document(sources, document) for document in sources.documents.values()]
     return Part(
         "verdict",
         "Verdict at a glance",
@@ -67,7 +67,8 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
             for name in environments
         ],
         "groups": [
-            _count([status_of(as_it_counts(one)) for one in evidence if of(one)], folder) for *_, of in GROUPS
+            _count([status_of(as_it_counts(record)) for record in evidence if of(record)], folder)
+            for *_, of in GROUPS
         ],
         "mutants": _mutants(sources, document.name),
         "columns": environments,
@@ -84,9 +85,9 @@ def _counted(line: Line) -> bool:
 def _count(statuses: Sequence[int], folder: str) -> dict[str, Any]:
     """How many of how many are as expected, and the worst status of the others."""
     return {
-        "good": Figure(sum(1 for one in statuses if not one), folder),
+        "good": Figure(sum(1 for status in statuses if not status), folder),
         "of": Figure(len(statuses), folder),
-        "status": min((one for one in statuses if one), default=0),
+        "status": min((status for status in statuses if status), default=0),
     }
 
 
@@ -108,7 +109,7 @@ def _rows(
     sources: Sources, document: Document, lines: Sequence[Line], columns: Sequence[str], marks: dict[str, int]
 ) -> list[dict[str, Any]]:
     by = {(line.property, line.environment): line for line in lines}
-    titles = {one.id: one.title for one in document.properties}
+    titles = {prop.id: prop.title for prop in document.properties}
     worst_first = sorted(
         dict.fromkeys(line.property for line in lines),
         key=lambda id: min(line.status or 3 for line in lines if line.property == id),
@@ -154,14 +155,14 @@ def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
 
     def add(cells: Sequence[dict[str, Any]]) -> dict[str, Any]:
         return {
-            "good": Figure(sum(one["good"].value for one in cells), folder),
-            "of": Figure(sum(one["of"].value for one in cells), folder),
-            "status": min((one["status"] for one in cells if one["status"]), default=0),
+            "good": Figure(sum(value["good"].value for value in cells), folder),
+            "of": Figure(sum(value["of"].value for value in cells), folder),
+            "status": min((value["status"] for value in cells if value["status"]), default=0),
         }
 
     mutants = []
     for _, judge, _ in KINDS.values():
-        rows = [row for one in documents for row in one["mutants"] if row["judge"] == judge]
+        rows = [row for document in documents for row in document["mutants"] if row["judge"] == judge]
         if rows:
             mutants.append(
                 {
@@ -171,8 +172,10 @@ def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
                 }
             )
     return {
-        "properties": add([cell for one in documents for cell in one["environments"]]),
-        "groups": [add([one["groups"][place] for one in documents]) for place in range(len(GROUPS))],
+        "properties": add([cell for document in documents for cell in document["environments"]]),
+        "groups": [
+            add([document["groups"][place] for document in documents]) for place in range(len(GROUPS))
+        ],
         "mutants": mutants,
     }
 

@@ -23,7 +23,7 @@ from proofs.mode_selection import (
 )
 from proofs.mode_selection.devices import ROOT
 from proofs.runner import prove_all
-from proofs.sentences import Judge, Said, Sentence
+from proofs.sentences import Judge, Obligation, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
@@ -69,7 +69,7 @@ def _state(judge: Judge, always: Callable[..., z3.BoolRef]) -> Sentence:
 
 
 def _kept(judge: Judge) -> Sentence:
-    def sentence(one: Scanned) -> Said:
+    def sentence(one: Scanned) -> Obligation:
         return z3.BoolVal(True), judge.kept()(one)
 
     return sentence

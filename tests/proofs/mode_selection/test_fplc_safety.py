@@ -13,7 +13,7 @@ from proofs.mode_selection.devices import DEVICES, FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.invariants import FPLC_INVARIANT
 from proofs.runner import prove_all
-from proofs.sentences import Judge, Said, Sentence
+from proofs.sentences import Judge, Obligation, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem
 from tests.any_machine import LONG_MS
@@ -77,7 +77,7 @@ def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
     return JUDGE.after_a_scan(always)
 
 
-def _kept(one: Scanned) -> Said:
+def _kept(one: Scanned) -> Obligation:
     return z3.BoolVal(True), JUDGE.kept()(one)
 
 

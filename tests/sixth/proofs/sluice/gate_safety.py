@@ -8,13 +8,13 @@ from proofs.sluice.devices import BEACON, GATE
 
 from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned
-from proofs.sentences import Judge, Said, exactly_one_path
+from proofs.sentences import Judge, Obligation, exactly_one_path
 from proofs.theorem import Queries, theorem
 
 JUDGE: Final = Judge(GATE, ())
 
 
-def opens_over_a_lit_beacon(one: Scanned) -> Said:
+def opens_over_a_lit_beacon(one: Scanned) -> Obligation:
     if one.was("Calling") and one.becomes("Open"):
         return TRUE, one.inputs.BeaconLit
     return None
@@ -25,7 +25,7 @@ def the_gate_opens_only_over_a_lit_beacon() -> Queries:
     """The gate begins to open only in a scan in which it reads that the beacon is lit."""
     yield from JUDGE.in_every_scan(opens_over_a_lit_beacon)
 
-    def never(one: Scanned) -> Said:
+    def never(one: Scanned) -> Obligation:
         return TRUE, one.sends.GateMotor == one.inputs.BeaconLit
 
     yield JUDGE.too_strong("the motor follows the beacon", never, "Open")

@@ -20,11 +20,11 @@ from snap7.connection import ISOTCPConnection
 from examples.faulty.run import vectors
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Plan, Verdict, run_suite
-from modeproof.kit.relation import Manner
+from modeproof.kit.relation import Options
 from modeproof.kit.vectors import EXACT, SETTLED, Suite, case_id, changes, open_suite
 from modeproof.places import root
 from modeproof.registers.load import load_interface
-from modeproof.s7 import plc as s7
+from modeproof.s7 import program as s7
 from modeproof.suites.contract import declare_parameters
 from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import RE, SE, SW
@@ -117,12 +117,12 @@ def suite(tmp_path: Path) -> Suite:
 
 
 def judged(
-    suite: Suite, plc: Plc, text: str, relation: str = SETTLED, timeout_s: float = 30.0, **manner: int
+    suite: Suite, plc: Plc, text: str, relation: str = SETTLED, timeout_s: float = 30.0, **options: int
 ) -> Verdict:
     path = suite.path.with_name("map.csv")
     path.write_text(text, encoding="utf-8")
     start = lambda: s7.connect(plc.address, path, suite, timeout_s)  # noqa: E731
-    return run_suite(suite, start, plan=Plan(manner=Manner(relation=relation, **manner)))
+    return run_suite(suite, start, plan=Plan(options=Options(relation=relation, **options)))
 
 
 @pytest.fixture
@@ -177,7 +177,7 @@ def test_a_plc_that_runs_freely_conforms_by_settled_and_cannot_be_judged_by_exac
     slow = {"T_ON_ms": 60_000, "T_SEQ_ms": 60_000, "T_REM_ms": 60_000, "T_DWELL_ms": 900}
     suite = suite_of(tmp_path, case_row(journey(6000)[:9], slow))
     with Plc(cycle_ms=1) as plc:
-        set_clock(monkeypatch, plc.clock, "modeproof.s7.plc", "modeproof.kit.relation")
+        set_clock(monkeypatch, plc.clock, "modeproof.s7.program", "modeproof.kit.relation")
         verdict = judged(suite, plc, FREE)
         assert (verdict.word, verdict.reason) == ("CONFORMS", "")
         assert plc.scans > 6000, "it ran while it was waited for"
@@ -231,7 +231,7 @@ def test_a_plc_without_a_harness_is_unjudged_within_the_time_limit(
     suite: Suite, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     clock = Clock(look_s=1.0)
-    set_clock(monkeypatch, clock, "modeproof.s7.plc")
+    set_clock(monkeypatch, clock, "modeproof.s7.program")
     with Plc(dead=True) as plc:
         verdict = judged(suite, plc, STEPPED, timeout_s=30.0)
     assert verdict.word == "UNJUDGED" and "@reset was not cleared within 30 s" in verdict.reason
@@ -268,7 +268,7 @@ def test_without_python_snap7_one_line_says_what_to_install(
     path.write_text(STEPPED, encoding="utf-8")
     with pytest.raises(Unjudged, match="needs python-snap7: pip install"):
         s7.connect("127.0.0.1", path, suite)
-    assert importlib.import_module("modeproof.s7.plc") is s7
+    assert importlib.import_module("modeproof.s7.program") is s7
 
 
 # -------------------------------------------------------------------------------------- as a developer does

@@ -19,17 +19,17 @@ FAST = "fast"
 
 
 @dataclass(frozen=True)
-class Shelf:
+class Bundle:
     """Where the vectors are: a folder, or an archive with this folder in it."""
 
     place: Path
 
     @staticmethod
-    def own() -> Shelf:
+    def own() -> Bundle:
         """That of the archive that this code runs from, if it runs from one."""
         for parent in Path(__file__).resolve().parents:
             if parent.is_file():
-                return Shelf(parent)
+                return Bundle(parent)
         raise Unjudged("no vectors are here: --vectors FILE names some")
 
     def contents(self) -> Mapping[str, Any]:

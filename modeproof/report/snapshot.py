@@ -19,18 +19,18 @@ _PIN = re.compile(r"^(\w+) = ([^#\n]*?)\s*(?:# (.*))?$")
 _PINNED = ("distinct", "generated", "trace_length", "states", "edges", "cfg_sha256")
 
 
-def as_it_counts(one: Evidence) -> Record:
+def as_it_counts(piece: Evidence) -> Record:
     """The record of a piece of evidence; of one that is stale, that nothing is known now."""
-    if not one.changed:
-        return one.record
-    reason = f"its evidence ({one.record['verdict']}) is of another text of {one.changed[0]}"
-    return {**one.record, "verdict": "UNJUDGED", "as_expected": False, "reason": reason, "strength": reason}
+    if not piece.changed:
+        return piece.record
+    reason = f"its evidence ({piece.record['verdict']}) is of another text of {piece.changed[0]}"
+    return {**piece.record, "verdict": "UNJUDGED", "as_expected": False, "reason": reason, "strength": reason}
 
 
 def lines_of(sources: Sources, document: Document) -> list[Line]:
     """Each property in each environment; UNJUDGED where this lane declares a run and none has evidence."""
-    rows = [PropertyRow(one.id, one.tla, one.environments) for one in document.properties]
-    records = [as_it_counts(one) for one in sources.evidence[document.name].values()]
+    rows = [PropertyRow(prop.id, prop.tla, prop.environments) for prop in document.properties]
+    records = [as_it_counts(record) for record in sources.evidence[document.name].values()]
     runs = [run for run in document.runs if run.kind in POSITIVE]
     declared = {run.id: {(name, run.environment) for name in run.properties} for run in runs}
     here: dict[tuple[str, str], str] = {}
@@ -38,7 +38,7 @@ def lines_of(sources: Sources, document: Document) -> list[Line]:
         if LANE in run.lanes:
             for name in run.properties:
                 here.setdefault((name, run.environment), run.id)
-    tla_of = {one.id: one.tla for one in document.properties}
+    tla_of = {prop.id: prop.tla for prop in document.properties}
     found = []
     for line in property_lines(rows, records, declared):
         lost = here.get((tla_of[line.property], line.environment))
@@ -78,7 +78,7 @@ def pins_of(sources: Sources, document: str) -> dict[str, dict[str, dict[str, st
     return pins
 
 
-def standing(sources: Sources) -> dict[str, Any]:
+def snapshot(sources: Sources) -> dict[str, Any]:
     """All that the next report will be compared with."""
     verdicts: dict[str, str] = {}
     results: dict[str, Any] = {}
@@ -87,13 +87,16 @@ def standing(sources: Sources) -> dict[str, Any]:
     for name, document in sources.documents.items():
         for line in lines_of(sources, document):
             verdicts[f"{name}: {line.property} ({line.environment})"] = line.verdict.rstrip("?")
-        for one in sources.evidence[name].values():
-            results[f"{name}/{one.id}"] = {"verdict": one.record["verdict"], "counts": _counts(one.result)}
+        for record in sources.evidence[name].values():
+            results[f"{name}/{record.id}"] = {
+                "verdict": record.record["verdict"],
+                "counts": _counts(record.result),
+            }
         mutants |= {f"{name}, by {judge}": of for judge, of in mutants_of(sources, name).items()}
         pins |= {f"{name}/{run}": of for run, of in pins_of(sources, name).items()}
     tools: dict[str, list[str]] = {}
-    for one in sources.everything():
-        for tool, entry in one.record["tools"].items():
+    for piece in sources.everything():
+        for tool, entry in piece.record["tools"].items():
             version = str(entry["version"])
             if version not in tools.setdefault(str(tool), []):
                 tools[str(tool)].append(version)
