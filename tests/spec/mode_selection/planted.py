@@ -16,6 +16,7 @@ import msgspec
 
 from modeproof.places import build, root
 from modeproof.registers.cfg import Cfg, parse_cfg
+from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.judge import Judgement, judge
 from modeproof.tlc.process import Outcome, run_tlc
@@ -43,9 +44,12 @@ class Base:
 
     @property
     def declared(self) -> Run:
-        """The run as runs.toml declares it, with the module of the base."""
+        """The run as runs.toml declares it, with the module of the base and a cfg by hand."""
         run = RUNS[self.run]
-        return msgspec.structs.replace(run, module=self.module or run.module)
+        assert not run.readings, f"{self.run} has a reading, so its root module would have to be made"
+        return msgspec.structs.replace(
+            run, module=self.module or run.module, cfg=f"models/{run.id}.cfg", base=""
+        )
 
     @property
     def checks(self) -> str:
@@ -55,7 +59,7 @@ class Base:
     @property
     def cfg_text(self) -> str:
         """The cfg of the run with the edits of the base."""
-        return change((SPEC / RUNS[self.run].cfg).read_text(), self.edits, self.run)
+        return change(cfg_text(root(), RUNS[self.run]), self.edits, self.run)
 
 
 @dataclass(frozen=True)
@@ -137,16 +141,16 @@ def plant(place: Path, fault: Fault) -> None:
     path.write_text(change(path.read_text(), ((fault.old, fault.new),), fault.file))
 
 
-def run_copy(place: Path, run: Run, cfg_text: str) -> Finding:
+def run_copy(place: Path, run: Run, text: str) -> Finding:
     """Run TLC on the copy below `place` with this text as the cfg of the run, one worker; judge the outcome.
 
     The cfg counts as the pinned one.
     """
-    (place / "spec" / DOCUMENT / run.cfg).write_text(cfg_text)
-    digest = hashlib.sha256(cfg_text.encode()).hexdigest()
+    (place / "spec" / DOCUMENT / run.cfg).write_text(text)
+    digest = hashlib.sha256(text.encode()).hexdigest()
     run = msgspec.structs.replace(run, workers=1, heap_mb=1024, timeout_s=1800.0, cfg_sha256=digest)
     outcome = run_tlc(place, run, find_toolchain())
-    cfg = parse_cfg(cfg_text, run.cfg)
+    cfg = parse_cfg(text, run.cfg)
     found = judge(run, cfg, digest, outcome)
     log = (build(place) / "tlc" / DOCUMENT / f"{run.id}.log").read_text()
     return Finding(run, cfg, found, outcome, log)

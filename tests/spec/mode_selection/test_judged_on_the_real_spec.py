@@ -16,7 +16,9 @@ import pytest
 
 from modeproof.errors import Unjudged
 from modeproof.graph.read import read_graph
+from modeproof.places import root
 from modeproof.registers.cfg import parse_cfg
+from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run as DeclaredRun
 from modeproof.tlc.check import register_problems
 from modeproof.tlc.judge import Judgement, judge
@@ -142,7 +144,7 @@ def test_a_shrunk_constant_is_noticed_even_when_the_cfg_is_pinned_again(trial: T
     after, control = trials(trial), trials(Trial(KEY_FLOWS))
     assert after.run.cfg_sha256 is not None
     found = judge(pinned(control), after.cfg, after.run.cfg_sha256, after.outcome)
-    assert found.reason == f"{after.run.cfg} was changed since its counts were pinned"
+    assert found.reason == f"{after.run.config} was changed since its counts were pinned"
     found = judged(after, control)
     assert found.verdict == "HOLDS" and not found.as_expected
     assert found.reason.startswith("distinct states: ")
@@ -284,14 +286,16 @@ def test_a_property_taken_out_of_its_cfg_is_missed(run: DeclaredRun, trials: Run
     """The outcome is a good one: TLC has nothing to object to a property that it does not check."""
     good = trials(Trial(PLC)).outcome
     good = replace(good, printed=frozenset(f'<<"REACHED", "{name}">>'.encode() for name in run.witnesses))
-    text = (SPEC / run.cfg).read_text()
+    text = cfg_text(root(), run)
     for name in run.properties:
         assert re.search(rf"\b{name}\b", text)
         bare = re.sub(rf"\b{name}\b", "", text)
         digest = hashlib.sha256(bare.encode()).hexdigest()
-        found = judge(msgspec.structs.replace(run, cfg_sha256=digest), parse_cfg(bare, run.cfg), digest, good)
+        found = judge(
+            msgspec.structs.replace(run, cfg_sha256=digest), parse_cfg(bare, run.config), digest, good
+        )
         assert found.verdict in ("HOLDS", "REACHED") and not found.as_expected
-        assert found.reason in (f"{run.cfg} does not check {name}", f"{run.cfg} checks no property")
+        assert found.reason in (f"{run.config} does not check {name}", f"{run.config} checks no property")
 
 
 def test_an_invariant_taken_out_of_a_real_run_is_missed(tmp_path: Path, trials: Run) -> None:
@@ -299,7 +303,7 @@ def test_an_invariant_taken_out_of_a_real_run_is_missed(tmp_path: Path, trials: 
     text = change(EKS.cfg_text, ((" NoOutputWithoutLA", ""),), "OPEN_Eks6.cfg")
     found = run_copy(tmp_path, pinned(trials(Trial(EKS))), text).judgement
     assert found.verdict == "HOLDS" and not found.as_expected
-    assert found.reason == "models/OPEN_Eks6.cfg does not check NoOutputWithoutLA"
+    assert found.reason == f"{EKS.declared.config} does not check NoOutputWithoutLA"
 
 
 def test_an_emptied_property_list_is_missed(tmp_path: Path, trials: Run) -> None:
