@@ -167,8 +167,7 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("findings")
     known = _evidence_names(document, sources)
     clauses = {clause.id for clause in document.clauses}
-    switches = _switches(sources)
-    negatives = {run.id for run in document.runs if run.kind == "NEG"}
+    constants = sorted({name for module in sources.modules.values() for name in module.constants})
     for one in document.findings:
         for name in one.evidence:
             if name not in known and name not in clauses:
@@ -179,33 +178,13 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
         if match := PROMISE.search(one.evidence_open):
             yield Problem(file, one.id, _promise("evidence_open", match.group(), "why no model can show it"))
-        for name in dict.fromkeys(one.switches):
-            if name not in switches:
-                yield Problem(file, one.id, _unknown_switch(name, switches))
-            if one.switches.count(name) > 1:
-                yield Problem(file, one.id, f"names the switch {name!r} twice")
-        negative = negatives.intersection(one.evidence)
-        tried = {run.id for run in document.runs if run.switch and run.switch in one.switches}
-        if one.switches and not negative | tried.intersection(one.evidence) and not one.evidence_open.strip():
-            text = "has a switch, but its evidence names no run of kind NEG and none with this switch on"
-            yield Problem(file, one.id, text)
+        if one.parameter and one.parameter not in constants:
+            text = f"parameter {one.parameter!r} is no CONSTANT of the specification; "
+            yield Problem(file, one.id, text + suggestion_of(one.parameter, constants))
 
 
 def _promise(key: str, words: str, instead: str) -> str:
     return f"`{key}` is a promise ({words!r}); say {instead}, or name the evidence"
-
-
-def _switches(sources: Sources) -> list[str]:
-    """What can be a switch: a CONSTANT, or a string that a constant can hold."""
-    modules = sources.modules.values()
-    return sorted({name for module in modules for name in module.constants | module.strings})
-
-
-def _unknown_switch(name: str, switches: list[str]) -> str:
-    return (
-        f"switch {name!r} is no CONSTANT of the specification and no value that one can hold; "
-        f"{suggestion_of(name, switches)}"
-    )
 
 
 def _evidence_names(document: Document, sources: Sources) -> list[str]:
@@ -245,9 +224,6 @@ def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
                 yield Problem(
                     file, run.id, f"{name} is in no row of properties.toml; {suggestion_of(name, known)}"
                 )
-        switches = _switches(sources)
-        if run.switch and run.switch not in switches:
-            yield Problem(file, run.id, _unknown_switch(run.switch, switches))
         if run.graph is not None:
             for text in _graph_faults(document, run):
                 yield Problem(file, run.id, text)

@@ -15,7 +15,6 @@ from modeproof.registers.names import check_names
 from modeproof.registers.readings import check_readings, check_tops
 from modeproof.registers.rooms import check_imports, check_no_document_known
 from modeproof.registers.rows import Document, Problem
-from modeproof.registers.switches import check_switches
 from modeproof.registers.tables import check_pages
 from modeproof.registers.vector_files import check_vectors
 
@@ -44,7 +43,6 @@ def judge(document: Document) -> Judgement:
     lost = unresolved(document, cited)
     problems = [
         *cross_check(document, sources),
-        *check_switches(document, sources),
         *check_readings(document, sources.modules),
         *check_tops(document, sources.modules),
         *check_document_page(document, sources),

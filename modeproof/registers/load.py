@@ -187,7 +187,7 @@ def _finding(row: Table) -> Finding:
         severity=row["class"],
         drawing_could_settle=row["drawing_could_settle"],
         tries=_names(row, "tries"),
-        switches=(*_names(row, "switch"), *_names(row, "switches")),
+        parameter=row.get("parameter", ""),
         evidence=_names(row, "evidence"),
         evidence_open=row.get("evidence_open", ""),
     )

@@ -11,7 +11,6 @@ from modeproof.registers.made import SUFFIX, decided_modules, reading_problems, 
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import Run
-from modeproof.registers.switches import has_literal
 from modeproof.registers.tla import Module, closure
 
 
@@ -34,8 +33,6 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
     """All that is wrong with the readings of a document."""
     readings = readings_of(document, modules)
     own = f"spec/{document.name}/"
-    if has_literal(document, modules):
-        return []
     return [
         *(
             Problem(file, name, text)

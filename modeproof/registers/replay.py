@@ -1,6 +1,6 @@
 """The register replay.toml: how a recorded trace of a document is read as scans and replayed.
 
-A document without the file has no readings that can be restored, and no rendered traces.
+A document without the file has no rendered traces.
 """
 
 from __future__ import annotations
@@ -60,13 +60,10 @@ class Top:
 
 @dataclass(frozen=True)
 class Traces:
-    """The whole register. `literal` is the constant that holds the restored readings, `readings` the
-    operator that lists all of them; `step` the variable with the step's name, written where the constant
-    `recorded` is true, and `with_step` the variables written with it.
+    """The whole register. `step` is the variable with the step's name, written where the constant `recorded`
+    is true, and `with_step` are the variables written with it.
     """
 
-    literal: str
-    readings: str
     step: str
     recorded: str
     with_step: tuple[str, ...]
@@ -86,8 +83,6 @@ def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
     table = read_register(root, name, "replay")
     return Traces(
-        literal=table.get("literal", ""),
-        readings=table.get("readings", ""),
         step=table["step"],
         recorded=table["recorded"],
         with_step=tuple(table.get("with_step", [])),

@@ -134,8 +134,8 @@ class Finding:
     drawing_could_settle: bool
     tries: tuple[str, ...] = ()
     """The readings, by the names that they have in the specification, that runs of its evidence try."""
-    switches: tuple[str, ...] = ()
-    """The keys `switch` and `switches` of the register: one for each reading that can be restored."""
+    parameter: str = ""
+    """The constant of the specification that leaves the choice to the project."""
     evidence: tuple[str, ...] = ()
     evidence_open: str = ""
 

@@ -30,7 +30,7 @@ EXPECTED: Mapping[str, str] = {
 }
 OWN_OF_BASE = (
     *("id", "kind", "expect", "lanes", "cfg_sha256", "distinct", "generated", "trace_length", "properties"),
-    *("property", "witnesses", "clauses", "findings", "why", "switch"),
+    *("property", "witnesses", "clauses", "findings", "why"),
 )
 """What a run never takes from its base."""
 
@@ -92,7 +92,6 @@ class Run(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     graph: Graph | None = None
     clauses: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
-    switch: str = ""
     why: str = ""
 
     @builtins.property

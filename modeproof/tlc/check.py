@@ -22,7 +22,6 @@ from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, module_text
 from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
-from modeproof.registers.switches import idle_switch
 from modeproof.tlc import children
 from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
@@ -174,7 +173,7 @@ def _about_reading(place: Path, run: Run, judgement: Judgement, outcome: Outcome
     try:
         document = load_document(place, run.document)
         found = (counts.distinct, counts.generated)
-        words = idle_reading(document, run, found) or idle_switch(document, run.id, found)
+        words = idle_reading(document, run, found)
     except Unjudged:
         return judgement  # the registers are judged elsewhere
     return replace(judgement, reason=f"{judgement.reason}: {words}") if words else judgement

@@ -4,11 +4,11 @@ what a device of the decided specification does with the same inputs.
 A counterexample holds variables; the words on the wires are operators of the state. One module is generated
 for all runs of a top module (register replay.toml). It instantiates that module once for each run, with the
 constants of the run's cfg, and takes the recorded states one after the other; each must be a step of the
-specification still. A run with readings has copies of the modules that its readings reach, because TLC
-replaces an operator in a module and not in one instance of it. Beside them it lets each device that scans in
-them scan as it was decided, on the inputs that the recorded device read: from the memory that the recorded
-device had before one of its scans, for every such scan, and from then on from its own. That replay is open
-loop: the other devices stay as recorded.
+specification still. A run with readings has copies of the modules that they reach, because TLC replaces an
+operator in a module and not in one instance of it. Beside the recorded states each device that scans in them
+scans as it was decided, on the inputs that the recorded device read: from the memory that the recorded device
+had before one of its scans, for every such scan, and from then on from its own. That replay is open loop: the
+other devices stay as recorded.
 
 The result is one JSON file a run, build/walks/<document>/<run>.json, good as long as the SHA-256 of the
 recorded trace in it is that of the evidence and the specification's files have the hashes in it.

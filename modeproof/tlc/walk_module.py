@@ -239,20 +239,18 @@ def replacement(name: str) -> str:
 def _instances(
     plan: Plan, number: int, one: Recorded, constants: Mapping[str, Constant], named: bool
 ) -> list[str]:
-    """The top module with the constants of one run, and each device with no reading restored.
+    """The top module with the constants of one run, and each device as it was decided.
 
     TLC evaluates the constants of every instance at its start, so there is none that is not used: A where a
     constant has the value of one of the module's own names (`named`: also where a definition has), G where
     it is asked what the decided system does after the last state.
     """
 
-    def given(modules: Sequence[Module], last: bool, decided: bool = False) -> list[str]:
+    def given(modules: Sequence[Module], last: bool) -> list[str]:
         parts = []
         for name in _names(modules, "constants"):
             constant = constants.get(name)
-            if decided and name == plan.traces.literal:
-                value = "{}"
-            elif name == plan.traces.recorded:
+            if name == plan.traces.recorded:
                 value = "TRUE"
             elif constant is None:
                 value = DUMMY
@@ -268,14 +266,14 @@ def _instances(
     if named or any(one.named for one in constants.values()):
         instances = {"A": given(whole, last=False), **instances}
     if one.stops:
-        instances["G"] = given(whole, last=True, decided=True)
+        instances["G"] = given(whole, last=True)
     own = f"{module_name(plan.module)}__{number}" if one.readings else plan.module
     lines = [
         f"{letter}{number} == INSTANCE {own if letter == 'L' else plan.module} WITH {', '.join(parts)}"
         for letter, parts in instances.items()
     ]
     for device in plan.replayed:
-        parts = given(extended(plan.modules, device.module), last=True, decided=True)
+        parts = given(extended(plan.modules, device.module), last=True)
         parts += [f"{name} <- {SHADOW}{name}" for name in plan.shadows(device)]
         lines.append(f"D{number}_{device.id} == INSTANCE {device.module} WITH {', '.join(parts)}")
     return lines
@@ -355,7 +353,7 @@ def _behaviour(
 
 
 def _after(plan: Plan, number: int, last: int) -> list[str]:
-    """What can happen in the last state with no reading restored, where the recorded system does nothing."""
+    """What can happen in the last state as decided, where the recorded system does nothing."""
     shadows = ", ".join(SHADOW + name for name in plan.all_shadows)
     own = ", ".join(name for name in plan.all_shadows if name != plan.traces.step)
     printed = f'PrintT(ToString(<<"AFTER", {number}, {plan.traces.step}\'>>))'

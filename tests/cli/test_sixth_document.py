@@ -205,8 +205,8 @@ FAULTS = (
     (
         "a specification that opens over a dark beacon",
         "spec/sluice/Gate.tla",
-        "Ready(i) == i.BeaconLit \\/",
-        "Ready(i) == i.OpenRequest \\/",
+        "Ready(i) == i.BeaconLit\n",
+        "Ready(i) == i.OpenRequest\n",
         "check MC_Sluice --quiet",
         "VIOLATED (OpensOverBeacon)",
     ),

@@ -95,7 +95,7 @@ consequence = "none"
 decision = "at once"
 class = "wording"
 drawing_could_settle = true
-switch = "LITERAL"
+tries = []
 evidence = ["NEG_Latch", "the_bolt_moves"]
 """,
     "spec/door/assumptions.toml": """

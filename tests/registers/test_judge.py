@@ -104,18 +104,11 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             '"NEG_Lach"',
             "evidence 'NEG_Lach' is no run and no theorem; did",
         ),
-        (SPEC + "findings.toml", '"LITERAL"', '"LITRAL"', "switch 'LITRAL' is no CONSTANT"),
         (
             SPEC + "findings.toml",
-            'switch = "LITERAL"',
-            'switches = ["LITERAL", "LITRAL"]',
-            "switch 'LITRAL' is no CONSTANT",
-        ),
-        (
-            SPEC + "findings.toml",
-            'switch = "LITERAL"',
-            'switch = "LITERAL"\nswitches = ["LITERAL"]',
-            "E-01: names the switch 'LITERAL' twice",
+            "tries = []",
+            'parameter = "T_HLD"',
+            "E-01: parameter 'T_HLD' is no CONSTANT of the specification; did you mean 'T_HOLD'?",
         ),
         (SPEC + "findings.toml", '["NEG_Latch", "the_bolt_moves"]', "[]", "E-01: names no evidence, and"),
         (
@@ -140,12 +133,6 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "OpnIsUnlocked is in no row of properties.toml",
         ),
         (SPEC + "runs.toml", 'module = "Latch"', 'module = "Lach"', "MC_Latch: module Lach does not exist"),
-        (
-            SPEC + "runs.toml",
-            'kind = "NEG"',
-            'kind = "NEG"\nswitch = "LITRAL"',
-            "switch 'LITRAL' is no CONSTANT",
-        ),
         (SPEC + "runs.toml", 'device = "latch"', 'device = "lach"', "graph.device: did you mean 'latch'?"),
         (SPEC + "runs.toml", "T_HOLD_ms = 20", "T_HLD_ms = 20", "graph.params: unknown parameter 'T_HLD_ms'"),
         (
@@ -159,12 +146,6 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "params = {",
             "pass = { LCK = 'door_closed' }\nparams = {",
             "unknown output 'LCK'",
-        ),
-        (
-            SPEC + "findings.toml",
-            '"NEG_Latch", ',
-            "",
-            "E-01: has a switch, but its evidence names no run of kind",
         ),
         # names
         (LATCH, "\nCloseLatch(i)", "\nShutLatch(i)", "CloseLatch: declared as a step, but not defined"),
@@ -239,25 +220,14 @@ def test_a_device_that_is_not_published_or_not_printed_has_no_vectors(tree: Any)
     assert all(row.vector == () for row in judge(load_document(tree.root, "door")).rows)
 
 
-def test_a_finding_may_have_several_switches(tree: Any) -> None:
-    tree.edit("spec/door/findings.toml", 'switch = "LITERAL"', 'switches = ["LITERAL", "T_HOLD"]')
-    assert load_document(tree.root, "door").findings[0].switches == ("LITERAL", "T_HOLD")
-    assert problems(tree) == []
-
-
-def test_a_reading_that_breaks_nothing_is_shown_by_a_run_with_its_switch_on(tree: Any) -> None:
-    tree.edit("spec/door/findings.toml", '"NEG_Latch", ', '"MC_Latch", ')
-    assert problems(tree) == [
-        "spec/door/findings.toml: E-01: "
-        "has a switch, but its evidence names no run of kind NEG and none with this switch on"
-    ]
-    tree.edit("spec/door/runs.toml", 'kind = "MC"', 'kind = "MC"\nswitch = "LITERAL"')
+def test_a_finding_names_the_parameter_that_leaves_the_choice(tree: Any) -> None:
+    tree.edit("spec/door/findings.toml", "tries = []", 'parameter = "T_HOLD"')
+    assert load_document(tree.root, "door").findings[0].parameter == "T_HOLD"
     assert problems(tree) == []
 
 
 def test_a_negative_run_that_nothing_names_shows_nothing(tree: Any) -> None:
     tree.edit("spec/door/findings.toml", '"NEG_Latch", ', "")
-    tree.edit("spec/door/findings.toml", 'switch = "LITERAL"', 'switch = ""')
     tree.edit("spec/door/assumptions.toml", '["NEG_Latch"]', '[]\nbreaks_open = "one door is one door"')
     assert problems(tree) == [
         "spec/door/runs.toml: NEG_Latch: no finding and no assumption names this negative run"

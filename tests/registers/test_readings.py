@@ -42,7 +42,7 @@ def tried(tree: Any) -> Any:
     tree.edit(SPEC + "runs.toml", '["TypeOK", "Open', '["Open')
     tree.edit(SPEC + "runs.toml", 'properties = ["Open', 'distinct = 9\ngenerated = 20\nproperties = ["Open')
     tree.write(SPEC + "runs.toml", (tree.root / SPEC / "runs.toml").read_text(encoding="utf-8") + RUNS)
-    tree.edit(SPEC + "findings.toml", 'switch = "LITERAL"', 'tries = ["Slam", "Slow"]')
+    tree.edit(SPEC + "findings.toml", "tries = []", 'tries = ["Slam", "Slow"]')
     tree.edit(SPEC + "findings.toml", '"NEG_Latch"', '"NEG_Latch", "NEG_Latch_slam", "MC_Latch_slow"')
     return tree
 
@@ -134,3 +134,37 @@ def test_a_reading_that_joins_others_need_not_be_tried_alone(tried: Any) -> None
     tried.write(SPEC + "runs.toml", f"{text}\n[[run]]{both}")
     tried.edit(SPEC + "findings.toml", '"NEG_Latch_slam"', '"NEG_Latch_slam", "NEG_Latch_all"')
     assert problems(tried) == []
+
+
+REPLAY = """
+step = "step"
+recorded = "RECORD"
+[devices.latch]
+init = "Init"
+scan = "CloseLatch"
+outputs = "Out"
+short = "latch"
+[tops.Latch]
+next = "Init"
+wires = "LOCK_1"
+columns = ["latch"]
+[tops.Latch.inputs]
+latch = "CloseLatch(x)"
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('next = "Init"', 'next = "Nxt"', "tops.Latch: Latch.tla and what it extends do not define Nxt"),
+        ("tops.Latch", "tops.Lock", "tops.Latch: missing; NEG_Latch"),
+    ],
+)
+def test_a_counterexample_that_cannot_be_walked_is_found(
+    tried: Any, old: str, new: str, expected: str
+) -> None:
+    tried.write(SPEC + "replay.toml", REPLAY.lstrip())
+    assert problems(tried) == []
+    tried.write(SPEC + "replay.toml", REPLAY.lstrip().replace(old, new))
+    found = problems(tried)
+    assert any(expected in one for one in found), found

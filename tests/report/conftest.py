@@ -13,22 +13,21 @@ from modeproof.cli import main
 BOX = r"""------------------------------- MODULE Box -------------------------------
 (* The box: it shuts when the door is there; BX-1-1. *)
 EXTENDS Integers, TLC
-CONSTANTS LITERAL, RECORD
+CONSTANTS RECORD
 VARIABLES boxState, shut, step
 Did(name) == step' = IF RECORD THEN name ELSE ""
-Readings == {"EAGER", "LAZY"}
 CODE == TLCEval([m \in 0..1 |-> 3855 + m])
 BoxInit == boxState = "Open" /\ shut = 0
 Out == [WORD |-> IF shut = 1 THEN CODE[1] ELSE 0, LAMP |-> boxState = "Shut", SPARE |-> FALSE]
 Needed == TRUE
 NotNeeded == FALSE
-Ready(i) == i.door \/ ~Needed \/ "EAGER" \in LITERAL
+Ready(i) == i.door \/ ~Needed
 \* BX-1-1, E-01
 Close(i) == boxState = "Open" /\ Ready(i) /\ boxState' = "Shut" /\ shut' = 1 /\ Did("Close")
 \* BX-1-1
 Wait(i) == boxState = "Open" /\ ~Ready(i) /\ UNCHANGED <<boxState, shut>> /\ Did("Wait")
 \* BX-1-1
-Stay(i) == boxState = "Shut" /\ "LAZY" \notin LITERAL /\ UNCHANGED <<boxState, shut>> /\ Did("Stay")
+Stay(i) == boxState = "Shut" /\ UNCHANGED <<boxState, shut>> /\ Did("Stay")
 BoxScan(i) == Close(i) \/ Wait(i) \/ Stay(i)
 ============================================================================
 """
@@ -47,12 +46,19 @@ Wires == [door |-> door, dt |-> 1] @@ Out
 ShutsOverDoor == [][boxState' # boxState => door']_<<boxState, shut>>
 ============================================================================
 """
-CFG = "CONSTANTS LITERAL = %s RECORD = %s START <- Nothing\nSPECIFICATION Spec\nPROPERTY ShutsOverDoor\n"
+BOX_AS_PRINTED = r"""-------------------------- MODULE BoxAsPrinted --------------------------
+(* What the paper could be taken to say. *)
+EXTENDS Box
+\* BX-1-1, E-01: it shuts at once
+Ready_Eager(i) == TRUE
+\* BX-1-1, E-01: nobody says what it does when it is shut
+Stay_Lazy(i) == FALSE
+============================================================================
+"""
+CFG = "CONSTANTS RECORD = %s START <- Nothing\nSPECIFICATION Spec\nPROPERTY ShutsOverDoor\n"
 CFGS = {
-    "MC_Box": CFG % ("{}", "TRUE"),
-    "MC_Box_lazy": CFG % ('{"LAZY"}', "TRUE"),
-    "NEG_Box_eager": CFG % ('{"EAGER"}', "TRUE"),
-    "NEG_Box_hasty": "CONSTANT Needed <- NotNeeded\n" + CFG % ("{}", "FALSE"),
+    "MC_Box": CFG % "TRUE",
+    "NEG_Box_hasty": "CONSTANT Needed <- NotNeeded\n" + CFG % "FALSE",
 }
 RUN = """
 [[run]]
@@ -143,7 +149,7 @@ consequence = "It shuts on a hand."
 decision = "It waits for the door. And more."
 class = "safety"
 drawing_could_settle = true
-switches = ["EAGER", "LAZY"]
+tries = ["Eager", "Lazy"]
 evidence = ["NEG_Box_eager", "MC_Box_lazy", "NEG_Box_hasty"]
 [finding.telling]
 run = "NEG_Box_eager"
@@ -175,8 +181,6 @@ breaks = ["NEG_Box_hasty"]
 """,
     "replay": """
 document = "box"
-literal = "LITERAL"
-readings = "Readings"
 step = "step"
 recorded = "RECORD"
 [[word]]
@@ -208,20 +212,26 @@ def declared(name: str, strength: str, pins: str) -> str:
     return RUN.format(id=name, kind=name.split("_")[0], strength=strength, hash=digest, pins=pins)
 
 
+def tried(name: str, reading: str, pins: str) -> str:
+    """The [[run]] table of MC_Box with a reading."""
+    return f'\n[[run]]\nid = "{name}"\nbase = "MC_Box"\nreading = "{reading}"\n{pins}'
+
+
 def make_box(root: Path) -> Path:
     """The root of a repository with the document."""
     folder = root / "spec" / "box"
     (folder / "models").mkdir(parents=True)
     (folder / "Box.tla").write_text(BOX)
     (folder / "BoxOpen.tla").write_text(BOX_OPEN)
+    (folder / "BoxAsPrinted.tla").write_text(BOX_AS_PRINTED)
     for name, text in CFGS.items():
         (folder / "models" / f"{name}.cfg").write_text(text)
     for name, text in REGISTERS.items():
         (folder / f"{name}.toml").write_text(text.lstrip())
     runs = declared("MC_Box", "any door", "distinct = 5\ngenerated = 11\n")
-    runs += declared("MC_Box_lazy", "the bounds of MC_Box", "distinct = 3\ngenerated = 5\n")
+    runs += tried("MC_Box_lazy", "Lazy", "distinct = 3\ngenerated = 5\n")
     negative = 'property = "ShutsOverDoor"\ntrace_length = 2\n'
-    runs += declared("NEG_Box_eager", "the bounds of MC_Box", negative)
+    runs += tried("NEG_Box_eager", "Eager", negative)
     runs += declared("NEG_Box_hasty", "the bounds of MC_Box", negative)
     (folder / "runs.toml").write_text(runs)
     return root

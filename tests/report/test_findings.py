@@ -85,7 +85,7 @@ def _no_evidence(root: Path) -> None:
 
 
 def _other_cfg(root: Path) -> None:
-    change(root, "spec/box/models/NEG_Box_eager.cfg", "CONSTANTS", "CONSTANTS ")
+    change(root, "spec/box/models/MC_Box.cfg", "CONSTANTS", "CONSTANTS ")
 
 
 def _other_pin(root: Path) -> None:
@@ -107,14 +107,14 @@ def _other_property(root: Path) -> None:
 
 
 def _other_specification(root: Path) -> None:
-    change(root, "spec/box/Box.tla", '\\/ "EAGER" \\in LITERAL', '\\/ "EAGER" \\in {}')
+    change(root, "spec/box/Box.tla", "~Needed", "(~Needed)")
 
 
 @pytest.mark.parametrize(
     ("spoil", "expected"),
     [
         (_no_evidence, ": no evidence;"),
-        (_other_cfg, "spec/box/models/NEG_Box_eager.cfg has changed since"),
+        (_other_cfg, "spec/box/models/MC_Box.cfg has changed since"),
         (_other_pin, "its evidence has trace_length 2, runs.toml 3"),
         (_other_verdict, "its evidence is not as expected: INCONCLUSIVE"),
         (_other_property, "its evidence has violated TypeOK, runs.toml ShutsOverDoor"),
@@ -137,18 +137,17 @@ def test_evidence_that_is_missing_or_of_something_else_writes_nothing_and_names_
     assert not (checked / "docs").exists()
 
 
-def test_a_negative_run_that_holds_names_the_switch_that_changes_nothing(
+def test_a_negative_run_that_holds_names_the_reading_that_changes_nothing(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    change(checked, "spec/box/Box.tla", ' \\/ "EAGER" \\in LITERAL', "")
+    change(checked, "spec/box/BoxAsPrinted.tla", "Ready_Eager(i) == TRUE", "Ready_Eager(i) == i.door")
     assert main(["check", "--quiet", "NEG_Box_eager"]) == 1
     said = capsys.readouterr().out
-    assert "the switch EAGER changes nothing: its counts are those of MC_Box" in said
+    assert "the reading Eager changes nothing: its counts are those of MC_Box" in said
 
-    never = 'i.door /\\ "EAGER" \\notin LITERAL'
-    change(checked, "spec/box/Box.tla", "i.door \\/ ~Needed", never)
+    change(checked, "spec/box/BoxAsPrinted.tla", "Ready_Eager(i) == i.door", "Ready_Eager(i) == FALSE")
     assert main(["check", "--quiet", "NEG_Box_eager"]) == 1
     assert (
-        "ShutsOverDoor was to be violated, and is not: EAGER restored breaks nothing"
+        "ShutsOverDoor was to be violated, and is not: the reading Eager breaks nothing"
         in capsys.readouterr().out
     )

@@ -55,7 +55,7 @@ def test_a_finding_shows_its_readings_its_decision_and_each_piece_of_evidence_wi
 ) -> None:
     one = entry(findings, root)["findings"][0]
     assert (one["says"], one["class"], one["drawing"]) == ("It shuts.", "safety", True)
-    assert one["switches"] == ["EAGER", "LAZY"]
+    assert one["tries"] == ["Eager", "Lazy"]
     shown = {row["id"]: row for row in one["evidence"]}
     assert (shown["NEG_Box_eager"]["word"], shown["NEG_Box_eager"]["good"]) == ("VIOLATED", True)
     assert shown["NEG_Box_eager"]["steps"].value == 1
@@ -69,7 +69,7 @@ def test_each_reading_restored_alone_stands_with_what_falls_and_in_how_many_step
     rows = {row["id"]: row for row in entry(findings, root)["alone"]}
     assert list(rows) == ["MC_Box_lazy", "NEG_Box_eager"]
     assert (rows["NEG_Box_eager"]["readings"], rows["NEG_Box_eager"]["property"]) == (
-        ["EAGER"],
+        ["Eager"],
         "ShutsOverDoor",
     )
     assert rows["NEG_Box_eager"]["steps"].value == 1 and not rows["NEG_Box_eager"]["harmless"]

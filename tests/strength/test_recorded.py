@@ -135,7 +135,7 @@ def test_a_row_of_scores_holds_the_counts_and_the_texts(tmp_path: Path) -> None:
         1,
         1,
     )
-    assert (row.unmeasured, row.real, list(row.files)) == (0, 2, ["spec/toy/strength.toml"])
+    assert (row.unmeasured, row.different, list(row.files)) == (0, 2, ["spec/toy/strength.toml"])
     assert stale(tmp_path, "toy") == []
     recorded(tmp_path, *ALL, judged(4, "KILLED", "wp"))
     (row,) = load_scores(tmp_path, "toy")

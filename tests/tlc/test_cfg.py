@@ -33,3 +33,15 @@ def test_view_and_symmetry_are_seen() -> None:
 def test_a_keyword_of_a_newer_tlc_is_refused(word: str) -> None:
     with pytest.raises(Unjudged, match=f"x.cfg: {word}"):
         parse_cfg(f"INVARIANT A\n{word} FALSE", "x.cfg")
+
+
+def test_constants_are_read_with_their_kind_and_without_comments() -> None:
+    first = 'CONSTANT A <- Table  B = {"x", "y"}\n\\* C = 3\nINVARIANT I\n(* D = 4 *)\n'
+    found = parse_cfg(first + "CONSTANTS E = 5\n F = [a |-> 1]\nVIEW V\n", "x.cfg")
+    assert {name: (one.text, one.named) for name, one in found.constants.items()} == {
+        "A": ("Table", True),
+        "B": ('{"x", "y"}', False),
+        "E": ("5", False),
+        "F": ("[a |-> 1]", False),
+    }
+    assert parse_cfg(found.text(), "x.cfg") == found

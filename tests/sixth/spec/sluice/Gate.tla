@@ -6,16 +6,12 @@
 EXTENDS Integers, StepName
 
 CONSTANTS
-    LITERAL,    \* literal readings that are switched on; {} is our reading
     T_OPEN      \* ticks for which the gate is open
 VARIABLES
     gateState,  \* Shut, Calling or Open
     elapsed     \* ticks since the gate opened
 
 gate == <<gateState, elapsed>>
-Readings == {"OPENS_AT_ONCE"}     \* the gate does not wait for the beacon
-ASSUME LITERAL \subseteq Readings
-Literal(reading) == reading \in LITERAL
 
 GateOutputs == [BeaconCall |-> gateState # "Shut", GateMotor |-> gateState = "Open"]
 GateTypeOK == gateState \in {"Shut", "Calling", "Open"} /\ elapsed \in 0..T_OPEN
@@ -23,8 +19,8 @@ GateInit == gateState = "Shut" /\ elapsed = 0
 \* SL-1-1, SL-1-4: what the gate shows is what it does
 MotorOnlyOpen == (GateOutputs.GateMotor => gateState = "Open") /\ (GateOutputs.BeaconCall => gateState \in {"Calling", "Open"})
 
-\* SLF-01: as the list of steps has it, at once
-Ready(i) == i.BeaconLit \/ Literal("OPENS_AT_ONCE")
+\* SL-1-3, SLF-01: the gate waits for the beacon
+Ready(i) == i.BeaconLit
 
 \* SL-1-1
 StayShut(i) == gateState = "Shut" /\ ~i.OpenRequest /\ UNCHANGED gate /\ Did("StayShut")
