@@ -21,7 +21,8 @@ from modeproof.progress import Progress
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain
-from modeproof.tlc.walk import Recorded, read_walk, recorded, walk_all
+from modeproof.tlc.walk import read_walk, recorded, walk_all
+from modeproof.tlc.walk_module import Recorded
 
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]

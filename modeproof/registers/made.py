@@ -9,7 +9,7 @@ the modules that hold the reading. Both are made below build/.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -37,12 +37,14 @@ class Replacement:
     replaced: str
     operator: str
     module: str
+    parameters: str
+    """As they stand after its name: `(i)`, or nothing."""
 
 
 def replacements(modules: Mapping[str, Module]) -> tuple[Replacement, ...]:
     """Every operator of every reading, in the order of the modules and of their text."""
     return tuple(
-        Replacement(match.group(2), match.group(1), one.name, module.name)
+        Replacement(match.group(2), match.group(1), one.name, module.name, one.parameters)
         for module in modules.values()
         if module.name.endswith(SUFFIX)
         for one in module.definitions
@@ -101,11 +103,17 @@ def replaced_by(modules: Mapping[str, Module], run: Run) -> tuple[Replacement, .
     Raises Unjudged with the run and the cause: a reading that no module has, or none for the run's module;
     two readings that replace the same operator; an operator that TLC could not replace.
     """
-    place = f"spec/{run.document}/runs.toml: run {run.id}"
+    return replacing(modules, run.module, run.readings, f"spec/{run.document}/runs.toml: run {run.id}")
+
+
+def replacing(
+    modules: Mapping[str, Module], module: str, readings: Sequence[str], place: str
+) -> tuple[Replacement, ...]:
+    """What readings replace in a module and all that it extends. Raises Unjudged like `replaced_by`."""
     every = replacements(modules)
-    there = {one.name for one in _closure(modules, run.module)}
+    there = {one.name for one in _closure(modules, module)}
     found: dict[str, Replacement] = {}
-    for reading in run.readings:
+    for reading in readings:
         own = [one for one in every if one.reading == reading]
         if not own:
             known = dict.fromkeys(one.reading for one in every)
@@ -113,7 +121,7 @@ def replaced_by(modules: Mapping[str, Module], run: Run) -> tuple[Replacement, .
         fitting = [one for one in own if decided_modules(modules, one.module) <= there]
         if not fitting:
             names = " and ".join(dict.fromkeys(one.module for one in own))
-            raise Unjudged(f"{place}: the reading {reading} stands in {names}, which {run.module} cannot use")
+            raise Unjudged(f"{place}: the reading {reading} stands in {names}, which {module} cannot use")
         for one in fitting:
             if fault := _fault(modules, one):
                 raise Unjudged(f"{place}: {modules[one.module].file}: {one.operator} {fault}")
@@ -168,9 +176,14 @@ def cfg_text(root: Path, run: Run) -> str:
 
 def module_text(root: Path, run: Run) -> str:
     """The text of the root module of a run with a base. Raises Unjudged like `cfg_text`."""
-    modules = read_modules(root, run.document)
-    holding = dict.fromkeys(one.module for one in replaced_by(modules, run))
-    return f"---- MODULE {run.id} ----\nEXTENDS {', '.join((run.module, *holding))}\n====\n"
+    found = replaced_by(read_modules(root, run.document), run)
+    return root_module(run.id, run.module, found)
+
+
+def root_module(name: str, module: str, replaced: Sequence[Replacement]) -> str:
+    """A module that has all of another one and the operators of readings."""
+    holding = dict.fromkeys(one.module for one in replaced)
+    return f"---- MODULE {name} ----\nEXTENDS {', '.join((module, *holding))}\n====\n"
 
 
 def make(root: Path, run: Run) -> tuple[Path, Run]:

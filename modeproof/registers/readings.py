@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from modeproof.errors import Unjudged, suggestion
-from modeproof.registers.made import decided_modules, reading_problems, replaced_by, replacements
+from modeproof.registers.made import SUFFIX, decided_modules, reading_problems, replaced_by, replacements
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import Run
@@ -49,11 +49,17 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 
 
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
-    """Every reading is tried alone in exactly one run, and named by a finding."""
+    """Every reading is tried alone in exactly one run, and named by a finding.
+
+    One that joins others which meet in one operator ends with SUFFIX; it is tried together with more.
+    """
     named = {name for one in document.findings for name in one.tries}
     for name in readings:
         alone = [run.id for run in document.runs if run.readings == (name,)]
-        if not alone:
+        if name.endswith(SUFFIX):
+            if not any(name in run.readings for run in document.runs):
+                yield Problem(document.source("runs"), name, "no run tries this reading")
+        elif not alone:
             yield Problem(document.source("runs"), name, "no run tries this reading alone")
         if len(alone) > 1:
             text = f"more than one run tries this reading alone: {', '.join(alone)}"

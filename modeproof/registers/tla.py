@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from modeproof.registers.files import read_text, shown
@@ -42,6 +43,11 @@ class Definition:
     def local(self) -> bool:
         """Whether only its own module sees it."""
         return self.body.startswith("LOCAL")
+
+    @property
+    def parameters(self) -> str:
+        """Its parameters as they stand after its name, in parentheses; "" where it has none."""
+        return " ".join(self.body.partition("==")[0].partition(self.name)[2].split())
 
 
 @dataclass(frozen=True)
@@ -90,6 +96,7 @@ def closure(modules: dict[str, Module], name: str) -> tuple[Module, ...]:
     return tuple(reached.values())
 
 
+@cache
 def scan(text: str, name: str, file: str) -> Module:
     """Read one module; what stands before its header or after its end is not part of it."""
     code, bare, comments = _split(text)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run
 from modeproof.registers.tools import Condition
 from modeproof.report.claims import LANE, texts_of
@@ -65,11 +66,10 @@ def _cfgs(sources: Sources, condition: Condition) -> Met:
         for run in document.runs:
             if condition.of and run.kind not in condition.of:
                 continue
-            content = sources.content(run.config)
-            if content is None:
+            if sources.content(f"spec/{document.name}/{run.cfg}") is None:
                 continue
             count += 1
-            if form.search(content.decode("utf-8", "replace")):
+            if form.search(cfg_text(sources.root, run)):
                 bad.append(run.id)
     return _met(f"no cfg of a run{_of(condition)} has {', '.join(condition.value)}", bad, count)
 

@@ -17,7 +17,7 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Se
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from modeproof import evidence
 from modeproof.places import build
@@ -37,8 +37,8 @@ Answers = Mapping[str, Any]
 class Judges(ABC):
     """Who judges the mutants of one campaign, and what an answer of theirs rests on."""
 
-    what: str
-    """spec, impl or vectors: also the name of the file of answers."""
+    what: Literal["spec", "impl", "vectors"]
+    """Also the name of the file of answers."""
     suffix: str
     """Of the files that are edited: tla or py."""
     command: str

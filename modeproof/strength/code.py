@@ -8,7 +8,6 @@ code is touched: a mutant is a text.
 from __future__ import annotations
 
 import ast
-import importlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -39,14 +38,6 @@ class Room(Protocol):
 
     def judged(self, bench: Any, change: Mapping[str, Any], complete: bool) -> Mapping[str, Any]:
         """What becomes of a change, as JSON."""
-
-
-def of_proofs(name: str) -> Any:
-    """A module of the room of proofs. Raises Unjudged when it cannot be imported."""
-    try:
-        return importlib.import_module(f"proofs.{name}")
-    except ImportError as error:
-        raise Unjudged(f"proofs cannot be run: {error}") from None
 
 
 @dataclass

@@ -19,7 +19,8 @@ from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.suites.contract import load_contract
-from modeproof.suites.write import SUITES, Citations, NoCases, write_suite
+from modeproof.suites.kinds import SUITES
+from modeproof.suites.write import Citations, NoCases, write_suite
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:

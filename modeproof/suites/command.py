@@ -24,7 +24,8 @@ from modeproof.places import root
 from modeproof.progress import Progress
 from modeproof.registers.runs import Run
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
-from modeproof.suites.write import SUITES, NoCases
+from modeproof.suites.kinds import SUITES
+from modeproof.suites.write import NoCases
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:

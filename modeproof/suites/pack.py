@@ -21,7 +21,7 @@ from modeproof.kit.bundle import CONTENTS, FOLDER
 from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
 from modeproof.suites.build import suite_file
-from modeproof.suites.write import SUITES
+from modeproof.suites.kinds import SUITES
 
 LARGEST = 5_000_000
 """Bytes of the whole file."""

@@ -289,6 +289,7 @@ def _result(
         "run": run.kind,
         "module": run.module,
         "cfg": run.config,
+        "readings": list(run.readings),
         "lanes": list(run.lanes),
         "properties": list(run.properties),
         "workers": run.workers,

@@ -61,10 +61,12 @@ class Outcome:
     """What is to be said in the evidence of how TLC was run, besides its command."""
 
 
-def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Path] = ()) -> list[str]:
+def command_line(
+    run: Run, tools: Toolchain, metadir: Path, places: Sequence[Path] = (), quick: bool = False
+) -> list[str]:
     """The command that runs TLC, to be started in the folder of module and cfg; `places` are searched too.
 
-    A small run (SMALL_HEAP_MB) is compiled by Java's quick compiler alone.
+    A small run (SMALL_HEAP_MB) is compiled by Java's quick compiler alone, and so is a `quick` one.
     """
     java = [
         str(tools.java),
@@ -75,7 +77,7 @@ def command_line(run: Run, tools: Toolchain, metadir: Path, places: Sequence[Pat
         f"-Djava.io.tmpdir={metadir / 'tmp'}",
         *start_up_options(tools),
     ]
-    if run.heap_mb <= SMALL_HEAP_MB:
+    if run.heap_mb <= SMALL_HEAP_MB or quick:
         java.append("-XX:TieredStopAtLevel=1")
     if places:
         java.append(f"-DTLA-Library={os.pathsep.join(map(str, places))}")
@@ -141,6 +143,7 @@ def run_tlc(
     build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
     cannot be started or the disk is full.
     """
+    quick = made_in is not None
     if run.base:
         made_in, run = make(place, run)
     own = place / "spec" / run.document
@@ -160,7 +163,7 @@ def run_tlc(
         raise Unjudged(f"{run.name}: cannot write to {logs}: {error.strerror}") from None
     try:
         (metadir / "tmp").mkdir()
-        command = command_line(run, tools, metadir, places)
+        command = command_line(run, tools, metadir, places, quick)
         if run.kind == "OPEN":
             graph.parent.mkdir(parents=True, exist_ok=True)
             graph.unlink(missing_ok=True)

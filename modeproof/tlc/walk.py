@@ -4,10 +4,11 @@ what a device of the decided specification does with the same inputs.
 A counterexample holds variables; the words on the wires are operators of the state. One module is generated
 for all runs of a top module (register replay.toml). It instantiates that module once for each run, with the
 constants of the run's cfg, and takes the recorded states one after the other; each must be a step of the
-specification still. Beside them it lets each device that scans in them scan with no reading restored, on the
-inputs that the recorded device read: from the memory that the recorded device had before one of its scans,
-for every such scan, and from then on from its own. That replay is open loop: the other devices stay as
-recorded.
+specification still. A run with readings has copies of the modules that its readings reach, because TLC
+replaces an operator in a module and not in one instance of it. Beside them it lets each device that scans in
+them scan as it was decided, on the inputs that the recorded device read: from the memory that the recorded
+device had before one of its scans, for every such scan, and from then on from its own. That replay is open
+loop: the other devices stay as recorded.
 
 The result is one JSON file a run, build/walks/<document>/<run>.json, good as long as the SHA-256 of the
 recorded trace in it is that of the evidence and the specification's files have the hashes in it.
@@ -20,7 +21,6 @@ import json
 import re
 import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,40 +29,29 @@ from modeproof.errors import Unjudged
 from modeproof.evidence.files import write_whole
 from modeproof.graph.tla import TlaError, parse
 from modeproof.places import build
-from modeproof.registers.cfg import Constant, parse_cfg
-from modeproof.registers.files import read_text
 from modeproof.registers.load import load_interface
-from modeproof.registers.replay import Top, Traces, load_replay
-from modeproof.registers.rows import Device, Interface
+from modeproof.registers.replay import Traces, load_replay
+from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
-from modeproof.registers.tla import Module, read_modules
+from modeproof.registers.tla import read_modules
+from modeproof.tlc import walk_module
 from modeproof.tlc.process import run_tlc
 from modeproof.tlc.toolchain import Toolchain, sha256
+from modeproof.tlc.walk_module import (
+    AT_ONCE,
+    Plan,
+    Recorded,
+    constants_of,
+    everywhere,
+    generate,
+    module_name,
+    replaced,
+)
 
-DUMMY = "<<>>"
-"""Given to a constant that no operator asked for here depends on."""
-AT_ONCE = "TLCEval"
-"""TLC's operator that evaluates a value whole. TLC keeps the constants of a module that it checks, but
-evaluates those of an instance whenever they are asked for: whole then costs more than what is asked for.
-"""
-SHADOW = "d_"
-"""Before the name of a variable of the decided device."""
-HEAP_MB = 512
+HEAP_MB = 1024
+"""42 traces of one module, most of them with copies of their own, do not fit into half of it."""
 LIMIT_S = 300
 _INTERVAL = re.compile(r"(-?\d+)\.\.(-?\d+)")
-
-
-@dataclass(frozen=True)
-class Recorded:
-    """One counterexample as the evidence holds it: the variables of every state as TLA+ text."""
-
-    run: str
-    module: str
-    cfg: str
-    states: tuple[Mapping[str, str], ...]
-    digest: str
-    stops: bool = False
-    """Whether nothing happens any more after the last state."""
 
 
 def trace_digest(record: Mapping[str, Any]) -> str:
@@ -86,6 +75,7 @@ def recorded(record: Mapping[str, Any]) -> Recorded:
         cfg=result["cfg"],
         states=tuple(state["variables"] for state in result["trace"]),
         digest=trace_digest(record),
+        readings=tuple(result.get("readings", ())),
         stops=result.get("loop") == "stuttering",
     )
 
@@ -100,7 +90,8 @@ def spec_hashes(place: Path, document: str) -> dict[str, str]:
     folder = place / "spec" / document
     common = (place / "spec" / "common").glob("*.tla")
     found = evidence.hashes(place, sorted([*folder.glob("*.tla"), *common, folder / "replay.toml"]))
-    return {**found, "modeproof/tlc/walk.py": sha256(Path(__file__))}
+    own = (Path(__file__), Path(walk_module.__file__))
+    return found | {f"modeproof/tlc/{path.name}": sha256(path) for path in own}
 
 
 def read_walk(place: Path, document: str, one: Recorded) -> dict[str, Any] | None:
@@ -127,279 +118,11 @@ def walk_all(
     groups: dict[tuple[str, tuple[tuple[str, str], ...]], list[Recorded]] = {}
     for one in traces:
         if found[one.run] is None:
-            constants = parse_cfg(read_text(place, place / one.cfg), one.cfg).constants
+            constants = constants_of(place, modules, one)
             groups.setdefault((one.module, replaced(modules, one.module, constants)), []).append(one)
     for (module, definitions), missing in groups.items():
         found |= _walk(place, document, plan, module, definitions, missing, tools)
     return {run: walk for run, walk in found.items() if walk is not None}
-
-
-# ------------------------------------------------------------------------------------------- what to generate
-
-
-def extended(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
-    """A module of ours and all that it extends."""
-    reached: dict[str, Module] = {}
-    waiting = [name]
-    while waiting:
-        one = waiting.pop()
-        if one in modules and one not in reached:
-            reached[one] = modules[one]
-            waiting += modules[one].extends
-    return tuple(reached.values())
-
-
-def _names(modules: Sequence[Module], kind: str) -> tuple[str, ...]:
-    return tuple(sorted({name for module in modules for name in getattr(module, kind)}))
-
-
-def replaced(
-    modules: Mapping[str, Module], name: str, constants: Mapping[str, Constant]
-) -> tuple[tuple[str, str], ...]:
-    """The definitions that a cfg replaces by others: what it gives to names that are no constants."""
-    declared = _names(extended(modules, name), "constants")
-    return tuple(sorted((key, one.text) for key, one in constants.items() if key not in declared))
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What the generated module of one top module is made from."""
-
-    document: str
-    module: str
-    top: Top
-    traces: Traces
-    interface: Interface
-    modules: Mapping[str, Module]
-
-    @property
-    def variables(self) -> tuple[str, ...]:
-        """The variables of the top module."""
-        return _names(extended(self.modules, self.module), "variables")
-
-    @property
-    def replayed(self) -> tuple[Device, ...]:
-        """The devices whose scans can be replayed."""
-        return tuple(self.interface.devices[name] for name in self.top.inputs)
-
-    def shadows(self, device: Device) -> tuple[str, ...]:
-        """The variables of a device's module."""
-        return _names(extended(self.modules, device.module), "variables")
-
-    @property
-    def all_shadows(self) -> tuple[str, ...]:
-        """The variables of all replayed devices."""
-        return tuple(sorted({name for device in self.replayed for name in self.shadows(device)}))
-
-    def who(self, before: Mapping[str, str], after: Mapping[str, str]) -> str:
-        """The device that executed a step, by the step's name, else by the variables that changed; or ""."""
-        name = after.get(self.traces.step, "").strip('"')
-        for device in self.interface.devices.values():
-            if name and name in device.steps:
-                return device.id
-        if name in self.traces.nobody:
-            return ""
-        changed = {key for key in after if before.get(key) != after[key]}
-        own = [
-            device.id
-            for device in self.interface.devices.values()
-            if device.module in self.modules and changed & self.modules[device.module].variables
-        ]
-        return own[0] if len(own) == 1 else ""
-
-
-def generate(
-    plan: Plan,
-    traces: Sequence[tuple[Recorded, Mapping[str, Constant]]],
-    definitions: Sequence[tuple[str, str]] = (),
-) -> str:
-    """The text of the module that walks through the traces of one top module; `definitions` are those that
-    every cfg replaces, each with what takes its place.
-    """
-    name = module_name(plan.module)
-    shadows = [SHADOW + one for one in plan.all_shadows]
-    lines = [
-        f"---- MODULE {name} ----",
-        "EXTENDS Integers, Sequences, TLC",
-        f"VARIABLES walk_run, walk_at, walk_device, walk_from, {', '.join((*plan.variables, *shadows))}",
-        "",
-    ]
-    firsts, nexts, tables = [], [], []
-    for number, (one, constants) in enumerate(traces, 1):
-        lines += _instances(plan, number, one, constants, named=bool(definitions) and number == 1)
-        lines += _states(plan, number, one)
-        first, following = _behaviour(plan, number, one, constants)
-        lines += following
-        firsts.append(first)
-        nexts.append(f"Follow{number}")
-        if one.stops:
-            lines += _after(plan, number, len(one.states))
-            nexts.append(f"After{number}")
-    for words in plan.traces.words:
-        table = f"L1!{words.table}"
-        tables.append(
-            f'PrintT(ToString(<<"TABLE", "{words.table}", {{<<k, {table}[k]>> : k \\in DOMAIN {table}}}>>))'
-        )
-    lines += [
-        *[f"{replacement(old)} == A1!{new}" for old, new in definitions],
-        f"{replacement(AT_ONCE)}(value) == value",
-        "Begin ==",
-        *[f"    \\/ {one}" for one in firsts],
-        "Follow ==",
-        *[f"    \\/ {one}" for one in nexts],
-        "Shown ==",
-        '    walk_device = "" => PrintT(ToString(<<"ROW", walk_run, walk_at, CASE '
-        + " [] ".join(f"walk_run = {n} -> L{n}!{plan.top.wires}" for n in range(1, len(traces) + 1))
-        + ">>))",
-        "ASSUME " + " /\\ ".join(["TRUE", *tables]),
-        "====",
-        "",
-    ]
-    return "\n".join(lines)
-
-
-def module_name(module: str) -> str:
-    """The name of the generated module."""
-    return f"Walk_{module}"
-
-
-def replacement(name: str) -> str:
-    """The name in the generated module of what takes the place of a definition."""
-    return f"walk_{name}"
-
-
-def _instances(
-    plan: Plan, number: int, one: Recorded, constants: Mapping[str, Constant], named: bool
-) -> list[str]:
-    """The top module with the constants of one run, and each device with no reading restored.
-
-    TLC evaluates the constants of every instance at its start, so there is none that is not used: A where a
-    constant has the value of one of the module's own names (`named`: also where a definition has), G where
-    it is asked what the decided system does after the last state.
-    """
-
-    def given(modules: Sequence[Module], last: bool, decided: bool = False) -> list[str]:
-        parts = []
-        for name in _names(modules, "constants"):
-            constant = constants.get(name)
-            if decided and name == plan.traces.literal:
-                value = "{}"
-            elif name == plan.traces.recorded:
-                value = "TRUE"
-            elif constant is None:
-                value = DUMMY
-            elif constant.named:
-                value = f"A{number}!{constant.text}" if last else DUMMY
-            else:
-                value = constant.text
-            parts.append(f"{name} <- {value}")
-        return parts
-
-    whole = extended(plan.modules, plan.module)
-    instances = {"L": given(whole, last=True)}
-    if named or any(one.named for one in constants.values()):
-        instances = {"A": given(whole, last=False), **instances}
-    if one.stops:
-        instances["G"] = given(whole, last=True, decided=True)
-    lines = [
-        f"{letter}{number} == INSTANCE {plan.module} WITH {', '.join(parts)}"
-        for letter, parts in instances.items()
-    ]
-    for device in plan.replayed:
-        parts = given(extended(plan.modules, device.module), last=True, decided=True)
-        parts += [f"{name} <- {SHADOW}{name}" for name in plan.shadows(device)]
-        lines.append(f"D{number}_{device.id} == INSTANCE {device.module} WITH {', '.join(parts)}")
-    return lines
-
-
-def _states(plan: Plan, number: int, one: Recorded) -> list[str]:
-    rows = []
-    for state in one.states:
-        missing = [name for name in plan.variables if name not in state]
-        if missing:
-            raise Unjudged(
-                f"{one.run}: its counterexample has no variable {missing[0]}, so it is of another "
-                "specification; "
-                f"run modeproof check {one.run}"
-            )
-        rows.append("[" + ", ".join(f"{name} |-> {state[name]}" for name in plan.variables) + "]")
-    return [f"T{number} == <<", ",\n".join(f"    {row}" for row in rows), ">>"]
-
-
-def _behaviour(
-    plan: Plan, number: int, one: Recorded, constants: Mapping[str, Constant]
-) -> tuple[str, list[str]]:
-    """The first states of a walk, and its steps."""
-    turn = {
-        device.id: [
-            n + 1 for n in range(1, len(one.states)) if plan.who(*one.states[n - 1 : n + 1]) == device.id
-        ]
-        for device in plan.replayed
-    }
-    starts = ['<<"", 0>>']
-    starts += [f'<<"{device.id}", {at}>>' for device in plan.replayed for at in turn[device.id]]
-    first = [f"walk_run = {number} /\\ walk_at = 1"]
-    first.append(
-        f"(\\E start \\in {{{', '.join(starts)}}} : walk_device = start[1] /\\ walk_from = start[2])"
-    )
-    first += [f"{name} = T{number}[1].{name}" for name in plan.variables]
-    first += [f"{SHADOW}{name} = T{number}[1].{name}" for name in plan.all_shadows]
-    given = constants.get(plan.traces.recorded)
-    computed = () if given is None or given.text == "TRUE" else (plan.traces.step, *plan.traces.with_step)
-    kept = [name for name in plan.variables if name not in computed]
-    lines = [
-        f"Follow{number} ==",
-        f"    /\\ walk_run = {number} /\\ walk_at < {len(one.states)}",
-        "    /\\ walk_at' = walk_at + 1 /\\ UNCHANGED <<walk_run, walk_device, walk_from>>",
-        *[f"    /\\ {name}' = T{number}[walk_at + 1].{name}" for name in kept],
-    ]
-    # The recorded states are steps of the specification still; where the step was not recorded, this
-    # finds it.
-    allowed = f"L{number}!{plan.top.next}"
-    lines.append(
-        f"    /\\ {allowed}" if computed else f'    /\\ IF walk_device = "" THEN {allowed} ELSE TRUE'
-    )
-    step = plan.traces.step
-    lines.append(f'    /\\ walk_device = "" => PrintT(ToString(<<"STEP", {number}, walk_at\', {step}\'>>))')
-
-    def follow(names: Sequence[str]) -> str:
-        return " /\\ ".join(f"{SHADOW}{name}' = {name}'" for name in names) or "TRUE"
-
-    for device in plan.replayed:
-        own = plan.shadows(device)
-        state = ", ".join(SHADOW + name for name in own)
-        outputs = f"D{number}_{device.id}!{plan.traces.devices[device.id].outputs}"
-        lines += [
-            f'    /\\ IF walk_device # "{device.id}" THEN TRUE',
-            f"        ELSE IF walk_at' < walk_from THEN {follow(plan.all_shadows)}",
-            f"        ELSE IF walk_at' \\in {{{', '.join(map(str, turn[device.id]))}}}",
-            f"        THEN LET read == L{number}!{plan.top.inputs[device.id]} IN",
-            f"             /\\ D{number}_{device.id}!{plan.traces.devices[device.id].scan}(read)",
-            f"             /\\ {follow([name for name in plan.all_shadows if name not in own])}",
-            f'             /\\ PrintT(ToString(<<"SCAN", {number}, "{device.id}", walk_from, walk_at\', '
-            f"<<{state}>>, "
-            f"<<{state}>>', {SHADOW}{step}', {outputs}', read>>))",
-            f"        ELSE UNCHANGED <<{', '.join(SHADOW + name for name in plan.all_shadows)}>>",
-        ]
-    lines.append(f'    /\\ IF walk_device = "" THEN {follow(plan.all_shadows)} ELSE TRUE')
-    return "(" + " /\\ ".join(first) + ")", lines
-
-
-def _after(plan: Plan, number: int, last: int) -> list[str]:
-    """What can happen in the last state with no reading restored, where the recorded system does nothing."""
-    shadows = ", ".join(SHADOW + name for name in plan.all_shadows)
-    own = ", ".join(name for name in plan.all_shadows if name != plan.traces.step)
-    printed = f'PrintT(ToString(<<"AFTER", {number}, {plan.traces.step}\'>>))'
-    return [
-        f"After{number} ==",
-        f'    /\\ walk_run = {number} /\\ walk_at = {last} /\\ walk_device = ""',
-        "    /\\ walk_at' = walk_at + 1 /\\ UNCHANGED <<walk_run, walk_device, walk_from>>",
-        f"    /\\ G{number}!{plan.top.next} /\\ UNCHANGED <<{shadows}>>",
-        f"    /\\ <<{own}>>' # <<{own}>> => {printed}",
-    ]
-
-
-# ----------------------------------------------------------------------------------------------- carry it out
 
 
 def _walk(
@@ -417,17 +140,25 @@ def _walk(
             f"spec/{document}/replay.toml: tops: {module} is missing, which {missing[0].run} checks"
         )
     plan = Plan(document, module, top, traces, load_interface(place, document), read_modules(place, document))
-    given = [(one, parse_cfg(read_text(place, place / one.cfg), one.cfg).constants) for one in missing]
+    given = [(one, constants_of(place, plan.modules, one)) for one in missing]
     folder = build(place) / "walk" / document / module
     shutil.rmtree(folder, ignore_errors=True)
     name = module_name(module)
     text, cfg = generate(plan, given, definitions), "INIT Begin\nNEXT Follow\nINVARIANT Shown\n"
+    every = [plan.copies(number, one) for number, one in enumerate(missing, 1)]
     for old, _ in definitions:
-        owner = next((one.name for one in extended(plan.modules, module) if old in one.defined), module)
-        cfg += f"CONSTANT {old} <- [{owner}]{replacement(old)}\n"
-    for used in extended(plan.modules, module):
-        if AT_ONCE in used.words:
-            cfg += f"CONSTANT {AT_ONCE} <- [{used.name}]{replacement(AT_ONCE)}\n"
+        cfg += everywhere(every, old, plan.owner(old, module))
+    for used in plan.reached(every):
+        if AT_ONCE in plan.modules[used].words:
+            cfg += everywhere(every, AT_ONCE, used)
+    for copies in every:
+        for each in copies.tried:
+            owner = copies.names[plan.owner(each.replaced, each.module)]
+            cfg += f"CONSTANT {each.replaced} <- [{owner}]{copies.operator(each)}\n"
+        for copied, content in copies.texts(place, plan.modules):
+            write_whole(folder / f"{copied}.tla", content.encode("utf-8"))
+        if copies.root:
+            write_whole(folder / f"{name}__{copies.number}.tla", copies.root.encode("utf-8"))
     write_whole(folder / f"{name}.tla", text.encode("utf-8"))
     write_whole(folder / f"{name}.cfg", cfg.encode("utf-8"))
     run = Run(

@@ -130,18 +130,12 @@ def rows(document: Document | None = None, argument: Argument = ARGUMENT) -> tup
     ids = [one.id for one in known.properties]
     judged: dict[tuple[str, str], list[Run]] = {}
     for run in known.runs:
-        if run.module.startswith("KeyFlows") and run.kind in MUST_HOLD and _our_reading(run):
+        if run.module.startswith("KeyFlows") and run.kind in MUST_HOLD and not run.readings:
             for name in run.properties:
                 if name in ids:
                     judged.setdefault((name, run.environment), []).append(run)
     order = sorted(judged, key=lambda key: (ids.index(key[0]), key[1]))
     return tuple(_row(name, environment, judged[name, environment], argument) for name, environment in order)
-
-
-def _our_reading(run: Run) -> bool:
-    """No reading of the note is restored in the run."""
-    text = (ROOT / "spec" / "mode_selection" / run.cfg).read_text(encoding="utf-8")
-    return "LITERAL = {}" in text
 
 
 def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Row:

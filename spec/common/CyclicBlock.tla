@@ -15,18 +15,9 @@
 (***************************************************************************)
 EXTENDS Integers, StepName
 
-CONSTANT LITERAL     \* literal readings that are switched on; {} is our reading
-
 VARIABLES
     state,           \* the state; DiagCode and the row of outputs follow from it
     resetBefore      \* Reset as the call before this one read it
-
-\* Readings that every block of the family can restore for a trial; each block adds its own to them
-FamilyReadings == {
-    "RESET_SEEN_ONLY_WHILE_ACTIVE",   \* a Reset that is held while the block is switched on counts as an edge
-    "RESET_BY_LEVEL"                  \* Reset acts for as long as it is TRUE, and is never found static
-}
-Literal(reading) == reading \in LITERAL
 
 \* A call of an active block in this state: there is no transition but to Idle without Activate
 At(s, i) == state = s /\ i.Activate
@@ -36,11 +27,11 @@ GoTo(s) == state' = s
 Rises(now, before) == now /\ ~before
 
 \* The edge that removes an inhibit or an error
-ResetRises(i) == i.Reset /\ (~resetBefore \/ Literal("RESET_BY_LEVEL"))
+ResetRises(i) == Rises(i.Reset, resetBefore)
 \* Reset is held, or stuck: where it is waited for, that is an error and never a reset
-ResetStatic(i) == i.Reset /\ resetBefore /\ ~Literal("RESET_BY_LEVEL")
+ResetStatic(i) == i.Reset /\ resetBefore
 \* Every call remembers Reset, whether the block is active or not
-RemembersReset(i) == resetBefore' = (i.Reset /\ (i.Activate \/ ~Literal("RESET_SEEN_ONLY_WHILE_ACTIVE")))
+RemembersReset(i) == resetBefore' = i.Reset
 
 \* A timer that stops at its limit: from there on it has elapsed
 Counted(ticks, dt, limit) == IF ticks + dt >= limit THEN limit ELSE ticks + dt

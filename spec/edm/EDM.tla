@@ -15,7 +15,8 @@ EXTENDS CyclicBlock
 
 CONSTANTS
     MONITORING_TIME,    \* ticks that the contactors may take to change over
-    AFTER_RESET         \* "stop_first": after a reset by hand S_OutControl must be FALSE before it counts; "at_once": it counts as it stands
+    AFTER_RESET         \* when S_OutControl counts after a reset by hand: "at_once", or "stop_first": once it
+                        \* was FALSE
 
 VARIABLES
     outControlBefore,   \* S_OutControl as the call before read it
@@ -26,28 +27,10 @@ edm == <<state, resetBefore, outControlBefore, stopSeen, elapsed>>
 
 ASSUME MONITORING_TIME \in Nat /\ AFTER_RESET \in {"stop_first", "at_once"}
 
-\* The literal readings that can be restored for a trial (findings.toml)
-Readings == FamilyReadings \cup {
-    "STOP_BEFORE_TIMEOUT",          \* a stop that comes with the timeout hides it
-    "CHECKED_ONCE",                 \* the feedback is looked at when the time expires, and not again
-    "NO_TIME_WITHOUT_INHIBIT",      \* the start without inhibit starts no time
-    "EXPIRES_AFTER",                \* the time has expired when more than MonitoringTime has passed
-    "ZERO_TIME_IS_OFF",             \* a MonitoringTime of 0 switches the monitoring off
-    "RESET_DESPITE_FEEDBACK",       \* an error is reset while a contactor still shows what it must not
-    "NO_INIT_ERROR",                \* Reset and S_OutControl may rise together
-    "INIT_ERROR_WITHOUT_INHIBIT",   \* they may not even where Reset is not waited for
-    "TWO_EDGES_IN_ERRORS",          \* nor where Reset is to reset an error
-    "REQUEST_BEFORE_TIMEOUT",       \* a request at the timeout is what the error is named after
-    "REQUEST_COUNTS_AT_ONCE",       \* a request that stands when Reset is pressed counts: AFTER_RESET = "at_once"
-    "REQUEST_WAITS",                \* a request waits for the feedback as long as MonitoringTime lasts
-    "STATIC_RESET_IGNORED"          \* Reset that is held is no error
-}
-ASSUME LITERAL \subseteq Readings
-
 EDMErrors == <<"EDMError11", "EDMError12", "EDMError13", "EDMError21", "EDMError22", "EDMError23",
                "EDMError31", "EDMError32", "EDMError33">>
-ResetErrors == <<"ResetError11", "ResetError12", "ResetError13", "ResetError21", "ResetError22", "ResetError23",
-                 "ResetError31", "ResetError32", "ResetError33">>
+ResetErrors == <<"ResetError11", "ResetError12", "ResetError13", "ResetError21", "ResetError22",
+                 "ResetError23", "ResetError31", "ResetError32", "ResetError33">>
 InEDMError == \E n \in 1..9 : state = EDMErrors[n]
 InResetError == \E n \in 1..9 : state = ResetErrors[n]
 \* Clocked: the states in which the contactors have MonitoringTime
@@ -63,7 +46,9 @@ EDMTypeOK ==
     /\ stopSeen => state = "OutputDisable"
 
 \* EDM-OUT-READY-1, EDM-SEQ-0: at power-up
-EDMInit == state = "Idle" /\ resetBefore = FALSE /\ outControlBefore = FALSE /\ stopSeen = FALSE /\ elapsed = 0
+EDMInit ==
+    /\ state = "Idle" /\ resetBefore = FALSE /\ outControlBefore = FALSE
+    /\ stopSeen = FALSE /\ elapsed = 0
 
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
@@ -72,8 +57,8 @@ EDMInit == state = "Idle" /\ resetBefore = FALSE /\ outControlBefore = FALSE /\ 
 Ready == state # "Idle"
 \* EDM-OUT-EDM-1, EDM-OUT-EDM-2
 S_EDM_Out == state = "OutputEnable"
-\* EDM-OUT-DEMAND, EDMF-03, EDMF-04: the output is off, and neither an inhibit nor an error is the reason; with a request that
-\* was there before a reset by hand it shows too, though nobody asks for the stop
+\* EDM-OUT-DEMAND, EDMF-03, EDMF-04: the output is off, and neither an inhibit nor an error is the reason;
+\* with a request that was there before a reset by hand it shows too, though nobody asks for the stop
 SafetyDemand == state = "OutputDisable"
 \* EDM-OUT-REQUEST, EDMF-02: exactly where an edge of Reset is waited for
 ResetRequest == state = "Init" \/ InEDMError
@@ -84,53 +69,46 @@ DiagCode ==
     CASE state = "Idle" -> 0 [] state = "Init" -> \h8401
       [] state = "OutputDisable" -> \h8810 [] state = "OutputEnable" -> \h8000
       [] state = "ResetError1" -> \hC001 [] state = "InitError" -> \hC100
-      [] state = "EDMError11" -> \hC010 [] state = "EDMError12" -> \hC020 [] state = "EDMError13" -> \hC030
-      [] state = "EDMError21" -> \hC040 [] state = "EDMError22" -> \hC050 [] state = "EDMError23" -> \hC060
-      [] state = "EDMError31" -> \hC070 [] state = "EDMError32" -> \hC080 [] state = "EDMError33" -> \hC090
-      [] state = "ResetError11" -> \hC011 [] state = "ResetError12" -> \hC021 [] state = "ResetError13" -> \hC031
-      [] state = "ResetError21" -> \hC041 [] state = "ResetError22" -> \hC051 [] state = "ResetError23" -> \hC061
-      [] state = "ResetError31" -> \hC071 [] state = "ResetError32" -> \hC081 [] state = "ResetError33" -> \hC091
-\* For one reading alone: a timer that does not run
-NotStarted == -1
+      [] state = "EDMError11" -> \hC010  [] state = "ResetError11" -> \hC011
+      [] state = "EDMError12" -> \hC020  [] state = "ResetError12" -> \hC021
+      [] state = "EDMError13" -> \hC030  [] state = "ResetError13" -> \hC031
+      [] state = "EDMError21" -> \hC040  [] state = "ResetError21" -> \hC041
+      [] state = "EDMError22" -> \hC050  [] state = "ResetError22" -> \hC051
+      [] state = "EDMError23" -> \hC060  [] state = "ResetError23" -> \hC061
+      [] state = "EDMError31" -> \hC070  [] state = "ResetError31" -> \hC071
+      [] state = "EDMError32" -> \hC080  [] state = "ResetError32" -> \hC081
+      [] state = "EDMError33" -> \hC090  [] state = "ResetError33" -> \hC091
 \* The outputs by their names
-EDMOutputs == [Ready |-> Ready, S_EDM_Out |-> S_EDM_Out, SafetyDemand |-> SafetyDemand, ResetRequest |-> ResetRequest,
-               Error |-> Error, DiagCode |-> DiagCode]
+EDMOutputs ==
+    [Ready |-> Ready, S_EDM_Out |-> S_EDM_Out, SafetyDemand |-> SafetyDemand,
+     ResetRequest |-> ResetRequest, Error |-> Error, DiagCode |-> DiagCode]
 
 ----------------------------------------------------------------------------
 (* What a call sees.                                                       *)
 
-\* EDM-IN-TIME-1, EDM-IN-TIME-2, EDMF-08, EDMF-09: the contactors have had their time; from there on their feedback counts in every call
-LOCAL Expired(i) ==
-    /\ IF Literal("EXPIRES_AFTER") THEN elapsed + i.dt > MONITORING_TIME ELSE elapsed + i.dt >= MONITORING_TIME
-    /\ Literal("CHECKED_ONCE") => elapsed < MONITORING_TIME
-    /\ Literal("ZERO_TIME_IS_OFF") => MONITORING_TIME # 0
-    /\ Literal("NO_TIME_WITHOUT_INHIBIT") => elapsed # NotStarted
+\* EDM-IN-TIME-1, EDM-IN-TIME-2, EDMF-08, EDMF-09: the contactors have had their time; from there on their
+\* feedback counts in every call
+Expired(i) == elapsed + i.dt >= MONITORING_TIME
 \* EDM-IN-EDM-1: TRUE is dropped out, FALSE is picked up
-LOCAL Feedback(i, dropped) == i.S_EDM1 = dropped /\ i.S_EDM2 = dropped
+Feedback(i, dropped) == i.S_EDM1 = dropped /\ i.S_EDM2 = dropped
 \* EDMF-01: which of the two is wrong
 LOCAL Blamed(i, dropped, first, second, both) ==
     IF i.S_EDM2 = dropped THEN first ELSE IF i.S_EDM1 = dropped THEN second ELSE both
 
-\* EDM-IN-CONTROL-1, EDM-IN-CONTROL-3, EDMF-04: the level counts, but not one that was there when Reset was pressed
-LOCAL Requested(i) == i.S_OutControl /\ stopSeen
+\* EDM-IN-CONTROL-1, EDM-IN-CONTROL-3, EDMF-04: the level counts, but not one that stood there at the Reset
+Requested(i) == i.S_OutControl /\ stopSeen
 \* EDM-IN-EDM-2, EDMF-05: a request finds a contactor that is not dropped out
-LOCAL Unfounded(i) == Requested(i) /\ ~Feedback(i, TRUE) /\ ~Literal("REQUEST_WAITS")
-LOCAL LateInDisable(i) ==
-    /\ Expired(i) /\ ~Feedback(i, TRUE)
-    /\ ~(Literal("REQUEST_BEFORE_TIMEOUT") /\ Unfounded(i))
+Unfounded(i) == Requested(i) /\ ~Feedback(i, TRUE)
+\* EDM-IN-TIME-1, EDMF-08: a contactor did not drop out in time
+LateInDisable(i) == Expired(i) /\ ~Feedback(i, TRUE)
 \* EDM-IN-TIME-1, EDMF-06: a contactor that did not follow is an error also in the call that asks for the stop
-LOCAL LateInEnable(i) == Expired(i) /\ ~Feedback(i, FALSE) /\ (Literal("STOP_BEFORE_TIMEOUT") => i.S_OutControl)
+LateInEnable(i) == Expired(i) /\ ~Feedback(i, FALSE)
 
-\* EDMF-10: found only where Reset is waited for
-LOCAL Static(i) == ResetStatic(i) /\ ~Literal("STATIC_RESET_IGNORED")
 \* EDMF-11: one action would remove the inhibit and ask for the output
-LOCAL Together(i) == ResetRises(i) /\ Rises(i.S_OutControl, outControlBefore)
-LOCAL TogetherInInit(i) ==
-    /\ Together(i) /\ ~Literal("NO_INIT_ERROR")
-    /\ i.S_StartReset => Literal("INIT_ERROR_WITHOUT_INHIBIT")
-LOCAL TogetherInError(i) == Together(i) /\ Literal("TWO_EDGES_IN_ERRORS")
+Together(i) == ResetRises(i) /\ Rises(i.S_OutControl, outControlBefore)
+TogetherInInit(i) == Together(i) /\ ~i.S_StartReset
 \* EDM-IN-RESET-1, EDMF-07: the edge resets an error once its cause is gone
-LOCAL Resettable(i) == ResetRises(i) /\ (Feedback(i, TRUE) \/ Literal("RESET_DESPITE_FEEDBACK"))
+Resettable(i) == ResetRises(i) /\ Feedback(i, TRUE)
 
 ----------------------------------------------------------------------------
 (* What a call leaves.                                                     *)
@@ -140,10 +118,9 @@ LOCAL Number(s, names) == CHOOSE n \in 1..9 : names[n] = s
 LOCAL Remembers(i) == RemembersReset(i) /\ outControlBefore' = i.S_OutControl
 LOCAL To(s) == GoTo(s) /\ stopSeen' = FALSE /\ elapsed' = 0
 LOCAL Stay == UNCHANGED <<state, stopSeen, elapsed>>
-LOCAL Waits(i) ==
-    GoTo(state) /\ elapsed' = IF elapsed = NotStarted THEN NotStarted ELSE Counted(elapsed, i.dt, MONITORING_TIME)
+Waits(i) == GoTo(state) /\ elapsed' = Counted(elapsed, i.dt, MONITORING_TIME)
 \* EDM-IN-RESET-4, EDMF-04: after a reset by hand a request that stands there does not count
-LOCAL CountsAfterReset(i) == ~i.S_OutControl \/ AFTER_RESET = "at_once" \/ Literal("REQUEST_COUNTS_AT_ONCE")
+CountsAfterReset(i) == ~i.S_OutControl \/ AFTER_RESET = "at_once"
 \* The timer starts with 0 in the call that enters
 LOCAL Disable(counts) == GoTo("OutputDisable") /\ stopSeen' = counts /\ elapsed' = 0
 
@@ -160,18 +137,17 @@ Initialize(i) == At("Idle", i) /\ To("Init") /\ Did("Initialize")
 ----------------------------------------------------------------------------
 (* Init: the start-up inhibit.                                             *)
 
-LOCAL StaticInInit(i) == Static(i) /\ ~i.S_StartReset
+\* EDMF-10: found only where Reset is waited for
+LOCAL StaticInInit(i) == ResetStatic(i) /\ ~i.S_StartReset
 \* EDM-IN-RESET-1, EDM-IN-START-2, EDMF-10: Reset is held or stuck while the inhibit waits for its edge
 FindStaticReset(i) == At("Init", i) /\ StaticInInit(i) /\ To("ResetError1") /\ Did("FindStaticReset")
 \* EDM-IN-START-2, EDM-IN-RESET-4, EDMF-11
-FindTwoEdges(i) == At("Init", i) /\ ~StaticInInit(i) /\ TogetherInInit(i) /\ To("InitError") /\ Did("FindTwoEdges")
-LOCAL NoErrorInInit(i) == At("Init", i) /\ ~StaticInInit(i) /\ ~TogetherInInit(i)
+FindTwoEdges(i) ==
+    At("Init", i) /\ ~StaticInInit(i) /\ TogetherInInit(i) /\ To("InitError") /\ Did("FindTwoEdges")
+NoErrorInInit(i) == At("Init", i) /\ ~StaticInInit(i) /\ ~TogetherInInit(i)
 \* EDM-IN-START-1, EDM-IN-START-3, EDMF-14: no inhibit; S_OutControl counts as it stands, and the time starts
 StartWithoutInhibit(i) ==
-    /\ NoErrorInInit(i) /\ i.S_StartReset
-    /\ GoTo("OutputDisable") /\ stopSeen' = TRUE
-    /\ elapsed' = IF Literal("NO_TIME_WITHOUT_INHIBIT") THEN NotStarted ELSE 0
-    /\ Did("StartWithoutInhibit")
+    NoErrorInInit(i) /\ i.S_StartReset /\ Disable(TRUE) /\ Did("StartWithoutInhibit")
 \* EDM-IN-START-2, EDM-IN-RESET-2, EDM-IN-RESET-3, EDM-IN-TIME-1, EDM-SEQ-2, EDMF-04
 RemoveInhibit(i) ==
     /\ NoErrorInInit(i) /\ ~i.S_StartReset /\ ResetRises(i)
@@ -203,7 +179,8 @@ LOCAL NoErrorInDisable(i) == At("OutputDisable", i) /\ ~LateInDisable(i) /\ ~Unf
 LOCAL Granted(i) == Requested(i) /\ Feedback(i, TRUE)
 \* EDM-IN-CONTROL-3, EDM-IN-EDM-2, EDM-OUT-EDM-2, EDM-SEQ-3, EDM-SEQ-5
 EnableOutput(i) == NoErrorInDisable(i) /\ Granted(i) /\ To("OutputEnable") /\ Did("EnableOutput")
-\* EDM-IN-CONTROL-2, EDM-IN-TIME-1, EDM-SEQ-2, EDM-SEQ-4, EDM-SEQ-6, EDMF-04: the time expires without result where the feedback is right
+\* EDM-IN-CONTROL-2, EDM-IN-TIME-1, EDM-SEQ-2, EDM-SEQ-4, EDM-SEQ-6, EDMF-04: the time expires without result
+\* where the feedback is right
 StayDisabled(i) ==
     /\ NoErrorInDisable(i) /\ ~Granted(i)
     /\ Waits(i) /\ stopSeen' = (stopSeen \/ ~i.S_OutControl)
@@ -232,10 +209,10 @@ StayEnabled(i) ==
 LOCAL InError(i) == i.Activate /\ InEDMError
 \* EDM-IN-RESET-1, EDMF-10
 FindStaticResetInError(i) ==
-    /\ InError(i) /\ (Static(i) \/ TogetherInError(i))
+    /\ InError(i) /\ ResetStatic(i)
     /\ To(ResetErrors[Number(state, EDMErrors)])
     /\ Did("FindStaticResetInError")
-LOCAL NoResetError(i) == InError(i) /\ ~Static(i) /\ ~TogetherInError(i)
+LOCAL NoResetError(i) == InError(i) /\ ~ResetStatic(i)
 \* EDM-IN-RESET-1, EDM-IN-RESET-3, EDM-IN-RESET-4, EDM-IN-TIME-1, EDM-SEQ-6, EDMF-04, EDMF-07
 ResetError(i) ==
     /\ NoResetError(i) /\ Resettable(i)
@@ -258,9 +235,12 @@ EDMCall(i) ==
     /\ Remembers(i)
     /\ \/ Deactivate(i)
        \/ state = "Idle" /\ (StayIdle(i) \/ Initialize(i))
-       \/ state = "Init" /\ (FindStaticReset(i) \/ FindTwoEdges(i) \/ StartWithoutInhibit(i) \/ RemoveInhibit(i) \/ AwaitReset(i))
+       \/ /\ state = "Init"
+          /\ \/ FindStaticReset(i) \/ FindTwoEdges(i)
+             \/ StartWithoutInhibit(i) \/ RemoveInhibit(i) \/ AwaitReset(i)
        \/ state \in {"ResetError1", "InitError"} /\ (ReturnToInit(i) \/ AwaitRelease(i))
-       \/ state = "OutputDisable" /\ (MissDropOut(i) \/ RefuseRequest(i) \/ EnableOutput(i) \/ StayDisabled(i))
+       \/ /\ state = "OutputDisable"
+          /\ MissDropOut(i) \/ RefuseRequest(i) \/ EnableOutput(i) \/ StayDisabled(i)
        \/ state = "OutputEnable" /\ (MissPickUp(i) \/ DisableOutput(i) \/ StayEnabled(i))
        \/ InEDMError /\ (FindStaticResetInError(i) \/ ResetError(i) \/ StayInError(i))
        \/ InResetError /\ (ReturnToError(i) \/ AwaitReleaseInError(i))
@@ -272,7 +252,8 @@ EDMCall(i) ==
 OutputNeedsAll == S_EDM_Out => Ready /\ ~Error /\ ~ResetRequest /\ ~SafetyDemand
 \* EDM-OUT-READY-1: an inactive block shows nothing
 IdleShowsNothing == ~Ready => ~S_EDM_Out /\ ~SafetyDemand /\ ~ResetRequest /\ ~Error /\ DiagCode = 0
-\* EDM-OUT-DIAG, EDM-OUT-ERROR, EDM-OUT-DEMAND, EDMF-01, EDMF-02: bits of the code say what the outputs say; the errors' codes lack the bit of ResetRequest
+\* EDM-OUT-DIAG, EDM-OUT-ERROR, EDM-OUT-DEMAND, EDMF-01, EDMF-02: bits of the code say what the outputs say;
+\* the errors' codes lack the bit of ResetRequest
 CodeTellsTheRow ==
     /\ Ready = (DiagCode >= \h8000)
     /\ Error = (DiagCode >= \hC000)

@@ -14,14 +14,15 @@ EXTENDS EDM
 
 CONSTANT TAKES_BACK     \* the machine control takes its request back
 
-VARIABLE calm           \* "no": any inputs; "first": the call from which on everybody does his part; "on": since then
+VARIABLE calm           \* "no": any inputs; "first": everybody does his part from now on; "on": after it
 
 liveVars == <<edm, calm>>
 
 ASSUME TAKES_BACK \in BOOLEAN
 
-AnyInput == [Activate : BOOLEAN, S_OutControl : BOOLEAN, S_EDM1 : BOOLEAN, S_EDM2 : BOOLEAN, S_StartReset : BOOLEAN,
-             Reset : BOOLEAN, dt : 0..2]
+AnyInput ==
+    [Activate : BOOLEAN, S_OutControl : BOOLEAN, S_EDM1 : BOOLEAN, S_EDM2 : BOOLEAN,
+     S_StartReset : BOOLEAN, Reset : BOOLEAN, dt : 0..2]
 \* EDM-SEQ-2, EDM-SEQ-3, EDM-SEQ-6, EDM-APP-2, EDM-APP-3, EDMA-06
 CalmInput ==
     {[Activate |-> TRUE, S_OutControl |-> (SafetyDemand \/ S_EDM_Out) /\ (calm = "first" => ~TAKES_BACK),

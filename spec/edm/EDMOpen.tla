@@ -37,14 +37,16 @@ OpenInit ==
     /\ resetWas = FALSE /\ controlWas = FALSE /\ unchanged = 0 /\ released = FALSE
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
-\* Reset by hand: the request for it goes in a call with an edge, which the start-up inhibit needs only where there is one
+\* Reset by hand: the request for it goes in a call with an edge, which the start-up inhibit needs only where
+\* there is one
 ByHand(i) == ResetRequest /\ SafetyDemand' /\ i.Reset /\ ~resetWas /\ (Error \/ ~i.S_StartReset)
 Observe(i) ==
     /\ resetWas' = i.Reset
     /\ controlWas' = i.S_OutControl
     /\ unchanged' = IF (S_EDM_Out /\ S_EDM_Out') \/ (SafetyDemand /\ SafetyDemand')
                     THEN Counted(unchanged, i.dt, MONITORING_TIME) ELSE 0
-    /\ released' = (SafetyDemand' /\ IF ByHand(i) THEN ~i.S_OutControl ELSE ~SafetyDemand \/ released \/ ~i.S_OutControl)
+    /\ released' = (SafetyDemand' /\ IF ByHand(i) THEN ~i.S_OutControl
+                                     ELSE ~SafetyDemand \/ released \/ ~i.S_OutControl)
 
 OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : EDMCall(i) /\ in' = n /\ beat' = ~beat /\ Observe(i)
 OpenSpec == OpenInit /\ [][OpenNext]_<<edm, observer, step, in, beat>>
@@ -66,21 +68,28 @@ StopAtOnce == [][~Scanned.Activate \/ ~Scanned.S_OutControl => ~S_EDM_Out']_beat
 \* EDM-OUT-READY-1
 InactiveAtOnce == [][Ready' = Scanned.Activate]_beat
 \* EDM-IN-EDM-2, EDM-OUT-EDM-2, EDM-SEQ-3: in the very call that switches on
-SwitchOnNeedsInitialState == [][~S_EDM_Out /\ S_EDM_Out' => SafetyDemand /\ BothAre(TRUE) /\ Scanned.S_OutControl]_beat
+SwitchOnNeedsInitialState ==
+    [][~S_EDM_Out /\ S_EDM_Out' => SafetyDemand /\ BothAre(TRUE) /\ Scanned.S_OutControl]_beat
 \* EDM-IN-TIME-1, EDM-OUT-EDM-2, EDMF-08: the output stays on over a wrong feedback only for MonitoringTime
 FeedbackWrongOnlyForATime == [][S_EDM_Out /\ S_EDM_Out' => OnTime \/ BothAre(FALSE)]_beat
 \* EDM-IN-TIME-1, EDM-SEQ-5, EDMF-06: whatever else happens in that call, but the end of Activate
-MissedPickUpIsAnError == [][S_EDM_Out /\ Scanned.Activate /\ ~OnTime /\ ~BothAre(FALSE) => Error']_beat
+MissedPickUpIsAnError ==
+    [][S_EDM_Out /\ Scanned.Activate /\ ~OnTime /\ ~BothAre(FALSE) => Error']_beat
 \* EDM-IN-TIME-1, EDM-SEQ-4
-MissedDropOutIsAnError == [][SafetyDemand /\ Scanned.Activate /\ ~OnTime /\ ~BothAre(TRUE) => Error']_beat
-\* EDM-IN-START-1, EDM-IN-START-2, EDM-IN-RESET-1, EDM-IN-RESET-3: neither the inhibit nor an error goes without a fresh edge
+MissedDropOutIsAnError ==
+    [][SafetyDemand /\ Scanned.Activate /\ ~OnTime /\ ~BothAre(TRUE) => Error']_beat
+\* EDM-IN-START-1, EDM-IN-START-2, EDM-IN-RESET-1, EDM-IN-RESET-3: neither the inhibit nor an error goes
+\* without a fresh edge
 ResetNeedsEdge ==
-    [][ResetRequest /\ Ready' /\ ~ResetRequest' /\ ~Error' => ResetEdge \/ (~Error /\ Scanned.S_StartReset)]_beat
+    [][ResetRequest /\ Ready' /\ ~ResetRequest' /\ ~Error'
+        => ResetEdge \/ (~Error /\ Scanned.S_StartReset)]_beat
 \* EDM-IN-RESET-1, EDMF-07: an error is reset only with both contactors dropped out
 CauseIsGone == [][Error /\ ResetRequest /\ Ready' /\ ~Error' => BothAre(TRUE)]_beat
-\* EDM-OUT-ERROR, EDM-IN-RESET-1, EDM-SEQ-6: out of an error lead the reset, and the way back to the inhibit once Reset is released
+\* EDM-OUT-ERROR, EDM-IN-RESET-1, EDM-SEQ-6: out of an error lead the reset, and the way back to the inhibit
+\* once Reset is released
 ErrorsAreLeftAsDocumented ==
-    [][Error /\ Ready' /\ ~Error' => IF ResetRequest THEN SafetyDemand' ELSE ResetRequest' /\ ~Scanned.Reset]_beat
+    [][Error /\ Ready' /\ ~Error'
+        => IF ResetRequest THEN SafetyDemand' ELSE ResetRequest' /\ ~Scanned.Reset]_beat
 \* EDM-IN-RESET-4, EDMF-04: the reset button does not start the machine
 ResetNeverStarts == [][~S_EDM_Out /\ S_EDM_Out' => released]_beat
 \* EDM-IN-RESET-1, EDMF-10
@@ -89,8 +98,9 @@ HeldResetIsAnError ==
         => Error' /\ ~ResetRequest']_beat
 \* EDM-IN-START-2, EDM-IN-RESET-4, EDMF-11
 TwoEdgesAreAnError ==
-    [][ResetRequest /\ ~Error /\ Scanned.Activate /\ ~Scanned.S_StartReset /\ ResetEdge /\ Scanned.S_OutControl /\ ~controlWas
-        => Error' /\ ~ResetRequest']_beat
+    [][/\ ResetRequest /\ ~Error /\ Scanned.Activate /\ ~Scanned.S_StartReset
+       /\ ResetEdge /\ Scanned.S_OutControl /\ ~controlWas
+       => Error' /\ ~ResetRequest']_beat
 \* EDM-INST-1, EDM-SEQ-1: from inactive comes the inhibit, for one call at least
 StartsWithInhibit == [][~Ready /\ Ready' => ResetRequest' /\ ~Error']_beat
 \* Where one transition leads from each state, besides to Idle
@@ -106,24 +116,28 @@ Follows ==
 OneTransitionACall == [][state' \in {state, "Idle"} \cup Follows]_beat
 \* EDM-IN-CONTROL-3, EDM-OUT-EDM-2, EDM-SEQ-3: what may switch on does so in that call
 SwitchesOnAtOnce ==
-    [][SafetyDemand /\ Scanned.Activate /\ BothAre(TRUE) /\ Scanned.S_OutControl /\ released => S_EDM_Out']_beat
+    [][SafetyDemand /\ Scanned.Activate /\ BothAre(TRUE) /\ Scanned.S_OutControl /\ released
+        => S_EDM_Out']_beat
 \* EDM-IN-START-1, EDM-IN-START-3: without inhibit nothing is waited for
 StartsByItself ==
     [][ResetRequest /\ ~Error /\ Scanned.Activate /\ Scanned.S_StartReset => SafetyDemand']_beat
 \* EDM-IN-START-2, EDM-IN-RESET-2, EDM-SEQ-2: the edge of Reset that removes the inhibit
 RemovesInhibitAtOnce ==
-    [][ResetRequest /\ ~Error /\ Scanned.Activate /\ ResetEdge /\ (controlWas \/ ~Scanned.S_OutControl) => SafetyDemand']_beat
+    [][ResetRequest /\ ~Error /\ Scanned.Activate /\ ResetEdge /\ (controlWas \/ ~Scanned.S_OutControl)
+        => SafetyDemand']_beat
 \* EDM-IN-RESET-1, EDM-SEQ-6, EDMF-07: the edge of Reset that resets an error whose cause is gone
 ResetsAtOnce ==
     [][Error /\ ResetRequest /\ Scanned.Activate /\ ResetEdge /\ BothAre(TRUE) => SafetyDemand']_beat
-\* EDM-OUT-ERROR, EDM-SEQ-2, EDM-SEQ-3, EDM-SEQ-6: expiry over the right feedback has no effect, and no error comes for nothing
+\* EDM-OUT-ERROR, EDM-SEQ-2, EDM-SEQ-3, EDM-SEQ-6: expiry over the right feedback has no effect, and no error
+\* comes without a cause
 ErrorNeedsCause ==
     [][~Error /\ Error' =>
         CASE S_EDM_Out -> ~OnTime /\ ~BothAre(FALSE)
           [] SafetyDemand -> ~BothAre(TRUE) /\ (~OnTime \/ (Scanned.S_OutControl /\ released))
-          [] OTHER -> ~Scanned.S_StartReset /\ Scanned.Reset /\ (resetWas \/ (Scanned.S_OutControl /\ ~controlWas))]_beat
-\* EDM-OUT-DIAG, EDMF-01, EDMF-10, EDMF-11: the code of an error names the contactor that did not follow, and when; at the inhibit
-\* it says whether Reset was held, or rose with the request
+          [] OTHER -> /\ ~Scanned.S_StartReset /\ Scanned.Reset
+                      /\ resetWas \/ (Scanned.S_OutControl /\ ~controlWas)]_beat
+\* EDM-OUT-DIAG, EDMF-01, EDMF-10, EDMF-11: the code of an error names the contactor that did not follow, and
+\* when; at the inhibit it says whether Reset was held, or rose with the request
 CodeNamesTheCause ==
     [][/\ Error' /\ (S_EDM_Out \/ SafetyDemand) =>
             LET dropped == SafetyDemand
@@ -134,7 +148,8 @@ CodeNamesTheCause ==
 \* EDM-IN-RESET-1, EDMF-10: a reset error comes from its error and goes back to it
 ResetErrorKeepsTheCode ==
     [][DiagCode >= \hC010 /\ DiagCode # \hC100 /\ DiagCode' >= \hC000 =>
-        DiagCode' \div 16 = DiagCode \div 16 /\ DiagCode' % 16 = (IF Scanned.Reset /\ (resetWas \/ ~ResetRequest) THEN 1 ELSE 0)]_beat
+        /\ DiagCode' \div 16 = DiagCode \div 16
+        /\ DiagCode' % 16 = (IF Scanned.Reset /\ (resetWas \/ ~ResetRequest) THEN 1 ELSE 0)]_beat
 \* EDM-INST-1: there is no input to which a call has no answer
 EveryCallIsAnswered == \A n \in 0..N - 1 : ENABLED EDMCall(Alphabet[n])
 \* EDM-OUT-READY-1, EDM-SEQ-0: before the first call

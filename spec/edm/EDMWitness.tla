@@ -1,12 +1,14 @@
 ----------------------------- MODULE EDMWitness -----------------------------
 (***************************************************************************)
-(* What must be reachable, so that no property holds for want of a case:   *)
-(* every step, state, transition between states, DiagCode, and some        *)
+(* What must be reachable, so that the properties are not vacuous: every   *)
+(* step, state, transition between states, DiagCode, and some              *)
 (* situations.  A step is a witness by its name, which only it sets.       *)
 (***************************************************************************)
 EXTENDS Sequences, EDMOpen
 
-Report(name) == IF name \in TLCGet(1) THEN TRUE ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))
+Report(name) ==
+    IF name \in TLCGet(1) THEN TRUE
+    ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))
 
 Digits == <<"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "A", "B", "C", "D", "E", "F">>
 Digit(n, place) == Digits[((n \div place) % 16) + 1]

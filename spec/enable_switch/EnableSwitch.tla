@@ -20,14 +20,7 @@ VARIABLES elapsed             \* ticks since the call that saw the change begin;
 
 block == <<state, resetBefore, elapsed>>
 
-\* Each of these, restored alone, is tried by one run
-Readings == FamilyReadings \cup {
-    "STAGE_1_AFTER_2_ENABLES", "BACK_TO_STAGE_1_ENABLES",
-    "MODE_AT_ANY_STAGE", "ALL_FALSE_IS_A_CHANGE", "KEEPS_ENABLE_IN_A_CHANGE", "SUCCESS_BEFORE_EXPIRY",
-    "CH2_IS_NOT_READ", "ONLY_CH1_CH3_IS_TIMED", "NO_TIME_FOR_THE_WAY_BACK", "EQUAL_CHANNELS_ARE_ENOUGH",
-    "ERROR_ENDS_WITH_ITS_CAUSE"}
-
-ASSUME DiscrepancyTimeCh1_Ch3 \in Nat /\ MODE_ENDS_ERROR \in BOOLEAN /\ LITERAL \subseteq Readings
+ASSUME DiscrepancyTimeCh1_Ch3 \in Nat /\ MODE_ENDS_ERROR \in BOOLEAN
 
 \* A change between two stages is under way: the only states with a timer
 Timed == {"ChangeToStage1", "ChangeToStage0"}
@@ -46,7 +39,7 @@ BlockTypeOK ==
     /\ resetBefore \in BOOLEAN
     /\ elapsed \in 0..DiscrepancyTimeCh1_Ch3
     /\ state \in Timed => elapsed = 0 \/ elapsed < DiscrepancyTimeCh1_Ch3
-    /\ (state \notin Timed /\ ~Literal("KEEPS_ENABLE_IN_A_CHANGE")) => elapsed = 0
+    /\ state \notin Timed => elapsed = 0
 
 BlockInit == state = "Idle" /\ resetBefore = FALSE /\ elapsed = 0
 
@@ -65,14 +58,15 @@ SafetyDemand == state \in {"Stage0", "Stage2"} \cup Timed
 ResetRequest == state \in Released
 \* ESF-01, ES-NOTE-3: the document prints no code
 DiagCode ==
-    CASE state = "Idle" -> 0                             [] state = "BasicMode" -> 32770                    \* 0000, 8002
-      [] state = "SafeMode" -> 32772                     [] state = "Stage0" -> 34818                       \* 8004, 8802
-      [] state = "ChangeToStage1" -> 34834               [] state = "Stage1" -> 32768                       \* 8812, 8000
-      [] state = "ChangeToStage0" -> 34850               [] state = "Stage2" -> 34866                       \* 8822, 8832
-      [] state = "OperationError" -> 49184               [] state = "OperationErrorAtStage0" -> 50208       \* C020, C420
-      [] state = "PlausibilityError" -> 49200            [] state = "PlausibilityErrorAtStage0" -> 50240    \* C030, C440
-      [] state = "EquivalenceError" -> 49232             [] state = "EquivalenceErrorAtStage0" -> 50256     \* C050, C450
-      [] state = "ResetError1" -> 49153 [] state = "ResetError2" -> 49169 [] state = "ResetError3" -> 49185 \* C001, C011, C021
+    CASE state = "Idle" -> \h0000               [] state = "BasicMode" -> \h8002
+      [] state = "SafeMode" -> \h8004           [] state = "Stage0" -> \h8802
+      [] state = "ChangeToStage1" -> \h8812     [] state = "Stage1" -> \h8000
+      [] state = "ChangeToStage0" -> \h8822     [] state = "Stage2" -> \h8832
+      [] state = "OperationError" -> \hC020     [] state = "OperationErrorAtStage0" -> \hC420
+      [] state = "PlausibilityError" -> \hC030  [] state = "PlausibilityErrorAtStage0" -> \hC440
+      [] state = "EquivalenceError" -> \hC050   [] state = "EquivalenceErrorAtStage0" -> \hC450
+      [] state = "ResetError1" -> \hC001        [] state = "ResetError2" -> \hC011
+      [] state = "ResetError3" -> \hC021
 \* The outputs by their names
 BlockOutputs == [Ready |-> Ready, S_EnableSwitchOut |-> S_EnableSwitchOut, SafetyDemand |-> SafetyDemand,
                  ResetRequest |-> ResetRequest, Error |-> Error, DiagCode |-> DiagCode]
@@ -83,37 +77,32 @@ BlockOutputs == [Ready |-> Ready, S_EnableSwitchOut |-> S_EnableSwitchOut, Safet
 \* ES-STAGE-0: released
 SeesStage0(i) == ~i.S_EnableSwitchCh1 /\ i.S_EnableSwitchCh2 /\ ~i.S_EnableSwitchCh3
 \* ES-STAGE-1, ESF-05: enabled; channel 2 has to be FALSE
-SeesStage1(i) == i.S_EnableSwitchCh1 /\ i.S_EnableSwitchCh3 /\ (~i.S_EnableSwitchCh2 \/ Literal("CH2_IS_NOT_READ"))
+SeesStage1(i) == i.S_EnableSwitchCh1 /\ ~i.S_EnableSwitchCh2 /\ i.S_EnableSwitchCh3
 \* ES-STAGE-2, ES-SEQ-4: pressed through, and also a device that is not plugged in
 SeesStage2(i) == ~i.S_EnableSwitchCh1 /\ ~i.S_EnableSwitchCh2 /\ ~i.S_EnableSwitchCh3
 \* ES-NOTE-1, ESF-04: the other five patterns are on the way from one stage to another
 SeesNoStage(i) == ~SeesStage0(i) /\ ~SeesStage1(i) /\ ~SeesStage2(i)
-\* ESF-03: all FALSE after stage 0 could be the moment between the opening of one contact and the closing of the others
-LeavesStage0(i) == SeesNoStage(i) \/ (Literal("ALL_FALSE_IS_A_CHANGE") /\ SeesStage2(i))
 \* ESF-05: all three TRUE: channels 1 and 3 agree, and channel 2 contradicts both
 SeesContradiction(i) == i.S_EnableSwitchCh1 /\ i.S_EnableSwitchCh2 /\ i.S_EnableSwitchCh3
 \* ES-SEQ-5, ESF-06: what has to be seen before an error can be reset
-SeesCauseGone(i) ==
-    SeesStage0(i) \/ (Literal("EQUAL_CHANNELS_ARE_ENOUGH") /\ i.S_EnableSwitchCh1 = i.S_EnableSwitchCh3)
+SeesCauseGone(i) == SeesStage0(i)
 
 \* ES-SEQ-3, ESF-04, ESF-07: the time of the change is over; equality counts as over, and it is judged first
-Late(i) ==
-    /\ elapsed + i.dt >= DiscrepancyTimeCh1_Ch3
-    /\ Literal("SUCCESS_BEFORE_EXPIRY") => SeesNoStage(i)
-    /\ ~(Literal("NO_TIME_FOR_THE_WAY_BACK") /\ state = "ChangeToStage0")
-    /\ ~(Literal("ONLY_CH1_CH3_IS_TIMED") /\ SeesContradiction(i))
+Late(i) == elapsed + i.dt >= DiscrepancyTimeCh1_Ch3
+\* ES-SEQ-3, ESF-05: the time goes on whichever of the five patterns follow each other
+TimeGoesOn(i) == elapsed' = Counted(elapsed, i.dt, DiscrepancyTimeCh1_Ch3)
 
 ----------------------------------------------------------------------------
 (* How a step is guarded.  First the end of Activate, then the end of the  *)
 (* mode, then the time, then the stage that is seen.                       *)
 
 \* ES-SEQ-2: the mode is on
-LOCAL On(s, i) == At(s, i) /\ i.S_SafetyActive
-LOCAL InTime(s, i) == On(s, i) /\ ~Late(i)
+On(s, i) == At(s, i) /\ i.S_SafetyActive
+InTime(s, i) == On(s, i) /\ ~Late(i)
 \* ESF-08: whether the end of the mode ends an error too
 LOCAL Held(errors, i) == state \in errors /\ i.Activate /\ (MODE_ENDS_ERROR => i.S_SafetyActive)
 LOCAL Rest(i) == elapsed' = 0 /\ RemembersReset(i)
-LOCAL To(s, i) == GoTo(s) /\ Rest(i)
+To(s, i) == GoTo(s) /\ Rest(i)
 LOCAL Stay(i) == To(state, i)
 
 \* ESF-06: the states of one error, which belong together
@@ -141,10 +130,8 @@ LoseSafetyActive(i) ==
 
 \* ES-SEQ-2
 AcceptStage0(i) == On("SafeMode", i) /\ SeesStage0(i) /\ To("Stage0", i) /\ Did("AcceptStage0")
-LOCAL Admitted(i) == Literal("MODE_AT_ANY_STAGE") /\ SeesStage1(i)
 \* ESF-02: the mode comes, and the switch is not released
-RefuseStage(i) ==
-    On("SafeMode", i) /\ ~SeesStage0(i) /\ ~Admitted(i) /\ To("OperationError", i) /\ Did("RefuseStage")
+RefuseStage(i) == On("SafeMode", i) /\ ~SeesStage0(i) /\ To("OperationError", i) /\ Did("RefuseStage")
 
 ----------------------------------------------------------------------------
 (* The stages and the changes between them.                                *)
@@ -152,40 +139,26 @@ RefuseStage(i) ==
 \* ES-STAGE-0, ES-SEQ-5
 StayAtStage0(i) == On("Stage0", i) /\ SeesStage0(i) /\ Stay(i) /\ Did("StayAtStage0")
 \* ES-SEQ-3, ES-SEQ-6: the time of the change begins
-BeginChange(i) == On("Stage0", i) /\ LeavesStage0(i) /\ To("ChangeToStage1", i) /\ Did("BeginChange")
-\* ESF-02, ESF-03: ways to stage 1 that are none
-LOCAL AlsoEnables(i) ==
-    \/ Literal("STAGE_1_AFTER_2_ENABLES") /\ On("Stage2", i)
-    \/ Literal("BACK_TO_STAGE_1_ENABLES") /\ InTime("ChangeToStage0", i)
-    \/ Literal("MODE_AT_ANY_STAGE") /\ On("SafeMode", i)
+BeginChange(i) == On("Stage0", i) /\ SeesNoStage(i) /\ To("ChangeToStage1", i) /\ Did("BeginChange")
+\* ES-ORDER-2, ESF-02: stage 1 enables where it comes out of stage 0
+MayEnable(i) == On("Stage0", i) \/ InTime("ChangeToStage1", i)
+\* ES-ORDER-2, ESF-02: and not where it comes out of stage 2, or back on the way to stage 0
+MayNotEnable(i) == On("Stage2", i) \/ InTime("ChangeToStage0", i)
 \* ES-SEQ-6, ES-SEQ-9, ES-STAGE-1: out of stage 0, and within the time
-Enable(i) ==
-    /\ On("Stage0", i) \/ InTime("ChangeToStage1", i) \/ AlsoEnables(i)
-    /\ SeesStage1(i)
-    /\ To("Stage1", i)
-    /\ Did("Enable")
-\* ESF-04: the enable outlives the beginning of a change
-LOCAL Kept(i) == Literal("KEEPS_ENABLE_IN_A_CHANGE") /\ SeesNoStage(i) /\ elapsed + i.dt < DiscrepancyTimeCh1_Ch3
+Enable(i) == MayEnable(i) /\ SeesStage1(i) /\ To("Stage1", i) /\ Did("Enable")
 \* ES-STAGE-1
-StayEnabled(i) ==
-    /\ On("Stage1", i)
-    /\ SeesStage1(i) \/ Kept(i)
-    /\ GoTo("Stage1") /\ RemembersReset(i)
-    /\ elapsed' = IF SeesStage1(i) THEN 0 ELSE elapsed + i.dt
-    /\ Did("StayEnabled")
+StayEnabled(i) == On("Stage1", i) /\ SeesStage1(i) /\ Stay(i) /\ Did("StayEnabled")
 \* ES-SEQ-7, ES-SEQ-8, ESF-04: out of stage 1 the enable is off at once, out of stage 2 it never was on
 BeginReturn(i) ==
     /\ On("Stage1", i) \/ On("Stage2", i)
-    /\ SeesNoStage(i) /\ ~(state = "Stage1" /\ Kept(i))
+    /\ SeesNoStage(i)
     /\ To("ChangeToStage0", i)
     /\ Did("BeginReturn")
-\* ES-SEQ-3, ES-SEQ-8, ESF-05: the time goes on whichever of the five patterns follow each other
+\* ES-SEQ-3, ES-SEQ-8, ESF-05
 AwaitChange(i) ==
-    /\ \/ InTime("ChangeToStage1", i) /\ LeavesStage0(i)
-       \/ InTime("ChangeToStage0", i) /\ SeesNoStage(i)
-    /\ GoTo(state) /\ RemembersReset(i)
-    /\ elapsed' = IF Literal("ONLY_CH1_CH3_IS_TIMED") /\ SeesContradiction(i) THEN 0
-                  ELSE Counted(elapsed, i.dt, DiscrepancyTimeCh1_Ch3)
+    /\ state \in Timed /\ InTime(state, i)
+    /\ SeesNoStage(i)
+    /\ GoTo(state) /\ RemembersReset(i) /\ TimeGoesOn(i)
     /\ Did("AwaitChange")
 \* ES-SEQ-8, ES-STAGE-0
 ReachStage0(i) ==
@@ -195,19 +168,14 @@ ReachStage0(i) ==
     /\ Did("ReachStage0")
 \* ES-SEQ-7, ES-STAGE-2, ESF-03
 ReachStage2(i) ==
-    /\ \/ On("Stage1", i) \/ InTime("ChangeToStage0", i)
-       \/ ~Literal("ALL_FALSE_IS_A_CHANGE") /\ (On("Stage0", i) \/ InTime("ChangeToStage1", i))
+    /\ On("Stage0", i) \/ On("Stage1", i) \/ (state \in Timed /\ InTime(state, i))
     /\ SeesStage2(i)
     /\ To("Stage2", i)
     /\ Did("ReachStage2")
 \* ES-STAGE-2
 StayAtStage2(i) == On("Stage2", i) /\ SeesStage2(i) /\ Stay(i) /\ Did("StayAtStage2")
 \* ES-ORDER-2, ESF-02: stage 1 that does not come out of stage 0
-RefuseStage1(i) ==
-    /\ On("Stage2", i) \/ InTime("ChangeToStage0", i)
-    /\ SeesStage1(i) /\ ~AlsoEnables(i)
-    /\ To("PlausibilityError", i)
-    /\ Did("RefuseStage1")
+RefuseStage1(i) == MayNotEnable(i) /\ SeesStage1(i) /\ To("PlausibilityError", i) /\ Did("RefuseStage1")
 \* ES-SEQ-3, ESF-04, ESF-07: the channels do not come together in time
 FindUnequal(i) ==
     /\ state \in Timed /\ On(state, i) /\ Late(i) /\ ~SeesContradiction(i)
@@ -240,14 +208,16 @@ FindStaticReset(i) ==
     /\ Waiting(i) /\ ResetStatic(i) /\ ~i.S_AutoReset
     /\ \E f \in Family : f.released = state /\ To(f.static, i)
     /\ Did("FindStaticReset")
-LOCAL Resets(i) == (~i.S_AutoReset /\ ~Literal("ERROR_ENDS_WITH_ITS_CAUSE")) => ResetRises(i)
+\* ES-SEQ-5, ES-RESTART, ESF-06
+Resets(i) == ~i.S_AutoReset => ResetRises(i)
 \* ES-SEQ-5, ES-RESTART
 LeaveError(i) ==
     /\ Waiting(i) /\ ~(ResetStatic(i) /\ ~i.S_AutoReset) /\ Resets(i)
     /\ To(IF i.S_SafetyActive THEN "Stage0" ELSE "BasicMode", i)
     /\ Did("LeaveError")
 \* ES-SEQ-4
-AwaitReset(i) == Waiting(i) /\ ~(ResetStatic(i) /\ ~i.S_AutoReset) /\ ~Resets(i) /\ Stay(i) /\ Did("AwaitReset")
+AwaitReset(i) ==
+    Waiting(i) /\ ~(ResetStatic(i) /\ ~i.S_AutoReset) /\ ~Resets(i) /\ Stay(i) /\ Did("AwaitReset")
 \* ESF-10
 AwaitResetReleased(i) == Held(ResetErrors, i) /\ i.Reset /\ Stay(i) /\ Did("AwaitResetReleased")
 \* ESF-10: back to where the held Reset was found; it resets nothing
@@ -267,7 +237,8 @@ BlockCall(i) ==
     \/ AwaitSafetyActive(i) \/ SeeSafetyActive(i) \/ LoseSafetyActive(i)
     \/ AcceptStage0(i) \/ RefuseStage(i)
     \/ StayAtStage0(i) \/ BeginChange(i) \/ Enable(i) \/ StayEnabled(i) \/ BeginReturn(i) \/ AwaitChange(i)
-    \/ ReachStage0(i) \/ ReachStage2(i) \/ StayAtStage2(i) \/ RefuseStage1(i) \/ FindUnequal(i) \/ FindContradiction(i)
+    \/ ReachStage0(i) \/ ReachStage2(i) \/ StayAtStage2(i) \/ RefuseStage1(i)
+    \/ FindUnequal(i) \/ FindContradiction(i)
     \/ AwaitStage0(i) \/ SeeStage0(i) \/ LoseStage0(i) \/ FindStaticReset(i) \/ LeaveError(i) \/ AwaitReset(i)
     \/ AwaitResetReleased(i) \/ SeeResetReleased(i) \/ ModeEndsError(i)
 =============================================================================

@@ -20,10 +20,12 @@ vars == <<block, step, hand, automatic>>
 \* What the channels show: channel 1, 2, 3
 Shown(h) == CASE h \in {"release", "reset"} -> {<<FALSE, TRUE, FALSE>>}
               [] h = "press" -> {<<TRUE, FALSE, TRUE>>}
-              [] h = "move" -> {c \in BOOLEAN \X BOOLEAN \X BOOLEAN :
-                                    c \notin {<<FALSE, TRUE, FALSE>>, <<TRUE, FALSE, TRUE>>, <<FALSE, FALSE, FALSE>>}}
+              [] h = "move" ->
+                    {c \in BOOLEAN \X BOOLEAN \X BOOLEAN :
+                        c \notin {<<FALSE, TRUE, FALSE>>, <<TRUE, FALSE, TRUE>>, <<FALSE, FALSE, FALSE>>}}
 Call(h, c) ==
-    [Activate |-> TRUE, S_SafetyActive |-> TRUE, S_AutoReset |-> automatic, Reset |-> (h = "reset" /\ USER_RESETS), dt |-> 1,
+    [Activate |-> TRUE, S_SafetyActive |-> TRUE, S_AutoReset |-> automatic,
+     Reset |-> (h = "reset" /\ USER_RESETS), dt |-> 1,
      S_EnableSwitchCh1 |-> c[1], S_EnableSwitchCh2 |-> c[2], S_EnableSwitchCh3 |-> c[3]]
 
 \* She goes on; a movement is over after one call

@@ -27,7 +27,9 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Alphabet
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == BlockInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenInit ==
+    /\ BlockInit /\ step = "" /\ in = 0 /\ beat = FALSE
+    /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : BlockCall(i) /\ in' = n /\ beat' = ~beat
 OpenSpec == OpenInit /\ [][OpenNext]_<<block, step, in, beat>>
 
@@ -42,7 +44,8 @@ Wires == Alphabet[in] @@ BlockOutputs
 CodeBit(weight) == ((DiagCode \div weight) % 2) = 1
 \* ESF-01: the code says the same as the flags, and 8000 alone is the enable
 OutputsFollowTheCode ==
-    /\ Ready = CodeBit(32768) /\ Error = CodeBit(16384) /\ SafetyDemand = CodeBit(2048) /\ ResetRequest = CodeBit(1024)
+    /\ Ready = CodeBit(32768) /\ Error = CodeBit(16384)
+    /\ SafetyDemand = CodeBit(2048) /\ ResetRequest = CodeBit(1024)
     /\ S_EnableSwitchOut = (DiagCode = 32768)
 \* ESF-01, ES-NOTE-3: the code of each state, and the outputs that are TRUE in it
 RowOf == [
@@ -83,15 +86,16 @@ PowerUpIsSilent == step = "" => state = "Idle" /\ elapsed = 0 /\ ~resetBefore
 
 \* ES-STAGE-1, ES-SEQ-1, ES-SEQ-7: the enable needs all of this in that very call
 EnableNeedsItsConditions ==
-    [][S_EnableSwitchOut' => /\ Called.Activate /\ Called.S_SafetyActive
-                             /\ Called.S_EnableSwitchCh1 /\ ~Called.S_EnableSwitchCh2 /\ Called.S_EnableSwitchCh3]_beat
+    [][S_EnableSwitchOut' =>
+        /\ Called.Activate /\ Called.S_SafetyActive
+        /\ Called.S_EnableSwitchCh1 /\ ~Called.S_EnableSwitchCh2 /\ Called.S_EnableSwitchCh3]_beat
 \* ES-SEQ-0: the end of Activate is answered before everything else
 ActivateGoesFirst == [][Ready' = Called.Activate]_beat
 \* ES-SEQ-1, ESF-08: without the mode there is no demand and no enable; an error is kept
 ModeEndsOperation ==
     [][~Called.S_SafetyActive => /\ ~S_EnableSwitchOut' /\ ~SafetyDemand'
                                  /\ (~Error /\ Called.Activate) => DiagCode' = 32770]_beat
-\* ES-STAGE-0, ES-SEQ-5, ES-RESTART, ESF-06: an error of an active block is left at stage 0 alone, and by a reset
+\* ES-STAGE-0, ES-SEQ-5, ES-RESTART, ESF-06: an error of an active block is left at stage 0 alone, by a reset
 ErrorNeedsReset ==
     [][(Error /\ ~Error' /\ Called.Activate) =>
         /\ SeesStage0(Called) /\ ResetRequest
@@ -122,7 +126,8 @@ HeldResetIsAnError ==
     [][Called.Activate =>
         /\ (ResetRequest /\ SeesStage0(Called) /\ Called.Reset /\ resetBefore /\ ~Called.S_AutoReset) =>
                (state' \in ResetErrors \/ (MODE_ENDS_ERROR /\ ~Called.S_SafetyActive))
-        /\ (state \in ResetErrors /\ Called.Reset) => (state' = state \/ (MODE_ENDS_ERROR /\ ~Called.S_SafetyActive))]_beat
+        /\ (state \in ResetErrors /\ Called.Reset) =>
+               (state' = state \/ (MODE_ENDS_ERROR /\ ~Called.S_SafetyActive))]_beat
 
 ----------------------------------------------------------------------------
 (* One transition a call, whatever the inputs are: the pairs of states     *)
@@ -160,8 +165,8 @@ OneTransitionACall == [][state' \in WaysOut[state]]_beat
 (* decides: the block is active, the mode is on, the time of a change is   *)
 (* not over, Reset and S_AutoReset are FALSE.                              *)
 
-\* Columns: channels 1, 2, 3 as FFF, FFT, FTF, FTT, TFF, TFT, TTF, TTT.  "" is the state itself.  ESF-02 to the end of the
-\* list of findings that name a pattern: ESF-03, ESF-04, ESF-05, ESF-06; ES-STAGE-0, ES-STAGE-1, ES-STAGE-2, ES-ORDER-2
+\* ES-STAGE-0, ES-STAGE-1, ES-STAGE-2, ES-ORDER-2, ESF-02, ESF-03, ESF-04, ESF-05, ESF-06: the ways.
+\* Columns: channels 1, 2, 3 as FFF, FFT, FTF, FTT, TFF, TFT, TTF, TTT.  "" is the state itself.
 LOCAL Same == <<"", "", "", "", "", "", "", "">>
 LOCAL Always(s) == <<s, s, s, s, s, s, s, s>>
 LOCAL OnlyAtStage0(s, t) == <<t, t, s, t, t, t, t, t>>
@@ -170,11 +175,17 @@ PatternTable ==
         CASE s = "Idle" -> Always("BasicMode")
           [] s = "BasicMode" -> Always("SafeMode")
           [] s = "SafeMode" -> OnlyAtStage0("Stage0", "OperationError")
-          [] s = "Stage0" -> <<"Stage2", "ChangeToStage1", "", "ChangeToStage1", "ChangeToStage1", "Stage1", "ChangeToStage1", "ChangeToStage1">>
+          [] s = "Stage0" ->
+                <<"Stage2", "ChangeToStage1", "", "ChangeToStage1",
+                  "ChangeToStage1", "Stage1", "ChangeToStage1", "ChangeToStage1">>
           [] s = "ChangeToStage1" -> <<"Stage2", "", "Stage0", "", "", "Stage1", "", "">>
-          [] s = "Stage1" -> <<"Stage2", "ChangeToStage0", "Stage0", "ChangeToStage0", "ChangeToStage0", "", "ChangeToStage0", "ChangeToStage0">>
+          [] s = "Stage1" ->
+                <<"Stage2", "ChangeToStage0", "Stage0", "ChangeToStage0",
+                  "ChangeToStage0", "", "ChangeToStage0", "ChangeToStage0">>
           [] s = "ChangeToStage0" -> <<"Stage2", "", "Stage0", "", "", "PlausibilityError", "", "">>
-          [] s = "Stage2" -> <<"", "ChangeToStage0", "Stage0", "ChangeToStage0", "ChangeToStage0", "PlausibilityError", "ChangeToStage0", "ChangeToStage0">>
+          [] s = "Stage2" ->
+                <<"", "ChangeToStage0", "Stage0", "ChangeToStage0",
+                  "ChangeToStage0", "PlausibilityError", "ChangeToStage0", "ChangeToStage0">>
           [] s = "OperationError" -> OnlyAtStage0("OperationErrorAtStage0", "")
           [] s = "PlausibilityError" -> OnlyAtStage0("PlausibilityErrorAtStage0", "")
           [] s = "EquivalenceError" -> OnlyAtStage0("EquivalenceErrorAtStage0", "")
@@ -191,5 +202,6 @@ Plain ==
     /\ state \notin Timed \/ elapsed + Called.dt < DiscrepancyTimeCh1_Ch3
 \* ES-STAGE-0, ES-STAGE-1, ES-STAGE-2, ES-SEQ-6, ES-SEQ-7, ES-SEQ-8, ESF-04: every pattern in every state
 PatternsDecide ==
-    [][Plain => state' = (IF PatternTable[state][Column] = "" THEN state ELSE PatternTable[state][Column])]_beat
+    [][Plain =>
+        state' = (IF PatternTable[state][Column] = "" THEN state ELSE PatternTable[state][Column])]_beat
 =============================================================================

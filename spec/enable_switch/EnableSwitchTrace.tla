@@ -9,6 +9,7 @@ EXTENDS EnableSwitch
 BlockAnywhere ==
     /\ state \in States
     /\ resetBefore \in IF state \in ResetErrors THEN {TRUE} ELSE BOOLEAN
-    /\ elapsed \in IF state \in Timed /\ DiscrepancyTimeCh1_Ch3 > 0 THEN 0..(DiscrepancyTimeCh1_Ch3 - 1) ELSE {0}
+    /\ elapsed \in IF state \in Timed /\ DiscrepancyTimeCh1_Ch3 > 0
+                  THEN 0..(DiscrepancyTimeCh1_Ch3 - 1) ELSE {0}
     /\ step = ""
 =============================================================================

@@ -11,42 +11,33 @@
 (* codes: both are the family's of V1.0 as the project's reference notes   *)
 (* have them (GLF-01), changed where the document's own words ask for it   *)
 (* (UNLOCK_ON, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS).                *)
-(* Leaves out: door, bolt, machine and person (GuardLockingZone), and   *)
+(* Leaves out: door, bolt, machine and person (GuardLockingZone), and     *)
 (* time: the block has no timer.                                           *)
 (***************************************************************************)
 EXTENDS CyclicBlock
 
 CONSTANTS
-    UNLOCK_ON,         \* what unlocks a locked guard: "edge", "latched" or "level" of UnlockRequest (GLF-02)
-    ZONE_LOST,         \* S_SafetyActive FALSE while the guard is closed but unlocked: "error" or "tolerated" (GLF-04)
-    START_UP_INHIBIT,  \* lasts "until_reset", or "until_opened": a guard that is not locked at start-up ends it (GLF-08)
-    CAUSE_OF_LOSS      \* is gone with "guard_and_zone", the guard being closed and locked too, or with the "zone" alone (GLF-14)
+    \* GLF-02: what unlocks a locked guard: "edge", "latched" or "level" of UnlockRequest
+    UNLOCK_ON,
+    \* GLF-04: S_SafetyActive FALSE while the guard is closed but unlocked: "error" or "tolerated"
+    ZONE_LOST,
+    \* GLF-08: lasts "until_reset", or "until_opened": a guard that is not locked at start-up ends it
+    START_UP_INHIBIT,
+    \* GLF-14: is gone with "guard_and_zone", the guard being closed and locked too, or with the "zone" alone
+    CAUSE_OF_LOSS
 
 ASSUME UNLOCK_ON \in {"edge", "latched", "level"}
 ASSUME ZONE_LOST \in {"error", "tolerated"}
 ASSUME START_UP_INHIBIT \in {"until_reset", "until_opened"}
 ASSUME CAUSE_OF_LOSS \in {"guard_and_zone", "zone"}
 
-Readings == FamilyReadings \cup {
-    "UNLOCKS_WITHOUT_SAFE_ZONE",
-    "UNLOCKED_ONLY_WHILE_REQUESTED",
-    "OPEN_GUARD_NEEDS_NO_SAFE_ZONE",
-    "ZONE_MUST_STAY_SAFE",
-    "LOSS_IS_NO_ERROR",
-    "REQUEST_BEFORE_LOSS",
-    "RESET_BEFORE_LOSS",
-    "AUTO_RESET_ENDS_ERROR",
-    "STATIC_RESET_UNNOTICED",
-    "ERROR_UNTIL_RESET",
-    "EDGE_WHERE_NOTHING_IS_ENABLED",
-    "CONTRADICTION_IS_AN_ERROR"
-}
-ASSUME LITERAL \subseteq Readings
-
 VARIABLES
-    unlockRequestBefore,   \* UnlockRequest as the call before this one read it
-    requestPending,        \* with UNLOCK_ON = "latched": the edge came while the guard is locked, and the request stands since
-    startUpInhibit         \* the guard was not locked at start-up, and the start-up inhibit is still to be removed
+    \* UnlockRequest as the call before this one read it
+    unlockRequestBefore,
+    \* with UNLOCK_ON = "latched": the edge came while the guard is locked, and the request stands since
+    requestPending,
+    \* the guard was not locked at start-up, and the start-up inhibit is still to be removed
+    startUpInhibit
 
 guardLocking == <<state, resetBefore, unlockRequestBefore, requestPending, startUpInhibit>>
 
@@ -54,14 +45,17 @@ ResetErrors == {"ResetError1", "ResetError2", "ResetError3"}
 GuardLockingErrors == ResetErrors \cup {"SafetyLost"}
 Unlocked == {"GuardOpenAndUnlocked", "GuardClosedButUnlocked"}
 GuardLockingStates ==
-    {"Idle", "Init", "GuardClosedAndLocked", "WaitForReset", "WaitForOperator", "SafetyReturn"} \cup Unlocked \cup GuardLockingErrors
+    {"Idle", "Init", "GuardClosedAndLocked", "WaitForReset", "WaitForOperator", "SafetyReturn"}
+    \cup Unlocked \cup GuardLockingErrors
 
 GuardLockingTypeOK ==
     /\ state \in GuardLockingStates
     /\ {resetBefore, unlockRequestBefore, requestPending, startUpInhibit} \subseteq BOOLEAN
     \* What only one parameter needs is remembered only with it, and only where it counts
     /\ requestPending => UNLOCK_ON = "latched" /\ state = "GuardClosedAndLocked" /\ unlockRequestBefore
-    /\ startUpInhibit => START_UP_INHIBIT = "until_reset" /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"}
+    /\ startUpInhibit =>
+        /\ START_UP_INHIBIT = "until_reset"
+        /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"}
 
 \* GL-OUT-READY, GL-IN-DEFAULT, GL-SEQ-0: before the first call nothing is active and nothing is remembered
 GuardLockingInit ==
@@ -78,7 +72,7 @@ S_GuardLocked == state = "GuardClosedAndLocked"
 \* GL-OUT-UNLOCKGUARD, GLF-03
 S_UnlockGuard == state \in Unlocked
 \* GL-OUT-ERROR, GLF-06
-Error == state \in GuardLockingErrors \/ (Literal("ERROR_UNTIL_RESET") /\ state = "SafetyReturn")
+Error == state \in GuardLockingErrors
 \* GL-OUT-DIAGCODE, GLF-01: codes of the project
 DiagCode ==
     CASE state = "Idle" -> \h0000
@@ -95,26 +89,25 @@ DiagCode ==
       [] state = "SafetyLost" -> \hC004
 \* The outputs by their names
 GuardLockingOutputs ==
-    [Ready |-> Ready, S_GuardLocked |-> S_GuardLocked, S_UnlockGuard |-> S_UnlockGuard, Error |-> Error, DiagCode |-> DiagCode]
+    [Ready |-> Ready, S_GuardLocked |-> S_GuardLocked, S_UnlockGuard |-> S_UnlockGuard,
+     Error |-> Error, DiagCode |-> DiagCode]
 
 ----------------------------------------------------------------------------
 (* What a call sees.                                                       *)
 
 \* GL-IN-GUARDMONITORING, GL-IN-GUARDLOCK
 LOCAL Secured(i) == i.S_GuardMonitoring /\ i.S_GuardLock
-\* GL-IN-SAFETYACTIVE, GL-SEQ-3
-LOCAL ZoneAllows(i) == i.S_SafetyActive \/ Literal("UNLOCKS_WITHOUT_SAFE_ZONE")
-\* GLF-07: where it is waited for, a Reset that does not move is an error
-LOCAL Static(i) == ResetStatic(i) /\ ~Literal("STATIC_RESET_UNNOTICED")
 \* GL-IN-UNLOCKREQUEST, GLF-02
-LOCAL RequestRises(i) == Rises(i.UnlockRequest, unlockRequestBefore)
-LOCAL Requested(i) ==
+RequestRises(i) == Rises(i.UnlockRequest, unlockRequestBefore)
+LOCAL RequestStands(i) == i.UnlockRequest /\ (RequestRises(i) \/ requestPending)
+Requested(i) ==
     CASE UNLOCK_ON = "edge" -> RequestRises(i)
-      [] UNLOCK_ON = "latched" -> i.UnlockRequest /\ (RequestRises(i) \/ requestPending)
+      [] UNLOCK_ON = "latched" -> RequestStands(i)
       [] OTHER -> i.UnlockRequest
-LOCAL UnlocksNow(i) == Requested(i) /\ ZoneAllows(i)
-\* GL-OUT-ERROR, GLF-05: the guard or its lock is lost although nobody asked for it; one reading wants a safe zone besides
-LOCAL LockLost(i) == ~(Secured(i) /\ (Literal("ZONE_MUST_STAY_SAFE") => i.S_SafetyActive))
+\* GL-IN-UNLOCKREQUEST, GL-IN-SAFETYACTIVE, GL-SEQ-3
+UnlocksNow(i) == Requested(i) /\ i.S_SafetyActive
+\* GL-OUT-ERROR, GLF-05: the guard or its lock is lost although nobody asked for it
+LockLost(i) == ~Secured(i)
 \* GL-IN-AUTORESET, GL-IN-STARTRESET, GLF-08
 LOCAL RestartsAlone(i) == i.S_AutoReset /\ ~startUpInhibit
 
@@ -131,7 +124,8 @@ StartUp(i) == At("Idle", i) /\ GoTo("Init") /\ Did("StartUp")
 ----------------------------------------------------------------------------
 (* Start-up.                                                               *)
 
-LOCAL StaticAtStartUp(i) == Static(i) /\ ~i.S_StartReset
+\* GLF-07: where it is waited for, a Reset that does not move is an error
+LOCAL StaticAtStartUp(i) == ResetStatic(i) /\ ~i.S_StartReset
 \* GL-IN-RESET, GLF-07
 FindStaticResetAtStartUp(i) ==
     At("Init", i) /\ StaticAtStartUp(i) /\ GoTo("ResetError1") /\ Did("FindStaticResetAtStartUp")
@@ -147,7 +141,9 @@ RemoveStartUpInhibit(i) ==
     /\ Did("RemoveStartUpInhibit")
 \* GL-IN-STARTRESET
 StartWithoutInhibit(i) ==
-    At("Init", i) /\ Secured(i) /\ i.S_StartReset /\ GoTo("GuardClosedAndLocked") /\ Did("StartWithoutInhibit")
+    /\ At("Init", i) /\ Secured(i) /\ i.S_StartReset
+    /\ GoTo("GuardClosedAndLocked")
+    /\ Did("StartWithoutInhibit")
 \* GL-IN-STARTRESET, GL-SEQ-1
 AwaitStartReset(i) ==
     /\ At("Init", i) /\ ~StaticAtStartUp(i) /\ Secured(i) /\ ~i.S_StartReset /\ ~ResetRises(i)
@@ -157,20 +153,18 @@ AwaitStartReset(i) ==
 ----------------------------------------------------------------------------
 (* Closed and locked: the one state that enables.                          *)
 
-LOCAL RequestFirst(i) == Literal("REQUEST_BEFORE_LOSS") /\ UnlocksNow(i)
-\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05
-LoseGuard(i) ==
-    /\ At("GuardClosedAndLocked", i) /\ LockLost(i) /\ ~RequestFirst(i)
-    /\ GoTo(IF Literal("LOSS_IS_NO_ERROR") THEN "WaitForOperator" ELSE "SafetyLost")
-    /\ Did("LoseGuard")
+\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05, GLF-12
+LoseGuard(i) == At("GuardClosedAndLocked", i) /\ LockLost(i) /\ GoTo("SafetyLost") /\ Did("LoseGuard")
 \* GL-IN-UNLOCKREQUEST, GL-IN-SAFETYACTIVE, GL-SEQ-3, GLF-02
 Unlock(i) ==
-    /\ At("GuardClosedAndLocked", i) /\ UnlocksNow(i) /\ (LockLost(i) => RequestFirst(i))
+    /\ At("GuardClosedAndLocked", i) /\ ~LockLost(i) /\ UnlocksNow(i)
     /\ GoTo("GuardClosedButUnlocked")
     /\ Did("Unlock")
 \* GL-OUT-GUARDLOCKED, GL-SEQ-2: whatever the zone does
 StayLocked(i) ==
-    At("GuardClosedAndLocked", i) /\ ~LockLost(i) /\ ~UnlocksNow(i) /\ GoTo("GuardClosedAndLocked") /\ Did("StayLocked")
+    /\ At("GuardClosedAndLocked", i) /\ ~LockLost(i) /\ ~UnlocksNow(i)
+    /\ GoTo("GuardClosedAndLocked")
+    /\ Did("StayLocked")
 
 ----------------------------------------------------------------------------
 (* Unlocked.                                                               *)
@@ -195,15 +189,12 @@ StayUnlocked(i) ==
     /\ GoTo("GuardClosedButUnlocked")
     /\ Did("StayUnlocked")
 
-\* GLF-04: the guard was open in the call before; where a closed guard need not have a safe zone, one that closes now has none to lose
-LOCAL ZoneIsLostInOpen(i) == ~(i.S_SafetyActive \/ (ZONE_LOST = "tolerated" /\ i.S_GuardMonitoring))
-\* GLF-03: one reading ends the output with the request, also while the guard is open
-LOCAL EndsWithRequest(i) == Literal("UNLOCKED_ONLY_WHILE_REQUESTED") /\ ~i.UnlockRequest
-\* GLF-16: one reading takes a lock that is told thrown while the guard is open for an error
-LOCAL Contradicts(i) == Literal("CONTRADICTION_IS_AN_ERROR") /\ i.S_GuardLock /\ ~i.S_GuardMonitoring
+\* GLF-04, GLF-16: the guard was open in the call before; where a closed guard need not have a safe zone, one
+\* that closes now has none to lose
+ZoneIsLostInOpen(i) == ~(i.S_SafetyActive \/ (ZONE_LOST = "tolerated" /\ i.S_GuardMonitoring))
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
 LoseZoneWhileOpen(i) ==
-    At("GuardOpenAndUnlocked", i) /\ (ZoneIsLostInOpen(i) \/ Contradicts(i)) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileOpen")
+    At("GuardOpenAndUnlocked", i) /\ ZoneIsLostInOpen(i) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileOpen")
 \* GL-IN-GUARDMONITORING, GL-SEQ-4
 CloseGuard(i) ==
     /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ i.S_GuardMonitoring
@@ -211,34 +202,37 @@ CloseGuard(i) ==
     /\ Did("CloseGuard")
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03
 StayOpen(i) ==
-    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring /\ ~Contradicts(i)
-    /\ GoTo(IF EndsWithRequest(i) THEN "WaitForOperator" ELSE "GuardOpenAndUnlocked")
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring
+    /\ GoTo("GuardOpenAndUnlocked")
     /\ Did("StayOpen")
 
 ----------------------------------------------------------------------------
 (* Not unlocked by us, and not locked: the operator has to open or close.  *)
 
-\* GLF-10: one reading lets an open guard through before it looks at the zone
-LOCAL OpenFirst(i) == Literal("OPEN_GUARD_NEEDS_NO_SAFE_ZONE") /\ ~i.S_GuardMonitoring
-LOCAL ZoneOpenToIt(i) == ~i.S_SafetyActive /\ ~Secured(i) /\ ~OpenFirst(i)
+\* GLF-10: the zone is not safe, and the guard does not keep anybody out
+ZoneOpenToIt(i) == ~i.S_SafetyActive /\ ~Secured(i)
 \* GLF-03: an open guard is unlocked without a request
-LOCAL GoesOpen(i) == ~(i.S_GuardMonitoring \/ EndsWithRequest(i))
-\* GLF-11: one reading needs an edge of the request here too
-LOCAL GoesOnRequest(i) ==
-    /\ i.S_GuardMonitoring /\ i.UnlockRequest /\ i.S_SafetyActive
-    /\ Literal("EDGE_WHERE_NOTHING_IS_ENABLED") => RequestRises(i)
-\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-10: the zone is not safe and the guard does not keep anybody out
+GoesOpen(i) == ~i.S_GuardMonitoring
+\* GLF-11: nothing is enabled here, so that the request needs no edge
+GoesOnRequest(i) == i.S_GuardMonitoring /\ i.UnlockRequest /\ i.S_SafetyActive
+\* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-10
 FindZoneUnprotected(i) ==
     At("WaitForOperator", i) /\ ZoneOpenToIt(i) /\ GoTo("SafetyLost") /\ Did("FindZoneUnprotected")
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03
 FollowOpenGuard(i) ==
-    At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ GoesOpen(i) /\ GoTo("GuardOpenAndUnlocked") /\ Did("FollowOpenGuard")
+    /\ At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ GoesOpen(i)
+    /\ GoTo("GuardOpenAndUnlocked")
+    /\ Did("FollowOpenGuard")
 \* GL-IN-UNLOCKREQUEST, GL-IN-SAFETYACTIVE, GLF-11
 UnlockOnRequest(i) ==
-    At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ GoesOnRequest(i) /\ GoTo("GuardOpenAndUnlocked") /\ Did("UnlockOnRequest")
+    /\ At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ GoesOnRequest(i)
+    /\ GoTo("GuardOpenAndUnlocked")
+    /\ Did("UnlockOnRequest")
 \* GL-IN-AUTORESET, GL-IN-GUARDLOCK
 SeeGuardLocked(i) ==
-    At("WaitForOperator", i) /\ ~GoesOnRequest(i) /\ Secured(i) /\ GoTo("WaitForReset") /\ Did("SeeGuardLocked")
+    /\ At("WaitForOperator", i) /\ ~GoesOnRequest(i) /\ Secured(i)
+    /\ GoTo("WaitForReset")
+    /\ Did("SeeGuardLocked")
 \* GL-OUT-GUARDLOCKED, GL-SEQ-5
 AwaitOperator(i) ==
     /\ At("WaitForOperator", i) /\ ~ZoneOpenToIt(i) /\ ~GoesOpen(i) /\ ~GoesOnRequest(i) /\ ~Secured(i)
@@ -248,29 +242,30 @@ AwaitOperator(i) ==
 ----------------------------------------------------------------------------
 (* Restart.                                                                *)
 
-LOCAL StaticAtRestart(i) == Static(i) /\ ~RestartsAlone(i)
-LOCAL ResetFirst(i) == Literal("RESET_BEFORE_LOSS") /\ ResetRises(i)
+LOCAL StaticAtRestart(i) == ResetStatic(i) /\ ~RestartsAlone(i)
+\* GLF-12: losing the guard comes before the reset
+LostAgain(i) == ~Secured(i)
 \* GL-IN-RESET, GLF-07
 FindStaticResetAtRestart(i) ==
     At("WaitForReset", i) /\ StaticAtRestart(i) /\ GoTo("ResetError3") /\ Did("FindStaticResetAtRestart")
 \* GL-OUT-GUARDLOCKED, GLF-12
 LoseGuardAgain(i) ==
-    /\ At("WaitForReset", i) /\ ~StaticAtRestart(i) /\ ~Secured(i) /\ ~ResetFirst(i)
+    /\ At("WaitForReset", i) /\ ~StaticAtRestart(i) /\ LostAgain(i)
     /\ GoTo("WaitForOperator")
     /\ Did("LoseGuardAgain")
 \* GL-IN-AUTORESET, GL-IN-RESET, GL-OUT-GUARDLOCKED
 RemoveRestartInhibit(i) ==
-    /\ At("WaitForReset", i) /\ (~Secured(i) => ResetFirst(i)) /\ ~RestartsAlone(i) /\ ResetRises(i)
+    /\ At("WaitForReset", i) /\ ~LostAgain(i) /\ ~RestartsAlone(i) /\ ResetRises(i)
     /\ GoTo("GuardClosedAndLocked")
     /\ Did("RemoveRestartInhibit")
 \* GL-IN-AUTORESET
 RestartWithoutInhibit(i) ==
-    /\ At("WaitForReset", i) /\ (~Secured(i) => ResetFirst(i)) /\ RestartsAlone(i)
+    /\ At("WaitForReset", i) /\ ~LostAgain(i) /\ RestartsAlone(i)
     /\ GoTo("GuardClosedAndLocked")
     /\ Did("RestartWithoutInhibit")
 \* GL-IN-AUTORESET, GL-OUT-GUARDLOCKED
 AwaitReset(i) ==
-    /\ At("WaitForReset", i) /\ ~StaticAtRestart(i) /\ Secured(i) /\ ~RestartsAlone(i) /\ ~ResetRises(i)
+    /\ At("WaitForReset", i) /\ ~StaticAtRestart(i) /\ ~LostAgain(i) /\ ~RestartsAlone(i) /\ ~ResetRises(i)
     /\ GoTo("WaitForReset")
     /\ Did("AwaitReset")
 
@@ -282,55 +277,67 @@ SeeZoneSafe(i) == At("SafetyLost", i) /\ i.S_SafetyActive /\ GoTo("SafetyReturn"
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
 StaySafetyLost(i) == At("SafetyLost", i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("StaySafetyLost")
 
-\* GL-IN-AUTORESET, GLF-13, GLF-14: the guard that was lost must be back; one reading needs no edge where the restart inhibit is off
-LOCAL Acknowledged(i) ==
-    /\ IF Literal("AUTO_RESET_ENDS_ERROR") /\ i.S_AutoReset THEN TRUE ELSE ResetRises(i)
-    /\ CAUSE_OF_LOSS = "guard_and_zone" => Secured(i)
+\* GLF-14: the guard that was lost must be back
+CauseGone(i) == CAUSE_OF_LOSS = "guard_and_zone" => Secured(i)
+\* GL-IN-AUTORESET, GLF-13, GLF-14: an edge of Reset is needed, whatever S_AutoReset says
+Acknowledged(i) == ResetRises(i) /\ CauseGone(i)
 \* GL-IN-RESET, GLF-07
 FindStaticResetAfterError(i) ==
-    At("SafetyReturn", i) /\ Static(i) /\ GoTo("ResetError2") /\ Did("FindStaticResetAfterError")
+    At("SafetyReturn", i) /\ ResetStatic(i) /\ GoTo("ResetError2") /\ Did("FindStaticResetAfterError")
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR
 LoseZoneAgain(i) ==
-    At("SafetyReturn", i) /\ ~Static(i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("LoseZoneAgain")
+    /\ At("SafetyReturn", i) /\ ~ResetStatic(i) /\ ~i.S_SafetyActive
+    /\ GoTo("SafetyLost")
+    /\ Did("LoseZoneAgain")
 \* GL-IN-RESET, GLF-06, GLF-13, GLF-14
 AcknowledgeError(i) ==
-    /\ At("SafetyReturn", i) /\ ~Static(i) /\ i.S_SafetyActive /\ Acknowledged(i)
+    /\ At("SafetyReturn", i) /\ ~ResetStatic(i) /\ i.S_SafetyActive /\ Acknowledged(i)
     /\ GoTo("WaitForOperator")
     /\ Did("AcknowledgeError")
 \* GL-IN-RESET, GL-OUT-GUARDLOCKED
 AwaitAcknowledgment(i) ==
-    /\ At("SafetyReturn", i) /\ ~Static(i) /\ i.S_SafetyActive /\ ~Acknowledged(i)
+    /\ At("SafetyReturn", i) /\ ~ResetStatic(i) /\ i.S_SafetyActive /\ ~Acknowledged(i)
     /\ GoTo("SafetyReturn")
     /\ Did("AwaitAcknowledgment")
 
-LOCAL ReturnsTo == CASE state = "ResetError1" -> "Init" [] state = "ResetError2" -> "SafetyReturn" [] OTHER -> "WaitForReset"
+LOCAL ReturnsTo ==
+    CASE state = "ResetError1" -> "Init" [] state = "ResetError2" -> "SafetyReturn" [] OTHER -> "WaitForReset"
 \* GL-IN-RESET, GLF-07: nothing is reset; a new edge is needed
-ReleaseReset(i) == state \in ResetErrors /\ i.Activate /\ ~i.Reset /\ GoTo(ReturnsTo) /\ Did("ReleaseReset")
+ReleaseReset(i) ==
+    state \in ResetErrors /\ i.Activate /\ ~i.Reset /\ GoTo(ReturnsTo) /\ Did("ReleaseReset")
 \* GL-IN-RESET, GL-OUT-ERROR, GLF-07
-StayInResetError(i) == state \in ResetErrors /\ i.Activate /\ i.Reset /\ GoTo(state) /\ Did("StayInResetError")
+StayInResetError(i) ==
+    state \in ResetErrors /\ i.Activate /\ i.Reset /\ GoTo(state) /\ Did("StayInResetError")
 
 ----------------------------------------------------------------------------
 \* GL-IN-RESET, GL-IN-UNLOCKREQUEST, GLF-02, GLF-08: what the call leaves for the next one
 Remembers(i) ==
     /\ RemembersReset(i)
     /\ unlockRequestBefore' = i.UnlockRequest
-    /\ requestPending' = (UNLOCK_ON = "latched" /\ state' = "GuardClosedAndLocked" /\ i.UnlockRequest /\ (RequestRises(i) \/ requestPending))
-    /\ startUpInhibit' = (CASE state' \in {"Idle", "GuardClosedAndLocked"} -> FALSE
-                            [] state = "Init" /\ state' = "WaitForOperator" -> ~i.S_StartReset /\ START_UP_INHIBIT = "until_reset"
-                            [] OTHER -> startUpInhibit)
+    /\ requestPending' = (UNLOCK_ON = "latched" /\ state' = "GuardClosedAndLocked" /\ RequestStands(i))
+    /\ startUpInhibit' =
+       (CASE state' \in {"Idle", "GuardClosedAndLocked"} -> FALSE
+          [] state = "Init" /\ state' = "WaitForOperator" ->
+                ~i.S_StartReset /\ START_UP_INHIBIT = "until_reset"
+          [] OTHER -> startUpInhibit)
 
 \* GL-SEQ-NOTE: one transition a call; grouped by the states in which the steps can fire
 GuardLockingStep(i) ==
     \/ Deactivate(i)
     \/ state = "Idle" /\ (StayInactive(i) \/ StartUp(i))
-    \/ state = "Init" /\ (FindStaticResetAtStartUp(i) \/ FindGuardNotLocked(i) \/ RemoveStartUpInhibit(i) \/ StartWithoutInhibit(i) \/ AwaitStartReset(i))
+    \/ state = "Init" /\ (\/ FindStaticResetAtStartUp(i) \/ FindGuardNotLocked(i)
+                          \/ RemoveStartUpInhibit(i) \/ StartWithoutInhibit(i) \/ AwaitStartReset(i))
     \/ state = "GuardClosedAndLocked" /\ (LoseGuard(i) \/ Unlock(i) \/ StayLocked(i))
-    \/ state = "GuardClosedButUnlocked" /\ (LoseZoneWhileClosed(i) \/ OpenGuard(i) \/ WithdrawRequest(i) \/ StayUnlocked(i))
+    \/ state = "GuardClosedButUnlocked" /\ (\/ LoseZoneWhileClosed(i) \/ OpenGuard(i)
+                                            \/ WithdrawRequest(i) \/ StayUnlocked(i))
     \/ state = "GuardOpenAndUnlocked" /\ (LoseZoneWhileOpen(i) \/ CloseGuard(i) \/ StayOpen(i))
-    \/ state = "WaitForOperator" /\ (FindZoneUnprotected(i) \/ FollowOpenGuard(i) \/ UnlockOnRequest(i) \/ SeeGuardLocked(i) \/ AwaitOperator(i))
-    \/ state = "WaitForReset" /\ (FindStaticResetAtRestart(i) \/ LoseGuardAgain(i) \/ RemoveRestartInhibit(i) \/ RestartWithoutInhibit(i) \/ AwaitReset(i))
+    \/ state = "WaitForOperator" /\ (\/ FindZoneUnprotected(i) \/ FollowOpenGuard(i)
+                                     \/ UnlockOnRequest(i) \/ SeeGuardLocked(i) \/ AwaitOperator(i))
+    \/ state = "WaitForReset" /\ (\/ FindStaticResetAtRestart(i) \/ LoseGuardAgain(i)
+                                  \/ RemoveRestartInhibit(i) \/ RestartWithoutInhibit(i) \/ AwaitReset(i))
     \/ state = "SafetyLost" /\ (SeeZoneSafe(i) \/ StaySafetyLost(i))
-    \/ state = "SafetyReturn" /\ (FindStaticResetAfterError(i) \/ LoseZoneAgain(i) \/ AcknowledgeError(i) \/ AwaitAcknowledgment(i))
+    \/ state = "SafetyReturn" /\ (\/ FindStaticResetAfterError(i) \/ LoseZoneAgain(i)
+                                  \/ AcknowledgeError(i) \/ AwaitAcknowledgment(i))
     \/ ReleaseReset(i) \/ StayInResetError(i)
 
 \* One call of the block
@@ -341,7 +348,8 @@ GuardLockingCall(i) == GuardLockingStep(i) /\ Remembers(i)
 
 \* GL-OUT-GUARDLOCKED, GL-OUT-UNLOCKGUARD: enable and unlock signal exclude each other
 NeverEnabledAndUnlocked == ~(S_GuardLocked /\ S_UnlockGuard)
-\* GL-OUT-READY, GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GL-SEQ-0: nothing is enabled or unlocked while inactive or in error
+\* GL-OUT-READY, GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GL-SEQ-0: nothing is enabled or unlocked while inactive or
+\* in error
 NothingWhileInactiveOrInError == (~Ready \/ Error) => ~S_GuardLocked /\ ~S_UnlockGuard
 \* GL-OUT-READY, GL-OUT-ERROR: not active is not an error
 InactiveIsNoError == ~Ready => ~Error /\ DiagCode = 0

@@ -4,7 +4,7 @@
 (* environment `arbitrary`, S_StartReset and S_AutoReset included, and the *)
 (* graph that implementations of target sf_guard_locking are compared      *)
 (* with.                                                                   *)
-(* Leaves out door, bolt, machine and person (GuardLockingZone).        *)
+(* Leaves out door, bolt, machine and person (GuardLockingZone).           *)
 (***************************************************************************)
 EXTENDS Sequences, TLC, GuardLocking
 
@@ -17,24 +17,21 @@ VARIABLES
     resetSeen,     \* Reset in the call before
     requestSeen,   \* UnlockRequest in the call before
     asked,         \* UnlockRequest rose while the guard is locked, and is TRUE since
-    starting,      \* since Activate came nothing was enabled yet, and no call of a start-up without inhibit was seen
+    starting,      \* since Activate nothing was enabled, and no call of a start-up without inhibit was seen
     lost,          \* the guard, its lock or the zone was lost, and no edge of Reset has acknowledged it
     unguarded      \* and none has come with the guard closed and locked
 
 observer == <<resetSeen, requestSeen, asked, starting, lost, unguarded>>
 View == guardLocking
 ObservedView == <<View, observer>>
-\* GLF-06: a reading that changes outputs alone is told apart by them
-ViewWithOutputs == <<ObservedView, GuardLockingOutputs>>
-\* GLF-07: where Reset is not remembered while inactive, what it was then is asked by nobody: an enable is two calls away
-ViewWithoutResetSeen == <<View, requestSeen, asked, starting, lost, unguarded>>
 
 ----------------------------------------------------------------------------
 Bit(n, k) == (n \div (2^k)) % 2 = 1
 Inputs == 0..255
 Alphabet == [n \in Inputs |->
-    [Activate |-> Bit(n, 0), S_GuardMonitoring |-> Bit(n, 1), S_SafetyActive |-> Bit(n, 2), S_GuardLock |-> Bit(n, 3),
-     UnlockRequest |-> Bit(n, 4), S_StartReset |-> Bit(n, 5), S_AutoReset |-> Bit(n, 6), Reset |-> Bit(n, 7)]]
+    [Activate |-> Bit(n, 0), S_GuardMonitoring |-> Bit(n, 1), S_SafetyActive |-> Bit(n, 2),
+     S_GuardLock |-> Bit(n, 3), UnlockRequest |-> Bit(n, 4), S_StartReset |-> Bit(n, 5),
+     S_AutoReset |-> Bit(n, 6), Reset |-> Bit(n, 7)]]
 
 Wire(i) == i @@ [dt |-> 1]
 Row == GuardLockingOutputs
@@ -45,7 +42,8 @@ PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>)
 
 OpenInit ==
     /\ GuardLockingInit /\ step = "" /\ in = 0 /\ beat = FALSE
-    /\ resetSeen = FALSE /\ requestSeen = FALSE /\ asked = FALSE /\ starting = FALSE /\ lost = FALSE /\ unguarded = FALSE
+    /\ resetSeen = FALSE /\ requestSeen = FALSE /\ asked = FALSE
+    /\ starting = FALSE /\ lost = FALSE /\ unguarded = FALSE
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 \* GL-IN-RESET, GL-IN-UNLOCKREQUEST: edges as they stand on the wires
@@ -56,9 +54,14 @@ RequestEdge(i) == i.UnlockRequest /\ ~requestSeen
 Observe(i) ==
     /\ resetSeen' = i.Reset /\ requestSeen' = i.UnlockRequest
     /\ asked' = (S_GuardLocked' /\ i.UnlockRequest /\ (RequestEdge(i) \/ asked))
-    /\ starting' = (Ready' /\ ~S_GuardLocked' /\ (~Ready \/ (starting /\ ~(DiagCode = \h8001 /\ i.S_StartReset))))
-    /\ unguarded' = (Ready' /\ (DiagCode' = \hC004 \/ (unguarded /\ ~(i.S_GuardMonitoring /\ i.S_GuardLock /\ ResetEdge(i)))))
-    /\ lost' = (Ready' /\ (DiagCode' = \hC004 \/ (lost /\ ~(DiagCode = \h8014 /\ i.S_SafetyActive /\ ResetEdge(i)))))
+    /\ starting' =
+        (Ready' /\ ~S_GuardLocked' /\ (~Ready \/ (starting /\ ~(DiagCode = \h8001 /\ i.S_StartReset))))
+    /\ unguarded' =
+        (/\ Ready'
+         /\ DiagCode' = \hC004 \/ (unguarded /\ ~(i.S_GuardMonitoring /\ i.S_GuardLock /\ ResetEdge(i))))
+    /\ lost' =
+        (/\ Ready'
+         /\ DiagCode' = \hC004 \/ (lost /\ ~(DiagCode = \h8014 /\ i.S_SafetyActive /\ ResetEdge(i))))
 
 OpenNext ==
     \E n \in Inputs : \E i \in {Alphabet[n]} :
@@ -76,10 +79,12 @@ Wires == Alphabet[in] @@ GuardLockingOutputs
 Secure == Scanned.S_GuardMonitoring /\ Scanned.S_GuardLock
 Enables == ~S_GuardLocked /\ S_GuardLocked'
 Unlocks == ~S_UnlockGuard /\ S_UnlockGuard'
-\* GL-IN-STARTRESET, GLF-08: the start-up inhibit is still to be removed, after a start-up that found the guard not locked too
+\* GL-IN-STARTRESET, GLF-08: the start-up inhibit is still to be removed, after a start-up that found the
+\* guard not locked too
 StartUpInhibited == starting /\ START_UP_INHIBIT = "until_reset"
 
-\* GL-IN-ACTIVATE, GL-OUT-READY, GL-SEQ-0: in the call without Activate every output is FALSE, and only then is Ready
+\* GL-IN-ACTIVATE, GL-OUT-READY, GL-SEQ-0: in the call without Activate every output is FALSE, and only then
+\* is Ready
 InactiveAtOnce ==
     [][/\ Ready' = Scanned.Activate
        /\ ~Scanned.Activate => ~S_GuardLocked' /\ ~S_UnlockGuard' /\ ~Error' /\ DiagCode' = 0]_beat
@@ -87,15 +92,20 @@ InactiveAtOnce ==
 \* GL-OUT-GUARDLOCKED, GL-SEQ-4: the enable needs Activate, a closed and a locked guard in this very call
 EnableNeedsSecuredGuard == [][S_GuardLocked' => Scanned.Activate /\ Secure]_beat
 
-\* GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-1, GL-SEQ-2: no enable without an edge of Reset, unless the input of this inhibit allows it
+\* GL-IN-STARTRESET, GL-IN-AUTORESET, GL-SEQ-1, GL-SEQ-2: no enable without an edge of Reset, unless the input
+\* of this inhibit allows it
 NoAutomaticRestart ==
-    [][Enables => ResetEdge(Scanned) \/ (IF DiagCode = \h8001 THEN Scanned.S_StartReset ELSE Scanned.S_AutoReset)]_beat
+    [][Enables =>
+        \/ ResetEdge(Scanned)
+        \/ IF DiagCode = \h8001 THEN Scanned.S_StartReset ELSE Scanned.S_AutoReset]_beat
 
-\* GL-IN-STARTRESET, GLF-08: a start-up inhibit ends by an edge of Reset, also where the restart inhibit is off
+\* GL-IN-STARTRESET, GLF-08: a start-up inhibit ends by an edge of Reset, also where the restart inhibit is
+\* off
 StartUpInhibitNeedsReset ==
     [][Enables /\ starting => ResetEdge(Scanned) \/ (DiagCode = \h8001 /\ Scanned.S_StartReset)]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-13: after a loss nothing is enabled before an edge of Reset, whatever S_AutoReset says
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-13: after a loss nothing is enabled before an edge of Reset, whatever
+\* S_AutoReset says
 LossNeedsReset == [][S_GuardLocked' => ~lost']_beat
 
 \* GL-IN-RESET, GLF-07: a Reset that does not move takes nothing away, neither an inhibit nor an error
@@ -134,24 +144,32 @@ UnlockNeedsRequestNow == [][S_GuardLocked /\ S_UnlockGuard' => RequestEdge(Scann
 
 \* GL-IN-UNLOCKREQUEST, GLF-02: a request that stands unlocks as soon as the zone is safe
 HeldRequestUnlocks ==
-    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive =>
+        S_UnlockGuard']_beat
 
-\* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-02: a request that came while the guard is locked, and stands, unlocks as soon as the zone is safe
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-02: a request that came while the guard is locked, and stands, unlocks
+\* as soon as the zone is safe
 LatchedRequestUnlocks ==
-    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ asked /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][(/\ S_GuardLocked /\ asked
+        /\ Scanned.Activate /\ Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive) =>
+            S_UnlockGuard']_beat
 
-\* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a request that comes with the zone safe unlocks at once, and withdraws the enable
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a request that comes with the zone safe unlocks at once, and withdraws the
+\* enable
 RequestUnlocksAtOnce ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ RequestEdge(Scanned) /\ Scanned.S_SafetyActive =>
         S_UnlockGuard' /\ ~S_GuardLocked']_beat
 
-\* GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4: as long as the request stands and the zone is safe the guard stays unlocked
+\* GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4: as long as the request stands and the zone is safe the guard stays
+\* unlocked
 StaysUnlockedWhileRequested ==
-    [][S_UnlockGuard /\ Scanned.Activate /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][S_UnlockGuard /\ Scanned.Activate /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive =>
+        S_UnlockGuard']_beat
 
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03: the bolt is not thrown while the guard is open
 StaysUnlockedWhileOpen ==
-    [][S_UnlockGuard /\ Scanned.Activate /\ ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive => S_UnlockGuard']_beat
+    [][S_UnlockGuard /\ Scanned.Activate /\ ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive =>
+        S_UnlockGuard']_beat
 
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-5: without a request a closed guard is locked again
 LocksWithoutRequest ==
@@ -162,13 +180,16 @@ LockedWhateverTheZone ==
     [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.S_SafetyActive => S_GuardLocked']_beat
 
 \* GL-OUT-GUARDLOCKED, GL-SEQ-2: without a request a locked guard stays enabled
-StaysLocked == [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.UnlockRequest => S_GuardLocked']_beat
+StaysLocked ==
+    [][S_GuardLocked /\ Scanned.Activate /\ Secure /\ ~Scanned.UnlockRequest => S_GuardLocked']_beat
 
-\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05: a locked guard that is lost is an error in that call, whatever is requested
+\* GL-OUT-GUARDLOCKED, GL-OUT-ERROR, GLF-05: a locked guard that is lost is an error in that call, whatever is
+\* requested
 LossIsAnError ==
     [][S_GuardLocked /\ Scanned.Activate /\ ~Secure => Error' /\ ~S_GuardLocked' /\ ~S_UnlockGuard']_beat
 
-\* GL-OUT-ERROR, GL-OUT-UNLOCKGUARD, GLF-09, GLF-16: no error takes the unlock signal away while the zone is safe
+\* GL-OUT-ERROR, GL-OUT-UNLOCKGUARD, GLF-09, GLF-16: no error takes the unlock signal away while the zone is
+\* safe
 NoErrorLocksSafeZone == [][S_UnlockGuard /\ Error' => ~Scanned.S_SafetyActive]_beat
 
 \* GL-OUT-ERROR, GL-IN-SAFETYACTIVE, GLF-04, GLF-05, GLF-10: what is a loss in each state
@@ -184,18 +205,21 @@ ErrorNeedsCause ==
     [][~Error /\ Error' =>
         IF DiagCode' = \hC004 THEN LossSeen ELSE Scanned.Reset /\ resetSeen /\ EdgeAwaited]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-06, GLF-07: an error ends with its cause, and leads back to where it was found
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-06, GLF-07: an error ends with its cause, and leads back to where it was
+\* found
 ErrorEndsWithCause ==
     [][Error /\ ~Error' =>
         \/ ~Scanned.Activate
         \/ DiagCode = \hC004 /\ Scanned.S_SafetyActive /\ DiagCode' = \h8014
-        \/ ~Scanned.Reset /\ <<DiagCode, DiagCode'>> \in {<<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}]_beat
+        \/ /\ ~Scanned.Reset
+           /\ <<DiagCode, DiagCode'>> \in {<<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}]_beat
 
 \* GL-IN-RESET, GLF-06: where the message of an error goes out only with the edge that ends the error
 MessageUntilReset ==
     [][Error /\ ~Error' => ~Scanned.Activate \/ ~Scanned.Reset \/ ResetEdge(Scanned)]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss nothing is enabled before an edge of Reset that found the guard closed and locked
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss nothing is enabled before an edge of Reset that found the
+\* guard closed and locked
 LossNeedsGuardBack == [][S_GuardLocked' => ~unguarded']_beat
 
 \* GL-OUT-DIAGCODE, GL-IN-GUARDMONITORING, GLF-11: the code of an unlocked guard tells whether it is open
@@ -205,41 +229,54 @@ CodeTellsTheGuard ==
 
 \* GL-SEQ-NOTE, GLF-01: one transition a call, and only these
 Transitions == {
-    <<\h0000, \h8001>>, <<\h8001, \hC001>>, <<\h8001, \h8011>>, <<\h8001, \h8000>>, <<\h8000, \hC004>>, <<\h8000, \h8013>>,
-    <<\h8013, \hC004>>, <<\h8013, \h8012>>, <<\h8013, \h8011>>, <<\h8012, \hC004>>, <<\h8012, \h8013>>, <<\h8011, \hC004>>,
-    <<\h8011, \h8012>>, <<\h8011, \h8003>>, <<\h8003, \hC003>>, <<\h8003, \h8011>>, <<\h8003, \h8000>>, <<\hC004, \h8014>>,
-    <<\h8014, \hC002>>, <<\h8014, \hC004>>, <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
+    <<\h0000, \h8001>>, <<\h8001, \hC001>>, <<\h8001, \h8011>>, <<\h8001, \h8000>>,
+    <<\h8000, \hC004>>, <<\h8000, \h8013>>, <<\h8013, \hC004>>, <<\h8013, \h8012>>,
+    <<\h8013, \h8011>>, <<\h8012, \hC004>>, <<\h8012, \h8013>>, <<\h8011, \hC004>>,
+    <<\h8011, \h8012>>, <<\h8011, \h8003>>, <<\h8003, \hC003>>, <<\h8003, \h8011>>,
+    <<\h8003, \h8000>>, <<\hC004, \h8014>>, <<\h8014, \hC002>>, <<\h8014, \hC004>>,
+    <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
 OneTransitionACall == [][DiagCode' \in {0, DiagCode} \/ <<DiagCode, DiagCode'>> \in Transitions]_beat
 
-\* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what it waits for
+\* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what
+\* it waits for
 AnswersAtOnce ==
     [][DiagCode' = DiagCode /\ Scanned.Activate =>
         CASE DiagCode = \h8001 -> Secure /\ ~Scanned.S_StartReset /\ ~Scanned.Reset
           [] DiagCode = \h8000 -> Secure /\ ~(RequestEdge(Scanned) /\ Scanned.S_SafetyActive)
           [] DiagCode = \h8013 -> Scanned.S_GuardMonitoring /\ Scanned.UnlockRequest
           [] DiagCode = \h8012 -> ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive
-          [] DiagCode = \h8011 -> Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
+          [] DiagCode = \h8011 ->
+                /\ Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock
+                /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
           [] DiagCode = \h8003 -> Secure /\ ~Scanned.Reset /\ (~Scanned.S_AutoReset \/ StartUpInhibited)
-          [] DiagCode = \h8014 -> (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
+          [] DiagCode = \h8014 ->
+                (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
           [] DiagCode = \hC004 -> ~Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> Scanned.Reset]_beat
 
-\* GL-SEQ-2, GL-SEQ-3, GL-SEQ-4, GL-SEQ-5, GLF-04, GLF-11, GLF-12, GLF-14: and a call that leaves its state has seen why (why an error
-\* is shown, ErrorNeedsCause says)
+\* GL-SEQ-2, GL-SEQ-3, GL-SEQ-4, GL-SEQ-5, GLF-04, GLF-11, GLF-12, GLF-14: and a call that leaves its state
+\* has seen why (why an error is shown, ErrorNeedsCause says)
 LeavesForACause ==
     [][DiagCode' # DiagCode /\ Scanned.Activate /\ DiagCode' < \hC000 =>
-        CASE DiagCode = \h8001 -> IF S_GuardLocked' THEN Secure /\ (Scanned.S_StartReset \/ ResetEdge(Scanned)) ELSE ~Secure
+        CASE DiagCode = \h8001 ->
+                IF S_GuardLocked' THEN Secure /\ (Scanned.S_StartReset \/ ResetEdge(Scanned)) ELSE ~Secure
           [] DiagCode = \h8000 -> Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive
           [] DiagCode = \h8013 ->
                 /\ Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated"
-                /\ IF S_UnlockGuard' THEN ~Scanned.S_GuardMonitoring ELSE Scanned.S_GuardMonitoring /\ ~Scanned.UnlockRequest
-          [] DiagCode = \h8012 -> Scanned.S_GuardMonitoring /\ (Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated")
+                /\ IF S_UnlockGuard' THEN ~Scanned.S_GuardMonitoring
+                                     ELSE Scanned.S_GuardMonitoring /\ ~Scanned.UnlockRequest
+          [] DiagCode = \h8012 ->
+                Scanned.S_GuardMonitoring /\ (Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated")
           [] DiagCode = \h8011 ->
-                IF S_UnlockGuard' THEN Scanned.S_SafetyActive /\ (Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring)
-                                  ELSE Secure /\ ~(Scanned.UnlockRequest /\ Scanned.S_SafetyActive)
+                IF S_UnlockGuard'
+                    THEN Scanned.S_SafetyActive /\ (Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring)
+                    ELSE Secure /\ ~(Scanned.UnlockRequest /\ Scanned.S_SafetyActive)
           [] DiagCode = \h8003 ->
-                IF S_GuardLocked' THEN Secure /\ (ResetEdge(Scanned) \/ (Scanned.S_AutoReset /\ ~StartUpInhibited)) ELSE ~Secure
-          [] DiagCode = \h8014 -> ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (CAUSE_OF_LOSS = "guard_and_zone" => Secure)
+                IF S_GuardLocked'
+                    THEN Secure /\ (ResetEdge(Scanned) \/ (Scanned.S_AutoReset /\ ~StartUpInhibited))
+                    ELSE ~Secure
+          [] DiagCode = \h8014 ->
+                ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (CAUSE_OF_LOSS = "guard_and_zone" => Secure)
           [] DiagCode = \hC004 -> Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> ~Scanned.Reset
           [] OTHER -> ~Ready]_beat

@@ -10,8 +10,12 @@ GuardLockingAnywhere ==
     /\ state \in GuardLockingStates
     /\ resetBefore \in IF state \in ResetErrors THEN {TRUE} ELSE BOOLEAN
     /\ unlockRequestBefore \in BOOLEAN
-    /\ requestPending \in IF UNLOCK_ON = "latched" /\ state = "GuardClosedAndLocked" /\ unlockRequestBefore THEN BOOLEAN ELSE {FALSE}
+    /\ requestPending \in
+        IF UNLOCK_ON = "latched" /\ state = "GuardClosedAndLocked" /\ unlockRequestBefore
+            THEN BOOLEAN ELSE {FALSE}
     /\ startUpInhibit \in
-        IF START_UP_INHIBIT = "until_reset" /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"} THEN BOOLEAN ELSE {FALSE}
+        IF /\ START_UP_INHIBIT = "until_reset"
+           /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"}
+            THEN BOOLEAN ELSE {FALSE}
     /\ step = ""
 =============================================================================

@@ -33,8 +33,8 @@ ZoneView == <<guardLocking, zone>>
 ZoneInit ==
     /\ GuardLockingInit /\ step = ""
     /\ open = FALSE /\ bolted = TRUE /\ inside = FALSE /\ moving = FALSE
-    /\ told = [Activate |-> FALSE, S_GuardMonitoring |-> TRUE, S_SafetyActive |-> TRUE, S_GuardLock |-> TRUE, UnlockRequest |-> FALSE,
-               S_StartReset |-> START, S_AutoReset |-> AUTO, Reset |-> FALSE]
+    /\ told = [Activate |-> FALSE, S_GuardMonitoring |-> TRUE, S_SafetyActive |-> TRUE, S_GuardLock |-> TRUE,
+               UnlockRequest |-> FALSE, S_StartReset |-> START, S_AutoReset |-> AUTO, Reset |-> FALSE]
 
 \* GL-EX-3: a standstill monitor that fails says FALSE; told wrong, it says anything
 Standstill == IF "STANDSTILL_TOLD_WRONG" \in BROKEN THEN BOOLEAN ELSE {FALSE, ~moving}
@@ -45,33 +45,55 @@ ResetButton == IF inside /\ "RESET_WITH_SOMEBODY_INSIDE" \notin BROKEN THEN {FAL
 
 BlockRuns ==
     \E on, request \in BOOLEAN : \E safe \in Standstill : \E reset \in ResetButton :
-        /\ told' = [Activate |-> on, S_GuardMonitoring |-> ~open, S_SafetyActive |-> safe, S_GuardLock |-> LockFeedback,
-                    UnlockRequest |-> request, S_StartReset |-> START, S_AutoReset |-> AUTO, Reset |-> reset]
+        /\ told' = [Activate |-> on, S_GuardMonitoring |-> ~open, S_SafetyActive |-> safe,
+                    S_GuardLock |-> LockFeedback, UnlockRequest |-> request,
+                    S_StartReset |-> START, S_AutoReset |-> AUTO, Reset |-> reset]
         /\ GuardLockingCall(told')
         /\ UNCHANGED zone
 
 Between == UNCHANGED <<guardLocking, told>>
 \* GL-OUT-UNLOCKGUARD, GL-EX-1: the coil
-DrawBolt == S_UnlockGuard /\ bolted /\ bolted' = FALSE /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("DrawBolt")
-ThrowBolt == ~S_UnlockGuard /\ ~open /\ ~bolted /\ bolted' = TRUE /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("ThrowBolt")
-OpenDoor == ~bolted /\ ~open /\ open' = TRUE /\ UNCHANGED <<bolted, inside, moving>> /\ Between /\ Did("OpenDoor")
-CloseDoor == open /\ open' = FALSE /\ UNCHANGED <<bolted, inside, moving>> /\ Between /\ Did("CloseDoor")
-Enter == open /\ ~inside /\ inside' = TRUE /\ UNCHANGED <<open, bolted, moving>> /\ Between /\ Did("Enter")
-Leave == open /\ inside /\ inside' = FALSE /\ UNCHANGED <<open, bolted, moving>> /\ Between /\ Did("Leave")
+DrawBolt ==
+    /\ S_UnlockGuard /\ bolted /\ bolted' = FALSE
+    /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("DrawBolt")
+ThrowBolt ==
+    /\ ~S_UnlockGuard /\ ~open /\ ~bolted /\ bolted' = TRUE
+    /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("ThrowBolt")
+OpenDoor ==
+    /\ ~bolted /\ ~open /\ open' = TRUE
+    /\ UNCHANGED <<bolted, inside, moving>> /\ Between /\ Did("OpenDoor")
+CloseDoor ==
+    /\ open /\ open' = FALSE
+    /\ UNCHANGED <<bolted, inside, moving>> /\ Between /\ Did("CloseDoor")
+Enter ==
+    /\ open /\ ~inside /\ inside' = TRUE
+    /\ UNCHANGED <<open, bolted, moving>> /\ Between /\ Did("Enter")
+Leave ==
+    /\ open /\ inside /\ inside' = FALSE
+    /\ UNCHANGED <<open, bolted, moving>> /\ Between /\ Did("Leave")
 \* GLF-09: whatever the block asks for
-Escape == ESCAPE /\ inside /\ bolted /\ bolted' = FALSE /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("Escape")
+Escape ==
+    /\ ESCAPE /\ inside /\ bolted /\ bolted' = FALSE
+    /\ UNCHANGED <<open, inside, moving>> /\ Between /\ Did("Escape")
 \* GL-EX-4: nothing moves without the enable, but a machine that moves needs time to stop
-Start == S_GuardLocked /\ ~moving /\ moving' = TRUE /\ UNCHANGED <<open, bolted, inside>> /\ Between /\ Did("Start")
-Stop == moving /\ moving' = FALSE /\ UNCHANGED <<open, bolted, inside>> /\ Between /\ Did("Stop")
+Start ==
+    /\ S_GuardLocked /\ ~moving /\ moving' = TRUE
+    /\ UNCHANGED <<open, bolted, inside>> /\ Between /\ Did("Start")
+Stop ==
+    /\ moving /\ moving' = FALSE
+    /\ UNCHANGED <<open, bolted, inside>> /\ Between /\ Did("Stop")
 
-ZoneNext == BlockRuns \/ DrawBolt \/ ThrowBolt \/ OpenDoor \/ CloseDoor \/ Enter \/ Leave \/ Escape \/ Start \/ Stop
+ZoneNext ==
+    BlockRuns \/ DrawBolt \/ ThrowBolt \/ OpenDoor \/ CloseDoor \/ Enter \/ Leave \/ Escape \/ Start \/ Stop
 zoneVars == <<ZoneView, step, told>>
 ZoneSpec == ZoneInit /\ [][ZoneNext]_zoneVars
-\* GLA-05: who is inside frees the door, opens it and goes, as often as there is a chance to; nobody else need do anything
+\* GLA-05: who is inside frees the door, opens it and goes, as often as there is a chance to; nobody else need
+\* do anything
 WayOutSpec == ZoneSpec /\ WF_zoneVars(Escape) /\ SF_zoneVars(OpenDoor) /\ SF_zoneVars(Leave)
 
 \* For a reader of a trace
-ZoneWires == told @@ GuardLockingOutputs @@ [open |-> open, bolted |-> bolted, inside |-> inside, moving |-> moving]
+ZoneWires ==
+    told @@ GuardLockingOutputs @@ [open |-> open, bolted |-> bolted, inside |-> inside, moving |-> moving]
 BlockRead == told'
 
 ----------------------------------------------------------------------------

@@ -21,7 +21,8 @@ LOCAL SameKey(k, w) ==
     /\ k.access_code = w.access_code /\ k.KEYCRC = w.KEYCRC /\ k.KeyID = w.KeyID
 LOCAL Number(w) ==
     CHOOSE n \in DOMAIN KEY : SameKey(KEY[n], w) /\ \A m \in 1..n - 1 : ~SameKey(KEY[m], w)
-EksRead(w) == [key |-> IF w.inserted THEN Number(w) ELSE None, registers_zero |-> w.registers_zero, dt |-> w.dt]
+EksRead(w) ==
+    [key |-> IF w.inserted THEN Number(w) ELSE None, registers_zero |-> w.registers_zero, dt |-> w.dt]
 
 LOCAL RightChecksum(k) == KEY[k].KEYCRC = CHECKSUM[k]
 \* EKS-2-3, EKS-2-4, EKS-2-5, EKS-8-5: which key can be in memory in which state

@@ -10,7 +10,8 @@
 EXTENDS Sequences, TLC, Fplc
 
 CONSTANTS
-          VECTORS,        \* "all" 32 output vectors; "classes": none, each one, two, all five; "few": of the ones only levels 2 to 4;
+          VECTORS,        \* "all" 32 output vectors; "classes": none, each one, two, all five;
+                          \* "few": of the ones only levels 2 to 4;
                           \* "least": levels 2 and 4, all words but 3333, up to the first switchover;
                           \* "one": of the ones only level 2, and every time in every state
           PRINT_GRAPH     \* TRUE: print inputs, states and edges
@@ -19,11 +20,12 @@ VARIABLES
           in,         \* the input of the last scan, by its number; hidden by VIEW
           beat,       \* changes in every scan, so that no scan escapes an action property; hidden by VIEW
           \* What an observer of the wires alone has seen in this insertion; nothing of the F-PLC reads it:
-          cleared,    \* one output, LA and both words zero, since LA was last off and the last echo was taken back
+          cleared,    \* one output, LA and both words zero, since LA was off and the last echo was taken back
           pulse,      \* with LA: 0 no pulse, 1 all outputs seen, 2 then none
           selected,   \* then MW03 showed this mode, with MW07 still zero
           echoed,     \* then MW05 showed it
-          waited      \* ticks since LA was seen (or all outputs, E-38), until one output is accepted; or since the removal began
+          waited      \* ticks since LA was seen (or all outputs, E-38), until one output is accepted; or
+                      \* since the removal began
 
 observer == <<cleared, pulse, selected, echoed, waited>>
 View == fplc
@@ -52,18 +54,9 @@ Alphabet == [n \in 0..N - 1 |->
      MW07 |-> Words[((n \div (2 * NV * NW)) % NW) + 1],
      dt   |-> Times[(n \div (2 * NV * NW * NW)) + 1]]]
 
-\* E-12, E-18: two readings take the level from the flag word MW01; by then it may have been overwritten with one of these
-MW01IsRead == AUTHORITY_FROM_MW01 \/ FIG5_READS_MW01
-Overwritten == <<0, OtherWord, RE[4]>>
-FlagMW01(o) == IF o = 0 THEN MW01 ELSE Overwritten[o]
-Overwriting == IF MW01IsRead /\ fplcState = "CheckSelection" THEN 0..Len(Overwritten) ELSE {0}
-Seen(n, o) == IF MW01IsRead
-              THEN [LA |-> Alphabet[n].LA, vec |-> Alphabet[n].vec, MW01 |-> FlagMW01(o),
-                    MW03 |-> Alphabet[n].MW03, MW07 |-> Alphabet[n].MW07, dt |-> Alphabet[n].dt]
-              ELSE Alphabet[n]
-
-Wire(i) == [LA |-> i.LA, A |-> 0 \in i.vec, B |-> 1 \in i.vec, C |-> 2 \in i.vec, D |-> 3 \in i.vec, STR |-> 4 \in i.vec,
-            MW03 |-> i.MW03, MW07 |-> i.MW07, dt |-> i.dt]
+Wire(i) ==
+    [LA |-> i.LA, A |-> 0 \in i.vec, B |-> 1 \in i.vec, C |-> 2 \in i.vec, D |-> 3 \in i.vec,
+     STR |-> 4 \in i.vec, MW03 |-> i.MW03, MW07 |-> i.MW07, dt |-> i.dt]
 Row == FplcOutputs
 
 ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alphabet[n])>>))
@@ -77,21 +70,23 @@ OpenInit ==
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 \* The stretches that have one deadline as a whole
-Stretch(s) == IF s \in Pulse \cup {"OneOutput"} THEN "insertion" ELSE IF s \in Removing THEN "removal" ELSE "none"
+Stretch(s) == IF s \in Inserting THEN "insertion" ELSE IF s \in Removing THEN "removal" ELSE "none"
 \* The observer reads the wires i of a scan, and MW05 and the state as they stood before it and after it
 LOCAL Waits(i) ==
     LET goes_on == /\ fplcState \in Timed /\ Stretch(fplcState') = Stretch(fplcState)
                    /\ T_SEQ_FROM = "ones" => ~(fplcState = "PulseOnes" /\ fplcState' # "PulseOnes")
-    IN  waited' = IF ~goes_on THEN 0 ELSE IF waited + i.dt > T_SEQ + T_REM THEN T_SEQ + T_REM ELSE waited + i.dt
+        longest == T_SEQ + T_REM
+    IN  waited' = IF ~goes_on THEN 0 ELSE IF waited + i.dt > longest THEN longest ELSE waited + i.dt
 LOCAL SeesPulse(i) ==
     pulse' = IF ~i.LA THEN 0 ELSE IF i.vec = MSO THEN 1 ELSE IF pulse = 1 /\ i.vec = {} THEN 2 ELSE pulse
 \* With LA and one output
 LOCAL SeesWords(i) ==
-    LET ended    == MW05 # 0 /\ MW05' = 0          \* a transaction is over: the next one needs zeros of its own
+    LET ended    == MW05 # 0 /\ MW05' = 0        \* a transaction is over: the next one needs zeros of its own
         standing == selected # None /\ i.MW03 = SE[selected]
     IN  IF ended THEN cleared' = FALSE /\ selected' = None /\ echoed' = FALSE
         ELSE /\ cleared' = (cleared \/ (i.MW03 = 0 /\ i.MW07 = 0))
-             /\ selected' = IF standing THEN selected ELSE IF cleared /\ i.MW07 = 0 THEN ModeOf(SE, i.MW03) ELSE None
+             /\ selected' = IF standing THEN selected
+                            ELSE IF cleared /\ i.MW07 = 0 THEN ModeOf(SE, i.MW03) ELSE None
              /\ echoed' = (standing /\ (echoed \/ MW05 = CH[selected]))
 Observe(i) ==
     /\ Waits(i) /\ SeesPulse(i)
@@ -99,30 +94,33 @@ Observe(i) ==
        ELSE cleared' = FALSE /\ selected' = None /\ echoed' = FALSE
 
 \* The graph tries every time in every state; the properties need only those that the state can tell apart
-LongestTime == IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Removing THEN T_REM ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
+LongestTime ==
+    IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Removing THEN T_REM
+    ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
 ASSUME PRINT_GRAPH \/ VECTORS = "one" \/ (T_ON = T_DWELL /\ T_SEQ = T_DWELL)
 Ended == VECTORS = "least" /\ mode # {}
-InputsToTry == IF PRINT_GRAPH THEN 0..N - 1 ELSE IF Ended THEN {} ELSE 0..(2 * NV * NW * NW) * (LongestTime + 1) - 1
+InputsToTry ==
+    IF PRINT_GRAPH THEN 0..N - 1 ELSE IF Ended THEN {} ELSE 0..(2 * NV * NW * NW) * (LongestTime + 1) - 1
 
 OpenNext ==
-    \E n \in InputsToTry : \E o \in Overwriting : \E i \in {Seen(n, o)} :
-        /\ FplcScan(i)
-        /\ in' = n + N * o /\ beat' = ~beat
-        /\ IF PRINT_GRAPH THEN UNCHANGED observer ELSE Observe(i)
+    \E n \in InputsToTry :
+        /\ FplcScan(Alphabet[n])
+        /\ in' = n /\ beat' = ~beat
+        /\ IF PRINT_GRAPH THEN UNCHANGED observer ELSE Observe(Alphabet[n])
 
 OpenSpec == OpenInit /\ [][OpenNext]_<<View, observer, step, in, beat>>
 
 ----------------------------------------------------------------------------
 (* Action properties, judged in every scan; Scanned is that scan's input.  *)
-Scanned == Alphabet[in' % N]
-\* For a reader of a trace: what a scan found on the wires and what stands on them after it, a word that was overwritten included
-AtRest == Wire(Alphabet[in % N]) @@ FplcOutputs
-Wires == IF in >= N THEN [MW01 |-> Overwritten[in \div N]] @@ AtRest ELSE AtRest
+Scanned == Alphabet[in']
+\* For a reader of a trace: what a scan found on the wires, and what stands on them after it
+Wires == Wire(Alphabet[in]) @@ FplcOutputs
 \* E-71: also a switchover to the mode that is active already
 Switched == (step' = "SwitchMode" \/ mode' # mode) /\ mode' # {}
 PulseWindow == fplcState \in Pulse \/ (fplcState = "Idle" /\ Scanned.LA)
 
-\* EKS-2-28, EKS-2-29, EKS-SD-2, E-15, E-16: the pair stands on the wires in the scan that switches, and it came after zeros, in this insertion
+\* EKS-2-28, EKS-2-29, EKS-SD-2, E-15, E-16: the pair stands on the wires in the scan that switches, and it
+\* came after zeros, in this insertion
 SwitchNeedsMatchingPair ==
     [][Switched =>
         \E m \in MSO : /\ mode' = {m}
@@ -138,31 +136,37 @@ AuthorizationRespected ==
 AuthorizationByTheText ==
     [][Switched => (\E m, a \in MSO : mode' = {m} /\ Scanned.vec = {a} /\ m \in TextOrder[a])]_beat
 
-\* EKS-2-18, EKS-5-1, E-12: a selection is accepted only while the flag word MW01 shows a level that permits it
+\* E-12, E-18: what stands in the flag word MW01 when a scan reads its inputs: nothing but the F-PLC writes it
+FlagWordMW01 == MW01
+\* EKS-2-18, EKS-5-1, E-12: a selection is accepted only while the flag word MW01 shows a level that permits
+\* it
 SelectionNeedsLevel ==
-    [][step' = "AcceptSelection" => Permitted(ModeOf(RE, FlagMW01(in' \div N)), ModeOf(SE, Scanned.MW03))]_beat
+    [][step' = "AcceptSelection" => Permitted(ModeOf(RE, FlagWordMW01), ModeOf(SE, Scanned.MW03))]_beat
 
 \* EKS-SD-2, E-42
 NoChangeWithoutLA == [][Switched => Scanned.LA]_beat
 
-\* EKS-8-8, EKS-SD-7, E-24: insertion, removal, error and deadline leave the mode; under ON_ERROR = "none" the error mode clears it
+\* EKS-8-8, EKS-SD-7, E-24: insertion, removal, error and deadline leave the mode; under ON_ERROR = "none" the
+\* error mode clears it
 NoChangeBesideSwitchover ==
     [][mode' # mode =>
         \/ step' = "SwitchMode" /\ mode' # {}
         \/ ON_ERROR = "none" /\ fplcState' = "Error" /\ mode' = {}]_beat
 
-\* EKS-KS-6, EKS-2-11, E-09: two outputs outside the pulse window lead to the error mode in that scan, and nothing switches
+\* EKS-KS-6, EKS-2-11, E-09: two outputs outside the pulse window lead to the error mode in that scan, and
+\* nothing switches
 TwoOutputsLeadToError ==
     [][Cardinality(Scanned.vec) >= 2 /\ ~PulseWindow =>
         ERROR' /\ fplcState' = "Error" /\ (mode' = mode \/ (ON_ERROR = "none" /\ mode' = {}))]_beat
 
-\* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-17, E-23, E-29: the way to a new insertion leads over zeros everywhere
+\* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-17, E-23, E-29: the way to an insertion leads over zeros
+\* everywhere
 IdleOnlyOverZeros ==
     [][fplcState # "Idle" /\ fplcState' = "Idle" =>
         /\ ~Scanned.LA /\ Scanned.vec = {} /\ Scanned.MW03 = 0 /\ Scanned.MW07 = 0
         /\ fplcElapsed + Scanned.dt >= T_DWELL]_beat
 
-\* EKS-3-0, EKS-9-0, E-23b: the error mode is left only over the same zeros, so that its lamp does not go out before
+\* EKS-3-0, EKS-9-0, E-23b: the error mode is left only over the same zeros; its lamp does not go out before
 ErrorOnlyOverZeros ==
     [][ERROR /\ ~ERROR' =>
         /\ ~Scanned.LA /\ Scanned.vec = {} /\ Scanned.MW03 = 0 /\ Scanned.MW07 = 0
@@ -177,10 +181,12 @@ RemovalSeenAtOnce ==
     [][(fplcState \in Holding /\ (~Scanned.LA \/ Scanned.vec # {accepted})) =>
         MW01' = 0 /\ MW05' = 0 /\ fplcState' \in {"Clear", "Error"}]_beat
 
-\* EKS-2-20, EKS-6-12: what MW05 shows stands in MW03 in the scan that shows it, and the signalled level permits it
+\* EKS-2-20, EKS-6-12: what MW05 shows stands in MW03 in the scan that shows it, and the signalled level
+\* permits it
 EchoNeedsSelection ==
     [][MW05' # 0 =>
-        (\E a, m \in MSO : MW05' = CH[m] /\ Scanned.MW03 = SE[m] /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
+        (\E a, m \in MSO :
+            MW05' = CH[m] /\ Scanned.MW03 = SE[m] /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
 
 \* EKS-2-10, EKS-4-1, EKS-4-3, E-10: no level is published without the test pulse of this insertion
 LevelNeedsPulse == [][(MW01' # 0 /\ MW01 = 0) => pulse = 2]_beat
@@ -188,7 +194,8 @@ LevelNeedsPulse == [][(MW01' # 0 /\ MW01 = 0) => pulse = 2]_beat
 \* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11, E-03, E-30: no wait outlasts its deadline
 NoWaitBeyondDeadline == fplcState \in Timed => fplcElapsed < Deadline
 
-\* EKS-2-6, EKS-2-8, EKS-4-2, EKS-8-3, EKS-8-11, E-03, E-30, E-38: nor do several waits together that share one
+\* EKS-2-6, EKS-2-8, EKS-4-2, EKS-8-3, EKS-8-11, E-03, E-30, E-38: nor do several waits together that share
+\* one
 SharedDeadlineHolds ==
     /\ fplcState = "PulseOnes" => waited < T_ON
     /\ Stretch(fplcState) = "insertion" => waited < T_SEQ \/ (T_SEQ_FROM = "ones" /\ fplcState = "PulseOnes")
@@ -200,6 +207,7 @@ ErrorDropsMode == ON_ERROR = "none" /\ fplcState = "Error" => mode = {}
 \* EKS-GP-3: there is no input to which a scan has no answer
 EveryScanIsAnswered == \A n \in InputsToTry : ENABLED FplcScan(Alphabet[n])
 
-\* EKS-GP-5, E-25c: before the first step no mode is active, no level and no echo is sent, and no key is waited for
+\* EKS-GP-5, E-25c: before the first step no mode is active, no level and no echo is sent, and no key is
+\* waited for
 PowerUpIsSafe == step = "" => fplcState = "Start" /\ mode = {} /\ MW01 = 0 /\ MW05 = 0 /\ ~ERROR
 =============================================================================

@@ -7,19 +7,22 @@
 EXTENDS FplcOpen
 
 \* The steps that wait
-Waiting == {"Start", "Idle", "PulseOnes", "PulseZeros", "OneOutput", "AwaitSelection", "AwaitAcknowledgment", "Settle", "AwaitZeros", "Error"}
+Waiting == {"Start", "Idle", "PulseOnes", "PulseZeros", "OneOutput", "AwaitSelection", "AwaitAcknowledgment",
+            "Settle", "AwaitZeros", "Error"}
 \* The numbered steps one after another: of an insertion, of a selection, of a removal
 Insertion == <<"Idle", "PulseOnes", "PulseZeros", "OneOutput", "Authorize", "AwaitSelection">>
-Selection == <<"AwaitSelection", "CheckSelection", "EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch", "Settle",
-               "AwaitSelection">>
+Selection == <<"AwaitSelection", "CheckSelection", "EchoSelection", "AwaitAcknowledgment",
+               "CheckAcknowledgment", "Match", "Switch", "Settle", "AwaitSelection">>
 Removal == <<"Clear", "AwaitZeros", "Idle">>
 Next(steps) == {<<steps[n], steps[n + 1]>> : n \in 1..Len(steps) - 1}
 Order ==
-    Next(Insertion) \cup Next(Selection) \cup Next(Removal) \cup {<<s, s>> : s \in Waiting} \cup {<<"Start", "Idle">>, <<"Error", "Idle">>}
+    Next(Insertion) \cup Next(Selection) \cup Next(Removal)
+    \cup {<<s, s>> : s \in Waiting} \cup {<<"Start", "Idle">>, <<"Error", "Idle">>}
     \cup {<<s, "Settle">> : s \in {"CheckSelection"} \cup Transaction}
     \cup {<<s, "Clear">> : s \in Inserting \cup Holding} \cup {<<s, "Error">> : s \in FplcStates}
-\* EKS-GP-3, EKS-GP-5, EKS-2-6, EKS-2-12, EKS-2-17, EKS-2-20, EKS-2-27, EKS-2-28, EKS-2-29, EKS-4-1, EKS-4-3, EKS-4-5, EKS-8-6, EKS-8-18:
-\* no numbered step is left out and none is taken back, but to Settle, Clear and Error
+\* EKS-GP-3, EKS-GP-5, EKS-2-6, EKS-2-12, EKS-2-17, EKS-2-20, EKS-2-27, EKS-2-28, EKS-2-29, EKS-4-1, EKS-4-3,
+\* EKS-4-5, EKS-8-6, EKS-8-18: no numbered step is left out and none is taken back, but to Settle, Clear and
+\* Error
 StepsInOrder == [][(<<fplcState, fplcState'>> \in Order)]_beat
 
 \* EKS-GP-3, EKS-8-3, E-36, E-52: time that a state counts goes on in every scan that stays there
@@ -35,7 +38,9 @@ Kept == fplcState \in Transaction /\ Scanned.MW03 = SE[fplcSelection]
 
 \* EKS-2-17, EKS-2-20, E-65: an acknowledgment before the echo is an error
 AcknowledgmentNeedsEcho ==
-    [][Signalled /\ Scanned.MW07 # 0 /\ (fplcState \in {"AwaitSelection", "CheckSelection"} \/ (fplcState = "EchoSelection" /\ Kept)) => ERROR']_beat
+    [][Signalled /\ Scanned.MW07 # 0 =>
+        (fplcState \in {"AwaitSelection", "CheckSelection"} \/ (fplcState = "EchoSelection" /\ Kept)
+            => ERROR')]_beat
 
 \* EKS-2-25, E-16, E-21, E-61: a selection that does not stand any more is taken back, whatever MW07 shows
 ChangedSelectionIsWithdrawn ==
@@ -44,11 +49,12 @@ ChangedSelectionIsWithdrawn ==
 WordIsJudged ==
     CASE Scanned.MW07 = 0 -> fplcState' = "Settle" /\ mode' = mode
       [] Scanned.MW07 = SW[fplcSelection] -> ~ERROR'
-      [] fplcState = "CheckAcknowledgment" /\ Scanned.MW07 # SW[fplcSelection] /\ ModeOf(SW, Scanned.MW07) # None -> fplcState' = "Match"
+      [] /\ fplcState = "CheckAcknowledgment"
+         /\ Scanned.MW07 # SW[fplcSelection] /\ ModeOf(SW, Scanned.MW07) # None -> fplcState' = "Match"
       [] OTHER -> ERROR'
-\* EKS-2-27, EKS-2-28, EKS-7-12, E-11, E-13, E-21, E-66: nothing is judged before step 27; then zero takes the acknowledgment back, the
-\* word of the selection goes on, the word of another mode passes step 27 and is refused from step 28 on, and what is no code is refused
-\* in each
+\* EKS-2-27, EKS-2-28, EKS-7-12, E-11, E-13, E-21, E-66: nothing is judged before step 27; then zero takes the
+\* acknowledgment back, the word of the selection goes on, the word of another mode passes step 27 and is
+\* refused from step 28 on, and what is no code is refused in each
 AcknowledgmentIsJudged ==
     [][Signalled /\ Kept =>
         /\ fplcState = "AwaitAcknowledgment" => ~ERROR'

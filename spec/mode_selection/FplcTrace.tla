@@ -8,8 +8,7 @@
 EXTENDS Fplc, Sequences
 
 LOCAL LoggedVector(w) == {l \in MSO : <<w.A, w.B, w.C, w.D, w.STR>>[l + 1]}
-\* E-18: what is read back of MW01 is what was written
-FplcRead(w) == [LA |-> w.LA, vec |-> LoggedVector(w), MW01 |-> MW01, MW03 |-> w.MW03, MW07 |-> w.MW07, dt |-> w.dt]
+FplcRead(w) == [LA |-> w.LA, vec |-> LoggedVector(w), MW03 |-> w.MW03, MW07 |-> w.MW07, dt |-> w.dt]
 
 \* The times that a scan can find on the clock of each state (EKS-2-6, EKS-4-2, EKS-8-3, E-38, E-52)
 LOCAL Clock == CASE fplcState = "PulseOnes" -> 0..T_ON - 1

@@ -8,11 +8,11 @@
 (* Leaves out: the layout (data of the implementation, checked there) and  *)
 (* the display of the active mode, which decides nothing (E-25).           *)
 (***************************************************************************)
-EXTENDS Integers, CodeTables, StepName, Readings
+EXTENDS Integers, CodeTables, StepName
 
 VARIABLES
     hmiState,      \* the screen and what it waits for
-    offered,    \* the authorization level that the screen was opened with
+    offered,       \* the authorization level that the screen was opened with
     hmiSelection   \* the mode that was touched
 
 hmi == <<hmiState, offered, hmiSelection>>
@@ -20,7 +20,9 @@ hmi == <<hmiState, offered, hmiSelection>>
 Pending == {"AwaitEcho", "Confirm", "AwaitSwitch"}
 HmiStates == {"Inhibited", "Select", "Withdrawn"} \cup Pending
 
-Field(m) == CASE m = 0 -> "select:0" [] m = 1 -> "select:1" [] m = 2 -> "select:2" [] m = 3 -> "select:3" [] m = 4 -> "select:4"
+Field(m) ==
+    CASE m = 0 -> "select:0" [] m = 1 -> "select:1" [] m = 2 -> "select:2" [] m = 3 -> "select:3"
+      [] m = 4 -> "select:4"
 Touches == {"", "confirm", "reject"} \cup {Field(m) : m \in MSO}
 
 HmiTypeOK ==
@@ -33,53 +35,45 @@ HmiInit == hmiState = "Inhibited" /\ offered = None /\ hmiSelection = None
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
-\* E-21: a refusal that leaves the selection on the bus
-LOCAL Refused == hmiState = "Withdrawn" /\ hmiSelection # None
 \* EKS-2-15, EKS-8-9
-SelectMSO == IF hmiState \in Pending \/ Refused THEN SE[hmiSelection] ELSE 0
-\* EKS-2-24, EKS-8-16, E-19: the acknowledged word is made from the echo, which equals the selection in this state
-SwitchMSO == IF hmiState = "AwaitSwitch" THEN SW[hmiSelection]
-             ELSE IF Refused /\ REJECT_IS_A_WORD THEN OtherWord ELSE 0
+SelectMSO == IF hmiState \in Pending THEN SE[hmiSelection] ELSE 0
+\* EKS-2-24, EKS-8-16, E-19: made from the echo, which equals the selection in this state
+SwitchMSO == IF hmiState = "AwaitSwitch" THEN SW[hmiSelection] ELSE 0
 \* EKS-2-14, EKS-8-8, EKS-SD-3
-Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "select" [] hmiState = "Confirm" -> "confirm"
-            [] OTHER -> "waiting"
+Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "select"
+            [] hmiState = "Confirm" -> "confirm" [] OTHER -> "waiting"
 \* EKS-2-14, EKS-SD-4: only what the key permits
 Enabled == IF hmiState = "Select" THEN {m \in MSO : Permitted(offered, m)} ELSE {}
 \* EKS-2-22
 Shown == IF hmiState = "Confirm" THEN hmiSelection ELSE None
 \* The outputs by their names
-HmiOutputs == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled, shown |-> Shown]
+HmiOutputs == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled,
+               shown |-> Shown]
 
 ----------------------------------------------------------------------------
 LOCAL Level(i) == ModeOf(RE, i.RA)
-\* EKS-3-1-HMI, EKS-9-1-HMI, EKS-GP-4, E-46, E-55: enabled means a code word, and the same one as when the screen was opened
-LOCAL Enable(i) ==
-    \/ offered # None /\ i.RA = RE[offered]
-    \/ STAYS_OPEN_AT_NEW_LEVEL /\ Level(i) # None
-    \/ ENABLED_BY_ANY_WORD /\ i.RA # 0 /\ Level(i) = None
-LOCAL Echoed(i) == i.CM = CH[hmiSelection]
-\* E-19: the answer comes from the panel's own memory, whatever CheckMSO shows by then
-LOCAL Answerable(i) == Echoed(i) \/ ACKNOWLEDGES_OWN_SELECTION
-\* E-20, E-60: any echo is shown
-LOCAL ShowsOther(i) ==
-    /\ ModeOf(CH, i.CM) # None
-    /\ \/ USER_COMPARES_ALONE /\ hmiState = "AwaitEcho" /\ ~Echoed(i)
-       \/ SHOWS_ANY_ECHO /\ hmiState = "Select"
+\* EKS-3-4-HMI, E-46: one of the five words, and nothing else
+Authorizes(i) == Level(i) # None
+\* EKS-3-1-HMI, EKS-9-1-HMI, EKS-GP-4, E-46, E-55: enabled by the very word that the screen was opened with
+Enable(i) == Level(i) = offered
+\* EKS-2-22, E-20: the echo of the selection, or of something else
+Echoed(i) == i.CM = CH[hmiSelection]
+OtherEcho(i) == i.CM # 0 /\ ~Echoed(i)
+\* EKS-2-22, EKS-2-23, E-19: the user may answer as long as the echo stands
+Answerable(i) == Echoed(i)
 LOCAL GoTo(s) == hmiState' = s /\ UNCHANGED <<offered, hmiSelection>>
 LOCAL Stay == UNCHANGED hmi
 LOCAL Drop(s) == hmiState' = s /\ hmiSelection' = None /\ UNCHANGED offered
 
-\* E-55, E-60: the check before every step; from Select the screen closes also over an echo that nobody asked for
-StaysOpen(i) == Enable(i) /\ (hmiState = "Select" => i.CM = 0 \/ ShowsOther(i))
+\* E-55, E-60: the check before every step; in Select the screen closes also over an echo that came unasked
+StaysOpen(i) == Enable(i) /\ (hmiState = "Select" => i.CM = 0)
 \* EKS-3-4-HMI, EKS-8-8, EKS-8-9, EKS-8-16, EKS-9-1-HMI, E-55, E-60
 InhibitScreen(i) ==
     /\ hmiState # "Inhibited" /\ ~StaysOpen(i)
     /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
     /\ Did("InhibitScreen")
 \* E-46, E-57
-LOCAL Opens(i) ==
-    /\ Level(i) # None \/ (ENABLED_BY_ANY_WORD /\ i.RA # 0)
-    /\ i.CM = 0 \/ OPENS_OVER_ECHO
+Opens(i) == Authorizes(i) /\ i.CM = 0
 \* EKS-2-14, EKS-9-4-HMI, EKS-SD-3, E-46, E-57: opened by a code word, and only when the old echo is gone
 EnableScreen(i) ==
     /\ hmiState = "Inhibited" /\ Opens(i)
@@ -100,41 +94,30 @@ OfferModes(i) ==
 
 \* EKS-2-22
 AwaitCheckMSO(i) == hmiState = "AwaitEcho" /\ i.CM = 0 /\ Stay /\ Did("AwaitCheckMSO")
-\* E-20: nobody is asked; E-69: the finger was faster than the screen
-LOCAL NobodyAsked(i) ==
-    PANEL_COMPARES_ALONE \/ (TOUCH_BEFORE_ECHO_COUNTS /\ i.touch = "confirm")
-\* EKS-2-22, E-20: the panel compares by itself, then asks
-ShowEcho(i) ==
-    hmiState = "AwaitEcho" /\ Echoed(i) /\ GoTo(IF NobodyAsked(i) THEN "AwaitSwitch" ELSE "Confirm") /\ Did("ShowEcho")
-\* E-20, E-60: what is on the bus is shown, and what is shown is what is asked for
-ShowOtherEcho(i) ==
-    /\ ShowsOther(i)
-    /\ hmiState' = "Confirm" /\ hmiSelection' = ModeOf(CH, i.CM) /\ UNCHANGED offered
-    /\ Did("ShowOtherEcho")
+\* EKS-2-22, E-20, E-69: the panel compares by itself, then asks
+ShowEcho(i) == hmiState = "AwaitEcho" /\ Echoed(i) /\ GoTo("Confirm") /\ Did("ShowEcho")
 \* EKS-2-22, EKS-2-25, E-20, E-21: an echo of something else, or an echo that goes away
 AbandonSelection(i) ==
-    /\ \/ hmiState = "AwaitEcho" /\ i.CM # 0 /\ ~Echoed(i) /\ ~ShowsOther(i)
+    /\ \/ hmiState \in {"AwaitEcho", "AwaitSwitch"} /\ OtherEcho(i)
        \/ hmiState = "Confirm" /\ ~Answerable(i)
-       \/ hmiState = "AwaitSwitch" /\ i.CM # 0 /\ ~Echoed(i)
     /\ Drop("Withdrawn")
     /\ Did("AbandonSelection")
 
 \* EKS-2-22, EKS-2-23
 AskConfirmation(i) ==
-    hmiState = "Confirm" /\ Answerable(i) /\ i.touch \notin {"confirm", "reject"} /\ Stay /\ Did("AskConfirmation")
+    /\ hmiState = "Confirm" /\ Answerable(i) /\ i.touch \notin {"confirm", "reject"}
+    /\ Stay /\ Did("AskConfirmation")
 \* EKS-2-23, EKS-2-24, EKS-SD-5, E-69
 TouchConfirm(i) ==
     hmiState = "Confirm" /\ Answerable(i) /\ i.touch = "confirm" /\ GoTo("AwaitSwitch") /\ Did("TouchConfirm")
-\* E-53: the panel goes on offering the withdrawal
-LOCAL LateReject(i) == WITHDRAWS_AFTER_CONFIRM /\ hmiState = "AwaitSwitch" /\ Echoed(i) /\ i.touch = "reject"
-\* EKS-2-25, E-21, E-53: the negative acknowledgment takes the selection back; after the confirmation there is none
+\* E-21: the word of the selection goes back to zero
+TakeBack == Drop("Withdrawn")
+\* EKS-2-25, E-21, E-53: a negative acknowledgment takes the selection back, but not after the confirmation
 TouchReject(i) ==
-    /\ (hmiState = "Confirm" /\ Answerable(i) /\ i.touch = "reject") \/ LateReject(i)
-    /\ IF REJECT_IS_SILENT \/ REJECT_IS_A_WORD THEN GoTo("Withdrawn") ELSE Drop("Withdrawn")
-    /\ Did("TouchReject")
+    hmiState = "Confirm" /\ Answerable(i) /\ i.touch = "reject" /\ TakeBack /\ Did("TouchReject")
 
 \* E-15, E-53
-AwaitCleared(i) == hmiState = "AwaitSwitch" /\ Echoed(i) /\ ~LateReject(i) /\ Stay /\ Did("AwaitCleared")
+AwaitCleared(i) == hmiState = "AwaitSwitch" /\ Echoed(i) /\ Stay /\ Did("AwaitCleared")
 \* E-15: both words go back to zero when the echo does, then the next selection may begin
 FinishSelection(i) ==
     /\ hmiState = "AwaitSwitch" \/ hmiState = "Withdrawn"
@@ -147,10 +130,11 @@ AwaitWithdrawn(i) == hmiState = "Withdrawn" /\ i.CM # 0 /\ Stay /\ Did("AwaitWit
 \* The steps, grouped by the states in which they can fire
 HmiStep(i) ==
     CASE hmiState = "Inhibited" -> EnableScreen(i) \/ StayInhibited(i)
-      [] hmiState = "Select" -> TouchSelection(i) \/ OfferModes(i) \/ ShowOtherEcho(i)
-      [] hmiState = "AwaitEcho" -> AwaitCheckMSO(i) \/ ShowEcho(i) \/ ShowOtherEcho(i) \/ AbandonSelection(i)
-      [] hmiState = "Confirm" -> AbandonSelection(i) \/ AskConfirmation(i) \/ TouchConfirm(i) \/ TouchReject(i)
-      [] hmiState = "AwaitSwitch" -> AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i) \/ TouchReject(i)
+      [] hmiState = "Select" -> TouchSelection(i) \/ OfferModes(i)
+      [] hmiState = "AwaitEcho" -> AwaitCheckMSO(i) \/ ShowEcho(i) \/ AbandonSelection(i)
+      [] hmiState = "Confirm" ->
+            AbandonSelection(i) \/ AskConfirmation(i) \/ TouchConfirm(i) \/ TouchReject(i)
+      [] hmiState = "AwaitSwitch" -> AwaitCleared(i) \/ FinishSelection(i) \/ AbandonSelection(i)
       [] hmiState = "Withdrawn" -> FinishSelection(i) \/ AwaitWithdrawn(i)
 
 \* EKS-GP-3, EKS-GP-4, EKS-3-2, EKS-9-2: first the check, then one step

@@ -20,7 +20,8 @@ Alphabet == [n \in 0..N - 1 |->
     [RA |-> Words[(n % 7) + 1], CM |-> Words[((n \div 7) % 7) + 1], touch |-> TouchSeq[((n \div 49) % 8) + 1],
      ActiveMSO |-> Modes[(n \div 392) + 1]]]
 
-Wire(i) == [ReadAuthorization |-> i.RA, CheckMSO |-> i.CM, ActiveMSO |-> i.ActiveMSO, touch |-> i.touch, dt |-> 1]
+Wire(i) ==
+    [ReadAuthorization |-> i.RA, CheckMSO |-> i.CM, ActiveMSO |-> i.ActiveMSO, touch |-> i.touch, dt |-> 1]
 Row == HmiOutputs
 
 ASSUME \A t \in Touches : \E n \in 1..8 : TouchSeq[n] = t
@@ -28,22 +29,26 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alp
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == HmiInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenInit ==
+    HmiInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
 OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : HmiScan(i) /\ in' = n /\ beat' = ~beat
 OpenSpec == OpenInit /\ [][OpenNext]_<<hmi, step, in, beat>>
 
 Scanned == Alphabet[in']
 \* For a reader of a trace: what a scan found on the wires and what stands on them after it
 Wires == Wire(Alphabet[in]) @@ HmiOutputs
-\* EKS-2-14, EKS-8-8, EKS-SD-3, EKS-SD-4, E-57: the screen opens without an old echo; no selection without authorization on the bus, none beyond it
+\* EKS-2-14, EKS-8-8, EKS-SD-3, EKS-SD-4, E-57: the screen opens without an old echo; no selection without
+\* authorization on the bus, none beyond it
 SelectionNeedsEnable ==
     [][/\ SelectMSO' # 0 => Permitted(ModeOf(RE, Scanned.RA), ModeOf(SE, SelectMSO'))
        /\ (hmiState = "Inhibited" /\ hmiState' # "Inhibited") => Scanned.CM = 0]_beat
-\* EKS-2-14, EKS-2-15, E-20, E-60: every selection that is sent was touched in that scan, on a screen that offered it
+\* EKS-2-14, EKS-2-15, E-20, E-60: every selection that is sent was touched in that scan, on a screen that
+\* offered it
 SelectionNeedsTouch ==
     [][SelectMSO' \notin {0, SelectMSO} =>
         (\E m \in Enabled : SelectMSO' = SE[m] /\ Scanned.touch = Field(m))]_beat
-\* EKS-2-22, EKS-2-23, EKS-2-24, EKS-SD-5: the acknowledgment is sent after the echo was on the screen and was touched
+\* EKS-2-22, EKS-2-23, EKS-2-24, EKS-SD-5: the acknowledgment is sent after the echo was on the screen and was
+\* touched
 AcknowledgmentNeedsConfirm ==
     [][(SwitchMSO' # 0 /\ SwitchMSO' # SwitchMSO) =>
         /\ hmiState = "Confirm" /\ Scanned.touch = "confirm"

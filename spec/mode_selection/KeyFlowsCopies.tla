@@ -30,26 +30,31 @@ copyVars == <<vars, copies, made>>
 CopiesInit ==
     /\ EksInit /\ FplcInit /\ PlcInit /\ HmiInit
     /\ reader \in LEVELS /\ goal \in {m \in MSO : Permitted(reader, m)}
-    /\ touched = None /\ seen = None /\ confirmed = None /\ remembered = None
+    /\ touched = None /\ seen = None /\ confirmed = None
     /\ step = "" /\ took = 0
     /\ turnOf = "eks" /\ copy = <<>> /\ stays = 0 /\ waited = 0 /\ made = ""
 
 ----------------------------------------------------------------------------
 FlagWord(name) ==
     CASE name = "MW01" -> MW01 [] name = "MW03" -> MW03 [] name = "MW05" -> MW05 [] name = "MW07" -> MW07
-      [] name = "MW02" -> Straddled(MW01, MW03) [] name = "MW04" -> Straddled(MW03, MW05) [] name = "MW06" -> Straddled(MW05, MW07)
+      [] name = "MW02" -> Straddled(MW01, MW03) [] name = "MW04" -> Straddled(MW03, MW05)
+      [] name = "MW06" -> Straddled(MW05, MW07)
 \* What can be there instead: each other flag word, and the words that begin one byte before or after it
 Instead(name) ==
-    CASE name = "MW01" -> {"MW03", "MW05", "MW07", "MW02"} [] name = "MW03" -> {"MW01", "MW05", "MW07", "MW02", "MW04"}
-      [] name = "MW05" -> {"MW01", "MW03", "MW07", "MW04", "MW06"} [] name = "MW07" -> {"MW01", "MW03", "MW05", "MW06"}
+    CASE name = "MW01" -> {"MW03", "MW05", "MW07", "MW02"}
+      [] name = "MW03" -> {"MW01", "MW05", "MW07", "MW02", "MW04"}
+      [] name = "MW05" -> {"MW01", "MW03", "MW07", "MW04", "MW06"}
+      [] name = "MW07" -> {"MW01", "MW03", "MW05", "MW06"}
 
 \* EKS-SD-17: the one wrong copy; one that writes what is there is none
 Overwrite(name, from, rounds) ==
     LET w == FlagWord(from) IN
     /\ copy = <<>> /\ fplcState \in Holding /\ waited \in {0, 1}
     /\ turnOf = (IF name \in {"MW03", "MW07"} THEN "fplc" ELSE "hmi")
-    /\ w # (CASE name = "MW01" -> ReadAuthorization [] name = "MW03" -> MW03 [] name = "MW05" -> CheckMSO [] name = "MW07" -> MW07)
-    /\ copy' = <<from, name, fplcState, IF rounds = 1 THEN "one scan" ELSE "five scans">> /\ stays' = rounds - 1
+    /\ w # (CASE name = "MW01" -> ReadAuthorization [] name = "MW03" -> MW03
+              [] name = "MW05" -> CheckMSO [] name = "MW07" -> MW07)
+    /\ copy' = <<from, name, fplcState, IF rounds = 1 THEN "one scan" ELSE "five scans">>
+    /\ stays' = rounds - 1
     /\ ReadAuthorization' = IF name = "MW01" THEN w ELSE ReadAuthorization
     /\ MW03' = IF name = "MW03" THEN w ELSE MW03
     /\ CheckMSO' = IF name = "MW05" THEN w ELSE CheckMSO
@@ -59,11 +64,14 @@ Overwrite(name, from, rounds) ==
 
 ----------------------------------------------------------------------------
 \* The user touches once, and confirms in the sixth round in which that is asked
-Wanted == IF hmiState = "Select" /\ touched = None THEN Field(goal) ELSE IF hmiState = "Confirm" /\ waited >= 6 THEN "confirm" ELSE ""
+Wanted ==
+    IF hmiState = "Select" /\ touched = None THEN Field(goal)
+    ELSE IF hmiState = "Confirm" /\ waited >= 6 THEN "confirm" ELSE ""
 
 WhatWasMade(m) ==
     (IF made = "" THEN "" ELSE made \o ", ")
-    \o (IF touched # m THEN "not touched" ELSE IF seen = m /\ confirmed = m THEN "as confirmed" ELSE "not confirmed")
+    \o (IF touched # m THEN "not touched"
+        ELSE IF seen = m /\ confirmed = m THEN "as confirmed" ELSE "not confirmed")
 
 \* The four copies; the wrong word is not yet written anew while it stays
 Staying(name, there, sent) == IF stays > 0 /\ copy[2] = name THEN there ELSE sent
@@ -73,7 +81,8 @@ Inputs == [MW01 |-> Staying("MW01", ReadAuthorization, MW01), MW05 |-> Staying("
 NextTurn == [eks |-> "fplc", fplc |-> "plc", plc |-> "hmi", hmi |-> "eks"]
 \* The PLC makes its four copies in one step, the wrong one as long as it stays
 CopyAll ==
-    /\ ReadAuthorization' = Inputs.MW01 /\ MW03' = Inputs.SelectMSO /\ CheckMSO' = Inputs.MW05 /\ MW07' = Inputs.SwitchMSO
+    /\ ReadAuthorization' = Inputs.MW01 /\ MW03' = Inputs.SelectMSO
+    /\ CheckMSO' = Inputs.MW05 /\ MW07' = Inputs.SwitchMSO
     /\ stays' = (IF stays > 0 THEN stays - 1 ELSE 0)
     /\ UNCHANGED turn
     /\ Did("CopyAll")
@@ -100,12 +109,15 @@ Outcome ==
     ELSE IF made = "" THEN "withdrawn" ELSE made
 Wished == Outcome \in {"refused", "withdrawn", "as confirmed"}
 Report ==
-    PrintT(ToString(<<"REACHED", copy[1] \o " over " \o copy[2] \o " at " \o copy[3] \o ", " \o copy[4] \o ": " \o Outcome
+    PrintT(ToString(<<"REACHED",
+        copy[1] \o " over " \o copy[2] \o " at " \o copy[3] \o ", " \o copy[4] \o ": " \o Outcome
         \o (IF Wished THEN "" ELSE " (level " \o ToString(reader) \o ", mode " \o ToString(goal) \o ")")>>))
 
 CopiesNext ==
     /\ ~Ended
-    /\ Scan \/ \E name \in {"MW01", "MW03", "MW05", "MW07"} : \E from \in Instead(name) : \E rounds \in {1, 5} : Overwrite(name, from, rounds)
+    /\ \/ Scan
+       \/ \E name \in {"MW01", "MW03", "MW05", "MW07"} : \E from \in Instead(name) : \E rounds \in {1, 5} :
+            Overwrite(name, from, rounds)
 CopiesSpec == CopiesInit /\ [][CopiesNext]_copyVars
 
 \* Every end of a selection with a wrong copy is printed, also one that has no outcome of the list

@@ -24,7 +24,8 @@ EarnestSpec ==
     /\ WF_reader(EarnestUser /\ Same) /\ WF_panel(EarnestPanel /\ Same)
     /\ WF_fplc(PromptFplc /\ Same) /\ WF_eks(PromptEks /\ Same)
 
-\* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of a fault, and of nothing that an honest machine and a patient user do
+\* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of a fault, and of nothing that an honest machine and a
+\* patient user do
 NoErrorWithoutFault == ~ERROR
 
 \* A-08 broken, E-39: the pulse may be over before the F-PLC has looked

@@ -20,19 +20,21 @@ EXTENDS KeyFlows, WrongWords
 CONSTANTS
     FAULTS,         \* how many faults may happen
     FAULT_CLASSES,  \* which classes of faults may happen
-    SLOW_READER     \* TRUE: a user may touch the screen while the reader is still in its test pulse (breaks A-31)
+    SLOW_READER     \* TRUE: a user may touch the screen while the reader is in its test pulse (breaks A-31)
 
 VARIABLES
     faults,         \* how many faults have happened
-    past,           \* for each of the four words the last one before it that was not zero, where that is looked at
+    past,           \* for each of the four words the last one before it that was not zero, where it counts
     broken,         \* what is broken between the reader and the F-PLC
     low,            \* something is broken, and the F-PLC has scanned since LA and the outputs fell
     wrong           \* the words that this scan read wrong, for readers of a trace; hidden by VIEW
 
 WordClassesOfFaults ==
-    {"corruption", "repetition", "wrong sequence", "loss", "insertion", "masquerade", "wrong address", "straddled read", "torn word"}
+    {"corruption", "repetition", "wrong sequence", "loss", "insertion", "masquerade", "wrong address",
+     "straddled read", "torn word"}
 WireClasses ==
-    {"output stuck at 1", "output stuck at 0", "LA stuck at 1", "LA stuck at 0", "extra wire", "crossed wires", "no pulse"}
+    {"output stuck at 1", "output stuck at 0", "LA stuck at 1", "LA stuck at 0", "extra wire",
+     "crossed wires", "no pulse"}
 RegisterClass == "register check fails"
 
 ASSUME FAULTS \in 0..2 /\ SLOW_READER \in BOOLEAN
@@ -51,7 +53,8 @@ faultVars == <<faults, past, broken, low>>
 FaultView == <<View, faultVars>>
 FaultViewWithoutMode == <<ViewWithoutMode, faultVars>>
 \* Where no property speaks of what the user did, that is hidden like the mode: no device reads it (A-17)
-DevicesView == <<reader, eks, fplcState, accepted, authority, fplcSelection, fplcElapsed, plc, hmi, faultVars>>
+DevicesView ==
+    <<reader, eks, fplcState, accepted, authority, fplcSelection, fplcElapsed, plc, hmi, faultVars>>
 everything == <<vars, faultVars, wrong>>
 
 FaultInit ==
@@ -65,19 +68,26 @@ FaultInit ==
 Modes == {m \in MSO : \A l \in 0..m-1 : \E k \in LEVELS : l <= k}
 \* The codes that say something in a place about one of these modes or levels
 CodesFor(p) ==
-    LET range == CASE p = "ReadAuthorization" -> RE [] p = "MW03" -> SE [] p = "CheckMSO" -> CH [] p = "MW07" -> SW
+    LET range == CASE p = "ReadAuthorization" -> RE [] p = "MW03" -> SE
+                   [] p = "CheckMSO" -> CH [] p = "MW07" -> SW
     IN  {range[m] : m \in Modes}
 
-Stands(p) == CASE p = "ReadAuthorization" -> ReadAuthorization [] p = "MW03" -> MW03 [] p = "CheckMSO" -> CheckMSO [] p = "MW07" -> MW07
-Sent(p) == CASE p = "ReadAuthorization" -> MW01 [] p = "MW03" -> SelectMSO [] p = "CheckMSO" -> MW05 [] p = "MW07" -> SwitchMSO
+Stands(p) ==
+    CASE p = "ReadAuthorization" -> ReadAuthorization [] p = "MW03" -> MW03
+      [] p = "CheckMSO" -> CheckMSO [] p = "MW07" -> MW07
+Sent(p) ==
+    CASE p = "ReadAuthorization" -> MW01 [] p = "MW03" -> SelectMSO
+      [] p = "CheckMSO" -> MW05 [] p = "MW07" -> SwitchMSO
 \* The flag word that is read for the place
-Flag(p) == CASE p = "ReadAuthorization" -> MW01 [] p = "MW03" -> MW03 [] p = "CheckMSO" -> MW05 [] p = "MW07" -> MW07
+Flag(p) ==
+    CASE p = "ReadAuthorization" -> MW01 [] p = "MW03" -> MW03 [] p = "CheckMSO" -> MW05 [] p = "MW07" -> MW07
 
 StraddledReads(p) ==
     LET MW02 == Straddled(MW01, MW03)
         MW04 == Straddled(MW03, MW05)
         MW06 == Straddled(MW05, MW07)
-    IN  CASE p = "ReadAuthorization" -> {MW02} [] p = "MW03" -> {MW02, MW04} [] p = "CheckMSO" -> {MW04, MW06} [] p = "MW07" -> {MW06}
+    IN  CASE p = "ReadAuthorization" -> {MW02} [] p = "MW03" -> {MW02, MW04}
+          [] p = "CheckMSO" -> {MW04, MW06} [] p = "MW07" -> {MW06}
 
 \* EKS-SD-10, EKS-SD-11, EKS-SD-17, E-18, E-49: by class of the communication error list
 Instead(p) ==
@@ -88,7 +98,8 @@ Instead(p) ==
      \cup (IF Class("repetition") /\ ~EveryWord THEN {past[p]} ELSE {})
      \cup (IF Class("wrong address") /\ ~EveryWord THEN {Flag(q) : q \in Places \ {p}} ELSE {})
      \cup (IF Class("straddled read") /\ ~EveryWord THEN StraddledReads(p) ELSE {})
-     \cup (IF Class("torn word") /\ ~EveryWord THEN {Mixed(Stands(p), Sent(p)), Mixed(Sent(p), Stands(p))} ELSE {}))
+     \cup (IF Class("torn word") /\ ~EveryWord
+           THEN {Mixed(Stands(p), Sent(p)), Mixed(Sent(p), Stands(p))} ELSE {}))
     \ {Stands(p)}
 
 \* What a device may read in two places, and what that costs; two copies in each other's place are one fault
@@ -121,7 +132,8 @@ Elements ==
     \cup {<<"off", l, l>> : l \in IF Class("output stuck at 0") THEN MSO ELSE {}}
     \cup (IF Class("LA stuck at 1") THEN {<<"LA", 1, 1>>} ELSE {})
     \cup (IF Class("LA stuck at 0") THEN {<<"LA", 0, 0>>} ELSE {})
-    \cup (IF Class("extra wire") THEN {<<"extra", a, b>> : a, b \in MSO} \ {<<"extra", a, a>> : a \in MSO} ELSE {})
+    \cup (IF Class("extra wire")
+          THEN {<<"extra", a, b>> : a, b \in MSO} \ {<<"extra", a, a>> : a \in MSO} ELSE {})
     \cup (IF Class("crossed wires") THEN {e \in {<<"crossed", a, b>> : a, b \in MSO} : e[2] < e[3]} ELSE {})
     \cup (IF Class("no pulse") THEN {<<"no pulse", 0, 0>>} ELSE {})
 
@@ -132,7 +144,8 @@ Crossed(b, l) ==
     IN  IF c = {} THEN l ELSE LET e == CHOOSE e \in c : TRUE IN IF e[2] = l THEN e[3] ELSE e[2]
 SeenVector(b) ==
     IF b = {} THEN Vector ELSE
-    LET sent == IF <<"no pulse", 0, 0>> \in b /\ eksState = "TestOnes" THEN {} ELSE {Crossed(b, l) : l \in Vector}
+    LET sent == IF <<"no pulse", 0, 0>> \in b /\ eksState = "TestOnes" THEN {}
+                ELSE {Crossed(b, l) : l \in Vector}
         extra == {e[3] : e \in {e \in b : e[1] = "extra" /\ e[2] \in sent}}
         on == {e[2] : e \in {e \in b : e[1] = "on"}}
         off == {e[2] : e \in {e \in b : e[1] = "off"}}
@@ -145,7 +158,8 @@ Wirings ==
         more == IF left >= 1 THEN {broken \cup {e} : e \in Elements} ELSE {}
         most == IF left >= 2 THEN {broken \cup {e, f} : e, f \in Elements} ELSE {}
         less == {broken \ {e} : e \in broken}
-    IN  IF Elements = {} THEN {broken} ELSE {broken} \cup {b \in more \cup most \cup less : Seen(b) # Seen(broken)}
+    IN  IF Elements = {} THEN {broken}
+        ELSE {broken} \cup {b \in more \cup most \cup less : Seen(b) # Seen(broken)}
 
 ----------------------------------------------------------------------------
 (* The devices, with what is broken.                                       *)
@@ -194,7 +208,8 @@ RegisterCheckFails ==
 \* A-07: as in KeyFlows; where LA is not seen to be low, a scan while it is low is enough
 EksRunsFaulty ==
     \/ /\ IF MERGE_READING /\ CanMerge THEN (ReadInOneStep \/ ClearInOneStep) /\ Took(0)
-          ELSE \E dt \in (IF eksState \in {"TestOnes", "TestZeros"} THEN {0, T_PULSE} ELSE {0}) : EksScan(EksInput(dt)) /\ Took(dt)
+          ELSE \E dt \in (IF eksState \in {"TestOnes", "TestZeros"} THEN {0, T_PULSE} ELSE {0}) :
+                EksScan(EksInput(dt)) /\ Took(dt)
        /\ LET raises == eksState' = "StartTest" /\ eksState # "StartTest" IN
             /\ raises => RemovalNoticed \/ low
             /\ low' = (low /\ ~raises)
@@ -213,14 +228,19 @@ FaultTypeOK ==
     /\ TypeOK
     /\ faults \in 0..FAULTS /\ past \in [Places -> WORDS] /\ broken \subseteq Elements /\ low \in BOOLEAN
 
-\* EKS-2-18, EKS-T2-2, EKS-FD-3: never a mode beyond the key that the reader holds, whatever LA and the outputs say
-NeverBeyondTheKey == [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => key # None /\ Permitted(KeyLevel(key), m)]_everything
+\* EKS-2-18, EKS-T2-2, EKS-FD-3: never a mode beyond the key that the reader holds, whatever LA and the
+\* outputs say
+NeverBeyondTheKey ==
+    [][step' = "SwitchMode" => \A m \in MSO :
+        Switched(m) => key # None /\ Permitted(KeyLevel(key), m)]_everything
 \* EKS-2-14, EKS-SD-5: less than UserIntent: nothing but what this user touched
 NothingButTheTouch == [][step' = "SwitchMode" => \A m \in MSO : Switched(m) => touched = m]_everything
 \* EKS-2-14, EKS-SD-4, E-51: the panel offers no mode that the F-PLC would refuse
 NoOfferBeyondTheLevel == [][authority # None => \A m \in Enabled : Permitted(authority, m)]_everything
 \* EKS-2-19, EKS-2-27: no word of an honest panel is refused
-NoWordIsRefused == [][step' \notin {"RefuseEarlyWord", "RefuseSelection", "RefuseAcknowledgment", "RefuseMatch", "UnexpectedAcknowledgment"}]_everything
+NoWordIsRefused ==
+    [][step' \notin {"RefuseEarlyWord", "RefuseSelection", "RefuseAcknowledgment", "RefuseMatch",
+                     "UnexpectedAcknowledgment"}]_everything
 
 ----------------------------------------------------------------------------
 (* For a reader of a trace; no run checks anything by these.               *)
@@ -228,9 +248,11 @@ NoWordIsRefused == [][step' \notin {"RefuseEarlyWord", "RefuseSelection", "Refus
 \* All that stands on the wires, LA and the outputs as the F-PLC sees them
 WiresSeen ==
     LET vec == SeenVector(broken)
-    IN  [LA |-> SeenLA(broken), A |-> 0 \in vec, B |-> 1 \in vec, C |-> 2 \in vec, D |-> 3 \in vec, STR |-> 4 \in vec] @@ Wires
+    IN  [LA |-> SeenLA(broken), A |-> 0 \in vec, B |-> 1 \in vec, C |-> 2 \in vec, D |-> 3 \in vec,
+         STR |-> 4 \in vec] @@ Wires
 \* What the F-PLC and the panel read in the scan that was just executed; a wrong word stands afterwards
-FplcReadWrong == [LA |-> SeenLA(broken'), vec |-> SeenVector(broken'), MW03 |-> MW03', MW07 |-> MW07', dt |-> took']
+FplcReadWrong ==
+    [LA |-> SeenLA(broken'), vec |-> SeenVector(broken'), MW03 |-> MW03', MW07 |-> MW07', dt |-> took']
 PanelReadWrong ==
     LET with(touch) == [RA |-> ReadAuthorization', CM |-> CheckMSO', touch |-> touch]
     IN  with(IF HmiScan(with("")) THEN "" ELSE CHOOSE touch \in Touches : HmiScan(with(touch)))

@@ -26,7 +26,8 @@ LiveInit == Init /\ goal = None
 TakeGoal == goal = None /\ goal' \in {m \in MSO : \E l \in LEVELS : Permitted(l, m)} /\ UNCHANGED vars
 
 KeyFits == reader \in LEVELS /\ Permitted(reader, goal)
-\* EKS-2-1, EKS-8-1, E-23: takes out a key that does not fit, and any key when the error lamp is on or the machine does not answer it
+\* EKS-2-1, EKS-8-1, E-23: takes out a key that does not fit, and any key when the error lamp is on or the
+\* machine does not answer it
 EarnestRemove == (~KeyFits \/ fplcState \in {"Start", "Clear", "AwaitZeros", "Error"}) /\ RemoveKey
 \* EKS-2-1: inserts a fitting key when the machine is ready
 EarnestInsert == \E k \in LEVELS : Permitted(k, goal) /\ fplcState = "Idle" /\ SwapNoticed /\ InsertKey(k)
@@ -86,6 +87,7 @@ FairDevices ==
     FairPlc /\ WF_eks(EksRuns /\ Same) /\ WF_fplc(FplcRuns /\ Same) /\ WF_panel(PanelRuns /\ Same)
 RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step, took>> /\ FairDevices
 
-\* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle stays
+\* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle
+\* stays
 RemovalLeadsToIdle == <>[](reader = None) => <>[](fplcState = "Idle")
 =============================================================================

@@ -15,7 +15,8 @@ EXTENDS KeyFlowsLive, KeyFlowsFaults
 LOCAL Single == WireClasses \ {"extra wire", "crossed wires"}
 SingleElements == Single
 
-\* Each fairness condition has as its subscript what the steps that it is about may change; a scan that meets a fault changes these too
+\* Each fairness condition has as its subscript what the steps that it is about may change; a scan that meets
+\* a fault changes these too
 met == <<plc, faultVars>>
 Whole == wrong' = {} /\ UNCHANGED faultVars
 RecoveryInit == FaultInit /\ goal = None
@@ -44,7 +45,8 @@ Steered(device) == goal # None /\ device /\ Same /\ Whole
 AfterFaultNext ==
     \/ goal = None /\ FaultNext /\ Same
     \/ TakeGoalAfterFaults
-    \/ Steered(EarnestUser) \/ Steered(EarnestPanel) \/ Steered(PromptFplc) \/ Steered(PromptEks) \/ Steered(PlcRuns)
+    \/ Steered(EarnestUser) \/ Steered(EarnestPanel)
+    \/ Steered(PromptFplc) \/ Steered(PromptEks) \/ Steered(PlcRuns)
 AfterFaultSpec ==
     /\ RecoveryInit /\ [][AfterFaultNext]_<<everything, goal>> /\ FairPlcOn
     /\ WF_reader(Steered(EarnestUser)) /\ WF_panel(Steered(EarnestPanel))

@@ -7,7 +7,9 @@
 (***************************************************************************)
 EXTENDS KeyFlows
 
-Report(name) == IF name \in TLCGet(1) THEN TRUE ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))
+Report(name) ==
+    IF name \in TLCGet(1) THEN TRUE
+    ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))
 
 \* EKS-2-29, EKS-T2: each mode from each level that permits it
 Switchover == Report("Mode" \o ToString(fplcSelection) \o "FromLevel" \o ToString(accepted))

@@ -39,8 +39,8 @@ Show == touched # None /\ seen' = touched /\ UNCHANGED <<level, touched, confirm
 \* EKS-2-23: the user confirms what is shown
 Confirm == seen # None /\ confirmed' = seen /\ UNCHANGED <<level, touched, seen, mode>>
 
-\* EKS-2-28, EKS-2-29, EKS-T2-2, EKS-SD-2: the one way in which the mode changes.  A confirmation is not spent: until the next
-\* touch the same mode could be set again, which changes nothing (E-71)
+\* EKS-2-28, EKS-2-29, EKS-T2-2, EKS-SD-2: the one way in which the mode changes.  A confirmation is not
+\* spent: until the next touch the same mode could be set again, which changes nothing (E-71)
 Switch ==
     /\ confirmed # None
     /\ confirmed = touched /\ confirmed = seen      \* touched, seen and confirmed, in this insertion

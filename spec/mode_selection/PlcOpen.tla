@@ -29,7 +29,8 @@ ASSUME PRINT_GRAPH => \A n \in 0..N - 1 : PrintT(ToString(<<"INPUT", n, Wire(Alp
 PrintState == PRINT_GRAPH => PrintT(ToString(<<"STATE", View, Row>>))
 PrintEdge == PRINT_GRAPH => PrintT(ToString(<<"EDGE", View, step', in', View'>>))
 
-OpenInit == PlcInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
+OpenInit ==
+    PlcInit /\ step = "" /\ in = 0 /\ beat = FALSE /\ (PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>)))
 OpenNext == \E n \in 0..N - 1 : \E i \in {Alphabet[n]} : PlcScan(i) /\ in' = n /\ beat' = ~beat
 OpenSpec == OpenInit /\ [][OpenNext]_<<plc, step, in, beat>>
 
@@ -44,7 +45,8 @@ CopiesUnchanged ==
 EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED PlcScan(Alphabet[n])
 \* EKS-GP-5: before the first copy all words are zero
 PowerUpIsSafe == step = "" => ReadAuthorization = 0 /\ MW03 = 0 /\ CheckMSO = 0 /\ MW07 = 0
-\* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26: where the order is fixed, the copies follow one another as the steps of the note do
+\* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26: where the order is fixed, the copies follow one another as the
+\* steps of the note do
 CopiesTakeTurns ==
     [][~ANY_ORDER =>
         step' = CASE step = "CopyReadAuthorization" -> "CopyMW03"

@@ -24,37 +24,17 @@ VARIABLES
 
 block == <<state, resetBefore, startTestBefore, sensorBefore, startInhibit, elapsed>>
 
-\* The literal readings of the document, those of the family included; {} is our reading
-Readings == FamilyReadings \cup {
-    "C031_IN_8406",
-    "TEST_OUT_FALSE_IN_IDLE",
-    "ONE_MEASUREMENT",
-    "SUCCESS_BEFORE_EXPIRY",
-    "EXPIRES_AFTER_TEST_TIME",
-    "STATIC_RESET_BEFORE_TEST_TIME",
-    "RESET_LEAVES_PARAMETER_ERROR",
-    "EXTERNAL_TEST_WITHOUT_RESET",
-    "RESET_ENABLES_DESPITE_EXTERNAL_TEST",
-    "EXTERNAL_TEST_BY_LEVEL",
-    "X_DECIDED_AT_EXPIRY",
-    "EDGE_COUNTS_WHEN_SENSOR_RETURNS",
-    "START_INHIBIT_ENDS_WITH_INTERRUPTION",
-    "WAIT_FOR_RESET_NEEDS_EDGE",
-    "RESET_BEFORE_INTERRUPTION",
-    "TEST_BEFORE_INTERRUPTION",
-    "START_TEST_BY_LEVEL",
-    "MANUAL_TEST_SEEN_ONCE"
-}
-ASSUME FamilyReadings \subseteq Readings /\ LITERAL \subseteq Readings
 ASSUME TEST_TIME \in Int /\ AUTO_RESET_ERRORS \in BOOLEAN
 
 Testing == {"TestRequest", "TestActive"}
 \* TSS-CX10: one error of the document, which shows one of two codes
 TestErrors == {"TestError1C010", "TestError1C410"}
 ResetErrors == {"ResetError1", "ResetError2", "ResetError3", "ResetError4", "ResetError5", "ResetError6"}
-States == {"Idle", "Init", "ESPEInterrupted1", "WaitForReset1", "ExternalFunctionTest", "ESPEInterruptedExternalTest",
-           "EndExternalTest", "ESPEFreeNoTest", "ESPEInterrupted2", "WaitForReset2", "ESPEFreeTestOk", "ParameterError"}
-          \cup Testing \cup TestErrors \cup ResetErrors
+States ==
+    {"Idle", "Init", "ESPEInterrupted1", "WaitForReset1", "ESPEFreeNoTest",
+     "ExternalFunctionTest", "ESPEInterruptedExternalTest", "EndExternalTest",
+     "ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ParameterError"}
+    \cup Testing \cup TestErrors \cup ResetErrors
 
 SensorTypeOK ==
     /\ state \in States
@@ -72,13 +52,20 @@ SensorInit ==
 
 LOCAL T == TRUE
 LOCAL F == FALSE
-\* TSS-OUT-READY, TSS-OUT-OSSD, TSS-OUT-TESTOUT, TSS-OUT-POSSIBLE, TSS-OUT-EXECUTED, TSS-OUT-DEMAND, TSS-OUT-REQUEST, TSS-OUT-ERROR, TSS-OUT-DIAG
+\* TSS-OUT-READY, TSS-OUT-OSSD, TSS-OUT-TESTOUT, TSS-OUT-POSSIBLE, TSS-OUT-EXECUTED, TSS-OUT-DEMAND,
+\* TSS-OUT-REQUEST, TSS-OUT-ERROR, TSS-OUT-DIAG
 OutputRow(code, ready, ossd, testOut, possible, executed, demand, request, error) ==
-    [DiagCode |-> code, Ready |-> ready, S_OSSD_Out |-> ossd, S_TestOut |-> testOut, TestPossible |-> possible,
-     TestExecuted |-> executed, SafetyDemand |-> demand, ResetRequest |-> request, Error |-> error]
+    [DiagCode |-> code, Ready |-> ready, S_OSSD_Out |-> ossd, S_TestOut |-> testOut,
+     TestPossible |-> possible, TestExecuted |-> executed, SafetyDemand |-> demand,
+     ResetRequest |-> request, Error |-> error]
 
-\* TSS-0000, TSS-8401, TSS-8802, TSS-8402, TSS-8002, TSS-8804, TSS-8404, TSS-8010, TSS-8806, TSS-8406, TSS-8020, TSS-8030, TSS-8000,
-\* TSS-C000, TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSS-C410, TSS-C010, TSS-EB-1, TSSF-05, TSSF-26
+\* TSS-0000, TSSF-05: an inactive block does not switch the sender of the sensor off
+IdleRow == OutputRow(\h0000, F, F, T, F, F, F, F, F)
+
+\* TSS-0000, TSS-8401, TSS-8802, TSS-8402, TSS-8002, TSS-8804, TSS-8404, TSS-8010, TSS-8806, TSS-8406,
+\* TSS-8020, TSS-8030, TSS-8000,
+\* TSS-C000, TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSS-C410, TSS-C010, TSS-EB-1,
+\* TSSF-05, TSSF-26
 Rows == TLCEval([s \in States |->
     CASE s = "ParameterError"              -> OutputRow(\hC000, T, F, T, F, F, F, F, T)
       [] s = "ResetError1"                 -> OutputRow(\hC001, T, F, T, F, F, F, F, T)
@@ -89,7 +76,7 @@ Rows == TLCEval([s \in States |->
       [] s = "ResetError6"                 -> OutputRow(\hC051, T, F, T, F, T, F, F, T)
       [] s = "TestError1C410"              -> OutputRow(\hC410, T, F, T, F, F, F, T, T)
       [] s = "TestError1C010"              -> OutputRow(\hC010, T, F, T, F, F, F, F, T)
-      [] s = "Idle"                        -> OutputRow(\h0000, F, F, ~Literal("TEST_OUT_FALSE_IN_IDLE"), F, F, F, F, F)
+      [] s = "Idle"                        -> IdleRow
       [] s = "Init"                        -> OutputRow(\h8401, T, F, T, F, F, F, T, F)
       [] s = "ESPEInterrupted1"            -> OutputRow(\h8802, T, F, T, F, F, T, F, F)
       [] s = "WaitForReset1"               -> OutputRow(\h8402, T, F, T, F, F, F, T, F)
@@ -110,29 +97,25 @@ SensorOutputs == Rows[state]
 \* TSS-IN-TESTTIME, TSS-ERR-4
 TestTimeValid == TEST_TIME \in 0..150
 \* TSS-IN-OSSD
-LOCAL Free(i) == i.S_OSSD_In
+Free(i) == i.S_OSSD_In
 \* TSS-IN-STARTTEST, TSS-NOTE-4, TSSF-23
-LOCAL TestAsked(i) == Rises(i.StartTest, startTestBefore) \/ (Literal("START_TEST_BY_LEVEL") /\ i.StartTest)
-\* TSS-TEST-0, TSS-ERR-1, TSS-ERR-2, TSSF-08
-LOCAL Expired(i) ==
-    IF Literal("EXPIRES_AFTER_TEST_TIME") THEN elapsed + i.dt > TEST_TIME ELSE elapsed + i.dt >= TEST_TIME
-\* TSSF-07: expiry comes first
-LOCAL Reacts(i, reaction) == reaction /\ (~Expired(i) \/ Literal("SUCCESS_BEFORE_EXPIRY"))
-LOCAL Fails(i, reaction) == Expired(i) /\ ~Reacts(i, reaction)
+TestAsked(i) == Rises(i.StartTest, startTestBefore)
+\* TSS-TEST-0, TSS-ERR-1, TSS-ERR-2, TSSF-07, TSSF-08: the time is over, whether
+\* or not the sensor reacts in this call
+Expired(i) == elapsed + i.dt >= TEST_TIME
 \* TSS-IN-AUTORESET, TSS-FN-2, TSSF-19, TSSF-20: somebody has to reset before the output may come again
 LOCAL Inhibited(i) == i.S_AutoReset => startInhibit
-LOCAL StillInhibited(i) == Inhibited(i) \/ Literal("WAIT_FOR_RESET_NEEDS_EDGE")
 \* TSS-EB-3, TSSF-15
 LOCAL EndsByItself(i) == AUTO_RESET_ERRORS /\ i.S_AutoReset
 \* TSS-EB-2, TSS-CX10: the error can be reset as it stands
-LOCAL Resettable(i) == Free(i) /\ i.NoExternalTest
+Resettable(i) == Free(i) /\ i.NoExternalTest
 \* TSS-CX10, TSS-C010, TSS-C410
-LOCAL TestErrorShown(i) == IF Resettable(i) THEN "TestError1C410" ELSE "TestError1C010"
+TestErrorShown(i) == IF Resettable(i) THEN "TestError1C410" ELSE "TestError1C010"
 
-LOCAL To(s) == GoTo(s) /\ elapsed' = 0 /\ UNCHANGED startInhibit
+To(s) == GoTo(s) /\ elapsed' = 0 /\ UNCHANGED startInhibit
 \* No start-up inhibit is pending any more
-LOCAL Released(s) == GoTo(s) /\ elapsed' = 0 /\ startInhibit' = FALSE
-LOCAL Stay == UNCHANGED <<state, elapsed, startInhibit>>
+Released(s) == GoTo(s) /\ elapsed' = 0 /\ startInhibit' = FALSE
+Stay == UNCHANGED <<state, elapsed, startInhibit>>
 LOCAL Remembers(i) == RemembersReset(i) /\ startTestBefore' = i.StartTest /\ sensorBefore' = i.S_OSSD_In
 
 ----------------------------------------------------------------------------
@@ -145,20 +128,18 @@ StayIdle(i) == ~i.Activate /\ state = "Idle" /\ Stay /\ Did("StayIdle")
 \* TSS-IN-ACTIVATE, TSS-8401, TSSF-25: an edge of Reset in this call acts on nothing
 BecomeActive(i) == At("Idle", i) /\ To("Init") /\ Did("BecomeActive")
 
-\* TSSF-11
-LOCAL StaticAtStart(i) == ResetStatic(i) /\ ~i.S_StartReset
-LOCAL TestTimeRefused(i) == ~TestTimeValid /\ ~(Literal("STATIC_RESET_BEFORE_TEST_TIME") /\ StaticAtStart(i))
-\* TSS-ERR-4, TSS-C000, TSS-IN-TESTTIME, TSSF-11
-RefuseTestTime(i) == At("Init", i) /\ TestTimeRefused(i) /\ To("ParameterError") /\ Did("RefuseTestTime")
-\* TSS-C001, TSS-ERR-3, TSS-IN-STARTRESET
+\* TSS-ERR-4, TSS-C000, TSS-IN-TESTTIME, TSSF-11: the first thing that an active block looks at
+RefuseTestTime(i) == At("Init", i) /\ ~TestTimeValid /\ To("ParameterError") /\ Did("RefuseTestTime")
+StaticAtStart(i) == ResetStatic(i) /\ ~i.S_StartReset
+\* TSS-C001, TSS-ERR-3, TSS-IN-STARTRESET, TSSF-11
 FindStaticReset1(i) ==
-    At("Init", i) /\ ~TestTimeRefused(i) /\ StaticAtStart(i) /\ To("ResetError1") /\ Did("FindStaticReset1")
-LOCAL Starting(i) == At("Init", i) /\ TestTimeValid /\ ~StaticAtStart(i)
-\* TSS-8802, TSS-FN-3, TSSF-19
+    At("Init", i) /\ TestTimeValid /\ StaticAtStart(i) /\ To("ResetError1") /\ Did("FindStaticReset1")
+Starting(i) == At("Init", i) /\ TestTimeValid /\ ~StaticAtStart(i)
+\* TSS-8802, TSS-FN-3, TSSF-19: the start-up inhibit outlives the interruption
 InterruptStart(i) ==
     /\ Starting(i) /\ ~Free(i)
     /\ GoTo("ESPEInterrupted1") /\ UNCHANGED elapsed
-    /\ startInhibit' = (~i.S_StartReset /\ ~Literal("START_INHIBIT_ENDS_WITH_INTERRUPTION"))
+    /\ startInhibit' = ~i.S_StartReset
     /\ Did("InterruptStart")
 LOCAL StartAllowed(i) == ~i.S_StartReset => ResetRises(i)
 \* TSS-EB-5, TSS-FN-3, TSS-IN-STARTRESET, TSS-IN-RESET, TSS-8010
@@ -168,7 +149,8 @@ EndStartInhibit(i) ==
 AwaitStartReset(i) == Starting(i) /\ Free(i) /\ ~StartAllowed(i) /\ Stay /\ Did("AwaitStartReset")
 Activation(i) ==
     \/ Deactivate(i) \/ StayIdle(i) \/ BecomeActive(i)
-    \/ RefuseTestTime(i) \/ FindStaticReset1(i) \/ InterruptStart(i) \/ EndStartInhibit(i) \/ AwaitStartReset(i)
+    \/ RefuseTestTime(i) \/ FindStaticReset1(i)
+    \/ InterruptStart(i) \/ EndStartInhibit(i) \/ AwaitStartReset(i)
 
 ----------------------------------------------------------------------------
 (* The sensor is interrupted and free again: before a test (1), and after  *)
@@ -191,10 +173,11 @@ BecomeFree2(i) ==
 Restart2(i) ==
     At("ESPEInterrupted2", i) /\ Free(i) /\ ~Inhibited(i) /\ Released("ESPEFreeTestOk") /\ Did("Restart2")
 
-LOCAL StaticInWait(i) == ResetStatic(i) /\ StillInhibited(i)
-LOCAL RestartAllowed(i) == StillInhibited(i) => ResetRises(i)
+\* TSSF-20: where S_AutoReset ends the inhibit there is nothing to wait for
+StaticInWait(i) == ResetStatic(i) /\ Inhibited(i)
+RestartAllowed(i) == Inhibited(i) => ResetRises(i)
 \* TSSF-21: losing the sensor comes before the reset
-LOCAL LostAgain(i) == ~Free(i) /\ ~(Literal("RESET_BEFORE_INTERRUPTION") /\ RestartAllowed(i))
+LostAgain(i) == ~Free(i)
 \* TSS-C011, TSS-ERR-3, TSSF-01
 FindStaticReset2(i) ==
     At("WaitForReset1", i) /\ StaticInWait(i) /\ To("ResetError2") /\ Did("FindStaticReset2")
@@ -203,22 +186,21 @@ LOCAL Waiting1(i) == At("WaitForReset1", i) /\ ~StaticInWait(i)
 InterruptWait1(i) == Waiting1(i) /\ LostAgain(i) /\ To("ESPEInterrupted1") /\ Did("InterruptWait1")
 \* TSS-8402, TSS-EB-4, TSS-REL-1, TSS-IN-RESET, TSSF-20
 EndRestartInhibit1(i) ==
-    Waiting1(i) /\ ~LostAgain(i) /\ RestartAllowed(i) /\ Released("ESPEFreeNoTest") /\ Did("EndRestartInhibit1")
+    /\ Waiting1(i) /\ ~LostAgain(i) /\ RestartAllowed(i)
+    /\ Released("ESPEFreeNoTest") /\ Did("EndRestartInhibit1")
 \* TSS-8402
 AwaitReset1(i) == Waiting1(i) /\ ~LostAgain(i) /\ ~RestartAllowed(i) /\ Stay /\ Did("AwaitReset1")
 
-\* TSSF-02: as printed, C031 belongs to 8406
-LOCAL Printed == Literal("C031_IN_8406")
 \* TSS-C051, TSS-ERR-3, TSSF-02, TSSF-03
 FindStaticReset6(i) ==
-    /\ At("WaitForReset2", i) /\ StaticInWait(i) /\ ~Printed
-    /\ To("ResetError6") /\ Did("FindStaticReset6")
+    At("WaitForReset2", i) /\ StaticInWait(i) /\ To("ResetError6") /\ Did("FindStaticReset6")
 LOCAL Waiting2(i) == At("WaitForReset2", i) /\ ~StaticInWait(i)
 \* TSS-8806, TSS-FN-1, TSSF-21
 InterruptWait2(i) == Waiting2(i) /\ LostAgain(i) /\ To("ESPEInterrupted2") /\ Did("InterruptWait2")
 \* TSS-8406, TSS-EB-4, TSS-REL-1, TSS-IN-RESET, TSSF-20
 EndRestartInhibit2(i) ==
-    Waiting2(i) /\ ~LostAgain(i) /\ RestartAllowed(i) /\ Released("ESPEFreeTestOk") /\ Did("EndRestartInhibit2")
+    /\ Waiting2(i) /\ ~LostAgain(i) /\ RestartAllowed(i)
+    /\ Released("ESPEFreeTestOk") /\ Did("EndRestartInhibit2")
 \* TSS-8406
 AwaitReset2(i) == Waiting2(i) /\ ~LostAgain(i) /\ ~RestartAllowed(i) /\ Stay /\ Did("AwaitReset2")
 Interruption(i) ==
@@ -230,7 +212,7 @@ Interruption(i) ==
 (* The sensor is free, and its test.                                       *)
 
 \* TSSF-22: losing the sensor comes before the test
-LOCAL Lost(i) == ~Free(i) /\ ~(Literal("TEST_BEFORE_INTERRUPTION") /\ TestAsked(i))
+Lost(i) == ~Free(i)
 \* TSS-FN-1, TSS-8802, TSSF-22
 Interrupt1(i) == At("ESPEFreeNoTest", i) /\ Lost(i) /\ To("ESPEInterrupted1") /\ Did("Interrupt1")
 \* TSS-TEST-1, TSS-IN-STARTTEST, TSS-8020, TSSF-23
@@ -248,26 +230,23 @@ StayFree2(i) == At("ESPEFreeTestOk", i) /\ ~Lost(i) /\ ~TestAsked(i) /\ Stay /\ 
 
 \* TSS-ERR-2, TSS-CX10, TSS-FN-6C, TSSF-07, TSSF-08, TSSF-29
 ExpireRequest(i) ==
-    At("TestRequest", i) /\ Fails(i, ~Free(i)) /\ To(TestErrorShown(i)) /\ Did("ExpireRequest")
+    At("TestRequest", i) /\ Expired(i) /\ To(TestErrorShown(i)) /\ Did("ExpireRequest")
 \* TSS-TEST-2, TSS-TEST-0, TSS-8030, TSSF-06, TSSF-09
 SeeDark(i) ==
-    /\ At("TestRequest", i) /\ Reacts(i, ~Free(i))
-    /\ GoTo("TestActive") /\ UNCHANGED startInhibit
-    /\ elapsed' = IF Literal("ONE_MEASUREMENT") THEN Counted(elapsed, i.dt, TEST_TIME) ELSE 0
-    /\ Did("SeeDark")
+    At("TestRequest", i) /\ ~Expired(i) /\ ~Free(i) /\ To("TestActive") /\ Did("SeeDark")
 LOCAL Waits(i) ==
     UNCHANGED <<state, startInhibit>> /\ elapsed' = Counted(elapsed, i.dt, TEST_TIME)
 \* TSS-8020, TSS-TEST-1
 AwaitDark(i) ==
-    At("TestRequest", i) /\ ~Fails(i, ~Free(i)) /\ ~Reacts(i, ~Free(i)) /\ Waits(i) /\ Did("AwaitDark")
+    At("TestRequest", i) /\ ~Expired(i) /\ Free(i) /\ Waits(i) /\ Did("AwaitDark")
 \* TSS-ERR-1, TSS-CX10, TSS-FN-6A, TSS-FN-6B, TSSF-07, TSSF-08, TSSF-29
 ExpireActive(i) ==
-    At("TestActive", i) /\ Fails(i, Free(i)) /\ To(TestErrorShown(i)) /\ Did("ExpireActive")
+    At("TestActive", i) /\ Expired(i) /\ To(TestErrorShown(i)) /\ Did("ExpireActive")
 \* TSS-TEST-3, TSS-8000, TSS-FN-5, TSS-OUT-EXECUTED
-SeeFree(i) == At("TestActive", i) /\ Reacts(i, Free(i)) /\ To("ESPEFreeTestOk") /\ Did("SeeFree")
+SeeFree(i) ==
+    At("TestActive", i) /\ ~Expired(i) /\ Free(i) /\ To("ESPEFreeTestOk") /\ Did("SeeFree")
 \* TSS-8030, TSS-TEST-2, TSSF-09
-AwaitFree(i) ==
-    At("TestActive", i) /\ ~Fails(i, Free(i)) /\ ~Reacts(i, Free(i)) /\ Waits(i) /\ Did("AwaitFree")
+AwaitFree(i) == At("TestActive", i) /\ ~Expired(i) /\ ~Free(i) /\ Waits(i) /\ Did("AwaitFree")
 Test(i) ==
     \/ Interrupt1(i) \/ StartTest1(i) \/ StayFree1(i) \/ Interrupt2(i) \/ StartTest2(i) \/ StayFree2(i)
     \/ ExpireRequest(i) \/ SeeDark(i) \/ AwaitDark(i) \/ ExpireActive(i) \/ SeeFree(i) \/ AwaitFree(i)
@@ -277,18 +256,14 @@ Test(i) ==
 
 LOCAL AtTestError(i) == state \in TestErrors /\ i.Activate
 LOCAL StaticInError(i) == ResetStatic(i) /\ ~EndsByItself(i)
-LOCAL ErrorEnds(i) == ~EndsByItself(i) => ResetRises(i)
+ErrorEnds(i) == ~EndsByItself(i) => ResetRises(i)
 \* TSS-C021, TSS-ERR-3
 FindStaticReset3(i) == AtTestError(i) /\ StaticInError(i) /\ To("ResetError3") /\ Did("FindStaticReset3")
-\* TSS-EB-2, TSS-C410, TSS-IN-NOEXT-TRUE, TSSF-14, TSSF-18
-LOCAL EnablesAtOnce(i) ==
-    /\ ErrorEnds(i)
-    /\ \/ Resettable(i) /\ (state = "TestError1C410" \/ Literal("EDGE_COUNTS_WHEN_SENSOR_RETURNS"))
-       \/ Free(i) /\ Literal("RESET_ENABLES_DESPITE_EXTERNAL_TEST")
+\* TSS-EB-2, TSS-C410, TSS-IN-NOEXT-TRUE, TSSF-14, TSSF-18: only where the call before asked for the reset
+EnablesAtOnce(i) == ErrorEnds(i) /\ Resettable(i) /\ state = "TestError1C410"
 \* TSS-IN-NOEXT-FALSE, TSSF-13
-LOCAL NeedsExternalTest(i) ==
-    ~i.NoExternalTest /\ (ErrorEnds(i) \/ Literal("EXTERNAL_TEST_WITHOUT_RESET")) /\ ~EnablesAtOnce(i)
-LOCAL Failed(i) == AtTestError(i) /\ ~StaticInError(i)
+NeedsExternalTest(i) == ErrorEnds(i) /\ ~i.NoExternalTest
+Failed(i) == AtTestError(i) /\ ~StaticInError(i)
 \* TSS-EB-2, TSS-EB-3, TSS-C410, TSS-IN-NOEXT-TRUE, TSS-IN-RESET, TSSF-14, TSSF-15, TSSF-18
 ResetTestError(i) == Failed(i) /\ EnablesAtOnce(i) /\ Released("ESPEFreeNoTest") /\ Did("ResetTestError")
 \* TSS-IN-NOEXT-FALSE, TSS-8002, TSS-C010, TSSF-13, TSSF-15
@@ -296,12 +271,10 @@ RequireExternalTest(i) ==
     Failed(i) /\ NeedsExternalTest(i) /\ To("ExternalFunctionTest") /\ Did("RequireExternalTest")
 \* TSS-CX10, TSS-C010, TSS-C410, TSS-EB-1, TSSF-17
 ShowTestError(i) ==
-    /\ Failed(i) /\ ~EnablesAtOnce(i) /\ ~NeedsExternalTest(i)
-    /\ To(IF Literal("X_DECIDED_AT_EXPIRY") THEN state ELSE TestErrorShown(i))
-    /\ Did("ShowTestError")
+    Failed(i) /\ ~EnablesAtOnce(i) /\ ~NeedsExternalTest(i) /\ To(TestErrorShown(i)) /\ Did("ShowTestError")
 
 \* TSSF-16: a negative edge
-LOCAL Falls(i) == ~Free(i) /\ (sensorBefore \/ Literal("EXTERNAL_TEST_BY_LEVEL"))
+Falls(i) == ~Free(i) /\ sensorBefore
 \* TSS-8002, TSS-8804, TSSF-16
 BeginExternalTest(i) ==
     At("ExternalFunctionTest", i) /\ Falls(i) /\ To("ESPEInterruptedExternalTest") /\ Did("BeginExternalTest")
@@ -312,23 +285,18 @@ BecomeFreeExternal(i) ==
     At("ESPEInterruptedExternalTest", i) /\ Free(i) /\ To("EndExternalTest") /\ Did("BecomeFreeExternal")
 \* TSS-8804
 AwaitFreeExternal(i) == At("ESPEInterruptedExternalTest", i) /\ ~Free(i) /\ Stay /\ Did("AwaitFreeExternal")
-LOCAL StaticAtEnd(i) == StaticInError(i) /\ ~Printed
 \* TSS-C031, TSS-ERR-3, TSSF-02
 FindStaticReset4(i) ==
-    /\ \/ At("EndExternalTest", i) /\ StaticAtEnd(i)
-       \/ At("WaitForReset2", i) /\ StaticInWait(i) /\ Printed
-    /\ To("ResetError4") /\ Did("FindStaticReset4")
-LOCAL Tested(i) == At("EndExternalTest", i) /\ ~StaticAtEnd(i)
-\* TSSF-31
-LOCAL FreeAtEnd(i) == Free(i) \/ Literal("MANUAL_TEST_SEEN_ONCE")
+    At("EndExternalTest", i) /\ StaticInError(i) /\ To("ResetError4") /\ Did("FindStaticReset4")
+Tested(i) == At("EndExternalTest", i) /\ ~StaticInError(i)
 \* TSS-8804, TSS-8404, TSSF-31
 InterruptExternal(i) ==
-    Tested(i) /\ ~FreeAtEnd(i) /\ To("ESPEInterruptedExternalTest") /\ Did("InterruptExternal")
+    Tested(i) /\ ~Free(i) /\ To("ESPEInterruptedExternalTest") /\ Did("InterruptExternal")
 \* TSS-8404, TSS-IN-NOEXT-FALSE, TSS-IN-RESET, TSS-8010, TSSF-15, TSSF-31
 EndManualTest(i) ==
-    Tested(i) /\ FreeAtEnd(i) /\ ErrorEnds(i) /\ Released("ESPEFreeNoTest") /\ Did("EndManualTest")
+    Tested(i) /\ Free(i) /\ ErrorEnds(i) /\ Released("ESPEFreeNoTest") /\ Did("EndManualTest")
 \* TSS-8404
-AwaitExternalReset(i) == Tested(i) /\ FreeAtEnd(i) /\ ~ErrorEnds(i) /\ Stay /\ Did("AwaitExternalReset")
+AwaitExternalReset(i) == Tested(i) /\ Free(i) /\ ~ErrorEnds(i) /\ Stay /\ Did("AwaitExternalReset")
 TestFailed(i) ==
     \/ FindStaticReset3(i) \/ ResetTestError(i) \/ RequireExternalTest(i) \/ ShowTestError(i)
     \/ BeginExternalTest(i) \/ AwaitExternalTest(i) \/ BecomeFreeExternal(i) \/ AwaitFreeExternal(i)
@@ -338,19 +306,19 @@ TestFailed(i) ==
 (* A TestTime out of its range, and a Reset that is held or stuck.         *)
 
 \* TSS-C041, TSS-ERR-3
-FindStaticReset5(i) == At("ParameterError", i) /\ ResetStatic(i) /\ To("ResetError5") /\ Did("FindStaticReset5")
+FindStaticReset5(i) ==
+    At("ParameterError", i) /\ ResetStatic(i) /\ To("ResetError5") /\ Did("FindStaticReset5")
 \* TSS-C000, TSSF-12: TestTime is a constant, so that no reset can help
 StayInParameterError(i) ==
-    /\ At("ParameterError", i) /\ ~ResetStatic(i)
-    /\ IF Literal("RESET_LEAVES_PARAMETER_ERROR") /\ ResetRises(i) THEN To("Init") ELSE Stay
-    /\ Did("StayInParameterError")
+    At("ParameterError", i) /\ ~ResetStatic(i) /\ Stay /\ Did("StayInParameterError")
 
-\* TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSSF-01, TSSF-02, TSSF-03: back to where the static Reset was found
-LOCAL CameFrom(i) ==
+\* TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSSF-01, TSSF-02, TSSF-03: back to where the
+\* static Reset was found
+CameFrom(i) ==
     CASE state = "ResetError1" -> "Init"
       [] state = "ResetError2" -> "WaitForReset1"
       [] state = "ResetError3" -> TestErrorShown(i)
-      [] state = "ResetError4" -> (IF Printed THEN "WaitForReset2" ELSE "EndExternalTest")
+      [] state = "ResetError4" -> "EndExternalTest"
       [] state = "ResetError5" -> "ParameterError"
       [] state = "ResetError6" -> "WaitForReset2"
 \* TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSS-ERR-3, TSSF-24

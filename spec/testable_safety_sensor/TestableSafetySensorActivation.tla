@@ -23,6 +23,7 @@ ActivationNext ==
         /\ owed' = (state' \in TestErrors \/ (owed /\ ~Then("S_OSSD_Out")))
 ActivationSpec == ActivationInit /\ [][ActivationNext]_<<ActivationView, observer, step, in, beat>>
 
-\* TSS-EB-1, TSS-EB-2, TSS-IN-NOEXT-FALSE, TSSF-32: the output comes back from a failed test by its reset, or at the end of its manual test
+\* TSS-EB-1, TSS-EB-2, TSS-IN-NOEXT-FALSE, TSSF-32: the output comes back from a failed test by its reset, or
+\* at the end of its manual test
 FailedTestIsMended == [][Rise("S_OSSD_Out") /\ owed => (state \in TestErrors \cup Manual)]_beat
 =============================================================================

@@ -32,7 +32,8 @@ Shows(person) == IF person THEN {FALSE} ELSE IF stuck \/ state \notin Testing TH
 People == IF QUIET /\ state \in Testing THEN {FALSE} ELSE BOOLEAN
 LongEnough == TEST_TIME + 1
 FieldCall ==
-    \E person \in People : \E free \in Shows(person) : \E start \in BOOLEAN : \E reset \in BOOLEAN : \E dt \in 0..TEST_TIME :
+    \E person \in People : \E free \in Shows(person) :
+    \E start \in BOOLEAN : \E reset \in BOOLEAN : \E dt \in 0..TEST_TIME :
         /\ wires' = [Activate |-> TRUE, S_OSSD_In |-> free, StartTest |-> start, NoExternalTest |-> TRUE,
                      S_StartReset |-> FALSE, S_AutoReset |-> FALSE, Reset |-> reset, dt |-> dt]
         /\ SensorScan(wires')
@@ -44,7 +45,8 @@ FieldSpec == FieldInit /\ [][FieldCall]_<<FieldView, step, wires>>
 FieldWires == wires @@ SensorOutputs
 FieldRead == wires'
 
-\* TSS-FN-1, TSS-FN-5, TSS-FN-7, TSSF-09: who stays in the field for TestTime stops the machine, whatever test runs
+\* TSS-FN-1, TSS-FN-5, TSS-FN-7, TSSF-09: who stays in the field for TestTime stops the machine, whatever test
+\* runs
 PersonStopsMachine == inField >= TEST_TIME => ~SensorOutputs.S_OSSD_Out
 \* TSS-FN-1, TSS-OUT-OSSD, TSSF-09: who was in the field has stopped the machine
 EveryPersonIsShown == [][inField >= 0 /\ inField' < 0 => shown]_<<FieldView, step, wires>>

@@ -39,8 +39,9 @@ SensorAnswers == SensorOutputs.S_TestOut /\ ~InTheField
 \* TSS-OUT-REQUEST, TSSF-13: C010 does not ask for the reset that begins the manual test; its Error does
 Pressed == ~resetBefore /\ (SensorOutputs.ResetRequest \/ SensorOutputs.Error)
 ServedInput(start, dt) ==
-    [Activate |-> TRUE, S_OSSD_In |-> SensorAnswers, StartTest |-> start, NoExternalTest |-> fixed.NoExternalTest,
-     S_StartReset |-> fixed.S_StartReset, S_AutoReset |-> fixed.S_AutoReset, Reset |-> Pressed, dt |-> dt]
+    [Activate |-> TRUE, S_OSSD_In |-> SensorAnswers, StartTest |-> start,
+     NoExternalTest |-> fixed.NoExternalTest, S_StartReset |-> fixed.S_StartReset,
+     S_AutoReset |-> fixed.S_AutoReset, Reset |-> Pressed, dt |-> dt]
 Starts == IF EAGER THEN {SensorOutputs.TestPossible /\ ~startTestBefore} ELSE BOOLEAN
 \* TSSA-03: a call and the answer of the sensor take less than TestTime
 ServedCall ==
@@ -49,7 +50,8 @@ ServedCall ==
 LiveNext == AnyCall \/ TakeOver \/ ServedCall
 LiveSpec == LiveInit /\ [][LiveNext]_<<liveVars, step>> /\ WF_liveVars(ServedCall)
 
-\* TSS-EB-2, TSS-EB-4, TSS-EB-5, TSS-IN-NOEXT-FALSE, TSS-IN-NOEXT-TRUE, TSS-8404, TSSF-12, TSSF-13, TSSF-16: from any state it enables again, and goes on to
+\* TSS-EB-2, TSS-EB-4, TSS-EB-5, TSS-IN-NOEXT-FALSE, TSS-IN-NOEXT-TRUE, TSS-8404, TSSF-12, TSSF-13, TSSF-16:
+\* from any state it enables again, and goes on to
 EnablesAgain == served ~> []SensorOutputs.S_OSSD_Out
 \* TSS-TEST-3, TSS-OUT-EXECUTED, TSS-FN-5: and can be tested again
 TestedAgain == served ~> SensorOutputs.TestExecuted

@@ -10,8 +10,9 @@ import msgspec
 import pytest
 
 from modeproof.errors import Unjudged
+from modeproof.places import documents
 from modeproof.places import root as repository_root
-from modeproof.registers import documents, load_document, read_sources
+from modeproof.registers import load_document, read_sources
 from modeproof.registers.document_page import (
     check_document_page,
     page,

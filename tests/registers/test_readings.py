@@ -122,3 +122,15 @@ def test_a_run_that_does_not_fail_says_which_reading_changed_nothing(tried: Any)
     assert "Slam changes nothing: its counts are those of MC_Latch" in idle_reading(document, run, (9, 20))
     assert idle_reading(document, run, (8, 20)) == "the reading Slam breaks nothing that this run checks"
     assert idle_reading(document, document.runs[0], (9, 20)) == ""
+
+
+def test_a_reading_that_joins_others_need_not_be_tried_alone(tried: Any) -> None:
+    tried.edit(SPEC + "LatchAsPrinted.tla", "CODE_Slow == 1\n", "CODE_Slow == 1\nCODE_AllAsPrinted == 1\n")
+    tried.edit(SPEC + "findings.toml", '["Slam", "Slow"]', '["Slam", "Slow", "AllAsPrinted"]')
+    found = problems(tried)
+    assert any("AllAsPrinted: no run tries this reading" in one for one in found), found
+    both = RUNS.split("[[run]]")[1].replace("_slam", "_all").replace('"Slam"', '["Slam", "AllAsPrinted"]')
+    text = (tried.root / SPEC / "runs.toml").read_text(encoding="utf-8")
+    tried.write(SPEC + "runs.toml", f"{text}\n[[run]]{both}")
+    tried.edit(SPEC + "findings.toml", '"NEG_Latch_slam"', '"NEG_Latch_slam", "NEG_Latch_all"')
+    assert problems(tried) == []

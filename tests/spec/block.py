@@ -14,8 +14,11 @@ import msgspec
 
 from modeproof.places import root
 from modeproof.registers.load import load_document
+from modeproof.registers.made import cfg_text
+from modeproof.registers.readings import readings_of
 from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run, load_runs
+from modeproof.registers.tla import read_modules
 from modeproof.tlc.process import run_tlc
 from modeproof.tlc.toolchain import find_toolchain
 
@@ -73,10 +76,11 @@ class Block:
             assert text.count(old) == 1, old
             (folder / file).write_text(text.replace(old, new))
         kind = "INVARIANT" if self.properties[name].kind == "invariant" else "PROPERTY"
-        text = _CHECKED.sub(f"{kind} {name}\n", (folder / base.cfg).read_text())
-        (folder / base.cfg).write_text(text)
+        text = _CHECKED.sub(f"{kind} {name}\n", cfg_text(root(), base))
+        cfg = "models/planted.cfg"
+        (folder / cfg).write_text(text)
         digest = hashlib.sha256(text.encode()).hexdigest()
-        run = msgspec.structs.replace(base, properties=(name,), cfg_sha256=digest)
+        run = msgspec.structs.replace(base, properties=(name,), base="", cfg=cfg, cfg_sha256=digest)
         log = run_tlc(place, run, find_toolchain()).log
         assert log.violations or log.success, (
             log.errors,
@@ -91,13 +95,10 @@ class Block:
         return [("invariant" if self.properties[name].kind == "invariant" else "property", name)]
 
     def readings(self) -> set[str]:
-        """The readings that the module and what the family shares can restore."""
-        files = (self.spec / self.module, self.spec.parent / "common/CyclicBlock.tla")
-        text = "".join(file.read_text() for file in files)
-        lists = re.findall(r"Readings == (?:\w+ \\cup )?\{([^}]*)\}", text)
-        return {name for one in lists for name in re.findall(r'"([A-Z][A-Z0-9_]*)"', one)}
+        """The readings of the document and those of its family."""
+        modules = read_modules(root(), self.document)
+        return set(readings_of(self.registers, modules))
 
     def tried(self) -> dict[str, str]:
-        """The kind of run that restores each reading."""
-        known = self.readings()
-        return {run.switch: run.kind for run in self.registers.runs if run.switch in known}
+        """The kind of the run that tries each reading."""
+        return {reading: run.kind for run in self.runs.values() for reading in run.readings}

@@ -114,6 +114,7 @@ def test_other_tools_make_every_run_again(root: Path, monkeypatch: pytest.Monkey
     assert set(reasons(root).values()) == {"modeproof has changed"}
 
 
+@pytest.mark.deep
 def test_a_lane_that_was_killed_goes_on_where_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.places import root
+from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
 from modeproof.tlc.toolchain import find_toolchain
@@ -21,6 +22,7 @@ _CHECKS = re.compile(
 )
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize(
     ("device", "run", "module", "extra"),
     [
@@ -40,7 +42,7 @@ def test_as_many_as_the_graph_has(device: str, run: str, module: str, extra: str
     declared_run = next(one for one in load_runs(root(), target.document) if one.id == run)
     text = f"---- MODULE Any ----\nEXTENDS {module}\nAnyInit == {target.anywhere}{extra}\n"
     (tmp_path / "Any.tla").write_text(text + "AnyNext == FALSE /\\ UNCHANGED step\n====\n")
-    declared = (root() / "spec" / target.document / declared_run.cfg).read_text()
+    declared = cfg_text(root(), declared_run)
     cfg = _CHECKS.sub("", declared).replace("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE" if extra else "")
     cfg = cfg.replace('VECTORS = "classes"', "")
     cfg += "CONSTANTS SEEN = 0 DEVICE_CHECKSUM = 0\n" if device == "eks" else ""

@@ -184,6 +184,7 @@ FAULTS = [
 ]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()

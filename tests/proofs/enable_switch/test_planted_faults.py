@@ -266,6 +266,7 @@ FAULTS = [
 ]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("fault", FAULTS, ids=[f"{one.name}-{one.control}" for one in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()

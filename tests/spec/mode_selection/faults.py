@@ -112,8 +112,8 @@ FAULTS = (
         Fault(
             "the operating state on the key is not compared",
             "Eks.tla",
-            "    /\\ KEY[k].operating_state = OPERATING_STATE\n",
-            "    /\\ TRUE\n",
+            "KEY[k].operating_state = OPERATING_STATE /\\",
+            "TRUE /\\",
         ),
     ),
     Falls(
@@ -162,8 +162,8 @@ FAULTS = (
         Fault(
             "the screen opens over an old echo",
             "Hmi.tla",
-            "    /\\ i.CM = 0 \\/ OPENS_OVER_ECHO\n",
-            "",
+            "Opens(i) == Authorizes(i) /\\ i.CM = 0",
+            "Opens(i) == Authorizes(i)",
         ),
     ),
     Falls(
@@ -222,8 +222,8 @@ FAULTS = (
         Fault(
             "the panel displays the mode that was touched",
             "KeyFlows.tla",
-            "THEN remembered ELSE ActiveMSO",
-            "THEN remembered ELSE touched",
+            "Displayed == ActiveMSO",
+            "Displayed == touched",
         ),
     ),
     Falls(
@@ -242,8 +242,8 @@ FAULTS = (
         Fault(
             "a selection that no row refuses is accepted",
             "Fplc.tla",
-            "/\\ MayBeSelected(i) /\\ ~Skipped(i)",
-            "/\\ ModeOf(SE, i.MW03) # None",
+            "MayBeSelected(i) == Permitted(authority, ModeOf(SE, i.MW03))",
+            "MayBeSelected(i) == ModeOf(SE, i.MW03) # None",
         ),
     ),
     Falls(
@@ -262,8 +262,8 @@ FAULTS = (
         Fault(
             "each scan that waits for the zeros starts the timer anew",
             "Fplc.tla",
-            "IF Bounced(i) THEN 0 ELSE Min(Now(i), T_REM)",
-            "Min(i.dt, T_REM)",
+            "    /\\ Wait(i, T_REM)\n",
+            '    /\\ Proceed("AwaitZeros")\n',
         ),
     ),
     # ------------------------------------------------------------------ F-PLC
@@ -273,8 +273,8 @@ FAULTS = (
         Fault(
             "the new mode is set and the old one stays",
             "Fplc.tla",
-            "mode' = {IF LITERAL_FIG7",
-            "mode' = mode \\cup {IF LITERAL_FIG7",
+            "mode' = {fplcSelection}",
+            "mode' = mode \\cup {fplcSelection}",
         ),
     ),
     Falls(
@@ -283,8 +283,8 @@ FAULTS = (
         Fault(
             "two outputs are not yet too many",
             "Fplc.tla",
-            "Cardinality(Outputs(i)) >= 2",
-            "Cardinality(Outputs(i)) > 2",
+            "Cardinality(i.vec) >= 2",
+            "Cardinality(i.vec) > 2",
         ),
     ),
     Falls(
@@ -293,8 +293,8 @@ FAULTS = (
         Fault(
             "two outputs are looked at only while LA is on",
             "Fplc.tla",
-            "    /\\ Many(i) \\/ OutputAlone(i)\n",
-            "    /\\ i.LA /\\ Many(i)\n",
+            "IsMany(i) == Many(i)",
+            "IsMany(i) == i.LA /\\ Many(i)",
         ),
     ),
     Falls(
@@ -303,8 +303,8 @@ FAULTS = (
         Fault(
             "any acknowledgment matches any selection",
             "Fplc.tla",
-            "i.MW07 = SW[fplcSelection]",
-            "ModeOf(SW, i.MW07) # None",
+            "Matches(i) == i.MW07 = SW[fplcSelection]",
+            "Matches(i) == ModeOf(SW, i.MW07) # None",
         ),
     ),
     Falls(
@@ -313,8 +313,8 @@ FAULTS = (
         Fault(
             "the selection is not looked at again after the echo",
             "Fplc.tla",
-            "    \\/ i.MW03 = SE[fplcSelection]\n",
-            '    \\/ i.MW03 = SE[fplcSelection] \\/ fplcState = "Switch"\n',
+            "SelectionStands(i) == i.MW03 = SE[fplcSelection]",
+            'SelectionStands(i) == i.MW03 = SE[fplcSelection] \\/ fplcState = "Switch"',
         ),
     ),
     Falls(
@@ -323,8 +323,8 @@ FAULTS = (
         Fault(
             "the level is switched on, not the selection",
             "Fplc.tla",
-            "ModeOf(SW, i.MW07) ELSE fplcSelection}",
-            "ModeOf(SW, i.MW07) ELSE authority}",
+            "mode' = {fplcSelection}",
+            "mode' = {authority}",
         ),
     ),
     Falls(
@@ -333,8 +333,8 @@ FAULTS = (
         Fault(
             "the range of a selection is checked and the level is not",
             "Fplc.tla",
-            "    ELSE Permitted(LevelUsed(i), ModeOf(SE, i.MW03))",
-            "    ELSE ModeOf(SE, i.MW03) # None",
+            "Permitted(authority, ModeOf(SE, i.MW03))",
+            "ModeOf(SE, i.MW03) # None",
         ),
     ),
     Falls(
@@ -353,8 +353,8 @@ FAULTS = (
         Fault(
             "LA is not looked at in the scan that switches",
             "Fplc.tla",
-            "    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState",
-            '    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState # "Switch" /\\ fplcState',
+            "IsGone(i) == ~i.LA /\\ fplcState",
+            'IsGone(i) == ~i.LA /\\ fplcState # "Switch" /\\ fplcState',
         ),
     ),
     Falls(
@@ -363,8 +363,8 @@ FAULTS = (
         Fault(
             "LA is not looked at in the scan that switches",
             "Fplc.tla",
-            "    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState",
-            '    (~i.LA \\/ NoneInPulse(i)) /\\ fplcState # "Switch" /\\ fplcState',
+            "IsGone(i) == ~i.LA /\\ fplcState",
+            'IsGone(i) == ~i.LA /\\ fplcState # "Switch" /\\ fplcState',
         ),
     ),
     Falls(
@@ -383,8 +383,8 @@ FAULTS = (
         Fault(
             "removal drops the mode",
             "Fplc.tla",
-            "fplcSelection' = IF MW05_KEPT THEN fplcSelection ELSE None\n    /\\ UNCHANGED mode",
-            "fplcSelection' = None\n    /\\ mode' = {}",
+            'EnterClear == GoTo("Clear") /\\ DropKey /\\ UNCHANGED mode',
+            'EnterClear == GoTo("Clear") /\\ DropKey /\\ mode\' = {}',
         ),
     ),
     Falls(
@@ -433,8 +433,8 @@ FAULTS = (
         Fault(
             "a forgotten output does not keep the error mode",
             "Fplc.tla",
-            "    /\\ Outputs(i) = {} \\/ LA_ENDS_REMOVAL\n",
-            "",
+            "NoSignal(i) == ~i.LA /\\ i.vec = {}",
+            "NoSignal(i) == ~i.LA",
         ),
     ),
     Falls(
@@ -443,8 +443,8 @@ FAULTS = (
         Fault(
             "a lost output is not seen before the level is published, nor in Settle",
             "Fplc.tla",
-            "IsChanged(i) == fplcState \\in Holding",
-            "IsChanged(i) == fplcState \\in Authorized",
+            "IsChanged(i) == i.vec # {accepted} /\\ fplcState \\in Holding",
+            "IsChanged(i) == i.vec # {accepted} /\\ fplcState \\in Authorized",
         ),
     ),
     Falls(
@@ -453,8 +453,8 @@ FAULTS = (
         Fault(
             "while MW07 is awaited MW03 is not looked at",
             "Fplc.tla",
-            '    Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = 0 /\\ ~NO_WAIT_FOR_MW07',
-            '    fplcState = "AwaitAcknowledgment" /\\ i.MW07 = 0 /\\ ~NO_WAIT_FOR_MW07',
+            'AwaitMW07(i) == StandsIn("AwaitAcknowledgment", i)',
+            'AwaitMW07(i) == fplcState = "AwaitAcknowledgment"',
         ),
     ),
     Falls(
@@ -473,8 +473,8 @@ FAULTS = (
         Fault(
             "a deadline passes one tick too late",
             "Fplc.tla",
-            "Now(i) >= Deadline /\\ Expirable(i)",
-            "Now(i) > Deadline /\\ Expirable(i)",
+            "IsExpired(i) == Now(i) >= Deadline",
+            "IsExpired(i) == Now(i) > Deadline",
         ),
     ),
     # ------------------------------------------------------------------ the devices together
@@ -504,8 +504,8 @@ FAULTS = (
         Fault(
             "zeros count as returned without the dwell time",
             "Fplc.tla",
-            "(FirstZeros(i) /\\ i.MW07 = 0)) /\\ Dwelt(i)\n",
-            "(FirstZeros(i) /\\ i.MW07 = 0))\n",
+            "ZerosReturned(i) == NoSignal(i) /\\ NoWords(i) /\\ Dwelt(i)",
+            "ZerosReturned(i) == NoSignal(i) /\\ NoWords(i)",
         ),
     ),
     Falls(
@@ -514,8 +514,8 @@ FAULTS = (
         Fault(
             "the level becomes active, not the selection",
             "Fplc.tla",
-            "ModeOf(SW, i.MW07) ELSE fplcSelection}",
-            "ModeOf(SW, i.MW07) ELSE authority}",
+            "mode' = {fplcSelection}",
+            "mode' = {authority}",
         ),
     ),
     Falls(
@@ -524,8 +524,8 @@ FAULTS = (
         Fault(
             "the F-PLC waits for the ones of the pulse twice",
             "Fplc.tla",
-            '    /\\ fplcState = "PulseZeros" /\\ i.vec = {}\n',
-            '    /\\ fplcState = "PulseZeros" /\\ i.vec = MSO\n',
+            'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = {}',
+            'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = MSO',
         ),
     ),
     Falls(
@@ -555,8 +555,8 @@ FAULTS = (
         Fault(
             "the resting acknowledgment is not zero",
             "Hmi.tla",
-            "REJECT_IS_A_WORD THEN OtherWord ELSE 0",
-            "REJECT_IS_A_WORD THEN OtherWord ELSE OtherWord",
+            "THEN SW[hmiSelection] ELSE 0",
+            "THEN SW[hmiSelection] ELSE OtherWord",
         ),
     ),
     Falls(
@@ -565,8 +565,8 @@ FAULTS = (
         Fault(
             "another level on the bus leaves the screen open",
             "Hmi.tla",
-            "offered # None /\\ i.RA = RE[offered]",
-            "Level(i) # None",
+            "Enable(i) == Level(i) = offered",
+            "Enable(i) == Level(i) # None",
         ),
     ),
     Falls(
@@ -585,8 +585,8 @@ FAULTS = (
         Fault(
             "any word but zero keeps the screen open",
             "Hmi.tla",
-            "offered # None /\\ i.RA = RE[offered]",
-            "i.RA # 0",
+            "Enable(i) == Level(i) = offered",
+            "Enable(i) == i.RA # 0",
         ),
     ),
     # ------------------------------------------------------------------ PLC
@@ -637,7 +637,7 @@ FAULTS = (
         Fault(
             "the level is looked at and not judged",
             "Eks.tla",
-            'At("CheckLevel", i) /\\ Admitted(key)',
+            'At("CheckLevel", i) /\\ Accepted(key)',
             'At("CheckLevel", i)',
         ),
     ),
@@ -708,8 +708,8 @@ FAULTS = (
         Fault(
             "the sequence timer starts again when all outputs are off",
             "Fplc.tla",
-            "fplcState' = \"OneOutput\" /\\ fplcElapsed' = Now(i)",
-            "fplcState' = \"OneOutput\" /\\ fplcElapsed' = 0",
+            'GoOn("OneOutput", i)',
+            'Proceed("OneOutput")',
         ),
     ),
     Falls(
@@ -718,8 +718,8 @@ FAULTS = (
         Fault(
             "the removal timer starts again when the words are cleared",
             "Fplc.tla",
-            "REMOVAL_RUNS_INSERT_STEPS THEN 0 ELSE Now(i)",
-            "REMOVAL_RUNS_INSERT_STEPS THEN 0 ELSE 0",
+            'GoOn("AwaitZeros", i)',
+            'Proceed("AwaitZeros")',
         ),
     ),
     Falls(
@@ -748,7 +748,7 @@ FAULTS = (
         Fault(
             "a touch beside the fields has no answer",
             "Hmi.tla",
-            "TouchSelection(i) \\/ OfferModes(i) \\/ ShowOtherEcho(i)",
+            "TouchSelection(i) \\/ OfferModes(i)",
             "TouchSelection(i)",
         ),
     ),
@@ -820,8 +820,8 @@ FAULTS = (
         Fault(
             "the level is switched on, not the selection",
             "Fplc.tla",
-            "ModeOf(SW, i.MW07) ELSE fplcSelection}",
-            "ModeOf(SW, i.MW07) ELSE authority}",
+            "mode' = {fplcSelection}",
+            "mode' = {authority}",
         ),
     ),
     Falls(
@@ -861,8 +861,8 @@ FAULTS = (
         Fault(
             "any code is accepted as a selection, whatever the level",
             "Fplc.tla",
-            "ELSE Permitted(LevelUsed(i), ModeOf(SE, i.MW03))",
-            "ELSE ModeOf(SE, i.MW03) # None",
+            "Permitted(authority, ModeOf(SE, i.MW03))",
+            "ModeOf(SE, i.MW03) # None",
         ),
     ),
     Falls(
@@ -871,8 +871,8 @@ FAULTS = (
         Fault(
             "any code is accepted as an acknowledgment",
             "Fplc.tla",
-            "\\/ i.MW07 = SW[fplcSelection] /\\ ~(PrintedRow5 /\\ fplcSelection = 2)",
-            "\\/ ModeOf(SW, i.MW07) # None",
+            "Matches(i) == i.MW07 = SW[fplcSelection]",
+            "Matches(i) == ModeOf(SW, i.MW07) # None",
         ),
     ),
     Falls(
@@ -881,8 +881,8 @@ FAULTS = (
         Fault(
             "the selection need not stand until the switchover",
             "Fplc.tla",
-            "\\/ i.MW03 = SE[fplcSelection]",
-            "\\/ TRUE",
+            "SelectionStands(i) == i.MW03 = SE[fplcSelection]",
+            "SelectionStands(i) == TRUE",
         ),
     ),
     Falls(
@@ -891,8 +891,8 @@ FAULTS = (
         Fault(
             "the accepted output need not stay",
             "Fplc.tla",
-            "ELSE i.vec # {accepted}",
-            "ELSE FALSE",
+            "IsChanged(i) == i.vec # {accepted}",
+            "IsChanged(i) == FALSE",
         ),
     ),
     Falls(
@@ -901,8 +901,8 @@ FAULTS = (
         Fault(
             "LA need not stay",
             "Fplc.tla",
-            "(~i.LA \\/ NoneInPulse(i)) /\\ fplcState \\notin OwnRules",
-            "NoneInPulse(i) /\\ fplcState \\notin OwnRules",
+            "IsGone(i) == ~i.LA",
+            "IsGone(i) == FALSE",
         ),
     ),
     # ------------------------------------------------------------------ promptness, causes, memory
@@ -912,8 +912,8 @@ FAULTS = (
         Fault(
             "an output that is there may be waited for",
             "Fplc.tla",
-            'fplcState = "OneOutput" /\\ i.vec = {} /\\ Stay',
-            'fplcState = "OneOutput" /\\ Stay',
+            'fplcState = "OneOutput" /\\ i.vec = {} /\\ Wait',
+            'fplcState = "OneOutput" /\\ Wait',
         ),
     ),
     Falls(
@@ -942,8 +942,8 @@ FAULTS = (
         Fault(
             "a key that is not yet there begins a removal",
             "Fplc.tla",
-            'OwnRules == {"Start", "Idle", "Error"}',
-            'OwnRules == {"Start", "Error"}',
+            "IsGone(i) == ~i.LA /\\ fplcState \\in WithKey",
+            'IsGone(i) == ~i.LA /\\ fplcState \\in WithKey \\cup {"Idle"}',
         ),
     ),
     Falls(
@@ -952,8 +952,8 @@ FAULTS = (
         Fault(
             "power-up leads into the test pulse",
             "Fplc.tla",
-            'ReadyAtStart(i) /\\ Proceed("Idle")',
-            'ReadyAtStart(i) /\\ Proceed("PulseOnes")',
+            '    /\\ Proceed("Idle")\n    /\\ Did("LeaveStart")',
+            '    /\\ Proceed("PulseOnes")\n    /\\ Did("LeaveStart")',
         ),
     ),
     Falls(
@@ -1013,8 +1013,8 @@ FAULTS = (
         Fault(
             "the dwell time of the error mode is not counted",
             "Fplc.tla",
-            "DropKey /\\ fplcElapsed' = Min(Now(i), T_DWELL)",
-            "DropKey /\\ UNCHANGED fplcElapsed",
+            'Wait(i, T_DWELL) /\\ Did("StayInError")',
+            'Untimed /\\ Did("StayInError")',
         ),
     ),
     Falls(
@@ -1033,8 +1033,8 @@ FAULTS = (
         Fault(
             "a changed selection beside an acknowledgment is an error",
             "Fplc.tla",
-            'fplcState = "EchoSelection" /\\ Stands(i)\n',
-            'fplcState = "EchoSelection"\n',
+            '{"AwaitSelection", "CheckSelection"} \\/ StandsIn("EchoSelection", i)\n',
+            '{"AwaitSelection", "CheckSelection", "EchoSelection"}\n',
         ),
     ),
     Falls(
@@ -1043,8 +1043,8 @@ FAULTS = (
         Fault(
             "an acknowledgment that is no code passes step 27",
             "Fplc.tla",
-            "    /\\ ModeOf(SW, i.MW07) # None /\\ (ReadOnce => Matches(i))\n",
-            "    /\\ (ReadOnce => Matches(i))\n",
+            'StandsIn("CheckAcknowledgment", i) /\\ IsAcknowledgment(i)',
+            'StandsIn("CheckAcknowledgment", i) /\\ i.MW07 # 0',
         ),
     ),
     Falls(
@@ -1053,8 +1053,9 @@ FAULTS = (
         Fault(
             "an acknowledgment that is no code is refused before step 27",
             "Fplc.tla",
-            'NO_WAIT_FOR_MW07 /\\ Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = 0',
-            'Unchanged("AwaitAcknowledgment", i) /\\ i.MW07 = OtherWord',
+            '    /\\ Proceed("CheckAcknowledgment")\n    /\\ Did("SeeAcknowledgment")',
+            '    /\\ IF ModeOf(SW, i.MW07) # None THEN Proceed("CheckAcknowledgment") ELSE EnterError\n'
+            '    /\\ Did("SeeAcknowledgment")',
         ),
     ),
     Falls(
@@ -1091,10 +1092,10 @@ FAULTS = (
         "ClosesOverAnEcho",
         HMI_PROMPT,
         Fault(
-            "an echo that nobody asked for is shown",
+            "an echo that nobody asked for leaves the screen open",
             "Hmi.tla",
-            'SHOWS_ANY_ECHO /\\ hmiState = "Select"',
-            'hmiState = "Select"',
+            "hmiState' = \"Inhibited\" /\\ offered'",
+            "hmiState' = (IF Enable(i) THEN hmiState ELSE \"Inhibited\") /\\ offered'",
         ),
     ),
     Falls(
@@ -1103,8 +1104,8 @@ FAULTS = (
         Fault(
             "an echo that is gone counts as another echo",
             "Hmi.tla",
-            'hmiState = "AwaitSwitch" /\\ i.CM # 0 /\\ ~Echoed(i)',
-            'hmiState = "AwaitSwitch" /\\ ~Echoed(i)',
+            "OtherEcho(i) == i.CM # 0 /\\ ~Echoed(i)",
+            'OtherEcho(i) == (hmiState = "AwaitEcho" => i.CM # 0) /\\ ~Echoed(i)',
         ),
     ),
     Falls(
@@ -1133,8 +1134,8 @@ FAULTS = (
         Fault(
             "LA comes with the pulse",
             "Eks.tla",
-            'ELSE {"StartTest", "TestOnes"',
-            'ELSE {"TestOnes"',
+            'LA == eksState \\in {"StartTest", "TestOnes"',
+            'LA == eksState \\in {"TestOnes"',
         ),
     ),
     Falls(
@@ -1153,8 +1154,8 @@ FAULTS = (
         Fault(
             "registers that are zero may be latched as a fault",
             "Eks.tla",
-            'eksState = "CheckRegisters" /\\ ~i.registers_zero\n',
-            'eksState = "CheckRegisters"\n',
+            'eksState = "CheckRegisters" /\\ ~i.registers_zero /\\',
+            'eksState = "CheckRegisters" /\\',
         ),
     ),
     Falls(

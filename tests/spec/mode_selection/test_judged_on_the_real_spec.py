@@ -75,7 +75,7 @@ DELETED = {
         "no way out of the error mode", "Fplc.tla", "StayInError(i) \\/ LeaveError(i)", "StayInError(i)"
     ),
     "SetOneOutput": Fault(
-        "no output after the pulse", "Eks.tla", " \\/ HoldZeros(i) \\/ SetOneOutput(i))", " \\/ HoldZeros(i))"
+        "no output after the pulse", "Eks.tla", " \\/ HoldZeros(i) \\/ SetOneOutput(i)", " \\/ HoldZeros(i)"
     ),
     "CopyMW07": Fault("MW07 is not copied", "Plc.tla", "CopyCheckMSO(i) \\/ CopyMW07(i)", "CopyCheckMSO(i)"),
     "RemoveKey": Fault(
@@ -96,7 +96,7 @@ def test_a_deleted_action_turns_its_witness_red(action: str, trial: Trial, trial
 
 
 def test_only_the_step_itself_sets_its_name() -> None:
-    for path in SPEC.glob("*.tla"):
+    for path in {*SPEC.glob("*.tla")} - {*SPEC.glob("*AsPrinted.tla")}:
         names = [part.split('"')[0] for part in path.read_text().split('Did("')[1:]]
         assert len(set(names)) == len(names), path.name
 
@@ -234,11 +234,11 @@ LOST = [
 GAP = Fault(
     "a register check that fails has no step",
     "Eks.tla",
-    "PassRegisterCheck(i) \\/ LatchFault(i))",
-    "PassRegisterCheck(i))",
+    "PassRegisterCheck(i) \\/ LatchFault(i)",
+    "PassRegisterCheck(i)",
 )
 OVERLAP = Fault(
-    "two steps for one level", "Eks.tla", 'At("CheckLevel", i) /\\ ~Admitted(key)', 'At("CheckLevel", i)'
+    "two steps for one level", "Eks.tla", 'At("CheckLevel", i) /\\ ~Accepted(key)', 'At("CheckLevel", i)'
 )
 
 

@@ -1,0 +1,66 @@
+---------------------------- MODULE EDMAsPrinted ----------------------------
+(***************************************************************************)
+(* What the document could be taken to say where we decided otherwise, one *)
+(* section a reading.  Op_Reading takes the place of Op in the runs that   *)
+(* try the reading; what Reset could mean in every block of the family     *)
+(* stands in CyclicBlockAsPrinted.                                         *)
+(***************************************************************************)
+EXTENDS EDM
+
+----------------------------------------------------------------------------
+(* The time.                                                               *)
+
+\* EDM-IN-TIME-1, EDMF-06: a stop that comes with the timeout hides it
+LateInEnable_StopBeforeTimeout(i) == Expired(i) /\ ~Feedback(i, FALSE) /\ i.S_OutControl
+
+\* EDM-IN-TIME-1, EDMF-08: the feedback is looked at when the time expires, and not again
+Expired_CheckedOnce(i) == elapsed < MONITORING_TIME /\ elapsed + i.dt >= MONITORING_TIME
+
+\* EDM-IN-TIME-1, EDMF-08: the time has expired when more than MonitoringTime has passed
+Expired_ExpiresAfter(i) == elapsed + i.dt > MONITORING_TIME
+
+\* EDM-IN-TIME-2, EDMF-09: a MonitoringTime of 0 switches the monitoring off
+Expired_ZeroTimeIsOff(i) == MONITORING_TIME # 0 /\ elapsed + i.dt >= MONITORING_TIME
+
+\* EDM-IN-TIME-1, EDM-IN-START-3, EDMF-14: the start without inhibit starts no time
+LOCAL NotStarted == -1
+StartWithoutInhibit_NoTimeWithoutInhibit(i) ==
+    /\ NoErrorInInit(i) /\ i.S_StartReset
+    /\ GoTo("OutputDisable") /\ stopSeen' = TRUE /\ elapsed' = NotStarted
+    /\ Did("StartWithoutInhibit")
+Waits_NoTimeWithoutInhibit(i) ==
+    /\ GoTo(state)
+    /\ elapsed' = IF elapsed = NotStarted THEN NotStarted ELSE Counted(elapsed, i.dt, MONITORING_TIME)
+Expired_NoTimeWithoutInhibit(i) == elapsed # NotStarted /\ elapsed + i.dt >= MONITORING_TIME
+
+----------------------------------------------------------------------------
+(* The request.                                                            *)
+
+\* EDM-IN-EDM-2, EDMF-05: a request waits for the feedback as long as MonitoringTime lasts
+Unfounded_RequestWaits(i) == FALSE
+
+\* EDM-IN-EDM-2, EDM-IN-TIME-1, EDMF-06: a request at the timeout is what the error is named after
+LateInDisable_RequestBeforeTimeout(i) == Expired(i) /\ ~Feedback(i, TRUE) /\ ~Unfounded(i)
+
+\* EDM-IN-RESET-4, EDMF-04: a request that stands there at the Reset counts, whatever AFTER_RESET says
+CountsAfterReset_RequestCountsAtOnce(i) == TRUE
+
+----------------------------------------------------------------------------
+(* Reset.                                                                  *)
+
+\* EDM-IN-RESET-1, EDMF-07: an error is reset while a contactor still shows what it must not
+Resettable_ResetDespiteFeedback(i) == ResetRises(i)
+
+\* EDM-IN-RESET-1, EDMF-10: Reset that is held is no error
+ResetStatic_StaticResetIgnored(i) == FALSE
+
+\* EDM-IN-START-2, EDM-IN-RESET-4, EDMF-11: Reset and S_OutControl may rise together
+TogetherInInit_NoInitError(i) == FALSE
+
+\* EDM-IN-START-2, EDM-IN-START-3, EDMF-11: they may not even where Reset is not waited for
+TogetherInInit_InitErrorWithoutInhibit(i) == Together(i)
+
+\* EDM-IN-RESET-1, EDM-IN-RESET-4, EDMF-11: nor where Reset is to reset an error; that is as wrong as a Reset
+\* that is held
+ResetStatic_TwoEdgesInErrors(i) == i.Reset /\ (resetBefore \/ (InEDMError /\ Together(i)))
+=============================================================================
