@@ -37,12 +37,14 @@ RULES = (
         (
             "modeproof.report",
             "modeproof.registers",
-            "modeproof.evidence",
-            "modeproof.errors",
-            "modeproof.places",
+            "modeproof.ground.evidence",
+            "modeproof.ground.errors",
+            "modeproof.ground.places",
         ),
     ),
-    Rule("modeproof/registers", ("modeproof.registers", "modeproof.errors", "modeproof.places")),
+    Rule(
+        "modeproof/registers", ("modeproof.registers", "modeproof.ground.errors", "modeproof.ground.places")
+    ),
 )
 
 PROOFS_REACHED_FROM = ("modeproof/cli.py", "modeproof/cli/", "proofs/", "tests/")

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.errors import suggestion
+from modeproof.ground.errors import suggestion
 from modeproof.registers.cfg import Constant
 from modeproof.registers.citations import Sources
 from modeproof.registers.made import read_cfg

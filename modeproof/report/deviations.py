@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.made import read_cfg
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Finding

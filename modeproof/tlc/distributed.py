@@ -27,8 +27,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import IO
 
-from modeproof.errors import Unjudged
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 from modeproof.registers.cfg import Cfg
 from modeproof.registers.made import cfg_text, make
 from modeproof.registers.runs import Run

@@ -21,13 +21,21 @@ from modeproof.registers.rooms import RULES, check_imports, check_no_document_kn
         ("proofs/door/x.py", "from modeproof import tlc", "imports modeproof.tlc"),
         ("proofs/door/x.py", "import tests.door", "imports tests.door"),
         ("modeproof/kit/x.py", "import jsonschema", "imports jsonschema"),
-        ("modeproof/kit/x.py", "from modeproof.errors import Unjudged", "imports modeproof.errors"),
+        (
+            "modeproof/kit/x.py",
+            "from modeproof.ground.errors import Unjudged",
+            "imports modeproof.ground.errors",
+        ),
         ("modeproof/kit/x.py", "from ..errors import Unjudged", "imports modeproof.errors"),
         ("modeproof/kit/x.py", "from .. import errors", "imports modeproof.errors"),
         ("modeproof/kit/x.py", "def f():\n    import refimpl.door", "line 2: imports refimpl.door"),
         ("modeproof/report/x.py", "from modeproof.tlc.judge import judge", "imports modeproof.tlc.judge"),
         ("modeproof/tlc/x.py", "import proofs.runner", "only modeproof.cli reaches proofs"),
-        ("modeproof/registers/x.py", "from modeproof.evidence import write", "imports modeproof.evidence"),
+        (
+            "modeproof/registers/x.py",
+            "from modeproof.ground.evidence import write",
+            "imports modeproof.ground.evidence",
+        ),
     ],
 )
 def test_a_breach_is_found(tree: Any, file: str, line: str, expected: str) -> None:
@@ -47,7 +55,7 @@ def test_a_breach_is_found(tree: Any, file: str, line: str, expected: str) -> No
         ("proofs/door/x.py", "import z3"),
         ("modeproof/kit/x.py", "from modeproof.kit import protocol\nimport json"),
         ("modeproof/kit/x.py", "from . import protocol"),
-        ("modeproof/report/x.py", "from modeproof.evidence import files"),
+        ("modeproof/report/x.py", "from modeproof.ground.evidence import files"),
         ("modeproof/cli.py", "import proofs.runner"),
     ],
 )

@@ -14,8 +14,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from modeproof.errors import Unjudged
 from modeproof.graph.read import read_graph
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.runs import Run as DeclaredRun
 from modeproof.tlc.check import register_problems
