@@ -19,10 +19,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-from modeproof import evidence
-from modeproof.places import build
-from modeproof.processes import in_forks
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.places import build
+from modeproof.ground.processes import in_forks
+from modeproof.ground.progress import Progress
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.register import Explained
 from modeproof.strength.results import Results

@@ -14,7 +14,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.python_module import Module
 from modeproof.strength.python_operators import PythonMutant, PythonRule, python_mutants

@@ -11,14 +11,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import documents, root
+from modeproof.ground.processes import cores
+from modeproof.ground.progress import Progress
 from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_of_code
 from modeproof.kit.errors import Unjudged as KitUnjudged
-from modeproof.lock import only_one
-from modeproof.places import documents, root
-from modeproof.processes import cores
-from modeproof.progress import Progress
 from modeproof.strength.campaign import (
     Campaign,
     Judged,

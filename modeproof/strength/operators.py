@@ -28,7 +28,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Edit, Mutant, applied, cut, identity, moved, one_line, wrapped
 from modeproof.tlc.parse_tree import AND, OR, Definition, Node, ParseTree, Place
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.runs import Run, load_runs
 from modeproof.strength.operators import Rule
 

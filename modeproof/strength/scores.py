@@ -21,8 +21,8 @@ from typing import Any
 
 import msgspec
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import load_runs
 from modeproof.registers.scores import Score, load_scores, scores_path

@@ -6,7 +6,7 @@ import csv
 import io
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.vectors import Case, Suite
 
 

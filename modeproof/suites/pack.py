@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from modeproof import kit, s7
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.bundle import CONTENTS, FOLDER
 from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines

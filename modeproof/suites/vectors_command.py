@@ -10,12 +10,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.graph.device import open_runs
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import build, root
 from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
-from modeproof.lock import only_one
-from modeproof.places import build, root
 from modeproof.suites.build import find_target, make_graphs, published, ready_suite, suite_file
 from modeproof.suites.export import as_csv
 from modeproof.suites.kinds import SUITES

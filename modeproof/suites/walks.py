@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.columns import Columns
 from modeproof.graph.device import DeviceGraph
+from modeproof.ground.errors import Unjudged
 from modeproof.suites import wp
 from modeproof.suites.bound import lower_bound
 from modeproof.suites.identify import machine

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
 from modeproof.graph.columns import merge_columns
 from modeproof.graph.device import DeviceGraph
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.vectors import KIND, MONITOR, PACKED, VERSION, id_of_text
 from modeproof.registers.rows import Device
 from modeproof.suites.contract import declare, declare_parameters

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
 from modeproof.lane.coverage import cover_document
-from modeproof.progress import Progress
 from modeproof.report.verdicts import status_of
 from proofs.mode_selection import devices
 

@@ -27,11 +27,11 @@ from examples.faulty.run import (
     programs,
     row,
 )
+from modeproof.ground.processes import in_forks
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
-from modeproof.processes import in_forks
 from tests.any_machine import PATIENCE_S
 
 FAULTS = load_faults()

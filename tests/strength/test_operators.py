@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Mutant, applied, diff
 from modeproof.strength.operators import Rule, mutants
 from modeproof.tlc.parse_tree import ParseTree, read_tree

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.places import documents, root
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import documents, root
 from modeproof.registers.scores import load_scores, scores_path
 from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.campaign import Answers, Campaign, Judged, Judges

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.register import load_strength
 from modeproof.strength.trial import with_constants
 from tests.strength.toy import STRENGTH, lamp

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.places import documents, root
+from modeproof.ground.places import documents, root
 from modeproof.registers.scores import load_scores
 from modeproof.strength.judge import judge
 from modeproof.strength.register import Rejudged

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from modeproof import evidence
 from modeproof.cli import main
+from modeproof.ground import evidence
 from modeproof.kit.__main__ import main as kit_main
 from tests.graph.printed import SEQUENCES, WORDS, lines, write
 from tests.kit.programs import program

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.places import documents, root
 from modeproof.kit.vectors import open_suite
-from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import check_vectors
 from modeproof.suites.kinds import SUITES

@@ -15,8 +15,8 @@ import pytest
 from hypothesis import given
 
 from modeproof.cli import main
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import open_suite, read_lines
 from modeproof.suites.bound import lower_bound, proved_by

@@ -20,7 +20,7 @@ import pytest
 from msgspec.structs import replace as with_values
 
 from modeproof.cli import main
-from modeproof.progress import Progress
+from modeproof.ground.progress import Progress
 from modeproof.tlc import children, distributed
 from modeproof.tlc.check import Checked, check_one, select
 from modeproof.tlc.distributed import WORKER, Where

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from modeproof import evidence
 from modeproof.cli import main
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.progress import Progress
 from modeproof.tlc.check import check_all, kept, select
 from modeproof.tlc.resume import why_again
 from modeproof.tlc.schedule import ORDINARY_MB, memory_mb

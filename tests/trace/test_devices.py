@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.implementation import load_implementation
-from modeproof.places import root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.judge import Graphs, Judgement, check

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.guards import Guards

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.edm import block_resets, block_response, block_safety, rows, step_paths
 from proofs.edm.devices import BLOCK

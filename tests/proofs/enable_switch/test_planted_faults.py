@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.enable_switch import invariants, step_paths, switch_answers, switch_outputs, switch_safety
 from proofs.enable_switch.devices import SWITCH

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, step_paths
 from proofs.guard_locking.devices import BLOCK

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.sentences import Sentence
 from proofs.testable_safety_sensor import (

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.load import load_document
 from tests.spec.mode_selection.faults import FAULTS, Falls
 from tests.spec.mode_selection.planted import DOCUMENT, SPEC, Finding, Trial
