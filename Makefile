@@ -2,7 +2,7 @@
 # Only relative paths are used, so the checkout may lie in a folder whose name contains spaces.
 SHELL := /bin/bash
 .DELETE_ON_ERROR:
-.PHONY: verify smoke test bench kit doctor lint lock clean venv
+.PHONY: verify smoke test test-deep bench kit doctor lint lock clean venv
 
 PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && echo $$p && break; done)
 PY := .venv/bin/python
@@ -15,9 +15,13 @@ verify: $(STAMP)
 smoke: $(STAMP)
 	@$(PY) -m modeproof verify --lane smoke
 
-# Two processes; tests that share what is made once are in one of them (tests/groups.py)
+# Two processes; tests that share what is made once are in one of them (tests/groups.py). The first tier sees every kind of
+# check fail once; the second (marked deep) has every planted fault, samples of the campaigns and the compiled programs.
 test: $(STAMP) $(AWLSIM)
-	@$(PY) -m pytest -n 2 --dist loadscope
+	@$(PY) -m pytest -n 2 --dist loadscope -m "not deep"
+
+test-deep: $(STAMP) $(AWLSIM)
+	@$(PY) -m pytest -n 2 --dist loadscope -m deep
 
 bench: $(STAMP) $(AWLSIM)
 	@$(PY) -m tests.bench

@@ -15,11 +15,11 @@ from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import Any, NoReturn
 
-from modeproof.errors import EXIT_UNJUDGED, Unjudged
-from modeproof.places import root
+from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
+from modeproof.ground.places import root
 
 COMMANDS = {
-    "verify": "modeproof.verify",
+    "verify": "modeproof.lane.verify",
     "check": "modeproof.tlc.command",
     "prove": "modeproof.lane.prove",
     "conform": "modeproof.suites.command",
@@ -27,11 +27,11 @@ COMMANDS = {
     "map": "modeproof.suites.map_command",
     "trace": "modeproof.trace.command",
     "registers": "modeproof.registers.command",
-    "render": "modeproof.render",
-    "walks": "modeproof.walks",
+    "render": "modeproof.lane.render",
+    "walks": "modeproof.lane.walks",
     "report": "modeproof.report.command",
     "mutate": "modeproof.strength.command",
-    "doctor": "modeproof.doctor",
+    "doctor": "modeproof.lane.doctor",
 }
 """For each command the module that has its `add_parser`; only the module of the command given is imported."""
 

@@ -19,14 +19,14 @@ from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
-from modeproof import evidence
 from modeproof.cli import main as modeproof
 from modeproof.graph.device import graph_file, load_device_graph
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
+from modeproof.ground import evidence
+from modeproof.ground.places import documents, root
 from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.vectors import Suite, open_suite
-from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
 from modeproof.registers.runs import Run, load_runs
 from modeproof.s7 import program as s7

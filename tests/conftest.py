@@ -11,6 +11,7 @@ from xdist.scheduler import LoadScopeScheduling
 
 from tests.any_machine import PATIENCE_S, no_hurry
 from tests.groups import group_of
+from tests.tiers import divide
 
 no_hurry()
 HERE = Path(__file__).resolve().parent
@@ -28,6 +29,12 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> ByGroup:
     the suffix that they put on the id of a test is lost.)
     """
     return ByGroup(config, log)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Cases are put into tiers before `-m` chooses among them."""
+    divide(items)
 
 
 @pytest.fixture(scope="session", autouse=True)

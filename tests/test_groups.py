@@ -43,7 +43,7 @@ def test_processes_take_whole_groups(tmp_path: Path) -> None:
         (tests / file).write_text(
             "import pytest, time\n@pytest.mark.parametrize('n', range(4))\ndef test(n): time.sleep(0.05)\n"
         )
-    for file in ("conftest.py", "groups.py", "any_machine.py"):
+    for file in ("conftest.py", "groups.py", "tiers.py", "any_machine.py"):
         shutil.copyfile(ROOT / "tests" / file, tests / file)
     shutil.copyfile(ROOT / "pyproject.toml", tmp_path / "pyproject.toml")
     shutil.copytree(ROOT / "modeproof", tmp_path / "modeproof", ignore=shutil.ignore_patterns("__pycache__"))

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.device import DeviceGraph
-from modeproof.graph.tla import TlaError, parse
+from modeproof.ground.errors import Unjudged
+from modeproof.tlc.tla_values import TlaError, parse
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.classes import Copied, InputClass, load_classes, load_copied
 from modeproof.graph.graph import Graph
 from modeproof.graph.read import read_graph
 from modeproof.graph.values import ValueForms
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run, load_runs

@@ -17,9 +17,9 @@ from dataclasses import dataclass, field
 from operator import attrgetter
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.implementation import Implementation
+from modeproof.ground.errors import Unjudged
 
 STATES_EACH = 64
 """So many states of the implementation may belong to one state of the graph before the search gives up."""

@@ -27,17 +27,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
 from modeproof.graph.columns import merge_columns
 from modeproof.graph.device import DeviceGraph
-from modeproof.graph.tla import parse
 from modeproof.graph.values import NONE
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import build
 from modeproof.registers.made import read_cfg
 from modeproof.registers.rows import Signal
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure, read_modules
+from modeproof.tlc.tla_values import parse
 
 FORMAT = 1
 _NAME = re.compile(r"[A-Za-z_]\w*")

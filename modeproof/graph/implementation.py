@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.values import ValueForms
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device
 
 Step = Callable[[Any, Any], tuple[Any, Any]]

@@ -19,9 +19,9 @@ from array import array
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.graph import Graph
-from modeproof.graph.tla import TlaError, canonical, parse, unquote
+from modeproof.ground.errors import Unjudged
+from modeproof.tlc.tla_values import TlaError, canonical, parse, unquote
 
 _EDGE = re.compile(rb'<<"EDGE", (<<.*>>), "(\w+)", (-?\d+), (<<.*>>)>>\r?\n')
 _QUOTED_EDGE = re.compile(rb'"<<\\"EDGE\\", (<<.*>>), \\"(\w+)\\", (-?\d+), (<<.*>>)>>"\r?\n')

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from modeproof.evidence.files import write_whole
+from modeproof.ground.evidence.files import write_whole
 
 
 def add_command(

@@ -28,7 +28,6 @@ from modeproof.kit.contract import Contract, read_contract
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.ids import case_id as case_id
 from modeproof.kit.ids import id_of_text as id_of_text
-from modeproof.kit.rule import Table, words
 from modeproof.kit.signals import Signal, loads, read_signals
 
 KIND, VERSION = "modeproof-vectors", 1
@@ -118,9 +117,6 @@ class Suite:
 
     def cases(self) -> Iterator[Case]:
         """All cases in order. Raises Unjudged with line and cause for a line that cannot be used."""
-        if any("rule" in graph for graph in self.header["graphs"]):
-            yield from self._made()
-            return
         count = 0
         for number, row in _rows(self.path, self.member):
             if number == 1:
@@ -131,34 +127,6 @@ class Suite:
             except (KeyError, TypeError, ValueError, IndexError) as error:
                 cause = f"{type(error).__name__} {error}"
                 raise Unjudged(f"{self.path.name}: line {number}: not a test case: {cause}") from None
-        if count != self.case_count:
-            raise Unjudged(f"{self.path.name}: {count} cases, the header says {self.case_count}")
-
-    def _made(self) -> Iterator[Case]:
-        """The cases of a rule (see modeproof.kit.rule)."""
-        count = 0
-        try:
-            for number, graph in enumerate(self.header["graphs"]):
-                table, params = Table(graph["rule"], graph["initial"]), graph["params"]
-                for word in words(graph["rule"]):
-                    scans = tuple(Scan(*entry) for entry in table.scans(word))
-                    if not scans:
-                        continue
-                    count += 1
-                    steps = [self.steps[step] for step in {scan.step for scan in scans}]
-                    findings = sorted({finding for step in steps for finding in step.findings})
-                    yield Case(
-                        id=case_id(self.target, params, changes(scans)),
-                        why="after a way to a state and what was tried there, inputs that tell where it led",
-                        basis=f"finding:{','.join(findings)}" if findings else "document",
-                        clauses=tuple(sorted({clause for step in steps for clause in step.clauses})),
-                        params=params,
-                        graph=number,
-                        initial=graph["initial"],
-                        scans=scans,
-                    )
-        except (KeyError, TypeError, ValueError, IndexError) as error:
-            raise Unjudged(f"{self.path.name}: the rule: {type(error).__name__} {error}") from None
         if count != self.case_count:
             raise Unjudged(f"{self.path.name}: {count} cases, the header says {self.case_count}")
 

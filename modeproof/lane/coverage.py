@@ -10,10 +10,10 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.lock import only_one
 from modeproof.ground.options import write_json
-from modeproof.lock import only_one
 from modeproof.report.verdicts import status_of
 
 

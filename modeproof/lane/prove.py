@@ -13,18 +13,19 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof import agreement, evidence
-from modeproof.agreement import line as agreement_line
-from modeproof.errors import Unjudged
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
+from modeproof.ground.places import add_document_option, build, chosen_documents, root
+from modeproof.ground.processes import Task, in_processes, meanwhile
+from modeproof.ground.progress import Progress
+from modeproof.lane import agreement
+from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents, version_of
-from modeproof.lock import only_one
-from modeproof.places import add_document_option, build, chosen_documents, root
-from modeproof.processes import Task, in_processes, meanwhile
-from modeproof.progress import Progress
+from modeproof.lane.summary import counted
 from modeproof.report.proofs import never_needed
 from modeproof.report.verdicts import status_of
-from modeproof.summary import counted
 
 
 def add_parser(commands: Any) -> None:

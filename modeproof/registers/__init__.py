@@ -7,7 +7,7 @@ property -> theorem -> vector. Everything is read from text: no code of a docume
 
 from __future__ import annotations
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.crosscheck import cross_check, value_fault
 from modeproof.registers.judge import Judgement, check_document, judge, judge_tree, matrix

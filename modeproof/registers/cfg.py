@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 
 _SECTIONS = {
     "CONSTANT": "constants",

@@ -7,9 +7,9 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
-from modeproof.places import add_document_option, chosen_documents
-from modeproof.places import root as repository_root
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.places import add_document_option, chosen_documents
+from modeproof.ground.places import root as repository_root
 from modeproof.registers.files import write_text
 from modeproof.registers.judge import Judgement, judge, judge_tree
 from modeproof.registers.load import load_document

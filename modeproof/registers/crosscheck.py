@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from modeproof.errors import suggestion
+from modeproof.ground.errors import suggestion
 from modeproof.registers.citations import Sources
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.rows import Device, Document, Problem, Signal

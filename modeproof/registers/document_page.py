@@ -207,9 +207,9 @@ def _shown(document: Document, sources: Sources) -> str:
 
 def _score(one: Score) -> list[str]:
     edited, judge = WHAT[one.what]
-    share = f" ({100 * one.killed / one.real:.1f} %)" if one.real else ""
+    share = f" ({100 * one.killed / one.different:.1f} %)" if one.different else ""
     open_ones = one.survived - one.survived_explained
-    rest = [f"{one.killed} of {one.real}{share}"]
+    rest = [f"{one.killed} of {one.different}{share}"]
     if one.survived:
         explained = f"{open_ones} unexplained" if open_ones else "each explained"
         rest.append(f"{one.survived} not noticed, {explained}")

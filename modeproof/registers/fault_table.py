@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from modeproof.errors import suggestion
+from modeproof.ground.errors import suggestion
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.schema import schema
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof.places import documents
+from modeproof.ground.places import documents
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.document_page import check_document_page
@@ -13,7 +13,7 @@ from modeproof.registers.load import load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.readings import check_readings, check_tops
-from modeproof.registers.rooms import check_imports, check_no_document_known
+from modeproof.registers.rooms import check_imports, check_no_document_known, check_order
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.tables import check_pages
 from modeproof.registers.vector_files import check_vectors
@@ -59,6 +59,7 @@ def judge_tree(root: Path) -> list[Problem]:
     loaded = [load_document(root, name) for name in documents(root)]
     return [
         *check_imports(root),
+        *check_order(root),
         *check_no_document_known(root, [one.interface for one in loaded], loaded),
         *check_pages(root, loaded),
         *check_vectors(root),

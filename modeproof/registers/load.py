@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged, suggestion
-from modeproof.places import documents
+from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.places import documents
 from modeproof.registers.files import read_toml
 from modeproof.registers.rows import (
     About,

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import msgspec
 
-from modeproof.errors import Unjudged, suggestion
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.cfg import Cfg, Constant, parse_cfg
 from modeproof.registers.files import read_text, write_text
 from modeproof.registers.runs import Run

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from modeproof.errors import Unjudged, suggestion
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.made import SUFFIX, decided_modules, reading_problems, replaced_by, replacements
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 from modeproof.registers.files import read_text, shown
@@ -37,15 +38,23 @@ RULES = (
         (
             "modeproof.report",
             "modeproof.registers",
-            "modeproof.evidence",
-            "modeproof.errors",
-            "modeproof.places",
+            "modeproof.ground.evidence",
+            "modeproof.ground.errors",
+            "modeproof.ground.places",
         ),
     ),
-    Rule("modeproof/registers", ("modeproof.registers", "modeproof.errors", "modeproof.places")),
+    Rule(
+        "modeproof/registers", ("modeproof.registers", "modeproof.ground.errors", "modeproof.ground.places")
+    ),
 )
 
-PROOFS_REACHED_FROM = ("modeproof/cli.py", "modeproof/cli/", "proofs/", "tests/")
+ORDER = (
+    *("kit", "s7", "ground", "registers", "tlc", "graph", "suites", "strength", "trace", "report", "lane"),
+    "cli",
+)
+"""The rooms of modeproof/ from the ground up: a module imports from its own room and from those before it."""
+
+PROOFS_REACHED_FROM = ("modeproof/lane/", "proofs/", "tests/")
 
 
 def check_imports(root: Path) -> list[Problem]:
@@ -64,9 +73,39 @@ def check_imports(root: Path) -> list[Problem]:
             for line, name in imports(path):
                 if name.split(".")[0] == "proofs":
                     problems.append(
-                        Problem(file, "", f"line {line}: imports {name}; only modeproof.cli reaches proofs")
+                        Problem(file, "", f"line {line}: imports {name}; only modeproof/lane reaches proofs")
                     )
     return problems
+
+
+def check_order(root: Path) -> list[Problem]:
+    """Every import of modeproof/ that runs upward, and one for each circle of imports."""
+    files = {
+        ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
+        for path in sorted((root / "modeproof").rglob("*.py"))
+    }
+    problems: list[Problem] = []
+    imports: dict[str, set[str]] = {}
+    for module, path in files.items():
+        own = _height(module)
+        names = {name for _, name in _imports(root, path, submodules=frozenset(files))}
+        imports[module] = {name for name in names if name in files and name != module}
+        for name in sorted(names):
+            if name.startswith("modeproof.") and own < _height(name) < len(ORDER):
+                text = f"imports {name}, which stands above it in the order of rooms"
+                problems.append(Problem(shown(root, path), "", text))
+    try:
+        TopologicalSorter(imports).prepare()
+    except CycleError as error:
+        circle = " -> ".join(error.args[1])
+        problems.append(Problem("modeproof", "", f"imports in a circle: {circle}"))
+    return problems
+
+
+def _height(module: str) -> int:
+    """The place of a module's room in the order; what is in no room (`__main__`) stands above all."""
+    room = module.split(".")[1] if "." in module else ORDER[0]
+    return ORDER.index(room) if room in ORDER else len(ORDER)
 
 
 def _allowed(rule: Rule, name: str) -> bool:
@@ -81,8 +120,8 @@ def _words(rule: Rule) -> str:
     return f"{', '.join(rule.allowed)} and {others}"
 
 
-def _imports(root: Path, path: Path) -> Iterator[tuple[int, str]]:
-    """The absolute names that a module imports, with their lines."""
+def _imports(root: Path, path: Path, submodules: frozenset[str] = frozenset()) -> Iterator[tuple[int, str]]:
+    """The absolute names that a module imports, with their lines; `submodules` by their own names."""
     package = list(path.relative_to(root).with_suffix("").parts[:-1])
     for node in ast.walk(ast.parse(read_text(root, path))):
         if isinstance(node, ast.Import):
@@ -93,7 +132,10 @@ def _imports(root: Path, path: Path) -> Iterator[tuple[int, str]]:
             if name in OURS or (node.level and not node.module):
                 yield from ((node.lineno, f"{name}.{alias.name}") for alias in node.names)
             else:
-                yield node.lineno, name
+                inner = [
+                    f"{name}.{alias.name}" for alias in node.names if f"{name}.{alias.name}" in submodules
+                ]
+                yield from ((node.lineno, one) for one in inner or [name])
 
 
 def check_no_document_known(

@@ -11,7 +11,7 @@ from typing import Any
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import ValidationError
 
-from modeproof.errors import Unjudged, suggestion
+from modeproof.ground.errors import Unjudged, suggestion
 
 REGISTERS = ("document", "clauses", "interface", "properties", "findings", "assumptions")
 """The registers of every document that have a schema, in the order in which a reader meets them."""

@@ -1,16 +1,18 @@
 """The recorded results of mutation campaigns, spec/<document>/scores.toml: what became of the planted faults.
 
-A campaign takes minutes to hours, so no lane runs it; `modeproof mutate` records what it found, with hashes
-of the texts that were judged. A score of an earlier text says that it is one.
+A campaign takes minutes to hours, so no lane runs it; `modeproof mutate ... --record` writes what it found,
+and hashes of the texts that it rests on (modeproof/strength/scores.py).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Literal
 
-from modeproof.registers.load import read_register
+import msgspec
+
+from modeproof.registers.files import read_toml
+from modeproof.registers.typed import typed
 
 WHAT = {
     "spec": ("the specification", "a property"),
@@ -18,32 +20,47 @@ WHAT = {
     "vectors": ("our program", "a test vector"),
 }
 """Of each campaign: what is edited, and what may notice it."""
+Count = Annotated[int, msgspec.Meta(ge=0)]
+Hash = Annotated[str, msgspec.Meta(pattern=r"^[0-9a-f]{16}$")]
 
 
-@dataclass(frozen=True)
-class Score:
-    """One campaign over every mutant: how many had each verdict, and the hashes of what was judged."""
+class Score(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One campaign over every mutant: how many had each verdict, and a hash of each text that it rests on.
 
-    what: str
-    judged_on: str
+    earlier_text: it was judged on a text before the present one.
+    """
+
+    what: Literal["spec", "impl", "vectors"]
+    judged_on: Annotated[str, msgspec.Meta(pattern=r"^\d{4}-\d\d-\d\d$")]
     command: str
-    killed: int
-    equivalent: int
-    invalid: int
-    survived: int
-    survived_explained: int
-    unmeasured: int
+    killed: Count
+    equivalent: Count
+    invalid: Count
+    survived: Count
+    survived_explained: Count
+    unmeasured: Count
     earlier_text: bool
-    files: Mapping[str, str]
+    files: Annotated[dict[str, Hash], msgspec.Meta(min_length=1)]
 
     @property
-    def real(self) -> int:
-        """The mutants that behave differently, as far as is known: only these count."""
+    def different(self) -> int:
+        """The mutants that behave differently, as far as we know: only these count."""
         return self.killed + self.survived + self.unmeasured
 
 
+class _Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    document: str
+    campaign: tuple[Score, ...]
+
+
+def scores_path(root: Path, name: str) -> Path:
+    """Where the record of a document lies."""
+    return root / "spec" / name / "scores.toml"
+
+
 def load_scores(root: Path, name: str) -> tuple[Score, ...]:
-    """The recorded campaigns of a document; none where it has no register."""
-    if not (root / "spec" / name / "scores.toml").is_file():
+    """The recorded campaigns of a document; none where it has no register. Raises Unjudged."""
+    path = scores_path(root, name)
+    if not path.is_file():
         return ()
-    return tuple(Score(**row) for row in read_register(root, name, "scores").get("campaign", ()))
+    return typed(_Record, read_toml(root, path), f"spec/{name}/scores.toml").campaign

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.report.integrity import seal_of_json
 
 NAME, PREVIOUS = "report.json", "previous.json"

@@ -16,7 +16,7 @@ from typing import Any
 import jinja2
 from markupsafe import Markup
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.report.baseline import Baseline
 from modeproof.report.contradictions import contradictions
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.citations import Sources as Texts
 from modeproof.registers.python_source import PythonTheorem

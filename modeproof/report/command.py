@@ -8,9 +8,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeproof.evidence.files import write_whole
-from modeproof.places import build
-from modeproof.places import root as repository_root
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import build
+from modeproof.ground.places import root as repository_root
 from modeproof.report.baseline import NAME, PREVIOUS, Baseline, choose, read_report
 from modeproof.report.build import SHOWN, Report, make
 from modeproof.report.part import plain

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.report.baseline import NAME
 from modeproof.report.integrity import json_of_page, seal_of_json, seal_of_page
 from modeproof.report.sources import DIFFERS, HOLE, NOTE

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 
 FIGURES = {"distinct": "distinct states", "cpu_s": "CPU seconds"}
 _COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e44ad", "#b9770e")

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device, Document
 from modeproof.registers.vector_files import VectorFile, drift, read_vectors, vectors_path
 from modeproof.report.cells import NONE

@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import read
-from modeproof.places import documents
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import read
+from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 

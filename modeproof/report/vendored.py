@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import metadata, resources
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 
 SCRIPT, STYLE = "datatables-script", "datatables-style"
 """The ids of the payload; the page unpacks them when the first table comes into view."""

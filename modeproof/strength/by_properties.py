@@ -11,8 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.made import cfg_text
 from modeproof.strength.campaign import Answers, Judges
 from modeproof.strength.judge import Bench, as_record, judge

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
+from modeproof.ground import evidence
 from modeproof.strength.campaign import Answers, Judges
 from modeproof.strength.code import Code, programs
 from modeproof.strength.mutant import Mutant

@@ -23,9 +23,9 @@ from pathlib import Path
 from types import FrameType, ModuleType
 from typing import Any, Protocol
 
-from modeproof.errors import Unjudged
 from modeproof.graph.implementation import from_module, load_implementation
 from modeproof.graph.values import ValueForms
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import ROOM
 from modeproof.strength import replay

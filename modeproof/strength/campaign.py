@@ -17,12 +17,12 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Se
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from modeproof import evidence
-from modeproof.places import build
-from modeproof.processes import in_forks
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.places import build
+from modeproof.ground.processes import in_forks
+from modeproof.ground.progress import Progress
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
@@ -37,8 +37,8 @@ Answers = Mapping[str, Any]
 class Judges(ABC):
     """Who judges the mutants of one campaign, and what an answer of theirs rests on."""
 
-    what: str
-    """spec, impl or vectors: also the name of the file of answers."""
+    what: Literal["spec", "impl", "vectors"]
+    """Also the name of the file of answers."""
     suffix: str
     """Of the files that are edited: tla or py."""
     command: str

@@ -8,14 +8,13 @@ code is touched: a mutant is a text.
 from __future__ import annotations
 
 import ast
-import importlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Protocol
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.python_module import Module
 from modeproof.strength.python_operators import PythonMutant, PythonRule, python_mutants
@@ -39,14 +38,6 @@ class Room(Protocol):
 
     def judged(self, bench: Any, change: Mapping[str, Any], complete: bool) -> Mapping[str, Any]:
         """What becomes of a change, as JSON."""
-
-
-def of_proofs(name: str) -> Any:
-    """A module of the room of proofs. Raises Unjudged when it cannot be imported."""
-    try:
-        return importlib.import_module(f"proofs.{name}")
-    except ImportError as error:
-        raise Unjudged(f"proofs cannot be run: {error}") from None
 
 
 @dataclass

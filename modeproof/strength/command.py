@@ -11,13 +11,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import documents, root
+from modeproof.ground.processes import cores
+from modeproof.ground.progress import Progress
+from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_of_code
 from modeproof.kit.errors import Unjudged as KitUnjudged
-from modeproof.lock import only_one
-from modeproof.places import documents, root
-from modeproof.processes import cores
-from modeproof.progress import Progress
 from modeproof.strength.campaign import (
     Campaign,
     Judged,
@@ -143,9 +144,9 @@ def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first
         bench = Bench(place, load_strength(place, document), find_toolchain(), first)
         return Campaign(ByProperties(bench), results)
     from modeproof.strength.by_theorems import ByTheorems
-    from modeproof.strength.code import Code, of_proofs
+    from modeproof.strength.code import Code
 
-    theorems = ByTheorems(Code(place, document, of_proofs("mutants.bench")))
+    theorems = ByTheorems(Code(place, document, code_under_proof()))
     if kind == "impl":
         return Campaign(theorems, results)
     from modeproof.strength.by_vectors import ByVectors
@@ -158,8 +159,7 @@ def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     proved = read_results(results_path(place, document, "impl"))
-    copies, observer = of_proofs("mutants.copies"), of_proofs("mutants.observed")
-    return Campaign(ByVectors(theorems, copies, observer, suites, proved), results)
+    return Campaign(ByVectors(theorems, copies_of_code(), observer_of_code(), suites, proved), results)
 
 
 def chosen_of(campaign: Campaign, args: argparse.Namespace) -> list[Mutant]:

@@ -19,7 +19,7 @@ from typing import Any
 
 import msgspec
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.made import cfg_text
 from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.register import Strength, Tier

@@ -1,8 +1,7 @@
 """The mutation operators: every one-edit mutant of a device module, from its parse tree.
 
-Edited is what the declared behaviour of the module reaches inside the module. A switch for a literal reading
-counts as switched off: what only such a reading would execute is not edited, nor is the switch itself.
-Neither are properties, type invariants, comments, nor the names that a step records.
+Edited is what the declared behaviour of the module reaches inside the module. Properties, type invariants,
+comments, and the names that a step records are not edited.
 
 operator               edit
 guard negated          a conjunct that is a guard is negated (a comparison: see below)
@@ -29,7 +28,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Edit, Mutant, applied, cut, identity, moved, one_line, wrapped
 from modeproof.tlc.parse_tree import AND, OR, Definition, Node, ParseTree, Place
 
@@ -58,15 +57,13 @@ class Rule:
     """What is edited, and into what, besides the operators.
 
     `behaviour`: the names of the module that make up its behaviour; all that they reach in it is edited.
-    `off`: switches, and the constant behind them: false in the model as decided; so is what another module
-    defines as one of them. `leave`: operators whose use is never edited. `kinds`: lists of strings; a string
+    `leave`: operators whose use is never edited. `kinds`: lists of strings; a string
     becomes the next one of its list. `cycles`: the same for names (the last entry may be any text). `groups`:
     definitions that only sort actions by the states in which they can fire; of these nothing but whole
     actions is removed.
     """
 
     behaviour: tuple[str, ...]
-    off: frozenset[str] = frozenset()
     leave: frozenset[str] = frozenset()
     kinds: tuple[tuple[str, ...], ...] = ()
     cycles: tuple[tuple[str, ...], ...] = ()
@@ -111,8 +108,6 @@ class _Editor:
         self._own: Mapping[str, Definition] = tree.definitions[module]
         self._variables = frozenset(tree.variables.get(module, ()))
         self._lines: Sequence[str] = tree.texts[module]
-        self._off: dict[str, bool | None] = {}
-        self._switches = rule.off | self._switches_elsewhere()
         self._next_string = _successors(rule.kinds)
         self._next_name = _successors(rule.cycles, open_end=True)
         self._initial = self._initial_values()
@@ -150,7 +145,7 @@ class _Editor:
     # -------------------------------------------------------------------------------- what is edited
 
     def _reached(self) -> list[Definition]:
-        """The definitions of the module that its behaviour reaches without a switch that is on."""
+        """The definitions of the module that its behaviour reaches."""
         missing = [name for name in self._rule.behaviour if name not in self._own]
         if missing:
             raise Unjudged(f"module {self._module} does not define {missing[0]}, a name of its behaviour")
@@ -160,88 +155,26 @@ class _Editor:
             one = waiting.pop()
             if one.name in reached or one.name in self._untouched or self._left_alone(one.name):
                 continue
-            if self._value(one.body) is not None:  # nothing but a switch
-                continue
             reached[one.name] = one
-            for node in self._live(one.body):
+            for node in self._parts(one.body):
                 if node.kind == "defined" and node.operator in self._own:
                     waiting.append(self._own[node.operator])
         return list(reached.values())
 
     def _left_alone(self, name: str) -> bool:
-        return name in self._switches or name in self._rule.leave
+        return name in self._rule.leave
 
-    def _switches_elsewhere(self) -> frozenset[str]:
-        """What the other modules define to ask for one reading, as in `EARLY == Literal("EARLY")`."""
-        return frozenset(
-            one.name
-            for module, definitions in self._tree.definitions.items()
-            if module != self._module
-            for one in definitions.values()
-            if not one.params and one.body.operator in self._rule.off
-        )
-
-    def _live(self, node: Node) -> Iterator[Node]:
-        """The node and all below it that matters while every switch is off."""
+    def _parts(self, node: Node) -> Iterator[Node]:
+        """The node and all below it, but for what is left alone."""
         yield node
-        for part in self._live_parts(node):
-            yield from self._live(part)
+        for part in self._parts_of(node):
+            yield from self._parts(part)
 
-    def _live_parts(self, node: Node) -> tuple[Node, ...]:
-        inner = tuple(domain for _, domain in node.bound if domain is not None)
-        inner += tuple(one.body for one in node.definitions)
+    def _parts_of(self, node: Node) -> tuple[Node, ...]:
         if node.kind == "defined" and self._left_alone(node.operator):
             return ()
-        if node.operator in AND and any(self._value(one) is False for one in node.operands):
-            return ()
-        if node.operator in AND | OR:
-            return inner + tuple(one for one in node.operands if self._value(one) is None)
-        if node.operator == "$IfThenElse":
-            condition, then, other = node.operands
-            value = self._value(condition)
-            chosen = {True: (then,), False: (other,), None: (condition, then, other)}[value]
-            return inner + chosen
-        if node.operator == "$Case":
-            arms = [arm for arm in node.operands if self._value(arm.operands[0]) is not False]
-            return inner + tuple(arms)
-        return inner + node.operands
-
-    def _value(self, node: Node) -> bool | None:
-        """What a guard is worth when every switch is off; None where no switch decides it."""
-        if node.kind == "defined":
-            if node.operator in self._switches:
-                return False
-            if node.operator in self._own and not self._left_alone(node.operator):
-                name = node.operator
-                if name not in self._off:
-                    self._off[name] = None
-                    self._off[name] = self._value(self._own[name].body)
-                return self._off[name]
-            return None
-        if node.kind != "builtin":
-            return None
-        values = [self._value(one) for one in node.operands] if node.operator in AND | OR else []
-        if node.operator in AND:
-            if False in values:
-                return False
-            return True if all(values) else None
-        if node.operator in OR:
-            if True in values:
-                return True
-            return None if None in values else False
-        if node.operator == "=>":
-            first, then = (self._value(one) for one in node.operands)
-            return True if first is False or then is True else None
-        if node.operator == "\\lnot":
-            inner = self._value(node.operands[0])
-            return None if inner is None else not inner
-        if node.operator in COMPARISONS and self._names_a_switch(node):
-            return node.operator in ("=", "\\notin")
-        return None
-
-    def _names_a_switch(self, node: Node) -> bool:
-        """Whether a comparison asks the constant behind the switches, as in `"READING" \\in LITERAL`."""
-        return any(one.kind == "declared" and one.operator in self._rule.off for one in node.walk())
+        inner = tuple(domain for _, domain in node.bound if domain is not None)
+        return inner + tuple(one.body for one in node.definitions) + node.operands
 
     # -------------------------------------------------------------------------------- initial values
 
@@ -271,18 +204,18 @@ class _Editor:
         yield from self._edits(node, where)
         if node.kind == "builtin" and node.operator == "UNCHANGED":
             return
-        live = self._live_parts(node)
+        parts = self._parts_of(node)
         if self._assigned(node) is not None or (where.initial and node.operator == "="):
-            live = node.operands[1:]
+            parts = node.operands[1:]
         elif node.kind == "builtin" and node.operator in ("=", "/="):
-            live = tuple(one for one in live if not self._is_constant(one))
+            parts = tuple(one for one in parts if not self._is_constant(one))
         inner = where
         if node.operator not in AND | OR:
             inner = _Where(where.initial)
-        elif len(live) > 1:  # with one live part, the rest being switches, it stands for the whole
+        elif len(parts) > 1:
             of_action = node.operator in AND and (where.of_action or node.level >= 2)
             inner = _Where(where.initial, "and" if node.operator in AND else "or", of_action)
-        for one in live:
+        for one in parts:
             yield from self._visit(one, inner)
 
     def _is_place_guard(self, node: Node) -> bool:
@@ -344,12 +277,12 @@ class _Editor:
             yield from self._token(node, "operator swapped", *EXCHANGED[operator])
         elif operator in QUANTIFIERS and node.level <= 1:
             yield from self._quantifier(node, *QUANTIFIERS[operator])
-        elif operator == "\\lnot" and self._value(node) is None:
+        elif operator == "\\lnot":
             text = cut(self._lines, operands[0].place)
             back = node.place.first_column - operands[0].place.first_column
             inner = "(" + moved(text, back + 1) + ")" if "\n" in text else f"({text})"
             yield self._replaced("negation dropped", node, inner)
-        elif operator == "$IfThenElse" and self._value(operands[0]) is None:
+        elif operator == "$IfThenElse":
             yield from self._branches(node)
         elif operator == "$Case" and any(not arm.operands[0].place.module for arm in operands):
             for arm in operands:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import Suite, read_lines
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.runs import Run, load_runs
 from modeproof.strength.operators import Rule
 
@@ -95,7 +95,7 @@ def load_strength(place: Path, document: str) -> Strength:
     data = _read(place, path)
     data.pop("document", None)
     runs = {run.id: run for run in load_runs(place, document)}
-    shared = _table(source, data, "rule", {"off", "leave", "cycles"})
+    shared = _table(source, data, "rule", {"leave", "cycles"})
     rules: dict[str, Rule] = {}
     for values in _tables(source, data, "module"):
         name = _text(source, values, "name")
@@ -105,7 +105,6 @@ def load_strength(place: Path, document: str) -> Strength:
         refuse_unknown(at, values, {"name", "behaviour", "groups", "device"})
         rules[name] = Rule(
             behaviour=_names(at, values, "behaviour", required=True),
-            off=frozenset(_names(source, shared, "off")),
             leave=frozenset(_names(source, shared, "leave")),
             kinds=_kinds(place, document, values.get("device")),
             cycles=tuple(tuple(cycle) for cycle in shared.get("cycles", [])),

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.implementation import Implementation
 from modeproof.graph.values import ValueForms
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.vectors import Case, Suite
 from modeproof.registers.rows import Device
 

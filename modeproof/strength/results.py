@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 
 FORMAT = 1
 _FIELDS = {"mutant", "module", "inputs", "complete", "verdict", "killers", "reason", "answers"}

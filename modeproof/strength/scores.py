@@ -15,16 +15,17 @@ import tokenize
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from datetime import date
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+import msgspec
+
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import load_runs
-from modeproof.registers.scores import Score, load_scores
+from modeproof.registers.scores import Score, load_scores, scores_path
 from modeproof.strength.campaign import Campaign, Judged, unexplained
 from modeproof.strength.code import files_of
 from modeproof.strength.published import contents
@@ -38,11 +39,6 @@ _HEAD = """\
 # Written by `modeproof mutate ... --record`: what the last complete campaign of each kind found, and hashes
 # of the texts that it rests on. Where `earlier_text` is true, it was judged on a text before the present one.
 """
-
-
-def scores_path(place: Path, document: str) -> Path:
-    """Where the record lies."""
-    return place / "spec" / document / "scores.toml"
 
 
 def record_score(campaign: Campaign, judged: Sequence[Judged]) -> Score:
@@ -73,7 +69,7 @@ def write_scores(place: Path, document: str, scores: Sequence[Score]) -> None:
     """Write the whole record."""
     order = ("spec", "impl", "vectors")
     rows = sorted(scores, key=lambda score: order.index(score.what))
-    text = _HEAD + "".join(f"\n{_row(score)}" for score in rows)
+    text = f'{_HEAD}\ndocument = "{document}"\n' + "".join(f"\n{_row(score)}" for score in rows)
     write_whole(scores_path(place, document), text.encode("utf-8"))
 
 
@@ -88,7 +84,7 @@ def _row(score: Score) -> str:
 def mark_earlier(place: Path, document: str) -> None:
     """Say of every row that it is of an earlier text."""
     rows = load_scores(place, document)
-    write_scores(place, document, [replace(row, earlier_text=True) for row in rows])
+    write_scores(place, document, [msgspec.structs.replace(row, earlier_text=True) for row in rows])
 
 
 def stale(place: Path, document: str) -> list[str]:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.strength.register import Tier
 from modeproof.tlc.parse_tree import AND, Definition, Node, ParseTree

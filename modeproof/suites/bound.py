@@ -12,8 +12,8 @@ from collections import Counter
 
 import networkx
 
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
+from modeproof.ground.errors import Unjudged
 
 _RESET = -1
 Arcs = dict[tuple[int, int], int]

@@ -7,19 +7,21 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from modeproof import evidence, kit
-from modeproof.errors import Unjudged
+from modeproof import kit
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build, documents
+from modeproof.ground.progress import Progress
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
-from modeproof.places import build, documents
-from modeproof.progress import Progress
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.suites.contract import load_contract
-from modeproof.suites.write import SUITES, Citations, NoCases, write_suite
+from modeproof.suites.kinds import SUITES
+from modeproof.suites.write import Citations, NoCases, write_suite
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:

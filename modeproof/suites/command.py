@@ -9,22 +9,23 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
 from modeproof.graph.device import compared_files, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
 from modeproof.graph.implementation import REFERENCE, load_implementation
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import root
+from modeproof.ground.progress import Progress
 from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
 from modeproof.kit.text import as_record, joint_word, write_json
 from modeproof.kit.vectors import EXACT, SETTLED, Suite
-from modeproof.lock import only_one
-from modeproof.places import root
-from modeproof.progress import Progress
 from modeproof.registers.runs import Run
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
-from modeproof.suites.write import SUITES, NoCases
+from modeproof.suites.kinds import SUITES
+from modeproof.suites.write import NoCases
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:

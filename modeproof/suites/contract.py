@@ -26,7 +26,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.contract import read_contract
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.signals import read_signals

@@ -12,8 +12,8 @@ from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
+from modeproof.ground.errors import Unjudged
 
 LONGEST = 4
 """A single sequence that tells one state from all others is looked for up to this length."""

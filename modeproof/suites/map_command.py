@@ -7,11 +7,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import EXIT_AS_EXPECTED, Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import EXIT_AS_EXPECTED, Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import root
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.signals import Signal, read_signals
-from modeproof.places import root
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
 from modeproof.s7.map import proposed_map, read_map

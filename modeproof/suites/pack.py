@@ -15,13 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from modeproof import kit, s7
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.bundle import CONTENTS, FOLDER
 from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
 from modeproof.suites.build import suite_file
-from modeproof.suites.write import SUITES
+from modeproof.suites.kinds import SUITES
 
 LARGEST = 5_000_000
 """Bytes of the whole file."""

@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof.evidence.files import write_whole
+from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.vectors import FILE_NAME, read_lines
 from modeproof.registers.vector_files import ROOM
 from modeproof.suites.build import suite_file
-from modeproof.suites.write import SUITES
+from modeproof.suites.kinds import SUITES
 
 SCHEMA = "vectors.schema.json"
 

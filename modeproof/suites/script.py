@@ -1,4 +1,4 @@
-"""Cases that follow a plan, instead of walks that cover a graph: what the scripted suites are made of."""
+"""What a suite yields: cases as scans of inputs. Ids, outputs, statistics and the header are the writer's."""
 
 from __future__ import annotations
 
@@ -49,14 +49,18 @@ class Script:
 
 @dataclass(frozen=True)
 class Scripts:
-    """The cases of one graph in order, and what the header says of them besides."""
+    """The cases of one graph in order, and what the header says of them besides.
+
+    `bound`: so many scans and resets are needed at least for what the suite takes (0: not known).
+    """
 
     cases: Iterable[Script]
     notes: Mapping[str, Any] = field(default_factory=dict)
+    bound: int = 0
 
 
 Plan = Callable[[DeviceGraph, Columns], Scripts]
-"""Makes the cases of a scripted suite for one graph."""
+"""A suite: makes the cases for one graph."""
 
 
 class Alphabet:

@@ -51,9 +51,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
 from modeproof.graph.device import DeviceGraph
+from modeproof.ground.errors import Unjudged
 from modeproof.suites.script import Alphabet, Script, Scripts, Shot
 
 FILE = "sequences.toml"

@@ -20,9 +20,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
 from modeproof.graph.device import DeviceGraph
+from modeproof.ground.errors import Unjudged
 from modeproof.suites.script import Alphabet, Script, Scripts, Shot, control_state
 
 HOLD = 2

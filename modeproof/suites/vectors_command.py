@@ -10,18 +10,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.graph.device import open_runs
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import build, root
 from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
-from modeproof.lock import only_one
-from modeproof.places import build, root
 from modeproof.suites.build import find_target, make_graphs, published, ready_suite, suite_file
-from modeproof.suites.export import as_csv, as_itf
+from modeproof.suites.export import as_csv
+from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
 from modeproof.suites.publish import publish
-from modeproof.suites.write import SUITES, NoCases
+from modeproof.suites.write import NoCases
 
 WITHIN = 1.05
 """How much a tour may cost, as a multiple of its lower bound."""
@@ -68,9 +69,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     publisher.set_defaults(run=run, targets=[], suite=None, anew=False)
     show = actions.add_parser("show", help="show one case", description="Show one case.")
     show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
-    form = show.add_mutually_exclusive_group()
-    form.add_argument("--csv", action="store_true", help="as a table for a trace tool")
-    form.add_argument("--itf", action="store_true", help="as a trace in the Informal Trace Format, for TLA+")
+    show.add_argument("--csv", action="store_true", help="as a table for a trace tool")
     show.set_defaults(run=run)
     return parser
 
@@ -227,8 +226,6 @@ def _show(place: Path, args: argparse.Namespace) -> int:
     suite, case = _find(place, args.id)
     if args.csv:
         sys.stdout.write(as_csv(suite, case))
-    elif args.itf:
-        sys.stdout.write(as_itf(suite, case))
     else:
         print("\n".join(_lines(suite, case)))
     return EXIT_AS_EXPECTED

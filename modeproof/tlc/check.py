@@ -12,11 +12,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.places import build, documents
-from modeproof.processes import cores
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build, documents
+from modeproof.ground.processes import cores
+from modeproof.ground.progress import Progress
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, module_text

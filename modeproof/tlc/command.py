@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.errors import EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
-from modeproof.lock import only_one
-from modeproof.places import root
-from modeproof.processes import cores
-from modeproof.progress import Progress
+from modeproof.ground.places import root
+from modeproof.ground.processes import cores
+from modeproof.ground.progress import Progress
 from modeproof.registers.runs import LANES
 from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_problems, select
 from modeproof.tlc.distributed import Where, refusal

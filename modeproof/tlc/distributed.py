@@ -23,12 +23,12 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import IO
 
-from modeproof.errors import Unjudged
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 from modeproof.registers.cfg import Cfg
 from modeproof.registers.made import cfg_text, make
 from modeproof.registers.runs import Run
@@ -137,42 +137,31 @@ def run_distributed(
     return replace(local, how=how)
 
 
+@dataclass
 class _Session:
     """One server with its workers."""
 
-    def __init__(
-        self,
-        place: Path,
-        run: Run,
-        cfg: Cfg,
-        tools: Toolchain,
-        where: Where,
-        room: Path,
-        on_progress: Callable[[Counts], None] | None,
-        say: Callable[[str], None],
-    ) -> None:
-        self.place, self.run_, self.cfg, self.tools, self.where, self.room = (
-            place,
-            run,
-            cfg,
-            tools,
-            where,
-            room,
-        )
-        self.violation = False
-        self._say = say
-        self._on_progress = on_progress
-        self._ready = threading.Event()
-        self._registered = 0
-        self._lost = 0
-        self._too_big = False
-        self._blocks = 0
-        self._done = False
-        self._complaints: deque[str] = deque(maxlen=40)
-        self._workers: list[subprocess.Popen[bytes]] = []
-        self._files: list[IO[bytes]] = []
-        self._stopped = ""
-        self._expired = False
+    place: Path
+    run_: Run
+    cfg: Cfg
+    tools: Toolchain
+    where: Where
+    room: Path
+    on_progress: Callable[[Counts], None] | None
+    say: Callable[[str], None]
+    violation: bool = False
+    _ready: threading.Event = field(default_factory=threading.Event)
+    _registered: int = 0
+    _lost: int = 0
+    _too_big: bool = False
+    _blocks: int = 0
+    _done: bool = False
+    _complaints: deque[str] = field(default_factory=lambda: deque(maxlen=40))
+    _workers: list[subprocess.Popen[bytes]] = field(default_factory=list)
+    _files: list[IO[bytes]] = field(default_factory=list)
+    _stopped: str = ""
+    _expired: bool = False
+    _first: Log = field(default_factory=Log)
 
     def run(self) -> Outcome:
         """The snapshot, the local run over the initial states, then server and workers to the end."""
@@ -190,7 +179,7 @@ class _Session:
             *("-checkpoint", "0", "-metadir", str(self.room / "states"), "-config", cfg_name, module),
         ]
         began = time.monotonic()
-        reader = LogReader(on_progress=self._on_progress, on_message=self._message)
+        reader = LogReader(on_progress=self.on_progress, on_message=self._message)
         log_path = build(self.place) / "tlc" / run.document / f"{run.id}.log"
         server = children.start(command, self.room, subprocess.PIPE, subprocess.PIPE)
         over = threading.Event()
@@ -264,18 +253,8 @@ class _Session:
         """A local run over the initial states: assumptions, syntax, version. The outcome if wrong."""
         command = [
             *self._java(512, "first", 0),
-            *(
-                "-cp",
-                str(self.tools.jar),
-                "tlc2.TLC",
-                "-tool",
-                "-deadlock",
-                "-workers",
-                "1",
-                "-checkpoint",
-                "0",
-            ),
-            *("-metadir", str(self.room / "first"), "-config", "First.cfg", module),
+            *("-cp", str(self.tools.jar), "tlc2.TLC", "-tool", "-deadlock", "-workers", "1"),
+            *("-checkpoint", "0", "-metadir", str(self.room / "first"), "-config", "First.cfg", module),
         ]
         reader = LogReader()
         began = time.monotonic()
@@ -350,7 +329,7 @@ class _Session:
                     seen = f"{self._registered} of {where.wait_for} workers of other machines"
                     self._stopped = f"{seen} registered within {WAIT_S:.0f} s"
                 elif ready_at == now:
-                    self._say(
+                    self.say(
                         f"{self.run_.id}: the server listens at {where.address}:{port} and waits for "
                         f"{where.wait_for} from other machines; there: {self._invite(port)}"
                     )

@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from modeproof.errors import Unjudged
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 from modeproof.registers.made import make
 from modeproof.registers.runs import Run
 from modeproof.tlc import children

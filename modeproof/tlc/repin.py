@@ -22,8 +22,8 @@ import msgspec
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.tlc.check import Checked, read_cfg
 from modeproof.tlc.judge import HOLDS, REACHED, VIOLATED, judge
 

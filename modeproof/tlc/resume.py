@@ -14,8 +14,8 @@ from typing import Any
 
 import msgspec
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.runs import Run
 from modeproof.tlc.toolchain import Toolchain
 

@@ -14,7 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 
 CACHE = Path(sys.prefix) / "tlc-start.aot"

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.cfg import COMMENT, Cfg
 from modeproof.tlc.parse_tree import Definition, Node, ParseTree, Place, conjuncts
 

@@ -24,11 +24,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
-from modeproof.graph.tla import TlaError, parse
-from modeproof.places import build
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.replay import Traces, load_replay
 from modeproof.registers.rows import Device
@@ -36,6 +35,7 @@ from modeproof.registers.runs import Run
 from modeproof.registers.tla import read_modules
 from modeproof.tlc import walk_module
 from modeproof.tlc.process import run_tlc
+from modeproof.tlc.tla_values import TlaError, parse
 from modeproof.tlc.toolchain import Toolchain, sha256
 from modeproof.tlc.walk_module import (
     AT_ONCE,

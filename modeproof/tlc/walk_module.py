@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.cfg import Constant, parse_cfg
 from modeproof.registers.files import read_text
 from modeproof.registers.made import Replacement, replacing, root_module

@@ -10,12 +10,12 @@ import time
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import root
 from modeproof.kit.command import quoted
-from modeproof.lock import only_one
-from modeproof.places import root
 from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain, find_toolchain

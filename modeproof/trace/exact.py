@@ -11,13 +11,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
-from modeproof.graph.tla import TlaError, canonical, parse
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import build
 from modeproof.registers.runs import Run
 from modeproof.tlc.messages import essence
 from modeproof.tlc.process import Outcome, run_tlc
+from modeproof.tlc.tla_values import TlaError, canonical, parse
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.module import Reading, constants
 from modeproof.trace.targets import Target

@@ -13,8 +13,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.graph.tla import canonical, parse
+from modeproof.ground.errors import Unjudged
+from modeproof.tlc.tla_values import canonical, parse
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.log import Log, Row
 from modeproof.trace.targets import Target

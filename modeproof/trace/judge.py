@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.suites.build import step_citations

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged, suggestion
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.trace.log import Builder, Log, Row
 from modeproof.trace.targets import Target
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged, suggestion
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.rows import Device, Signal
 from modeproof.trace.targets import Target
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device, Signal
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import passes, words_of

@@ -17,8 +17,8 @@ from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged, suggestion
 from modeproof.graph.values import NONE
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.rows import Device, Signal
 from modeproof.trace.lines import read_text
 from modeproof.trace.log import Builder, Log, Row

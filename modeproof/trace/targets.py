@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged, suggestion
 from modeproof.graph.values import ValueForms
-from modeproof.places import documents
+from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.places import documents
 from modeproof.registers.load import load_interface, read_register
 from modeproof.registers.rows import Device
 

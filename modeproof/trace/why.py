@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
-from modeproof.graph.tla import canonical, parse
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import build
 from modeproof.suites.write import Citations
 from modeproof.tlc.parse_tree import ParseTree, Place, read_tree
 from modeproof.tlc.process import run_tlc
+from modeproof.tlc.tla_values import canonical, parse
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.exact import HEAP_MB, checked, constant_definitions, trace_run

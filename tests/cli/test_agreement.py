@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.agreement import ID, compare, line
-from modeproof.evidence import evidence_path
+from modeproof.ground import evidence
+from modeproof.ground.evidence import evidence_path
+from modeproof.lane.agreement import ID, compare, line
+from modeproof.lane.summary import failures, render
 from modeproof.report.verdicts import status_of
-from modeproof.summary import failures, render
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import COMMANDS, main
-from modeproof.lock import only_one
+from modeproof.ground.lock import only_one
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
 

@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from modeproof import conformance, evidence
-from modeproof.errors import Unjudged
 from modeproof.graph.export import export_file
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
+from modeproof.lane import conformance
 from tests.toy_tree import toy_tree
 
 

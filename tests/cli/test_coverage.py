@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.cli import cover_document, main
-from modeproof.errors import Unjudged
-from modeproof.progress import Progress
+from modeproof.cli import main
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
+from modeproof.lane.coverage import cover_document
 from modeproof.report.verdicts import status_of
 from proofs.mode_selection import devices
 
@@ -49,6 +50,6 @@ def test_without_a_register_nothing_is_judged(place: Path) -> None:
         _status(place)
 
 
-def test_coverage_does_not_speak_of_one_theorem(capsys: pytest.CaptureFixture[str]) -> None:
+def test_coverage_speaks_of_no_single_theorem(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["prove", "some_theorem", "--coverage"]) == 2
     assert "give it no" in capsys.readouterr().err

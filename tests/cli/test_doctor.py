@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof import doctor
+from modeproof.lane import doctor
 
 
 def test_what_is_missing_is_named_with_its_remedy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
-from modeproof.lock import only_one
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.lock import only_one
 
 HOLD = """
 import sys, time
 from pathlib import Path
-from modeproof.lock import only_one
+from modeproof.ground.lock import only_one
 with only_one(Path(sys.argv[1])):
     print("held", flush=True)
     time.sleep(600)

@@ -12,8 +12,8 @@ from tests.any_machine import until
 
 PROGRAM = """
 import os, sys, time
-from modeproof import processes
-from modeproof.progress import Progress
+from modeproof.ground import processes
+from modeproof.ground.progress import Progress
 processes.cores = lambda: 2
 KNOWN = []
 
@@ -48,8 +48,8 @@ def test_processes_know_what_was_made_before_only_when_that_is_asked_for(tmp_pat
 
 MEANWHILE = """
 import os, sys, time
-from modeproof import processes
-from modeproof.errors import Unjudged
+from modeproof.ground import processes
+from modeproof.ground.errors import Unjudged
 processes.cores = lambda: int(sys.argv[2])
 KNOWN = ["made before"]
 

@@ -213,6 +213,7 @@ FAULTS = (
 )
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("fault", FAULTS, ids=[fault[0].replace(" ", "_") for fault in FAULTS])
 def test_what_is_wrong_in_a_new_document_is_found(
     fault: tuple[str, ...], root: Path, done: dict[str, Any]

@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from modeproof import conformance, verify
-from modeproof.errors import Unjudged
-from modeproof.progress import Progress
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
+from modeproof.lane import conformance, verify
 from tests.toy_tree import toy_tree
 
 NAMES = ["toy"]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 from typing import Any
 
-from modeproof.progress import Progress
+from modeproof.ground.progress import Progress
+from modeproof.lane.summary import failures, render
 from modeproof.report.verdicts import ASIDE, PropertyRow, property_lines, status_of
-from modeproof.summary import failures, render
 
 
 def tlc(id: str, **changes: Any) -> dict[str, Any]:

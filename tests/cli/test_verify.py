@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
+from modeproof.lane.verify import Stage, check_lane, check_registers, verify
 from modeproof.report.verdicts import PropertyRow
-from modeproof.verify import Stage, check_lane, check_registers, verify
 from tests.toy_tree import toy_tree
 
 Made = tuple[list[dict[str, Any]], dict[str, str]]
@@ -22,7 +22,8 @@ Made = tuple[list[dict[str, Any]], dict[str, str]]
 @pytest.fixture
 def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.setattr(
-        "modeproof.verify.property_rows", lambda place, document: [PropertyRow("Type", "TypeOK", ("honest",))]
+        "modeproof.lane.verify.property_rows",
+        lambda place, document: [PropertyRow("Type", "TypeOK", ("honest",))],
     )
     return toy_tree(tmp_path)
 
@@ -99,7 +100,7 @@ def test_a_property_that_no_run_checks_spoils_the_result(
     toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     rows = [PropertyRow("Forgotten", "Nobody", ("honest",))]
-    monkeypatch.setattr("modeproof.verify.property_rows", lambda place, document: rows)
+    monkeypatch.setattr("modeproof.lane.verify.property_rows", lambda place, document: rows)
     assert run(toy, stage("PROVED"))[0] == 2
     assert "property Forgotten (honest): UNJUDGED: no run checks it" in capsys.readouterr().out
 

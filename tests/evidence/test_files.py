@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.evidence.files import write_whole
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 
 
 def record(**changes: Any) -> dict[str, Any]:

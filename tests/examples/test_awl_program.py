@@ -113,6 +113,7 @@ def test_nothing_but_the_adapter_imports_the_simulator() -> None:
 # ------------------------------------------------------------------------------------------ the programs
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("name", ["brief", "plc-brief", "words", "tour"])
 def test_the_programs_conform(name: str) -> None:
     """To all of `brief`; of `words` and `tour` to what catches a program of the C pack."""
@@ -142,6 +143,7 @@ def reference(chosen: dict[str, Any], scans: list[dict[str, Any]]) -> list[dict[
     return found
 
 
+@pytest.mark.deep
 @settings(max_examples=60, deadline=None)
 @given(params, ways)
 def test_with_any_times_it_does_what_the_reference_does(
@@ -199,6 +201,7 @@ def verdicts(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Verdict]:
     return judge_all(tmp_path_factory.mktemp("awl"), CAUGHT, 600.0, Plan(effort=0))
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("fault", CAUGHT, ids=lambda one: one.id)
 def test_a_program_that_is_wrong_in_one_place_is_rejected(fault: Fault, verdicts: dict[str, Verdict]) -> None:
     verdict = verdicts[fault.id]

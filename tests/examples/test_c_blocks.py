@@ -164,6 +164,7 @@ def mostly_held(inputs: dict[str, Any]) -> st.SearchStrategy[list[dict[str, Any]
     return st.lists(one, max_size=40).map(as_scans)
 
 
+@pytest.mark.deep
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_with_any_parameters_a_block_does_what_the_reference_does(

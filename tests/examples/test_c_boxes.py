@@ -45,6 +45,7 @@ def judged(program: Path, suite: Suite, relation: str, effort: int = 0) -> Verdi
     return run_suite(suite, lambda: Adapter([str(program)]), plan=Plan(Options(relation), effort=effort))
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("relation", ["settled", "monitor"])
 def test_it_passes_what_leaves_it_its_time(program: Path, suite: Suite, relation: str) -> None:
     verdict = judged(program, suite, relation)
@@ -52,10 +53,12 @@ def test_it_passes_what_leaves_it_its_time(program: Path, suite: Suite, relation
     assert verdict.properties and all(verdict.properties.values())
 
 
+@pytest.mark.deep
 def test_it_does_not_pass_scan_by_scan(suite: Suite, tmp_path: Path) -> None:
     assert judged(made(tmp_path, hello=("exact", "0")), suite, "exact").word == "DIFFERS"
 
 
+@pytest.mark.deep
 def test_it_needs_the_scans_that_it_asks_for(suite: Suite, tmp_path: Path) -> None:
     assert judged(made(tmp_path, hello=("settled", "12")), suite, "settled").word == "DIFFERS"
 
@@ -87,6 +90,7 @@ UNSAFE = {
 """Those that break a safety property, and which one is seen first."""
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_found_once_all_has_settled(name: str, suite: Suite, tmp_path: Path) -> None:
     verdict = judged(made(tmp_path, *FAULTS[name]), suite, "settled", effort=1)
@@ -94,6 +98,7 @@ def test_a_fault_is_found_once_all_has_settled(name: str, suite: Suite, tmp_path
     assert verdict.difference is not None and verdict.difference.confirmed
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("name", UNSAFE)
 def test_a_fault_that_is_unsafe_breaks_a_property(name: str, suite: Suite, tmp_path: Path) -> None:
     verdict = judged(made(tmp_path, *FAULTS[name]), suite, "monitor")

@@ -124,6 +124,7 @@ PIECES = r"""{ } " : , [ ] \ 0 -1 1.5 true null NaN
 pieces = st.sampled_from([*PIECES.split(), " ", "\0", "\udcff", "x" * 60])
 
 
+@pytest.mark.deep
 @settings(max_examples=60, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(st.lists(st.lists(pieces, max_size=30).map("".join), min_size=1, max_size=40))
 @example(['{"op":"reset"'])
@@ -189,6 +190,7 @@ def scans_of(way: list[tuple[str, int, int, int]]) -> list[dict[str, Any]]:
     return found
 
 
+@pytest.mark.deep
 @settings(max_examples=150, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(params, ways)
 def test_with_any_times_it_does_what_the_reference_does(
@@ -219,6 +221,7 @@ def test_the_longest_time_does_not_overflow(watched: Path, tmp_path: Path) -> No
     assert [reply["out"]["ERROR"] for reply in replies[1:]] == [False, False, False, False, True]
 
 
+@pytest.mark.deep
 def test_the_vectors_of_the_pack_are_what_the_reference_does() -> None:
     for name in ("brief", "tour", "words"):
         scans = 0
@@ -243,6 +246,7 @@ def conform(program: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
 
 
+@pytest.mark.deep
 def test_it_conforms_and_one_edit_of_it_does_not(program: Path, tmp_path: Path) -> None:
     good = conform(program)
     assert (good.returncode, good.stdout.splitlines()[-1]) == (0, "CONFORMS(exact, brief)"), good.stdout

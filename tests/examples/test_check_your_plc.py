@@ -76,7 +76,7 @@ def test_the_page_has_its_seven_steps_and_names_every_suite_and_relation() -> No
     assert re.findall(r"^## (\d)\.", PAGE, re.MULTILINE) == [str(n) for n in range(1, 8)]
     assert len(BLOCKS) >= 9
     table = set(re.findall(r"^\| `(\w+)` \|", PAGE, re.MULTILINE))
-    from modeproof.suites.write import SUITES
+    from modeproof.suites.kinds import SUITES
 
     assert set(SUITES) <= table
     assert {"exact", "settled", "monitor"} <= table

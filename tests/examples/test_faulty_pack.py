@@ -27,11 +27,11 @@ from examples.faulty.run import (
     programs,
     row,
 )
+from modeproof.ground.processes import in_forks
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
-from modeproof.processes import in_forks
 from tests.any_machine import PATIENCE_S
 
 FAULTS = load_faults()
@@ -85,6 +85,7 @@ def lines_of(program: Program) -> list[str]:
     return program.page.read_text(encoding="utf-8").splitlines()
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     ("target", "fault"), [one for one in EVERY if not one[1].reason], ids=lambda one: getattr(one, "id", one)
 )
@@ -98,6 +99,7 @@ def test_a_program_that_is_wrong_in_one_place_is_rejected(
     assert row(fault, verdict) in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     ("target", "fault"), [one for one in EVERY if one[1].reason], ids=lambda one: getattr(one, "id", one)
 )
@@ -112,6 +114,7 @@ def test_what_the_pack_says_no_vector_of_it_shows_is_not_shown_by_those_that_sho
     assert line in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
     ("target", "fault"),
     [one for one in EVERY if "--codes" in one[1].reason],
@@ -127,6 +130,7 @@ def test_what_only_our_own_codes_show_is_rejected_with_them(
     assert (verdict.word, verdict.reason) == ("DIFFERS", "")
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
 def test_the_program_without_a_fault_conforms_to_all_vectors_of_its_pack(
     target: str, judged: Callable[[str], Judged]
@@ -161,6 +165,7 @@ def test_what_a_fault_breaks_is_declared_in_the_registers(program: Program) -> N
         assert set(fault.breaks) & clauses, fault.id
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
 def test_every_decision_that_a_vector_may_depend_on_is_broken_by_a_fault(
     target: str, judged: Callable[[str], Judged]
@@ -171,6 +176,7 @@ def test_every_decision_that_a_vector_may_depend_on_is_broken_by_a_fault(
     assert depended - {one for fault in faults for one in fault.breaks} == set()
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
 def test_every_step_is_where_some_fault_is_seen_or_named_by_its_clauses(
     target: str, judged: Callable[[str], Judged]

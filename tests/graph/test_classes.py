@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from modeproof.errors import Unjudged
 from modeproof.graph.classes import InputClass, load_classes
+from modeproof.ground.errors import Unjudged
 
 SEVERAL = """
 [[class]]

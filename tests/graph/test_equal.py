@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
+from modeproof.ground.errors import Unjudged
 from tests.graph.printed import CODE, Inputs, Memory, Outputs, lamp, lamp_graph, lines, row_of, step
 
 

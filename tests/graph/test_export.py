@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from modeproof.errors import Unjudged
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.export import as_export, export_file, view_names, write_export
+from modeproof.ground.errors import Unjudged
 from tests.graph.printed import LETTERS, TICK_MS, lamp_graph, signal, successor
 from tests.toy_tree import TOY_TLA, toy_tree
 

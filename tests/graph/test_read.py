@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modeproof.errors import Unjudged
 from modeproof.graph.read import read_graph
-from modeproof.graph.tla import TlaError, canonical, parse, unquote
+from modeproof.ground.errors import Unjudged
+from modeproof.tlc.tla_values import TlaError, canonical, parse, unquote
 from tests.graph.printed import LETTERS, lines, quoted, write
 
 

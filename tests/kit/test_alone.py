@@ -14,7 +14,7 @@ import pytest
 
 import modeproof.kit
 from modeproof.cli import main
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.suites import pack as packing
 from tests.kit.programs import program
 from tests.suites.test_command import toy as toy  # the fixture

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping
@@ -21,8 +22,9 @@ from modeproof.kit.builtin import Builtin
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
+from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
-from modeproof.suites.write import SUITES, write_suite
+from modeproof.suites.write import write_suite
 from tests.graph.printed import Inputs, Memory, Outputs, Params, lamp, lamp_graph, power_up, step
 from tests.kit.lamps import CONTRACT, Lamp, Slow
 from tests.kit.programs import program
@@ -158,7 +160,7 @@ def test_a_program_behind_an_adapter_the_command_that_repeats_it_and_a_run_that_
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     suite = made(tmp_path, "brief")
-    command = " ".join(program(tmp_path, 'def answer(m, out): say({"out": {**out, "MW": "FFFF"}})'))
+    command = shlex.join(program(tmp_path, 'def answer(m, out): say({"out": {**out, "MW": "FFFF"}})'))
     words = ["conform", "lamp", "--adapter", command, "--vectors", str(suite.path), "--quiet"]
     note = ["--resume", str(tmp_path / "note.json")]
     assert kit_main([*words, *note, "--json", str(tmp_path / "v.json")]) == 0

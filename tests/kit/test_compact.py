@@ -14,7 +14,8 @@ from modeproof.kit.compact import compact, expand, same
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import run_suite
 from modeproof.kit.vectors import open_suite, read_lines
-from modeproof.suites.write import SUITES, write_suite
+from modeproof.suites.kinds import SUITES
+from modeproof.suites.write import write_suite
 from tests.any_machine import SHARED_FIXTURE
 from tests.graph.printed import lamp_graph
 from tests.kit.lamps import Lamp, Late

@@ -9,9 +9,10 @@ from typing import Any
 import msgspec
 import pytest
 
-from modeproof.errors import Unjudged
-from modeproof.places import root as repository_root
-from modeproof.registers import documents, load_document, read_sources
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import documents
+from modeproof.ground.places import root as repository_root
+from modeproof.registers import load_document, read_sources
 from modeproof.registers.document_page import (
     check_document_page,
     page,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from modeproof.places import documents, root
+from modeproof.ground.places import documents, root
 from modeproof.registers import load_document
 from modeproof.registers.fault_table import check_faults
 from modeproof.registers.rows import Document, Fall, Fault, Matrix

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.places import documents
+from modeproof.ground.places import documents
 from modeproof.registers import Unjudged, load_document, load_interface
 from modeproof.registers.schema import REGISTERS, schema
 

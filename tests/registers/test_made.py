@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.made import cfg_text, make, module_text, reading_problems
 from modeproof.registers.runs import Run, load_runs

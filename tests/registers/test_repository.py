@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.places import documents
+from modeproof.ground.places import documents
 from modeproof.registers import judge, judge_tree, load_document
 from modeproof.registers.judge import Judgement
 

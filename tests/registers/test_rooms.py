@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from modeproof.registers import judge_tree, load_interface
-from modeproof.registers.rooms import RULES, check_imports, check_no_document_known
+from modeproof.registers.rooms import RULES, check_imports, check_no_document_known, check_order
 
 
 @pytest.mark.parametrize(
@@ -21,13 +21,21 @@ from modeproof.registers.rooms import RULES, check_imports, check_no_document_kn
         ("proofs/door/x.py", "from modeproof import tlc", "imports modeproof.tlc"),
         ("proofs/door/x.py", "import tests.door", "imports tests.door"),
         ("modeproof/kit/x.py", "import jsonschema", "imports jsonschema"),
-        ("modeproof/kit/x.py", "from modeproof.errors import Unjudged", "imports modeproof.errors"),
+        (
+            "modeproof/kit/x.py",
+            "from modeproof.ground.errors import Unjudged",
+            "imports modeproof.ground.errors",
+        ),
         ("modeproof/kit/x.py", "from ..errors import Unjudged", "imports modeproof.errors"),
         ("modeproof/kit/x.py", "from .. import errors", "imports modeproof.errors"),
         ("modeproof/kit/x.py", "def f():\n    import refimpl.door", "line 2: imports refimpl.door"),
         ("modeproof/report/x.py", "from modeproof.tlc.judge import judge", "imports modeproof.tlc.judge"),
-        ("modeproof/tlc/x.py", "import proofs.runner", "only modeproof.cli reaches proofs"),
-        ("modeproof/registers/x.py", "from modeproof.evidence import write", "imports modeproof.evidence"),
+        ("modeproof/tlc/x.py", "import proofs.runner", "only modeproof/lane reaches proofs"),
+        (
+            "modeproof/registers/x.py",
+            "from modeproof.ground.evidence import write",
+            "imports modeproof.ground.evidence",
+        ),
     ],
 )
 def test_a_breach_is_found(tree: Any, file: str, line: str, expected: str) -> None:
@@ -47,8 +55,8 @@ def test_a_breach_is_found(tree: Any, file: str, line: str, expected: str) -> No
         ("proofs/door/x.py", "import z3"),
         ("modeproof/kit/x.py", "from modeproof.kit import protocol\nimport json"),
         ("modeproof/kit/x.py", "from . import protocol"),
-        ("modeproof/report/x.py", "from modeproof.evidence import files"),
-        ("modeproof/cli.py", "import proofs.runner"),
+        ("modeproof/report/x.py", "from modeproof.ground.evidence import files"),
+        ("modeproof/lane/prove.py", "import proofs.runner"),
     ],
 )
 def test_what_is_allowed_is_not_reported(tree: Any, file: str, line: str) -> None:
@@ -106,3 +114,29 @@ def test_the_tool_of_this_repository_knows_no_document(real_root: Path) -> None:
     ]
     assert interfaces
     assert [str(problem) for problem in check_no_document_known(real_root, interfaces, [])] == []
+
+
+def test_no_room_imports_upward_and_no_import_runs_in_a_circle(real_root: Path) -> None:
+    assert check_order(real_root) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("from modeproof.report.claims import claims", "imports modeproof.report.claims, which stands above"),
+        ("def f():\n    import modeproof.cli", "imports modeproof.cli, which stands above"),
+        ("from modeproof.graph import y", "imports in a circle"),
+    ],
+)
+def test_an_upward_import_and_a_circle_are_found(tree: Any, line: str, said: str) -> None:
+    tree.write("modeproof/graph/y.py", "from modeproof.graph import x\n")
+    tree.write("modeproof/graph/x.py", "from modeproof.kit import lines\n")
+    assert check_order(tree.root) == []
+    tree.write("modeproof/graph/x.py", line + "\n")
+    found = [str(problem) for problem in check_order(tree.root)]
+    assert len(found) == 1 and said in found[0]
+
+
+def test_no_file_of_the_tool_is_longer_than_450_lines(real_root: Path) -> None:
+    lengths = {path: len(path.read_bytes().splitlines()) for path in real_root.glob("modeproof/**/*.py")}
+    assert lengths and not [path for path, length in lengths.items() if length > 450]

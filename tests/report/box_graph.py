@@ -6,9 +6,9 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from modeproof.evidence import hashes
 from modeproof.graph.device import graph_file, load_device_graph
 from modeproof.graph.export import write_export
+from modeproof.ground.evidence import hashes
 from modeproof.registers.runs import load_runs
 from tests.report.conftest import declared
 from tests.report.paper import change, put

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from modeproof.evidence import hashes
+from modeproof.ground.evidence import hashes
 
 FILE = "vectors/box/sequences.jsonl.gz"
 SHUTS, WAITS = "box-0123456789ab", "box-ba9876543210"

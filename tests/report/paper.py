@@ -6,7 +6,7 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
+from modeproof.ground import evidence
 from tests.report.conftest import declared, make_box
 
 THEOREM = '''"""Theorems about the box."""

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from modeproof.errors import Unjudged
-from modeproof.places import root as repository_root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root as repository_root
 from modeproof.registers.tools import load_tools
 from modeproof.report.build import make
 from modeproof.report.parts.confidence import part

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.report import vendored
 from modeproof.report.build import make
 from modeproof.report.parts import glossary, limits, reproduce, review, scope, verdict
@@ -321,8 +321,11 @@ def test_a_damaged_glossary_is_a_hole(root: Path, text: str) -> None:
 
 
 def test_the_glossary_of_this_repository_explains_every_verdict_word() -> None:
-    sources = gather(Path(__file__).resolve().parents[2])
+    root = Path(__file__).resolve().parents[2]
+    sources = gather(root)
     words = {one["word"] for one in glossary.part(sources).data["terms"]}
-    schema = json.loads((Path(__file__).resolve().parents[2] / "modeproof/evidence/schema.json").read_text())
+    schema = json.loads(
+        (Path(__file__).resolve().parents[2] / "modeproof/ground/evidence/schema.json").read_text()
+    )
     verdicts = set(schema["properties"]["verdict"]["enum"]) - {"UNREACHED", "DIFFERS"}
     assert verdicts <= words

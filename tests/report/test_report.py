@@ -11,8 +11,8 @@ import jsonschema
 import pytest
 
 from modeproof.cli import main
-from modeproof.errors import Unjudged
-from modeproof.places import documents
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
 from modeproof.report import build, parts
 from modeproof.report.build import SCHEMA, make

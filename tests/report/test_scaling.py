@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.report.scaling import Curve, chart, curves_of
 
 ROOT = Path(__file__).resolve().parents[2]

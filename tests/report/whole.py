@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
+from modeproof.ground import evidence
 from tests.report.paper import make_paper, put
 
 LIMITS = "# What this does not show\n\n**Boxes only.** Not a `door`, see [the box](box.md).\n"

@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modeproof.cli import main
+from modeproof.ground.places import documents, root
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal
-from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
 from modeproof.s7.map import Place, decode, encode, parse_address, proposed_map, read_map
 from modeproof.s7.program import blocks_of, number_at, split_address

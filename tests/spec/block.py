@@ -12,7 +12,7 @@ from pathlib import Path
 
 import msgspec
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text
 from modeproof.registers.readings import readings_of

@@ -14,10 +14,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from modeproof.ground.places import root
 from modeproof.kit.contract import Contract, Property, Watch, read_contract
 from modeproof.kit.relation import STABLE
 from modeproof.kit.signals import read_signals
-from modeproof.places import root
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
 from modeproof.suites.contract import declare, declare_parameters, load_contract

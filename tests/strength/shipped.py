@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
 from modeproof.strength.by_theorems import ByTheorems
 from modeproof.strength.campaign import Campaign, Judged, explanation_problems, unexplained
 from modeproof.strength.code import Code

@@ -10,11 +10,11 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
 from modeproof.graph.implementation import Implementation as Implemented
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
 from modeproof.kit.vectors import open_suite
-from modeproof.progress import Progress
 from modeproof.strength import replay
 from modeproof.strength.by_theorems import ByTheorems
 from modeproof.strength.by_vectors import ByVectors

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import modeproof.strength.by_properties as by_properties
-from modeproof.errors import Unjudged
-from modeproof.progress import Progress
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
 from modeproof.strength.by_properties import GRAPHS, ByProperties, rests_on
 from modeproof.strength.campaign import Campaign, Judged, explanation_problems, summary, unexplained
 from modeproof.strength.judge import Answer, Bench, Verdict

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.judge import Bench, judge
 from modeproof.strength.mutant import Mutant

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Mutant, applied, diff
 from modeproof.strength.operators import Rule, mutants
 from modeproof.tlc.parse_tree import ParseTree, read_tree
@@ -15,7 +15,6 @@ from tests.strength.toy import EVERY_OPERATOR
 
 RULE = Rule(
     behaviour=("Init", "Group"),
-    off=frozenset({"Literal", "LITERAL"}),
     kinds=(("red", "green"),),
     cycles=(("LONG", "SHORT"),),
     groups=frozenset({"Group"}),
@@ -96,41 +95,14 @@ def test_no_operator_is_without_expectation(made: tuple[Mutant, ...]) -> None:
     assert {one.operator for one in made} == set(EXPECTED)
 
 
-def test_what_a_literal_reading_alone_would_execute_is_not_edited(made: tuple[Mutant, ...]) -> None:
-    assert {"Literal", "Late", "Switch", "Unused"} & {one.definition for one in made} == set()
-    assert not any("9" in one.old or "STUCK" in one.old for one in made)
+def test_what_the_behaviour_does_not_reach_is_not_edited(made: tuple[Mutant, ...]) -> None:
+    assert "Unused" not in {one.definition for one in made}
 
 
-def test_a_switch_that_is_not_declared_is_edited_like_anything_else(tree: ParseTree) -> None:
-    without = Rule(behaviour=RULE.behaviour, kinds=RULE.kinds, groups=RULE.groups)
-    assert "Switch" in {one.definition for one in mutants(tree, "Every", without, frozenset())}
-
-
-SWITCHES = """
----- MODULE Switches ----
-CONSTANT LITERAL
-Literal(reading) == reading \\in LITERAL
-LATE == Literal("LATE")
-====
-"""
-
-
-def test_a_switch_that_another_module_names_is_a_switch(tmp_path: Path, made: tuple[Mutant, ...]) -> None:
-    """`LATE`, defined elsewhere, is left alone as `Literal("LATE")` is, and so is what it alone executes."""
-    (tmp_path / "Switches.tla").write_text(SWITCHES.lstrip())
-    text = EVERY_OPERATOR.replace(
-        "EXTENDS Integers\nCONSTANTS LITERAL, ", "EXTENDS Integers, Switches\nCONSTANTS "
-    )
-    text = text.replace("Literal(reading) == reading \\in LITERAL\n", "")
-    text = text.replace('Late == Literal("LATE")\n', "").replace("== Late /\\", "== LATE /\\")
-    text = text.replace("/\\ ~i.b\n", "/\\ ~i.b \\/ LATE\n")
-    assert "Late " not in text and "LATE" in text
-    moved = mutants(tree_of(tmp_path, text), "Every", RULE, frozenset())
-    assert {one.id for one in made} == {one.id for one in moved}
-    without = Rule(behaviour=RULE.behaviour, kinds=RULE.kinds, groups=RULE.groups)
-    assert "Switch" in {
-        one.definition for one in mutants(tree_of(tmp_path, text), "Every", without, frozenset())
-    }
+def test_an_operator_that_is_left_alone_is_not_edited(tree: ParseTree) -> None:
+    rule = Rule(behaviour=RULE.behaviour, kinds=RULE.kinds, groups=RULE.groups, leave=frozenset({"Guard"}))
+    found = mutants(tree, "Every", rule, frozenset())
+    assert "Guard" not in {one.definition for one in found} and not any("Guard" in one.old for one in found)
 
 
 def test_a_property_is_not_edited(tree: ParseTree, made: tuple[Mutant, ...]) -> None:
@@ -144,11 +116,8 @@ def test_ids_and_texts_are_unique(tree: ParseTree, made: tuple[Mutant, ...]) -> 
 
 
 def test_ids_survive_edits_elsewhere(tmp_path: Path, made: tuple[Mutant, ...]) -> None:
-    """A comment, a switch beside the guard and a new definition move every line and change no id."""
+    """A comment and a new definition move every line and change no id."""
     text = EVERY_OPERATOR.replace("Pick(i) ==", "\\* E-1\nNew == 1\nPick(i) ==")
-    text = text.replace("\\/ i.a\n", '\\/ i.a\n    \\/ Literal("MORE") /\\ i.b\n')
-    text = text.replace("/\\ ~i.b\n", '/\\ ~i.b \\/ Literal("ANY")\n')
-    text = text.replace("i.c >= LONG\n", 'i.c >= LONG /\\ ~Literal("NOW")\n')
     moved = mutants(tree_of(tmp_path, text), "Every", RULE, frozenset())
     assert {one.id for one in made} == {one.id for one in moved}
     assert {one.line for one in made} != {one.line for one in moved}

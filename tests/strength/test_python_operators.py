@@ -6,9 +6,10 @@ import ast
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import applied
-from modeproof.strength.python_operators import Module, PythonMutant, PythonRule, python_mutants
+from modeproof.strength.python_module import Module
+from modeproof.strength.python_operators import PythonMutant, PythonRule, python_mutants
 
 DOOR = '''
 from dataclasses import dataclass

@@ -8,16 +8,17 @@ from typing import Any
 
 import pytest
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
-from modeproof.places import documents, root
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import documents, root
+from modeproof.registers.scores import load_scores, scores_path
 from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.campaign import Answers, Campaign, Judged, Judges
 from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Edit, Mutant
 from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
-from modeproof.strength.scores import load_scores, mark_earlier, record_score, scores_path, stale
+from modeproof.strength.scores import mark_earlier, record_score, stale
 from modeproof.tlc.parse_tree import Place
 
 EXPLAINED = (Explained(("toy-3",), "harmless", "Nobody sees it."),)
@@ -134,7 +135,7 @@ def test_a_row_of_scores_holds_the_counts_and_the_texts(tmp_path: Path) -> None:
         1,
         1,
     )
-    assert (row.unmeasured, row.real, list(row.files)) == (0, 2, ["spec/toy/strength.toml"])
+    assert (row.unmeasured, row.different, list(row.files)) == (0, 2, ["spec/toy/strength.toml"])
     assert stale(tmp_path, "toy") == []
     recorded(tmp_path, *ALL, judged(4, "KILLED", "wp"))
     (row,) = load_scores(tmp_path, "toy")

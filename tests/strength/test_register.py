@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.strength.register import load_strength
 from modeproof.strength.trial import with_constants
 from tests.strength.toy import STRENGTH, lamp
@@ -23,7 +23,9 @@ from tests.strength.toy import STRENGTH, lamp
         ('id = "graph"', 'id = "alone"', "tier alone is declared twice"),
         ("heap_mb = 256", "heap = 256", "tier alone: unknown field 'heap'"),
         ('behaviour = ["Init", "Scan", "Name"]', "", "module Lamp: behaviour is missing or empty"),
-        ('off = ["Literal", "LITERAL"]', "off = 3", "off must be a list of names"),
+        ('leave = ["Did"]', "leave = 3", "leave must be a list of names"),
+        ('leave = ["Did"]', 'off = ["Literal"]', "unknown field 'off'"),
+        ('name = "Lamp"', 'name = "LampAsPrinted"', "a module of readings is not mutated"),
         (
             "[rule]",
             "[rule]\n[[survivor]]\nids = ['x']\nkind = 'luck'\nwhy = 'y'",

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.places import documents, root
+from modeproof.ground.places import documents, root
+from modeproof.registers.scores import load_scores
 from modeproof.strength.judge import judge
 from modeproof.strength.register import Rejudged
-from modeproof.strength.scores import load_scores
 from tests.strength.shipped import bench_of, mutants_of
 
 DOCUMENT = "mode_selection"
 STRENGTH = bench_of(DOCUMENT).strength
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("one", STRENGTH.rejudged, ids=lambda one: one.id)
 def test_a_mutant_meets_the_same_fate_again(one: Rejudged) -> None:
     (mutant,) = [mutant for mutant in mutants_of(DOCUMENT) if mutant.id == one.id]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.errors import Unjudged
-from modeproof.places import root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 from modeproof.registers.load import load_document
 from modeproof.registers.runs import load_runs
 from modeproof.strength.judge import Bench

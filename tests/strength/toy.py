@@ -12,10 +12,8 @@ from modeproof.tlc.toolchain import find_toolchain
 LAMP = r"""
 ---- MODULE Lamp ----
 EXTENDS Integers
-CONSTANT LITERAL
 VARIABLES count, lamp
 lampVars == <<count, lamp>>
-Literal(reading) == reading \in LITERAL
 TypeOK == count \in 0..3 /\ lamp \in {"off", "on"}
 Init == count = 0 /\ lamp = "off"
 \* a comment with a guard: count < 3
@@ -26,8 +24,7 @@ Light(i) ==
     /\ lamp' = "on"
     /\ UNCHANGED count
 Down(i) == ~i.up /\ count' = 0 /\ lamp' = "off"
-Never(i) == Literal("NEVER") /\ i.up /\ count' = 7 /\ UNCHANGED lamp
-Scan(i) == Up(i) \/ Light(i) \/ Down(i) \/ Never(i)
+Scan(i) == Up(i) \/ Light(i) \/ Down(i)
 Name == <<"zero", "one", "two", "three">>[count + 1]
 ====
 """
@@ -53,7 +50,7 @@ StartsDark == lamp = "on" => count # 0
 ====
 """
 
-CFG = """CONSTANTS LITERAL = {} PRINT = TRUE
+CFG = """CONSTANT PRINT = TRUE
 SPECIFICATION OpenSpec
 VIEW View
 ACTION_CONSTRAINT PrintEdge
@@ -81,7 +78,7 @@ tick_ms = 10
 
 STRENGTH = """
 [rule]
-off = ["Literal", "LITERAL"]
+leave = ["Did"]
 
 [[module]]
 name = "Lamp"
@@ -122,13 +119,11 @@ def lamp(root: Path, strength: str = STRENGTH) -> Bench:
 EVERY_OPERATOR = r"""
 ---- MODULE Every ----
 EXTENDS Integers
-CONSTANTS LITERAL, LONG, SHORT
+CONSTANTS LONG, SHORT
 VARIABLES x, y
 both == <<x, y>>
-Literal(reading) == reading \in LITERAL
 Table == {1}
 Other == {2}
-Late == Literal("LATE")
 Init == x = 0 /\ y = "red"
 Stay == UNCHANGED both
 Guard(i) ==
@@ -142,10 +137,9 @@ All == \A n \in Sets : n < 5
 Set(i) == y = "red" /\ Guard(i) /\ x' = Pick(i) - 1 /\ y' = "green"
 Wait(i) ==
     /\ y = Colour /\ i.d
-    /\ IF Literal("STUCK") THEN x' = 9 ELSE UNCHANGED x
+    /\ UNCHANGED x
     /\ UNCHANGED y
-Switch(i) == Late /\ x' = 8 /\ UNCHANGED y
-Group(i) == (y = "red" /\ (Set(i) \/ Wait(i))) \/ Switch(i) \/ (All /\ Stay)
+Group(i) == (y = "red" /\ (Set(i) \/ Wait(i))) \/ (All /\ Stay)
 Unused == x = 3
 ====
 """

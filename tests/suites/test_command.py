@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from modeproof import evidence
 from modeproof.cli import main
+from modeproof.ground import evidence
 from modeproof.kit.__main__ import main as kit_main
 from tests.graph.printed import SEQUENCES, WORDS, lines, write
 from tests.kit.programs import program
@@ -140,7 +140,7 @@ def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[s
         (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
         (
             ["lamp", "--adapter", "x", "--suite", "toru"],
-            "no suite 'toru'; there are: tour, brief, wp, wp1, words, refusals, sic, times, sequences",
+            "no suite 'toru'; there are: tour, brief, wp, words, refusals, sic, times, sequences",
         ),
         (["lamp", "--adapter", "x", "--vectors", "none.jsonl"], "No such file"),
     ],

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 from modeproof.kit.contract import Watch
 from modeproof.kit.vectors import open_suite
-from modeproof.places import root
 from modeproof.registers.load import load_interface
 from modeproof.suites.contract import load_contract
 from modeproof.suites.lint import lint

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.places import documents, root
 from modeproof.kit.vectors import open_suite
-from modeproof.places import documents, root
 from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import check_vectors
-from modeproof.suites.write import SUITES
+from modeproof.suites.kinds import SUITES
 from tests.suites.test_command import toy as toy  # the fixture
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import merge_columns
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.registers.citations import citations, read_sources

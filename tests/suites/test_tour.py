@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns, merge_columns
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.tour import covers, every_step, every_transition, walks
 from modeproof.suites.write import write_suite

@@ -15,14 +15,15 @@ import pytest
 from hypothesis import given
 
 from modeproof.cli import main
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import Columns
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import open_suite, read_lines
 from modeproof.suites.bound import lower_bound, proved_by
+from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.tour import every_transition, walks
-from modeproof.suites.write import SUITES, write_suite
+from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
 from tests.suites.test_command import toy as toy  # the fixture
 from tests.suites.test_tour import graphs, table
@@ -156,7 +157,7 @@ def test_a_packed_file_that_is_cut_or_damaged_is_unjudged(
         list(open_suite(path).cases())
 
 
-def test_a_case_is_exported_as_a_table_and_as_a_trace(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_case_is_exported_as_a_table(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["vectors", "build", "lamp", "--suite", "words", "--suite", "refusals"]) == 0
     folder = toy / "build" / "vectors" / "toy" / "lamp"
     case = next(open_suite(folder / "words.jsonl.gz").cases())
@@ -167,14 +168,6 @@ def test_a_case_is_exported_as_a_table_and_as_a_trace(toy: Path, capsys: pytest.
     times = itertools.accumulate(scan.dt_ms for scan in case.scans)
     assert [int(row["time_ms"]) for row in rows] == list(times)
     assert [row["word"] for row in rows] == [scan.inputs["word"] for scan in case.scans]
-
-    assert main(["vectors", "show", case.id, "--itf"]) == 0
-    trace = json.loads(capsys.readouterr().out)
-    assert trace["#meta"]["format"] == "ITF" and len(trace["states"]) == len(case.scans)
-    for state, scan in zip(trace["states"], case.scans, strict=True):
-        assert set(state) == {"#meta", *trace["vars"]}
-        assert int(state["in_word"]["#bigint"]) == int(scan.inputs["word"], 16)
-        assert state["out_LAMP"] is scan.outputs["LAMP"]
 
     refused = next(one for one in open_suite(folder / "refusals.jsonl.gz").cases() if one.requests)
     assert main(["vectors", "show", refused.id]) == 0 and "to be refused" in capsys.readouterr().out

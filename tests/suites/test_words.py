@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modeproof.errors import Unjudged
 from modeproof.graph.columns import merge_columns
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import Case, Suite, open_suite
 from modeproof.suites.apart import Apart

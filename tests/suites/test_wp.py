@@ -116,6 +116,7 @@ def test_no_wrong_machine_of_two_states_passes_and_every_right_one_does(part: in
             assert passes == same(table, other)
 
 
+@pytest.mark.deep
 @settings(max_examples=40, deadline=None)
 @given(tables)
 def test_no_wrong_machine_of_three_states_passes(table: Table) -> None:
@@ -130,6 +131,7 @@ def test_no_wrong_machine_of_three_states_passes(table: Table) -> None:
             assert same(table, other)
 
 
+@pytest.mark.deep
 @settings(max_examples=150, deadline=None)
 @given(st.sampled_from(TWO), st.data())
 def test_cases_that_are_judged_complete_let_no_wrong_machine_pass(

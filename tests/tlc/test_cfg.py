@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.cfg import parse_cfg
 
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace as with_values
 
-from modeproof import evidence
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.progress import Progress
 from modeproof.tlc import children, process
 from modeproof.tlc.check import SMALL_SHARE, Checked, check_all, check_one, select
 from modeproof.tlc.process import SMALL_HEAP_MB

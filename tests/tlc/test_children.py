@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from modeproof.tlc import children
 from tests.any_machine import until
 from tests.toy_tree import toy_tree
@@ -43,6 +45,7 @@ def test_a_watcher_that_was_killed_is_started_again(tmp_path: Path) -> None:
     assert children.running() == ()
 
 
+@pytest.mark.deep
 def test_tlc_ends_when_modeproof_is_killed_by_sigkill(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_big")
     command = [sys.executable, "-m", "modeproof", "check", "MC_big", "--quiet"]

@@ -20,7 +20,7 @@ import pytest
 from msgspec.structs import replace as with_values
 
 from modeproof.cli import main
-from modeproof.progress import Progress
+from modeproof.ground.progress import Progress
 from modeproof.tlc import children, distributed
 from modeproof.tlc.check import Checked, check_one, select
 from modeproof.tlc.distributed import WORKER, Where
@@ -200,6 +200,7 @@ def test_verdict_and_counts_are_those_of_the_local_run_with_workers_from_elsewhe
     assert one.record["command"] == "modeproof check --distributed toy/MC_grid"
 
 
+@pytest.mark.deep
 def test_a_property_that_breaks_on_a_way_back_is_violated_and_named(root: Path) -> None:
     one = spread(root, "MC_back", Where(1))
     assert (one.judgement.verdict, one.judgement.violated) == ("VIOLATED", "NeverBack")
@@ -207,6 +208,7 @@ def test_a_property_that_breaks_on_a_way_back_is_violated_and_named(root: Path) 
     assert one.record["result"]["how"]["confirmed"] is True
 
 
+@pytest.mark.deep
 def test_without_the_assertions_tlc_alone_would_call_it_fine(
     root: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -226,6 +228,7 @@ def test_an_assumption_that_is_false_is_not_overlooked(root: Path) -> None:
     assert one.judgement.verdict == "UNJUDGED" and "Assumption" in one.judgement.reason
 
 
+@pytest.mark.deep
 def test_a_killed_worker_does_not_end_the_run_and_does_not_make_it_green(root: Path) -> None:
     one = killed(root, WORKER, 1)
     assert one.judgement.verdict == "HOLDS" and one.status == 1
@@ -233,6 +236,7 @@ def test_a_killed_worker_does_not_end_the_run_and_does_not_make_it_green(root: P
     assert one.record["result"]["distinct"] == SLOW_DISTINCT
 
 
+@pytest.mark.deep
 def test_without_any_worker_the_run_is_inconclusive(root: Path) -> None:
     one = killed(root, WORKER, 2)
     assert (one.judgement.verdict, one.status) == ("INCONCLUSIVE", 2)
@@ -240,12 +244,14 @@ def test_without_any_worker_the_run_is_inconclusive(root: Path) -> None:
     assert children.running() == ()
 
 
+@pytest.mark.deep
 def test_a_killed_server_is_unjudged_and_takes_its_workers_along(root: Path) -> None:
     one = killed(root, f"{distributed.SERVER} ", 1)
     assert (one.judgement.verdict, one.judgement.reason) == ("UNJUDGED", "TLC was killed by signal 9")
     assert children.running() == ()
 
 
+@pytest.mark.deep
 def test_workers_that_cannot_start_are_inconclusive(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(distributed, "WORKER", "tlc2.tool.distributed.OfAnotherJar")
     one = spread(root, "MC_grid", Where(1))
@@ -254,6 +260,7 @@ def test_workers_that_cannot_start_are_inconclusive(root: Path, monkeypatch: pyt
     assert "OfAnotherJar" in one.judgement.reason
 
 
+@pytest.mark.deep
 def test_workers_of_other_machines_that_do_not_come_are_inconclusive(
     root: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -271,6 +278,7 @@ def test_a_port_that_is_taken_is_said(root: Path) -> None:
     assert one.judgement.verdict == "UNJUDGED" and "Port already in use" in one.judgement.reason
 
 
+@pytest.mark.deep
 def test_no_java_is_left_when_modeproof_is_ended(root: Path) -> None:
     command = [sys.executable, "-m", "modeproof", "check", "--distributed", "MC_slow", "--quiet"]
     environment = {**os.environ, "MODEPROOF_ROOT": str(root)}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.tlc.parse_tree import ParseTree, conjuncts, disjuncts, read_tree
 from modeproof.tlc.toolchain import find_toolchain
 

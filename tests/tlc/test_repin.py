@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace as with_values
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.check import Checked
 from modeproof.tlc.process import Outcome

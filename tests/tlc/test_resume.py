@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-from modeproof import evidence
 from modeproof.cli import main
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.progress import Progress
 from modeproof.tlc.check import check_all, kept, select
 from modeproof.tlc.resume import why_again
 from modeproof.tlc.schedule import ORDINARY_MB, memory_mb
@@ -114,6 +114,7 @@ def test_other_tools_make_every_run_again(root: Path, monkeypatch: pytest.Monkey
     assert set(reasons(root).values()) == {"modeproof has changed"}
 
 
+@pytest.mark.deep
 def test_a_lane_that_was_killed_goes_on_where_it_was(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

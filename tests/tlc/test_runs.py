@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.check import register_problems, select
 from tests.toy_tree import CFGS, declaration, toy_tree

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.tlc.start_up import start_up_options, write_cache
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.tlc import toolchain
 
 

@@ -9,7 +9,7 @@ import pytest
 from msgspec.structs import replace as with_values
 
 from modeproof.graph.device import DeviceGraph, load_device_graph
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.judge import Graphs, is_current

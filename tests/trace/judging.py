@@ -10,7 +10,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.judge import Graphs, Judgement, judge_logs
 from modeproof.trace.lines import read_lines

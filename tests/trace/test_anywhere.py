@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
@@ -22,6 +22,7 @@ _CHECKS = re.compile(
 )
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize(
     ("device", "run", "module", "extra"),
     [

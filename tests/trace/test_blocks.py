@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.graph.device import DeviceGraph, load_device_graph
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
 from modeproof.tlc.toolchain import find_toolchain

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from modeproof import evidence
 from modeproof.cli import main
-from modeproof.places import root
+from modeproof.ground import evidence
+from modeproof.ground.places import root
 from modeproof.trace import command
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.judge import Graphs

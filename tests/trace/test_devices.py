@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modeproof.errors import Unjudged
 from modeproof.graph.classes import Members
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.implementation import load_implementation
-from modeproof.places import root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.judge import Graphs, Judgement, check
@@ -145,6 +145,7 @@ def batches(
     return found
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("device", RUN)
 def test_random_walks_are_accepted_by_both(device: str, batches: dict[str, Batch]) -> None:
     for one in batches[device].good:
@@ -154,6 +155,7 @@ def test_random_walks_are_accepted_by_both(device: str, batches: dict[str, Batch
             assert one.followed.open == ()
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("device", RUN)
 def test_one_wrong_output_is_found_in_its_scan(device: str, batches: dict[str, Batch]) -> None:
     for at, one in batches[device].bad:
@@ -161,22 +163,26 @@ def test_one_wrong_output_is_found_in_its_scan(device: str, batches: dict[str, B
         assert isinstance(one.followed, Followed) and one.followed.accepted == at
 
 
+@pytest.mark.deep
 def test_what_was_not_observed_is_not_held_against_a_log(batches: dict[str, Batch]) -> None:
     seeing, blind = (batches["hmi"].extra[name] for name in ("shows another", "shown and touch not observed"))
     assert (seeing.verdict, blind.verdict) == ("DIFFERS", "CONFORMS")
     assert blind.log.observed("hmi").isdisjoint({"shown", "touch"})
 
 
+@pytest.mark.deep
 def test_an_output_that_repeats_an_input_must_do_so(batches: dict[str, Batch]) -> None:
     assert batches["hmi"].extra["displays another"].accepted == 7
 
 
+@pytest.mark.deep
 def test_a_key_that_no_graph_has_is_judged_by_tlc_alone(batches: dict[str, Batch]) -> None:
     found = batches["eks"].extra["a long KeyID"]
     assert "stands for KeyID = 18446744073709551615" in str(found.followed)
     assert isinstance(found.followed, NotFollowed) and found.accepted > 0
 
 
+@pytest.mark.deep
 def test_judges_that_contradict_each_other_are_no_verdict(batches: dict[str, Batch]) -> None:
     one = batches["hmi"].good[0]
     assert isinstance(one.followed, Followed)
@@ -193,6 +199,7 @@ def test_judges_that_contradict_each_other_are_no_verdict(batches: dict[str, Bat
         check(replace(less, followed=replace(one.followed, accepted=1, open=("the time",))))
 
 
+@pytest.mark.deep
 @settings(max_examples=25, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(device=st.sampled_from(("plc", "hmi", "eks")), seed=st.integers(0, 2**32), data=st.data())
 def test_the_graph_accepts_any_walk_and_any_part_of_what_it_shows(

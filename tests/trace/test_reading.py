@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from modeproof.errors import Unjudged
-from modeproof.places import root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import LONGEST_MS, without_codes
 from modeproof.trace.table import TableForm, read_table

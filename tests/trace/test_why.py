@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.guards import Guards
@@ -61,9 +61,9 @@ def test_a_dwell_time_that_lacks_one_ms_is_the_conjunct_with_both_sides(
     assert f"{missed.conjunct.place}: Now(i) >= T_DWELL" in text
 
 
-def test_the_readme_shows_what_is_printed(explained: dict[str, tuple[Why, str]]) -> None:
-    readme = (root() / "README.md").read_text()
-    shown = next(block for block in readme.split("```\n") if block.startswith("first impossible scan"))
+def test_the_page_about_logs_shows_what_is_printed(explained: dict[str, tuple[Why, str]]) -> None:
+    page = (root() / "docs/logs.md").read_text()
+    shown = next(block for block in page.split("```\n") if block.startswith("first impossible scan"))
     printed = explained["fplc_short_dwell.jsonl"][1].replace(str(root()) + "/", "") + "\n"
     assert printed.endswith(shown)
 
@@ -81,6 +81,7 @@ def test_a_step_that_was_left_out_is_named_and_one_scan_is_missing(
     assert why.lost == 1
 
 
+@pytest.mark.deep
 def test_in_the_whole_system_the_wire_is_named(graphs: Graphs) -> None:
     target = find_target(root(), "key_flows")
     (one,) = judge("key_flows", [example("key_flows", "key_flows_lost_word.jsonl")], graphs)
@@ -89,6 +90,7 @@ def test_in_the_whole_system_the_wire_is_named(graphs: Graphs) -> None:
     assert "the input MW07 is not what plc last wrote: 3C3C" in as_text(target, one, why)
 
 
+@pytest.mark.deep
 def test_every_step_of_every_device_has_a_guard_that_ends_with_its_own() -> None:
     spec = root() / "spec"
     for target in targets_of(root(), DOCUMENT):

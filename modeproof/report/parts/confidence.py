@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.tools import SOURCE, Check, ToolProblem, load_tools
 from modeproof.report.conditions import Met, judged
 from modeproof.report.part import Part

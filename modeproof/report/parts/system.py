@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Device, Document, Signal
 from modeproof.report.drawing.system_picture import Box, Cable, Wire, block_picture, system_picture

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run

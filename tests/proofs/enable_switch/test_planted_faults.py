@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.enable_switch import invariants, step_paths, switch_answers, switch_outputs, switch_safety
 from proofs.enable_switch.devices import SWITCH
@@ -266,6 +266,7 @@ FAULTS = [
 ]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("fault", FAULTS, ids=[f"{one.name}-{one.control}" for one in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()

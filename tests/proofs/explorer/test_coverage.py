@@ -12,6 +12,7 @@ from refimpl.mode_selection import plc
 REGISTER = Path(__file__).parents[3] / "proofs" / "mode_selection" / "unreached.toml"
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
 def test_all_that_no_path_of_a_device_passes_is_explained_and_nothing_else_is(device: object) -> None:
     assert device in (FPLC, PLC, HMI, EKS)

@@ -176,6 +176,7 @@ class _Model:
         return z3.BitVecVal(value, term.size()) if z3.is_bv(term) else z3.IntVal(value)
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
 def test_a_member_of_every_path_gives_the_same_in_the_plain_interpreter(device: Device) -> None:
     for scan in scans(device):
@@ -184,6 +185,7 @@ def test_a_member_of_every_path_gives_the_same_in_the_plain_interpreter(device: 
             assert device.module.step(state, inputs) == _expected(device, path, path.example, state)
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
 def test_random_members_of_paths_give_the_same_in_the_plain_interpreter(device: Device) -> None:
     """Of every path, or of 60 from a control state with more. Members are found and judged without a solver;

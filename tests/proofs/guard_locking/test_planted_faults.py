@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, step_paths
 from proofs.guard_locking.devices import BLOCK
@@ -313,6 +313,7 @@ FAULTS = [
 ]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()

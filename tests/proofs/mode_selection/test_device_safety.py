@@ -40,6 +40,7 @@ def _theorems(module: ModuleType) -> list[Theorem]:
 SMALL = [item for module in MODULES[:-1] for item in _theorems(module)]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("item", SMALL, ids=lambda item: item.name)
 def test_every_theorem_of_panel_plc_and_eks_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
     (result,) = prove_all([item], tmp_path, lambda line: None, LONG_MS)
@@ -377,6 +378,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
 ]
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("name", "judge", "control", "sentence", "edits"),
     FAULTS,

@@ -37,6 +37,7 @@ def test_what_is_said_of_power_up_is_proved_by_both_solvers(item: Theorem, tmp_p
     assert (result.verdict, result.reason) == ("PROVED", "")
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("item", SAFETY, ids=lambda item: item.name)
 def test_every_claim_holds_and_every_control_has_an_example(item: Theorem) -> None:
     queries, _ = built(item)
@@ -50,6 +51,7 @@ def test_every_scan_keeps_the_invariant() -> None:
     assert not [query.name for query in queries if ask_z3(query, "", LONG_MS).answer != query.expected]
 
 
+@pytest.mark.deep
 def test_the_examples_of_all_controls_happen_in_the_real_step() -> None:
     kept = [example for item in SAFETY for example in built(item)[1]]
     assert len(kept) >= len(SAFETY)
@@ -60,6 +62,7 @@ def test_the_examples_of_all_controls_happen_in_the_real_step() -> None:
         assert breaks(scans, sentence, solver.model()), query.name
 
 
+@pytest.mark.deep
 def test_every_conjunct_of_the_invariant_is_needed_by_some_theorem() -> None:
     """The ranges are needed in another way: they are the premise under which the step is explored."""
     dropped = {
@@ -340,6 +343,7 @@ FAULTS = [
 ]
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize(
     ("name", "control", "sentence", "edits"), FAULTS, ids=lambda one: one if isinstance(one, str) else ""
 )

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 import z3
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.sentences import Sentence
 from proofs.testable_safety_sensor import (
@@ -391,6 +391,7 @@ FAULTS = [
 ]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import msgspec
 
-from modeproof.places import build, root
+from modeproof.ground.places import build, root
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run, load_runs

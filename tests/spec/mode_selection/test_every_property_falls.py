@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.load import load_document
 from tests.spec.mode_selection.faults import FAULTS, Falls
 from tests.spec.mode_selection.planted import DOCUMENT, SPEC, Finding, Trial
@@ -35,6 +35,7 @@ CONTROLS = [
 ]
 
 
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize(("falls", "trial"), TRIALS, ids=[str(trial) for _, trial in TRIALS])
 def test_the_property_falls_to_the_fault(
     falls: Falls, trial: Trial, trials: Callable[[Trial], Finding]
@@ -60,6 +61,7 @@ def test_the_property_falls_to_the_fault(
         assert "[][Next]_vars" in MODULES["ModeSelection"].splitlines()[int(place[1]) - 1]
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("trial", CONTROLS, ids=str)
 def test_without_a_fault_the_properties_hold(trial: Trial, trials: Callable[[Trial], Finding]) -> None:
     found = trials(trial)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from modeproof.graph.read import read_graph
-from modeproof.places import root
+from modeproof.ground.places import root
 from modeproof.registers.load import load_interface
 from tests.spec.mode_selection.planted import DOCUMENT, Base, Finding, Trial
 

@@ -14,9 +14,9 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from modeproof.errors import Unjudged
 from modeproof.graph.read import read_graph
-from modeproof.places import root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run as DeclaredRun

@@ -25,6 +25,7 @@ def of_the_specification() -> set[str]:
     return set(run.witnesses)
 
 
+@pytest.mark.deep
 def test_specification_and_implementation_agree_in_every_cell(cells: set[str]) -> None:
     assert cells == of_the_specification()
     assert len(cells) > 250

@@ -69,12 +69,14 @@ FAULTS: dict[str, list[Edit]] = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_property_falls_to_the_fault(name: str) -> None:
     params = {"TestTime_ms": 151} if name == "ParameterErrorStays" else KEPT[0]
     assert BLOCK.falls(name, FAULTS[name], params)
 
 
+@pytest.mark.deep
 def test_the_block_keeps_its_contract_and_puts_each_property_to_it() -> None:
     assert BLOCK.put_to_it(KEPT) == set(BLOCK.properties)
 

@@ -105,6 +105,7 @@ FAULTS = {
 }
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("name", FAULTS)
 def test_the_property_falls_to_the_fault(name: str, tmp_path: Path) -> None:
     assert BLOCK.checked(tmp_path, name, FAULTS[name]) == BLOCK.falls(name)

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from multiprocessing import active_children, connection, get_context
 from typing import Any, Generic, TypeVar
 
-from modeproof.errors import Unjudged
-from modeproof.progress import Progress
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.progress import Progress
 
 T = TypeVar("T")
 Task = tuple[Callable[..., T], tuple[Any, ...]]

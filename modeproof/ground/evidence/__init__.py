@@ -1,7 +1,14 @@
 """Evidence: one JSON file a run, written atomically, checked by one schema on writing and on reading."""
 
-from modeproof.evidence.files import discard, discard_undeclared, evidence_path, read, read_document, write
-from modeproof.evidence.record import SCHEMA_VERSION, hashes, machine, make, own_tools, tool
+from modeproof.ground.evidence.files import (
+    discard,
+    discard_undeclared,
+    evidence_path,
+    read,
+    read_document,
+    write,
+)
+from modeproof.ground.evidence.record import SCHEMA_VERSION, hashes, machine, make, own_tools, tool
 
 __all__ = [
     "SCHEMA_VERSION",

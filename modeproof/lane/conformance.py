@@ -13,11 +13,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.errors import Unjudged
 from modeproof.graph.implementation import REFERENCE
-from modeproof.processes import Task, in_processes
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.processes import Task, in_processes
+from modeproof.ground.progress import Progress
 from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]

@@ -12,7 +12,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
+from modeproof.ground.errors import Unjudged
 
 SCHEMA_VERSION = 1
 
@@ -49,7 +49,7 @@ def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
 @cache
 def own_tools() -> dict[str, dict[str, str | None]]:
     """Version and hash of modeproof itself (all its Python), and the version of Python."""
-    package = Path(__file__).resolve().parent.parent
+    package = Path(__file__).resolve().parents[2]
     digest = hashlib.sha256()
     for source in sorted(package.rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")

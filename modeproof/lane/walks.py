@@ -12,12 +12,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from modeproof import evidence
-from modeproof.errors import EXIT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
-from modeproof.places import add_document_option, chosen_documents
-from modeproof.places import root as repository_root
-from modeproof.processes import Task, in_processes
-from modeproof.progress import Progress
+from modeproof.ground import evidence
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
+from modeproof.ground.places import add_document_option, chosen_documents
+from modeproof.ground.places import root as repository_root
+from modeproof.ground.processes import Task, in_processes
+from modeproof.ground.progress import Progress
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.toolchain import find_toolchain

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from modeproof.errors import Unjudged
-from modeproof.places import root
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
 
 DISK_MB = 3000
 MEMORY_MB = 6000

@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from modeproof.errors import Unjudged, suggestion
+from modeproof.ground.errors import Unjudged, suggestion
 
 
 def root() -> Path:
@@ -16,7 +16,7 @@ def root() -> Path:
     Raises Unjudged when there is no `spec` folder in it.
     """
     named = os.environ.get("MODEPROOF_ROOT")
-    place = Path(named).resolve() if named else Path(__file__).resolve().parent.parent
+    place = Path(named).resolve() if named else Path(__file__).resolve().parents[2]
     if not (place / "spec").is_dir():
         raise Unjudged(f"{place}: no folder `spec` here; set MODEPROOF_ROOT to the root of the repository")
     return place

@@ -16,8 +16,8 @@ from typing import Any
 
 import jsonschema
 
-from modeproof.errors import Unjudged
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 
 
 @cache

@@ -8,18 +8,18 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof import evidence
-from modeproof.conformance import compare_reference, comparisons, say
-from modeproof.errors import Unjudged
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
+from modeproof.ground.places import add_document_option, chosen_documents, root
+from modeproof.ground.processes import Task, in_processes
+from modeproof.ground.progress import Progress
+from modeproof.lane.conformance import compare_reference, comparisons, say
 from modeproof.lane.prove import prove_documents
-from modeproof.lock import only_one
-from modeproof.places import add_document_option, chosen_documents, root
-from modeproof.processes import Task, in_processes
-from modeproof.progress import Progress
+from modeproof.lane.summary import failures, render, total
 from modeproof.registers.runs import LANES, Run, load_runs
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
-from modeproof.summary import failures, render, total
 from modeproof.tlc.check import check_all, register_problems, select
 from modeproof.tlc.command import line_of
 from modeproof.tlc.toolchain import find_toolchain
@@ -240,8 +240,8 @@ def run(args: argparse.Namespace) -> int:
         for name in names:  # everything that was written can be read back
             evidence.read_document(place, name)
         if args.lane == "full" and args.document is None:
+            from modeproof.lane.walks import walk_evidence
             from modeproof.report.command import made_by_verify
-            from modeproof.walks import walk_evidence
 
             progress.say("-- walks of the counterexamples")
             try:

@@ -11,11 +11,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from modeproof import evidence
-from modeproof.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
-from modeproof.evidence.files import write_whole
-from modeproof.places import add_document_option, chosen_documents, documents
-from modeproof.places import root as repository_root
+from modeproof.ground import evidence
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import add_document_option, chosen_documents, documents
+from modeproof.ground.places import root as repository_root
 from modeproof.registers.citations import read_sources
 from modeproof.registers.document_page import page, page_name, picture_name, tables_of, tellings
 from modeproof.registers.load import load_document

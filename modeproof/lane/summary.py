@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Sequence
 
-from modeproof.agreement import line as agreement_line
+from modeproof.lane.agreement import line as agreement_line
 from modeproof.report.verdicts import ASIDE, Line, Record
 
 GROUPS = (

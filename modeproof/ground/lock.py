@@ -8,8 +8,8 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from modeproof.errors import Unjudged
-from modeproof.places import build
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 
 
 @contextlib.contextmanager

@@ -14,7 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from modeproof import evidence
+from modeproof.ground import evidence
 
 ID = "agreement"
 
