@@ -115,6 +115,12 @@ class Plan:
         """The variables of the top module."""
         return _names(extended(self.modules, self.module), "variables")
 
+    def further(self, one: Recorded) -> tuple[str, ...]:
+        """The variables that the modules of a run's readings have beside those of the top module."""
+        holding = {each.module for each in replacing(self.modules, self.module, one.readings, one.run)}
+        found = {name for each in holding for name in _names(extended(self.modules, each), "variables")}
+        return tuple(sorted(found - set(self.variables)))
+
     def copies(self, number: int, one: Recorded) -> Copies:
         """The modules of a run with readings, under names of their own."""
         tried = replacing(self.modules, self.module, one.readings, one.run)
@@ -191,11 +197,11 @@ def generate(
     firsts, nexts, tables = [], [], []
     for number, (one, constants) in enumerate(traces, 1):
         copies = plan.copies(number, one)
+        lines += _states(plan, number, one)
         lines += _instances(plan, number, one, constants, named=bool(definitions) and number == 1)
         for each in copies.tried:
             parameters = each.parameters
             lines.append(f"{copies.operator(each)}{parameters} == L{number}!{each.operator}{parameters}")
-        lines += _states(plan, number, one)
         first, following = _behaviour(plan, number, one, constants)
         lines += following
         firsts.append(first)
@@ -268,6 +274,8 @@ def _instances(
     if one.stops:
         instances["G"] = given(whole, last=True)
     own = f"{module_name(plan.module)}__{number}" if one.readings else plan.module
+    at = f"T{number}[IF walk_at > {len(one.states)} THEN {len(one.states)} ELSE walk_at]"
+    instances["L"] += [f"{name} <- {at}.{name}" for name in plan.further(one)]
     lines = [
         f"{letter}{number} == INSTANCE {own if letter == 'L' else plan.module} WITH {', '.join(parts)}"
         for letter, parts in instances.items()
@@ -281,15 +289,16 @@ def _instances(
 
 def _states(plan: Plan, number: int, one: Recorded) -> list[str]:
     rows = []
+    names = (*plan.variables, *plan.further(one))
     for state in one.states:
-        missing = [name for name in plan.variables if name not in state]
+        missing = [name for name in names if name not in state]
         if missing:
             raise Unjudged(
                 f"{one.run}: its counterexample has no variable {missing[0]}, so it is of another "
                 "specification; "
                 f"run modeproof check {one.run}"
             )
-        rows.append("[" + ", ".join(f"{name} |-> {state[name]}" for name in plan.variables) + "]")
+        rows.append("[" + ", ".join(f"{name} |-> {state[name]}" for name in names) + "]")
     return [f"T{number} == <<", ",\n".join(f"    {row}" for row in rows), ">>"]
 
 
