@@ -60,7 +60,7 @@ def test_a_wrong_digit_in_the_specification_is_seen_by_tlc_and_by_the_reader(tmp
 @pytest.mark.parametrize("name", RANGES)
 @pytest.mark.parametrize("mode", range(5))
 def test_every_single_wrong_digit_in_the_text_is_seen(name: str, mode: int) -> None:
-    pattern = re.compile(rf"(^{name} == .*?m = {mode} -> \\h.)(.)", re.M)
+    pattern = re.compile(rf"(^{name} == .*?m = {mode} -> \\h.)(.)", re.M | re.S)
     wrong = pattern.sub(lambda m: m[1] + format(int(m[2], 16) ^ 1, "X"), TEXT, count=1)
     assert wrong != TEXT
     assert tables_in(wrong) != RANGES
