@@ -6,14 +6,13 @@ import gzip
 import json
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.export import as_export, export_file, view_names, write_export
 from modeproof.ground.errors import Unjudged
+from modeproof.registers.runs import Graph, Run
 from tests.graph.printed import LETTERS, TICK_MS, lamp_graph, signal, successor
 from tests.toy_tree import TOY_TLA, toy_tree
 
@@ -27,14 +26,17 @@ def lamp(folder: Path) -> DeviceGraph:
     return replace(graph, device=replace(graph.device, memory=memory))
 
 
-def run_of(root: Path) -> Any:
-    return SimpleNamespace(
+def run_of() -> Run:
+    """The run of the toy that prints a graph."""
+    return Run(
         document="toy",
         id="OPEN_toy",
-        name="toy/OPEN_toy",
         module="Toy",
         cfg="models/OPEN_toy.cfg",
-        graph=SimpleNamespace(tick_ms=TICK_MS),
+        kind="OPEN",
+        lanes=("full",),
+        environment="honest",
+        graph=Graph(device="toy", tick_ms=TICK_MS),
     )
 
 
@@ -87,7 +89,7 @@ def test_memory_that_the_specification_does_not_name_is_numbered(tmp_path: Path)
 
 
 def test_the_same_graph_gives_the_same_bytes(tmp_path: Path) -> None:
-    run = run_of(tmp_path)
+    run = run_of()
     first = write_export(tmp_path, run, lamp(tmp_path)).read_bytes()
     again = write_export(tmp_path, run, lamp(tmp_path))
     assert again == export_file(tmp_path, "toy", "OPEN_toy") and again.read_bytes() == first
@@ -104,11 +106,11 @@ def test_views_of_different_lengths_are_refused(tmp_path: Path) -> None:
 
 def test_the_names_of_a_view_come_from_the_specification(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "OPEN_toy")
-    assert view_names(root, run_of(root)) == ("count", "top")
+    assert view_names(root, run_of()) == ("count", "top")
     module = root / "spec/toy/Toy.tla"
     module.write_text(TOY_TLA.replace("View == <<count, top>>", "both == <<count, top>>\nView == both"))
-    assert view_names(root, run_of(root)) == ("count", "top")
+    assert view_names(root, run_of()) == ("count", "top")
     module.write_text(TOY_TLA.replace("View == <<count, top>>", "View == <<count, top /\\ TRUE>>"))
-    assert view_names(root, run_of(root)) == ()
+    assert view_names(root, run_of()) == ()
     module.unlink()
-    assert view_names(root, run_of(root)) == ()
+    assert view_names(root, run_of()) == ()

@@ -214,7 +214,8 @@ def declared(name: str, strength: str, pins: str) -> str:
 
 def tried(name: str, reading: str, pins: str) -> str:
     """The [[run]] table of MC_Box with a reading."""
-    return f'\n[[run]]\nid = "{name}"\nbase = "MC_Box"\nreading = "{reading}"\n{pins}'
+    head = f'\n[[run]]\nid = "{name}"\nbase = "MC_Box"\nlanes = ["full"]\n'
+    return f'{head}reading = "{reading}"\n{pins}'
 
 
 def make_box(root: Path) -> Path:

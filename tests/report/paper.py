@@ -51,7 +51,7 @@ RESULT: dict[str, dict[str, Any]] = {
         ],
     },
 }
-WORD = {"MC": "HOLDS", "NEG": "VIOLATED", "WIT": "REACHED", "it": "PROVED"}
+WORD = {"MC": "HOLDS", "OPEN": "HOLDS", "NEG": "VIOLATED", "WIT": "REACHED", "it": "PROVED"}
 
 
 def make_paper(root: Path) -> Path:
@@ -77,6 +77,14 @@ def make_paper(root: Path) -> Path:
     for name in RESULT:
         put(root, name)
     return root
+
+
+def declare_graph(root: Path, counts: str = "") -> None:
+    """Declare the run OPEN_Box, which prints the graph of the box; `counts` are the pins of the graph."""
+    graph = f'[run.graph]\ndevice = "box"\ntick_ms = 10\n{counts}'
+    text = declared("MC_Box", "any door", graph).replace("MC_Box", "OPEN_Box")
+    with (root / "spec" / "box" / "runs.toml").open("a") as runs:
+        runs.write(text.replace('kind = "MC"', 'kind = "OPEN"'))
 
 
 def change(path: Path, old: str, new: str) -> None:

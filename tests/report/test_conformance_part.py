@@ -10,12 +10,11 @@ import pytest
 from modeproof.report.build import make
 from modeproof.report.parts import conformance, proofs
 from modeproof.report.sources import gather
-from tests.report.paper import RESULT, make_paper, put, without
+from tests.report.paper import RESULT, declare_graph, make_paper, put, without
 
 THEOREM = "it_shuts_over_the_door_only"
-GRAPH = '[run.graph]\ndevice = "box"\ntick_ms = 10\nstates = 2\nedges = 4\n'
 COMPARED = {
-    "run": "box/MC_Box",
+    "run": "box/OPEN_Box",
     "device": "box",
     "implementation": "refimpl.box.box",
     "states": 2,
@@ -60,11 +59,8 @@ AGREEMENT = {
 def root(tmp_path: Path) -> Path:
     """The box with all its evidence, and a graph."""
     made = make_paper(tmp_path)
-    runs = made / "spec" / "box" / "runs.toml"
-    text = runs.read_text()
-    assert text.index('id = "MC_Box"') < text.index('id = "MC_Box_lazy"')
-    runs.write_text(text.replace("distinct = 5\ngenerated = 11\n", f"distinct = 5\ngenerated = 11\n{GRAPH}"))
-    put(made, "MC_Box", result={"graph": {"states": 2, "edges": 4}})
+    declare_graph(made, "states = 2\nedges = 4\n")
+    put(made, "OPEN_Box", result={"graph": {"states": 2, "edges": 4}})
     return made
 
 
@@ -75,7 +71,7 @@ def entry(part: Any, root: Path) -> dict[str, Any]:
 
 
 def test_a_graph_stands_beside_the_program_that_was_compared_with_it(root: Path) -> None:
-    put(root, "refimpl_MC_Box", kind="conformance", verdict="EQUAL", expected="EQUAL", result=COMPARED)
+    put(root, "refimpl_OPEN_Box", kind="conformance", verdict="EQUAL", expected="EQUAL", result=COMPARED)
     graph = entry(conformance, root)["graphs"][0]
     one = graph["compared"][0]
     assert (graph["states"].value, graph["edges"].value) == (2, 4)

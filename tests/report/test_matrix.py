@@ -13,7 +13,7 @@ import pytest
 from modeproof.report.build import make
 from modeproof.report.parts.matrix import part
 from modeproof.report.sources import DIFFERS, gather
-from tests.report.paper import change, make_paper, put, without
+from tests.report.paper import change, declare_graph, make_paper, put, without
 
 THEOREM = "it_shuts_over_the_door_only"
 
@@ -65,13 +65,9 @@ def test_a_result_that_is_missing_or_wrong_shows_in_the_row_of_its_clause(root: 
     assert (rows(root)["BX-1-2"]["word"], rows(root)["BX-1-2"]["good"]) == ("not as expected", False)
 
 
-GRAPH = '[run.graph]\ndevice = "box"\ntick_ms = 10\nstates = 2\nedges = 4\n'
-
-
 def test_a_vector_says_what_came_of_the_programs_that_took_its_step(root: Path) -> None:
     change(root / "spec" / "box" / "interface.toml", "published = false", "published = true")
-    path = root / "spec" / "box" / "runs.toml"
-    path.write_text(path.read_text().replace("generated = 11\n", f"generated = 11\n{GRAPH}"))
+    declare_graph(root, "states = 2\nedges = 4\n")
     assert rows(root)["BX-1-1"]["vector"][0]["text"] == "not there"
     taken = {"Close": [2, 2], "Wait": [1, 2]}
     result = {"target": "box", "suite": "brief", "covered": taken}

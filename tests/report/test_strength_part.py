@@ -115,10 +115,12 @@ def test_a_campaign_that_is_not_recorded_shows_as_a_hole_with_the_command_that_r
 
 def test_without_evidence_the_counts_kept_in_git_are_shown(root: Path) -> None:
     counts = "killed = 7\nequivalent = 0\ninvalid = 0\nsurvived = 1\nsurvived_explained = 1\nunmeasured = 0\n"
-    row = f'[[campaign]]\nwhat = "impl"\njudged_on = "2026-11-22"\ncommand = "x"\n{counts}'
-    (root / "spec/box/scores.toml").write_text(f"{row}earlier_text = true\n[campaign.files]\n")
+    row = f'document = "box"\n[[campaign]]\nwhat = "impl"\njudged_on = "2026-11-22"\ncommand = "x"\n{counts}'
+    text = '"spec/box/Box.tla" = "0123456789abcdef"'
+    (root / "spec/box/scores.toml").write_text(f"{row}earlier_text = true\n[campaign.files]\n{text}\n")
     found = part(gather(root)).data["documents"][0]["campaigns"][1]
-    assert (found["recorded"], found["score"]["killed"].value, found["score"]["real"].value) == (None, 7, 8)
+    score = found["score"]
+    assert (found["recorded"], score["killed"].value, score["different"].value) == (None, 7, 8)
     assert "of an earlier text" in make(root).html
 
 

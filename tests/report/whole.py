@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
-from tests.report.paper import make_paper, put
+from tests.report.paper import declare_graph, make_paper, put
 
 LIMITS = "# What this does not show\n\n**Boxes only.** Not a `door`, see [the box](box.md).\n"
 GLOSSARY = '[[term]]\nword = "door"\nforms = ["doors"]\nsays = "What a box shuts over <b>."\n'
@@ -28,12 +28,7 @@ def put_graph(root: Path, states: int, compared: int, **changes: Any) -> None:
     put(root, "OPEN_Box", verdict="HOLDS", result={"run": "OPEN", "properties": [], "graph": graph})
     result = {"run": "box/OPEN_Box", "device": "box", "states": compared, "transitions": 7}
     put(root, "refimpl_OPEN_Box", kind="conformance", result=result, **changes)
-    runs = root / "spec" / "box" / "runs.toml"
-    text = runs.read_text()
-    first = text[text.index("[[run]]") :].split("[[run]]")[1].replace("MC_Box", "OPEN_Box")
-    first = first.replace('kind = "MC"', 'kind = "OPEN"').replace("distinct = 5\ngenerated = 11\n", "")
-    graph_table = '[run.graph]\ndevice = "box"\ntick_ms = 1\n'
-    runs.write_text(f"{text}\n[[run]]{first}\n{graph_table}")
+    declare_graph(root)
 
 
 def stale(root: Path, name: str) -> None:

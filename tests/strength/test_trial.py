@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import shutil
+import tempfile
+from pathlib import Path
+
 import pytest
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.registers.load import load_document
+from modeproof.registers.made import make
 from modeproof.registers.runs import load_runs
 from modeproof.strength.judge import Bench
 from modeproof.strength.register import Strength, Tier, load_strength
@@ -20,11 +25,20 @@ KINDS = {one.id: one.kind for one in load_document(root(), DOCUMENT).properties}
 SAFETY = [run.id for run in RUNS.values() if run.kind == "NEG" and KINDS.get(str(run.property)) != "liveness"]
 
 
-def names_printed(id: str) -> set[str]:
-    """What the trial of a declared run prints until the name that TLC's own check stops at."""
+def names_printed(id: str, place: Path) -> set[str]:
+    """What the trial of a declared run prints until the name that TLC's own check stops at.
+
+    Its root module and its cfg are made in `place`, where they stand beside the modules of the document.
+    """
     run = RUNS[id]
+    shutil.copytree(root() / "spec", place / "spec", dirs_exist_ok=True)
+    if run.base:
+        made_in, run = make(place, run)
+        folder = place / "spec" / DOCUMENT
+        shutil.copy(made_in / f"{run.module}.tla", folder)
+        shutil.copy(made_in / run.cfg, folder)
     tier = Tier(id, (), run, "properties", "always", {}, "", (), False, 240.0, 1024)
-    bench = Bench(root(), Strength(DOCUMENT, {}, (tier,), ()), find_toolchain())
+    bench = Bench(place, Strength(DOCUMENT, {}, (tier,), ()), find_toolchain())
     found: set[str] = set()
 
     def watch(line: bytes) -> bool:
@@ -38,9 +52,9 @@ def names_printed(id: str) -> set[str]:
 
 
 @pytest.mark.parametrize("id", ["NEG_Hmi_shows_any_echo", "NEG_Eks_no_level_check"])
-def test_what_tlc_stops_at_is_among_the_names(id: str) -> None:
+def test_what_tlc_stops_at_is_among_the_names(id: str, tmp_path: Path) -> None:
     """`python -m tests.strength.test_trial` asks this about every negative run."""
-    assert RUNS[id].property in names_printed(id)
+    assert RUNS[id].property in names_printed(id, tmp_path)
 
 
 def test_a_property_of_time_is_not_taken_apart() -> None:
@@ -71,7 +85,8 @@ def test_the_tiers_of_the_document_are_read() -> None:
 def main() -> None:
     """Ask every negative run whose property is no liveness."""
     for id in SAFETY:
-        found = names_printed(id)
+        with tempfile.TemporaryDirectory() as folder:
+            found = names_printed(id, Path(folder))
         print(
             "ok " if RUNS[id].property in found else "NOT", id, RUNS[id].property, sorted(found), flush=True
         )

@@ -52,7 +52,7 @@ def _score(sources: Sources, document: Document, kind: str) -> dict[str, Any] | 
     for score in load_scores(document.root, document.name):
         if score.what == kind:
             sources.content(register)
-            names = ("killed", "real", "survived", "survived_explained", "unmeasured", "judged_on")
+            names = ("killed", "different", "survived", "survived_explained", "unmeasured", "judged_on")
             figures = {name: Figure(getattr(score, name), register) for name in names}
             return {**figures, "earlier_text": score.earlier_text, "command": score.command}
     return None
