@@ -40,9 +40,7 @@ def test_the_session_of_the_protocol_page_runs_from_any_directory(adapter: Path,
 
 
 @BOTH
-def test_an_insertion_over_the_protocol_publishes_the_level_as_four_hex_digits(
-    adapter: Path, tmp_path: Path
-) -> None:
+def test_an_insertion_publishes_the_level_as_four_hex_digits(adapter: Path, tmp_path: Path) -> None:
     scans = [
         scan(500),
         scan(LA=True),
@@ -69,16 +67,14 @@ def test_the_list_form_answers_like_single_scans(adapter: Path, tmp_path: Path) 
 
 
 @BOTH
-def test_reset_puts_the_target_back_to_power_up_and_takes_the_defaults(adapter: Path, tmp_path: Path) -> None:
+def test_reset_goes_back_to_power_up_and_takes_the_defaults(adapter: Path, tmp_path: Path) -> None:
     into_error = scan(LA=False, on="A B")
     replies = talk(adapter, [RESET, into_error, RESET, scan()], tmp_path)
     assert [reply.get("out", {}).get("ERROR") for reply in replies] == [None, True, None, False]
 
 
 @BOTH
-def test_every_declared_parameter_is_taken_and_changes_what_the_program_does(
-    adapter: Path, tmp_path: Path
-) -> None:
+def test_every_declared_parameter_is_taken_and_changes_the_behaviour(adapter: Path, tmp_path: Path) -> None:
     to_selection = [
         scan(500),
         scan(LA=True),
@@ -106,7 +102,7 @@ def test_every_declared_parameter_is_taken_and_changes_what_the_program_does(
 
 
 @BOTH
-def test_a_wrong_line_is_refused_in_one_line_and_changes_nothing(adapter: Path, tmp_path: Path) -> None:
+def test_a_wrong_line_gets_one_line_back_and_changes_nothing(adapter: Path, tmp_path: Path) -> None:
     lines: list[Any] = [RESET, scan(499)]
     for line, _ in REFUSED:
         lines += [line]
@@ -124,7 +120,7 @@ def test_a_scan_before_reset_is_refused(adapter: Path, tmp_path: Path) -> None:
 
 
 @BOTH
-def test_a_list_with_one_wrong_scan_is_refused_as_a_whole(adapter: Path, tmp_path: Path) -> None:
+def test_one_wrong_scan_has_the_whole_list_refused(adapter: Path, tmp_path: Path) -> None:
     good = {"dt_ms": 10, "in": wire(on="A B")}
     replies = talk(
         adapter, [RESET, {"op": "scans", "list": [good, {"dt_ms": 10, "in": {}}]}, scan()], tmp_path
@@ -141,7 +137,7 @@ def test_the_adapter_ends_on_bye_and_answers_nothing_after_it(adapter: Path, tmp
 @pytest.mark.parametrize(
     "target", [name for name, entry in INTERFACE["devices"].items() if entry["published"]]
 )
-def test_every_published_target_is_served_with_the_names_of_the_register(target: str, tmp_path: Path) -> None:
+def test_published_targets_are_served_with_the_names_of_the_register(target: str, tmp_path: Path) -> None:
     device = INTERFACE["devices"][target]
     values = {"bool": False, "word": "0000", "mode": None, "text": None}
     entry = {
@@ -193,7 +189,7 @@ def test_the_panel_speaks_the_wire_forms_of_modes_and_touches(tmp_path: Path) ->
     ]
 
 
-def test_the_eks_needs_its_checksum_and_takes_a_word_for_it(tmp_path: Path) -> None:
+def test_the_eks_needs_its_checksum_and_takes_a_word(tmp_path: Path) -> None:
     reader = {
         "inserted": True,
         "operating_state": 6,
@@ -211,7 +207,7 @@ def test_the_eks_needs_its_checksum_and_takes_a_word_for_it(tmp_path: Path) -> N
     assert scans[-1]["out"] == {"LA": True, "A": False, "B": False, "C": False, "D": False, "STR": True}
 
 
-def test_a_target_that_there_is_not_is_named_before_the_first_line() -> None:
+def test_an_unknown_target_is_named_before_the_first_line() -> None:
     for arguments in (["hm"], [], ["hmi", "plc"]):
         done = subprocess.run(
             [sys.executable, str(GENERIC), *arguments], capture_output=True, text=True, timeout=600

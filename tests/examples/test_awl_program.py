@@ -48,7 +48,7 @@ def test_the_session_of_the_protocol_page(tmp_path: Path) -> None:
     assert (reset, out, bye, rest) == ({"ok": True}, {"out": DARK}, {"ok": True}, [])
 
 
-def test_what_every_adapter_must_refuse_is_refused_in_one_line_and_changes_nothing(tmp_path: Path) -> None:
+def test_every_obligatory_refusal_is_one_line_and_changes_nothing(tmp_path: Path) -> None:
     lines: list[Any] = [RESET, scan(499), *[line for line, _ in REFUSED]]
     replies = talk(COMMAND, [*lines, scan(1), scan(1, LA=True, on="A B"), BYE], tmp_path)
     assert len(replies) == len(lines) + 3
@@ -59,7 +59,7 @@ def test_what_every_adapter_must_refuse_is_refused_in_one_line_and_changes_nothi
     assert replies[-3:] == [{"out": DARK}, {"out": DARK}, {"ok": True}]
 
 
-def test_one_bad_scan_of_a_list_is_refused_with_all_of_it(tmp_path: Path) -> None:
+def test_one_bad_scan_has_the_whole_list_refused(tmp_path: Path) -> None:
     good = {"dt_ms": 500, "in": scan()["in"]}
     pair = {"op": "scans", "list": [good, {"dt_ms": 1}]}
     with_key = scan(1, LA=True, on="A B")
@@ -77,7 +77,7 @@ def test_one_bad_scan_of_a_list_is_refused_with_all_of_it(tmp_path: Path) -> Non
         ("LOST: JU    FAIL", "LOST: JU    LOST", "no answer within 2 s"),
     ],
 )
-def test_a_program_that_cannot_run_is_one_line_and_no_verdict(
+def test_a_program_that_cannot_run_gives_one_line_without_verdict(
     tmp_path: Path, old: str, new: str, cause: str
 ) -> None:
     program = write(tmp_path)
@@ -181,7 +181,7 @@ def test_the_plc_passes_on_any_words_one_a_scan() -> None:
             assert got == {name: f"{getattr(out, name):04X}" for name in out.__slots__}, number
 
 
-def test_the_flag_words_lie_where_the_note_has_them_and_share_no_byte() -> None:
+def test_flag_words_lie_as_noted_and_share_no_byte() -> None:
     places = {}
     for line in (AWL / "symbols.csv").read_text(encoding="utf-8").splitlines():
         symbol, address, *_ = line.split(";")
@@ -213,7 +213,7 @@ def test_a_program_that_is_wrong_in_one_place_is_rejected(fault: Fault, verdicts
 
 
 @pytest.mark.parametrize("fault", [one for one in FAULTS if one.reason], ids=lambda one: one.id)
-def test_what_no_suite_shows_is_shown_by_long_times_and_no_dwell_time(fault: Fault, tmp_path: Path) -> None:
+def test_long_times_or_no_dwell_show_what_no_suite_shows(fault: Fault, tmp_path: Path) -> None:
     command = [sys.executable, str(ADAPTER), "fplc", str(write(tmp_path, fault))]
     chosen = LONG | {"T_ON_ms": 50_000}
     early = [scan(0, LA=True), scan(50_000, LA=True)]  # a key that was in at power-up
@@ -259,7 +259,7 @@ def test_the_command_tells_expected_from_not_and_from_unjudged(capsys: pytest.Ca
     assert "no-such-fault" in capsys.readouterr().err
 
 
-def test_the_good_program_in_the_place_of_a_faulty_one_is_not_rejected(tmp_path: Path) -> None:
+def test_the_good_program_in_a_faulty_place_is_not_rejected(tmp_path: Path) -> None:
     fault = next(one for one in CAUGHT if one.suite == "words")
     same = replace(fault, new=fault.old)
     assert judge(write(tmp_path, same), suite_of(fault)).word == "CONFORMS"

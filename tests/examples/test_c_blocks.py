@@ -90,7 +90,7 @@ def test_every_kind_of_value_comes_in_and_goes_out(lamp: Path, tmp_path: Path) -
     assert third["out"]["colour"] == "red"
 
 
-def test_parameters_that_are_left_out_have_their_defaults_in_every_reset(lamp: Path, tmp_path: Path) -> None:
+def test_parameters_left_out_have_their_defaults_in_every_reset(lamp: Path, tmp_path: Path) -> None:
     set_to_70 = {"op": "reset", "params": {"limit_ms": 70}}
     lines = [set_to_70, lit(True), lit(True), lit(True), RESET, lit(True), lit(True), lit(True)]
     replies = talk([str(lamp)], lines, tmp_path)
@@ -178,9 +178,7 @@ def test_with_any_parameters_a_block_does_what_the_reference_does(
     assert talk([str(watched)], lines, tmp_path) == expected
 
 
-def test_a_block_refuses_what_lacks_an_input_or_has_a_parameter_too_many(
-    watched: Path, tmp_path: Path
-) -> None:
+def test_a_block_refuses_a_missing_input_and_an_extra_parameter(watched: Path, tmp_path: Path) -> None:
     device, _ = find_target(watched.name)
     for name in device["inputs"]:
         entry = {other: False for other in device["inputs"] if other != name}

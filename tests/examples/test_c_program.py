@@ -65,9 +65,7 @@ def test_the_session_of_the_protocol_page(program: Path, tmp_path: Path) -> None
     assert (reset, out, bye, rest) == ({"ok": True}, {"out": DARK}, {"ok": True}, [])
 
 
-def test_what_every_adapter_must_refuse_is_refused_in_one_line_and_changes_nothing(
-    watched: Path, tmp_path: Path
-) -> None:
+def test_every_obligatory_refusal_is_one_line_and_changes_nothing(watched: Path, tmp_path: Path) -> None:
     lines: list[Any] = [RESET, scan(499), *[line for line, _ in REFUSED]]
     replies = talk([str(watched)], [*lines, scan(1), scan(1, LA=True, on="A B"), BYE], tmp_path)
     assert len(replies) == len(lines) + 3
@@ -128,7 +126,7 @@ pieces = st.sampled_from([*PIECES.split(), " ", "\0", "\udcff", "x" * 60])
 @settings(max_examples=60, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(st.lists(st.lists(pieces, max_size=30).map("".join), min_size=1, max_size=40))
 @example(['{"op":"reset"'])
-def test_any_line_gets_one_answer_and_nothing_is_read_or_written_out_of_bounds(
+def test_any_line_gets_one_answer_without_access_out_of_bounds(
     watched: Path, tmp_path: Path, lines: list[str]
 ) -> None:
     replies = talk([str(watched)], [RESET, *[line + "\n" for line in lines], scan(), BYE], tmp_path)

@@ -72,7 +72,7 @@ def test_every_command_of_the_page_does_what_the_page_says(folder: Path) -> None
     assert (folder / "verdict.json").is_file() and (folder / "verdict.xml").is_file()
 
 
-def test_the_page_has_its_seven_steps_and_names_every_suite_and_relation() -> None:
+def test_the_page_has_seven_steps_and_every_suite_and_relation() -> None:
     assert re.findall(r"^## (\d)\.", PAGE, re.MULTILINE) == [str(n) for n in range(1, 8)]
     assert len(BLOCKS) >= 9
     table = set(re.findall(r"^\| `(\w+)` \|", PAGE, re.MULTILINE))
@@ -82,7 +82,7 @@ def test_the_page_has_its_seven_steps_and_names_every_suite_and_relation() -> No
     assert {"exact", "settled", "monitor"} <= table
 
 
-def test_a_command_that_does_something_else_is_found_and_a_line_that_none_prints(folder: Path) -> None:
+def test_a_wrong_command_and_a_line_nobody_prints_are_found(folder: Path) -> None:
     planted = [
         ("sh", "python3 modeproof-kit.pyz conform fplc --adapter ./none --suite brief\n"),
         ("sh exit 1", "true\n"),

@@ -103,7 +103,7 @@ def test_a_program_that_is_wrong_in_one_place_is_rejected(
 @pytest.mark.parametrize(
     ("target", "fault"), [one for one in EVERY if one[1].reason], ids=lambda one: getattr(one, "id", one)
 )
-def test_what_the_pack_says_no_vector_of_it_shows_is_not_shown_by_those_that_show_others(
+def test_a_fault_said_to_be_invisible_conforms_to_other_suites(
     target: str, fault: Fault, judged: Callable[[str], Judged]
 ) -> None:
     """By all of `brief` in run.py, which takes too long for each of them here."""
@@ -132,7 +132,7 @@ def test_what_only_our_own_codes_show_is_rejected_with_them(
 
 @pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
-def test_the_program_without_a_fault_conforms_to_all_vectors_of_its_pack(
+def test_the_program_without_fault_conforms_to_all_its_vectors(
     target: str, judged: Callable[[str], Judged]
 ) -> None:
     pack = judged(target)
@@ -142,7 +142,7 @@ def test_the_program_without_a_fault_conforms_to_all_vectors_of_its_pack(
 
 
 @pytest.mark.parametrize("program", PACKS.values(), ids=PACKS)
-def test_the_page_lists_the_faults_of_the_pack_and_no_others(program: Program) -> None:
+def test_the_page_lists_exactly_the_faults_of_the_pack(program: Program) -> None:
     faults = load_faults(program.pack)
     rows = re.findall(r"^\| (\S+) \|", program.page.read_text(encoding="utf-8"), re.MULTILINE)
     assert sorted({*rows} - {"fault"}) == sorted(fault.id for fault in faults)
@@ -167,7 +167,7 @@ def test_what_a_fault_breaks_is_declared_in_the_registers(program: Program) -> N
 
 @pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
-def test_every_decision_that_a_vector_may_depend_on_is_broken_by_a_fault(
+def test_every_decision_behind_a_vector_is_broken_by_a_fault(
     target: str, judged: Callable[[str], Judged]
 ) -> None:
     depended = {finding for step in judged(target).suites["brief"].steps for finding in step.findings}
@@ -178,7 +178,7 @@ def test_every_decision_that_a_vector_may_depend_on_is_broken_by_a_fault(
 
 @pytest.mark.deep
 @pytest.mark.parametrize("target", PACKS)
-def test_every_step_is_where_some_fault_is_seen_or_named_by_its_clauses(
+def test_every_step_has_a_fault_that_breaks_what_it_cites(
     target: str, judged: Callable[[str], Judged]
 ) -> None:
     broken = {one for fault in load_faults(PACKS[target].pack) if not fault.reason for one in fault.breaks}

@@ -113,7 +113,7 @@ def test_an_unsat_without_a_twin_is_refused_and_never_asked(tmp_path: Path) -> N
     assert "has no sat twin" in result.reason
 
 
-def test_a_theorem_that_raises_is_unjudged_and_the_others_still_run(tmp_path: Path) -> None:
+def test_a_theorem_that_raises_is_unjudged_and_others_run(tmp_path: Path) -> None:
     items = [a_theorem_cannot_be_built, small_numbers_are_less_than_twenty]
     lines: list[str] = []
     results = prove_all(items, tmp_path, lines.append)
@@ -153,7 +153,7 @@ def test_prove_leaves_the_second_look_out(monkeypatch: pytest.MonkeyPatch) -> No
 
 @pytest.mark.parametrize("twice", [False, True])
 @pytest.mark.parametrize("wrong", OF_WRONG_SORTS.values(), ids=OF_WRONG_SORTS)
-def test_a_formula_of_wrong_sorts_is_unjudged_whether_or_not_the_python_layer_looks_too(
+def test_a_formula_of_wrong_sorts_is_always_unjudged(
     wrong: Callable[[], object], twice: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """libz3 refuses it; `modeproof prove` leaves out the second look of the Python layer."""
@@ -229,13 +229,13 @@ def _corrupted(change: Callable[[str], str]) -> Solver:
     return lambda query, text, limit_ms: ask_cvc5(query, change(text), limit_ms)
 
 
-def test_a_wrong_export_is_seen_because_cvc5_reads_the_file_and_z3_does_not(tmp_path: Path) -> None:
+def test_a_wrong_export_is_seen_as_only_cvc5_reads_it(tmp_path: Path) -> None:
     wrong = _corrupted(lambda text: text.replace("(not (bvult x #x0014))", "(bvult x #x0014)"))
     result = _one(small_numbers_are_less_than_twenty, tmp_path, cvc5_solver=wrong)
     assert result.verdict == "UNJUDGED"
 
 
-def test_every_query_is_exported_and_files_of_an_earlier_run_are_gone(tmp_path: Path) -> None:
+def test_every_query_is_exported_and_earlier_files_are_gone(tmp_path: Path) -> None:
     folder = tmp_path / "small_numbers_are_less_than_twenty"
     folder.mkdir()
     (folder / "999-old.smt2").write_text("(check-sat)")
@@ -248,7 +248,7 @@ def test_every_query_is_exported_and_files_of_an_earlier_run_are_gone(tmp_path: 
     ]
 
 
-def test_the_header_of_an_exported_file_says_theorem_clauses_and_expected_answer(tmp_path: Path) -> None:
+def test_an_exported_file_names_theorem_clauses_and_expected_answer(tmp_path: Path) -> None:
     result = _one(small_numbers_are_less_than_twenty, tmp_path)
     assert result.queries[0].smt2.read_text().splitlines() == [
         "; Theorem: Small numbers are less than 20.",
@@ -272,7 +272,7 @@ def test_a_place_that_cannot_be_written_is_unjudged(tmp_path: Path) -> None:
     assert _one(small_numbers_are_less_than_twenty, tmp_path).verdict == "UNJUDGED"
 
 
-def test_every_theorem_of_a_document_is_asked_and_an_unknown_answer_is_no_proof(
+def test_every_theorem_is_asked_and_unknown_is_no_proof(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     few = [one for one in theorems_of("mode_selection") if one.build.__module__.endswith("code_tables")]
@@ -310,7 +310,7 @@ def a_premise_is_not_needed() -> Queries:
     yield from claim("less than 30", odd, z3.ULT(X, 30))
 
 
-def test_a_premise_that_no_proof_needs_is_named_and_one_that_is_needed_is_not(tmp_path: Path) -> None:
+def test_exactly_the_premises_that_no_proof_needs_are_named(tmp_path: Path) -> None:
     result = _one(a_premise_is_not_needed, tmp_path)
     assert (result.verdict, result.unused) == ("PROVED", ("x is odd",))
     assert [query.core for query in result.queries if query.expected == "unsat"] == [
@@ -335,7 +335,7 @@ def test_a_core_is_not_known_when_z3_reaches_its_limit(monkeypatch: pytest.Monke
     assert core_of(query) is None
 
 
-def test_a_premise_counts_as_needed_as_long_as_a_core_is_not_known(tmp_path: Path) -> None:
+def test_a_premise_counts_as_needed_until_a_core_is_known(tmp_path: Path) -> None:
     result = _one(a_premise_is_not_needed, tmp_path)
     built = a_premise_is_not_needed.queries()
     without = [replace(query, core=None) for query in result.queries]

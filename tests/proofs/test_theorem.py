@@ -26,7 +26,7 @@ def _theorem(build: Callable[[], Queries]) -> Theorem:
     return theorem(clauses=["EKS-T2"], findings=[])(build)
 
 
-def test_a_claim_is_an_unsat_query_with_a_sat_twin_that_asserts_the_premises() -> None:
+def test_a_claim_is_unsat_and_its_twin_of_premises_sat() -> None:
     refutation, twin = claim("less than 20", SMALL, z3.ULT(X, 20))
     assert (refutation.expected, twin.expected) == ("unsat", "sat")
     assert twin.twin_of == refutation.name
@@ -56,7 +56,7 @@ def test_a_control_is_no_twin() -> None:
         {"x is small": z3.ULT(X, 10), "another": X == 1},
     ],
 )
-def test_a_twin_that_does_not_assert_exactly_the_premises_is_refused(formulas: dict[str, z3.BoolRef]) -> None:
+def test_a_twin_that_asserts_other_than_the_premises_is_refused(formulas: dict[str, z3.BoolRef]) -> None:
     refutation, _ = claim("less than 20", SMALL, z3.ULT(X, 20))
     with pytest.raises(TheoremError):
         check_queries("t", (refutation, Query("twin", formulas, "sat", twin_of=refutation.name)))
@@ -121,7 +121,7 @@ def test_the_first_paragraph_of_the_docstring_is_the_sentence() -> None:
     assert (item.clauses, item.findings) == (("EKS-T2",), ())
 
 
-def test_the_theorems_of_a_document_are_found_and_a_document_without_any_is_refused(
+def test_theorems_are_found_and_a_document_without_any_is_refused(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     found = theorems_of("mode_selection")

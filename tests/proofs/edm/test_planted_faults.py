@@ -191,7 +191,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted)
     assert not fault.refuted_unplanted()
 
 
-def test_every_property_has_a_theorem_and_every_theorem_a_planted_fault() -> None:
+def test_properties_have_theorems_and_these_have_planted_faults() -> None:
     proved = named(rows, block_safety, block_resets, block_response, step_paths)
     of_activate = {"ErrorOutlivesDeactivation"}  # it holds of whoever drives Activate, not of the block
     assert proved | of_activate == {one.id for one in load_document(root(), "edm").properties}

@@ -14,14 +14,14 @@ REGISTER = Path(__file__).parents[3] / "proofs" / "mode_selection" / "unreached.
 
 @pytest.mark.deep
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
-def test_all_that_no_path_of_a_device_passes_is_explained_and_nothing_else_is(device: object) -> None:
+def test_exactly_what_no_path_of_a_device_passes_is_explained(device: object) -> None:
     assert device in (FPLC, PLC, HMI, EKS)
     found = explained(device, REGISTER)  # type: ignore[arg-type]
     assert (found.unexplained, found.idle) == ((), ())
     assert len(found.reasons) == len(found.coverage.missing()) > 0
 
 
-def test_every_line_of_the_plc_and_the_eks_but_one_refusal_lies_on_a_feasible_path() -> None:
+def test_feasible_paths_cover_plc_and_eks_but_for_one_refusal() -> None:
     for device in (PLC, EKS):
         found = coverage_of(device)
         line, branch = found.missing()
@@ -43,7 +43,7 @@ def _dead_line(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("_dead_line")
-def test_a_dead_line_its_branch_and_its_guard_are_listed_by_name() -> None:
+def test_a_dead_line_its_branch_and_guard_are_named() -> None:
     assert [name for name in coverage_of(PLC).missing() if "_never" in name] == [
         "line _never: return s",
         "branch _never: if i.dt_ms < 5 and i.dt_ms > 5: yes",

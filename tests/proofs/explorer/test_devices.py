@@ -178,7 +178,7 @@ class _Model:
 
 @pytest.mark.deep
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
-def test_a_member_of_every_path_gives_the_same_in_the_plain_interpreter(device: Device) -> None:
+def test_a_member_of_every_path_agrees_with_the_plain_interpreter(device: Device) -> None:
     for scan in scans(device):
         for path in scan.paths:
             state, inputs = _example(device, scan, path.example)
@@ -187,7 +187,7 @@ def test_a_member_of_every_path_gives_the_same_in_the_plain_interpreter(device: 
 
 @pytest.mark.deep
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
-def test_random_members_of_paths_give_the_same_in_the_plain_interpreter(device: Device) -> None:
+def test_random_members_of_paths_agree_with_the_plain_interpreter(device: Device) -> None:
     """Of every path, or of 60 from a control state with more. Members are found and judged without a solver;
     where chance finds none, the example of the test above has to do.
     """
@@ -205,7 +205,7 @@ def test_random_members_of_paths_give_the_same_in_the_plain_interpreter(device: 
     assert found >= 0.97 * paths
 
 
-def test_a_value_outside_of_a_path_is_no_member_of_it() -> None:
+def test_a_value_outside_of_a_path_is_no_member() -> None:
     (scan,) = [one for one in scans(PLC) if one.control == plc.Step.COPY_MW03]
     fplc_scan = scans(FPLC)[1]
     members = _Members(FPLC, fplc_scan, random.Random(1))
@@ -218,7 +218,7 @@ def test_a_value_outside_of_a_path_is_no_member_of_it() -> None:
 
 
 @pytest.mark.parametrize("device", DEVICES, ids=lambda device: device.name)
-def test_no_path_of_a_step_raises_and_every_control_state_has_one(device: Device) -> None:
+def test_no_path_raises_and_every_control_state_has_one(device: Device) -> None:
     found = scans(device)
     assert [scan.control for scan in found] == list(device.module.Step)
     assert {scan.control.value for scan in found} == set(device.register.states)

@@ -29,7 +29,7 @@ def _leads_to(path: Path) -> z3.BoolRef:
 
 
 @pytest.mark.parametrize("device", [HMI, EKS], ids=lambda device: device.name)
-def test_a_tree_says_the_same_as_its_paths_one_by_one(device: Device) -> None:
+def test_a_tree_says_the_same_as_its_single_paths(device: Device) -> None:
     for scan in scans(device):
         root = tree(scan.paths)
         each = [z3.Implies(path.condition, _leads_to(path)) for path in scan.paths]
@@ -44,7 +44,7 @@ def test_a_path_that_is_left_out_is_noticed() -> None:
         assert not _same(some(whole, lambda _: TRUE), some(less, lambda _: TRUE), scan.premise)
 
 
-def test_no_two_ends_of_a_tree_have_the_same_result_and_none_is_lost() -> None:
+def test_ends_of_a_tree_differ_and_none_is_lost() -> None:
     for scan in scans(HMI):
         found = ends(tree(scan.paths))
         results = [repr([str(part) for part in _leaves(end.result)]) for end in found]
@@ -70,7 +70,7 @@ def _asks_for_nothing(b: int) -> int:
     return 1
 
 
-def test_a_question_whose_answers_lead_to_the_same_end_is_left_out() -> None:
+def test_a_question_that_decides_no_end_is_left_out() -> None:
     found = explore(_asks_for_nothing, (word("b"),))
     assert len(found.paths) == 2
     assert isinstance(tree(found.paths), End)
@@ -88,7 +88,7 @@ def test_a_value_over_all_paths_is_what_the_function_returns() -> None:
             assert z3.simplify(z3.substitute(term, *put)).as_long() == _picks(a, b)
 
 
-def test_the_outputs_of_a_state_as_terms_are_those_of_the_shipped_function() -> None:
+def test_outputs_as_terms_are_those_of_the_shipped_function() -> None:
     device = HMI
     for scan in scans(device):
         sent = outputs_of(device, scan.state)

@@ -51,9 +51,7 @@ def _exhaustive_and_disjoint(found: Exploration) -> tuple[bool, bool]:
 
 @given(st.lists(st.integers(0, 65535), max_size=5), st.integers(0, 65535))
 @settings(deadline=None, max_examples=50)
-def test_exactly_one_path_applies_to_each_word_and_gives_what_the_interpreter_gives(
-    constants: list[int], value: int
-) -> None:
+def test_exactly_one_path_takes_each_word_as_the_interpreter_does(constants: list[int], value: int) -> None:
     def chain(read: int) -> int:
         for position, constant in enumerate(constants):
             if position % 2 and read != constant:
@@ -67,7 +65,7 @@ def test_exactly_one_path_applies_to_each_word_and_gives_what_the_interpreter_gi
     assert applies == [chain(value)]
 
 
-def test_a_branch_that_is_not_feasible_is_pruned_and_never_a_path() -> None:
+def test_a_branch_that_is_not_feasible_is_no_path() -> None:
     def inconsistent(read: int) -> str:
         if read < 5:
             return "small" if read < 6 else "never"
@@ -103,7 +101,7 @@ def test_and_or_not_decide_in_the_order_of_the_interpreter() -> None:
     assert [path.result for path in found.paths] == ["out", "out", "in", "out"]
 
 
-def test_the_same_question_is_decided_once_on_a_path_also_when_it_is_asked_as_its_negation() -> None:
+def test_a_question_and_its_negation_are_decided_once_a_path() -> None:
     def twice(n: int) -> int:
         if n != 3:
             return 1 if n == 3 else 2
@@ -207,7 +205,7 @@ def test_what_would_need_the_value_of_a_word_is_refused(function: Callable[[int]
 @pytest.mark.parametrize(
     "name", ["lt", "le", "gt", "ge", "add", "sub", "mul", "and_", "or_", "xor", "truediv"]
 )
-def test_a_flag_is_only_decided_on_or_compared_with_a_flag(name: str) -> None:
+def test_a_flag_is_only_decided_or_compared_with_flags(name: str) -> None:
     with pytest.raises(ConcretizationError, match="a symbolic flag"):
         explore(lambda b: getattr(operator, name)(b, True), (B,))
 
@@ -225,7 +223,7 @@ def test_a_flag_is_only_decided_on_or_compared_with_a_flag(name: str) -> None:
         lambda n, w: 1 if n else 0,
     ],
 )
-def test_numbers_are_added_subtracted_and_compared_with_numbers_and_nothing_else(
+def test_numbers_are_only_added_subtracted_or_compared_with_numbers(
     function: Callable[[int, int], object],
 ) -> None:
     with pytest.raises(ConcretizationError):
@@ -233,14 +231,14 @@ def test_numbers_are_added_subtracted_and_compared_with_numbers_and_nothing_else
 
 
 @pytest.mark.parametrize("function", [lambda s: s == "maybe", lambda s: s < "yes", lambda s: s + "s", len])
-def test_a_text_is_compared_with_the_texts_that_it_can_be_and_nothing_else(
+def test_a_text_is_only_compared_with_its_possible_texts(
     function: Callable[[str], object],
 ) -> None:
     with pytest.raises(ConcretizationError):
         explore(function, (S,))
 
 
-def test_a_refusal_says_the_line_what_was_asked_and_what_to_write_instead() -> None:
+def test_a_refusal_names_line_question_and_what_to_write_instead() -> None:
     with pytest.raises(ConcretizationError, match=r"test_explore\.py:\d+: in .*hash.*compare with =="):
         explore(lambda w: hash(w), (W,))
 
@@ -256,7 +254,7 @@ def test_a_refusal_that_the_code_swallows_is_still_a_refusal() -> None:
         explore(hides, (W,))
 
 
-def test_a_value_that_the_code_may_only_hand_on_is_handed_on() -> None:
+def test_a_value_only_to_be_handed_on_is_handed_on() -> None:
     (path,) = explore(lambda f, b: (f, b), (Opaque("f"), B)).paths
     assert path.result[0] == Opaque("f")
     with pytest.raises(ConcretizationError):
@@ -285,7 +283,7 @@ def test_code_that_asks_something_else_next_time_is_caught() -> None:
         explore(alternates, (W,))
 
 
-def test_code_that_keeps_a_symbolic_value_for_the_next_call_is_caught() -> None:
+def test_code_that_keeps_a_symbolic_value_between_calls_is_caught() -> None:
     kept: list[Any] = []
 
     def remembers(read: int) -> int:
@@ -296,7 +294,7 @@ def test_code_that_keeps_a_symbolic_value_for_the_next_call_is_caught() -> None:
         explore(remembers, (W,))
 
 
-def test_code_with_too_many_paths_or_a_loop_without_end_is_refused() -> None:
+def test_code_with_too_many_paths_or_endless_loops_is_refused() -> None:
     with pytest.raises(TooManyPathsError, match="more than 10 paths"):
         explore(lambda w: sum(1 for c in range(12) if w == c), (W,), max_paths=10)
 

@@ -312,7 +312,7 @@ def test_three_devices_are_written_in_the_plain_language(module: ModuleType) -> 
     assert len(reach.functions) >= 6
 
 
-def test_the_eks_is_too_but_for_the_checksum_that_is_not_public() -> None:
+def test_the_eks_is_too_except_for_its_secret_checksum() -> None:
     assert reach_of(eks.step, ["checksum_agrees"]).faults == ()
     assert reach_of(eks.step, ["checksum_agrees"]).stand_ins == ("checksum_agrees",)
     with pytest.raises(LintError, match="to_bytes"):

@@ -38,7 +38,7 @@ def test_the_theorem_is_proved_by_both_solvers(results: dict[str, TheoremResult]
     assert all(query.z3 == query.cvc5 == query.expected for query in result.queries)
 
 
-def test_the_exported_files_read_back_by_z3_give_the_same_answers(results: dict[str, TheoremResult]) -> None:
+def test_exported_files_read_back_by_z3_give_the_same_answers(results: dict[str, TheoremResult]) -> None:
     queries = [query for item in OURS for query in results[item.name].queries]
     assert len(queries) > 300
     for query in queries:
@@ -219,7 +219,7 @@ def test_every_claim_of_the_theorem_falls_under_some_planted_fault(item: Theorem
     assert not standing
 
 
-def test_one_wrong_digit_in_the_shipped_table_is_reported_with_the_pair_of_words(
+def test_a_wrong_digit_is_reported_with_the_pair_of_words(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(shipped, "SW", (0x33CC, 0x3C3C, 0x0F0E, 0x0FF0, 0x3333))
@@ -238,7 +238,7 @@ REFUTED_BY_FIGURE_7 = (
 )
 
 
-def test_the_word_printed_in_figure_7_put_into_the_table_is_refuted_by_four_theorems(
+def test_four_theorems_refute_a_table_with_the_figure_7_word(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(shipped, "SW", (0x33CC, 0x3C3C, 0x0FF0, 0x0FF0, 0x3333))

@@ -62,7 +62,7 @@ def _wrong(item: Theorem) -> tuple[str, ...]:
 
 
 @pytest.mark.parametrize("item", SYSTEM_THEOREMS, ids=lambda item: item.name)
-def test_a_theorem_on_all_devices_has_every_answer_that_it_expects(item: Theorem) -> None:
+def test_theorems_on_all_devices_have_every_answer_they_expect(item: Theorem) -> None:
     assert _wrong(item) == ()
 
 
@@ -71,7 +71,7 @@ def test_the_shipped_device_keeps_its_guarantees(item: Theorem) -> None:
     assert _wrong(item) == ()
 
 
-def test_every_formula_that_is_assumed_has_a_theorem_that_proves_it() -> None:
+def test_every_assumed_formula_has_a_theorem_that_proves_it() -> None:
     theorems = {one.name: one for one in theorems_of("mode_selection")}
     for one in GUARANTEES:
         assert one.theorem in theorems
@@ -129,7 +129,7 @@ def test_two_formulas_of_one_name_are_refused() -> None:
         Argument((), (GIVEN,), (Invariant("given", _true, ("given",), ""),))
 
 
-def test_an_assumption_that_is_not_needed_has_no_counterexample_without_it() -> None:
+def test_without_an_unneeded_assumption_there_is_no_counterexample() -> None:
     argument = Argument(
         GUARANTEES,
         ASSUMPTIONS,
@@ -183,7 +183,7 @@ def test_the_invariants_hold_in_real_flows_of_the_shipped_devices() -> None:
             assert is_true(one.of(system)), (one.name, moment)
 
 
-def test_real_flows_switch_only_to_what_was_touched_seen_and_confirmed() -> None:
+def test_flows_switch_only_to_what_was_touched_seen_and_confirmed() -> None:
     switched = [moment for _, moment in _walks() if moment.switched]
     assert len(switched) >= 3
     for moment in switched:
@@ -244,7 +244,7 @@ READ = "eks*5 fplc eks fplc eks fplc eks fplc*3"
 """From an empty reader with a key put in to AwaitSelection: read, LA, all outputs, none, the one."""
 
 
-def test_without_words_that_arrive_in_time_a_mode_becomes_active_that_nobody_touched() -> None:
+def test_with_late_words_a_mode_that_nobody_touched_becomes_active() -> None:
     """A-06: the panel still shows the screen of the key before, with its selection."""
     moment = scan(beginning(T_DWELL_ms=0), "fplc")
     moment = _scans(insert(moment, 1), READ)
@@ -270,13 +270,13 @@ def _switching(moment: Any) -> Any:
     return moment
 
 
-def test_with_all_assumptions_the_same_flow_activates_what_was_touched_seen_and_confirmed() -> None:
+def test_with_all_assumptions_the_same_flow_keeps_the_intent() -> None:
     moment = scan(_switching(beginning()), "fplc")
     assert moment.switched
     assert (moment.touched, moment.seen, moment.confirmed) == (1, 1, 1)
 
 
-def test_without_a_removal_that_is_noticed_the_key_of_one_user_switches_for_another() -> None:
+def test_with_an_unnoticed_removal_one_key_switches_for_another_user() -> None:
     """A-07: the reader was empty, LA was low, and the F-PLC did not look."""
     moment = _scans(remove(_switching(beginning())), "eks*3")
     assert not moment.flow.eks_out.LA
@@ -311,7 +311,7 @@ def _walks_with_broken_wires() -> Iterator[Moment]:
             yield moment
 
 
-def test_what_the_intent_rests_on_holds_in_real_flows_with_one_broken_wire() -> None:
+def test_the_ground_of_intent_holds_with_one_broken_wire() -> None:
     names = ARGUMENT.rests_on(INTENT_ANYWAY)
     invariants = [one for one in ARGUMENT.proved if isinstance(one, Invariant) and one.name in names]
     seen: dict[tuple[object, ...], Moment] = {}
@@ -347,7 +347,7 @@ def test_one_broken_wire_switches_nothing_for_another_user(wires: dict[str, bool
     assert not moment.switched
 
 
-def test_two_broken_wires_switch_the_mode_of_one_user_for_another() -> None:
+def test_two_broken_wires_switch_one_users_mode_for_another() -> None:
     """The assumption that one wire is broken is dropped: LA and the output of the level stay on."""
     moment = _scans(remove(_switching(beginning())), "eks*4")
     moment = _scans(insert(moment, 1), "eks*2")
@@ -462,7 +462,7 @@ def _switches_to_what_was_acknowledged(s: fplc.State, i: fplc.Inputs) -> fplc.St
     return fplc.State(s.params, fplc.SETTLE, s.accepted, s.authority, -1, mode, 0)
 
 
-def test_an_fplc_that_switches_to_what_was_acknowledged_breaks_its_guarantee(
+def test_an_fplc_that_switches_as_acknowledged_breaks_its_guarantee(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert _broken(FPLC, fplc.SWITCH) == {}
@@ -476,7 +476,7 @@ def _settles_at_once(s: fplc.State, i: fplc.Inputs, elapsed: int) -> fplc.State:
     return fplc.State(s.params, fplc.AWAIT_SELECTION, s.accepted, s.authority, s.selection, s.mode, 0)
 
 
-def test_an_fplc_that_does_not_wait_for_zeros_breaks_its_guarantee(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_fplc_without_the_wait_for_zeros_breaks_its_guarantee(monkeypatch: pytest.MonkeyPatch) -> None:
     assert _broken(FPLC, fplc.SETTLE) == {}
     _plant(monkeypatch, fplc, "_settle", _settles_at_once)
     before, read, (after, _) = _broken(FPLC, fplc.SETTLE)["the F-PLC offers after a key or over zeros"]
@@ -488,7 +488,7 @@ def test_an_fplc_that_does_not_wait_for_zeros_breaks_its_guarantee(monkeypatch: 
 # ---------------------------------------------------------------- beside TLC's results
 
 
-def test_every_property_that_tlc_judges_on_the_whole_system_has_a_row() -> None:
+def test_every_property_of_the_whole_system_has_a_row() -> None:
     rows = agreement.rows()
     document = load_document(ROOT, "mode_selection")
     judged = {
@@ -513,7 +513,7 @@ def test_tlc_and_the_theorems_agree_property_by_property() -> None:
             assert row.id in by_name[row.theorem].properties
 
 
-def test_what_is_not_proved_is_said_and_is_no_more_than_this() -> None:
+def test_exactly_these_properties_are_listed_as_not_proved() -> None:
     missing = {(one.id, one.environment) for one in agreement.rows() if not one.theorem}
     assert missing == {
         ("GoalReached", "honest"),
@@ -528,7 +528,7 @@ def test_what_is_not_proved_is_said_and_is_no_more_than_this() -> None:
     }
 
 
-def test_where_tlc_breaks_an_assumption_and_a_property_falls_the_proof_rests_on_it() -> None:
+def test_a_proof_rests_on_assumptions_whose_break_fells_the_property() -> None:
     assert len(agreement.broken()) >= 10
     assert agreement.disagreements() == ()
 

@@ -42,7 +42,7 @@ SMALL = [item for module in MODULES[:-1] for item in _theorems(module)]
 
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("item", SMALL, ids=lambda item: item.name)
-def test_every_theorem_of_panel_plc_and_eks_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
+def test_both_solvers_prove_every_theorem_of_panel_plc_and_eks(item: Theorem, tmp_path: Path) -> None:
     (result,) = prove_all([item], tmp_path, lambda line: None, LONG_MS)
     assert (result.verdict, result.reason) == ("PROVED", "")
 
@@ -403,9 +403,7 @@ def _off_the_way(judge: Judge, way: fplc_response.OnTheWay, times: Callable[[Any
     ("control", "edit"),
     [("Error", DWELL_RESTARTS), ("AwaitZeros", REMOVAL_RESTARTS), ("AwaitZeros", NEVER_IDLE)],
 )
-def test_a_dwell_time_that_restarts_breaks_the_response_within_a_time(
-    control: str, edit: tuple[str, str]
-) -> None:
+def test_a_dwell_time_that_restarts_breaks_the_timely_response(control: str, edit: tuple[str, str]) -> None:
     with planted(RESPONSE.device, edit) as device:
         judge = replace(RESPONSE, device=device, explored=(begun_in(device, control),))
         assert _off_the_way(judge, fplc_response.on_the_way, fplc_response.any_times)
@@ -414,9 +412,7 @@ def test_a_dwell_time_that_restarts_breaks_the_response_within_a_time(
 @pytest.mark.parametrize(
     ("control", "edit"), [("Clear", TIMER_ANEW), ("AwaitZeros", REMOVAL_RESTARTS), ("AwaitZeros", NEVER_IDLE)]
 )
-def test_a_removal_whose_timer_restarts_breaks_its_end_without_an_error(
-    control: str, edit: tuple[str, str]
-) -> None:
+def test_a_removal_timer_that_restarts_breaks_the_clean_end(control: str, edit: tuple[str, str]) -> None:
     way, times = fplc_response.without_error, fplc_response.times_of_a_good_removal
     with planted(RESPONSE.device, edit) as device:
         judge = replace(RESPONSE, device=device, explored=(begun_in(device, control),))
@@ -429,7 +425,7 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     assert named <= {name for name, *_ in FAULTS}
 
 
-def test_every_property_of_one_device_alone_is_proved_of_the_shipped_code() -> None:
+def test_every_property_of_one_device_is_proved_as_shipped() -> None:
     """What holds under arbitrary inputs is a promise of one device: TLC's result has a theorem beside it."""
     properties = load_document(ROOT, "mode_selection").properties
     alone = {one.id for one in properties if "arbitrary" in one.environments}
@@ -491,7 +487,7 @@ def _ms_until_idle(state: fplc.State, between: int, random_: random.Random) -> i
     return last
 
 
-def test_real_runs_stay_below_the_proved_time_and_exceed_half_of_it() -> None:
+def test_the_longest_run_lies_between_half_and_the_proved_time() -> None:
     random_ = random.Random(3)
     longest = 0.0
     for _ in range(4_000):

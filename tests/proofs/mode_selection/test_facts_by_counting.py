@@ -23,14 +23,14 @@ def _accepted(codes: tuple[int, ...]) -> set[int]:
 
 
 @pytest.mark.parametrize("name", RANGES)
-def test_the_shipped_reader_accepts_five_words_of_65536_all_eight_bits_apart(name: str) -> None:
+def test_the_reader_accepts_five_words_all_eight_bits_apart(name: str) -> None:
     accepted = _accepted(RANGES[name])
     assert accepted == {0, *code_tables.SET_OF_VALUES}
     assert [(a ^ b).bit_count() for a, b in combinations(accepted, 2)] == [8] * 15
 
 
 @pytest.mark.parametrize("name", RANGES)
-def test_of_all_error_patterns_on_all_words_only_the_listed_ones_go_undetected(name: str) -> None:
+def test_only_the_listed_error_patterns_go_undetected_on_any_word(name: str) -> None:
     accepted = _accepted(RANGES[name])
     escaped = {
         (sent, error) for sent in accepted for error in ALL_WORDS if error and sent ^ error in accepted
@@ -53,20 +53,20 @@ def test_five_straddled_pairs_and_zero_beside_zero_are_accepted() -> None:
     assert {pair for pair, word in read.items() if word in words} == {(0, 0), *STRADDLED}
 
 
-def test_the_four_ranges_of_their_own_have_twenty_words_at_least_eight_bits_apart() -> None:
+def test_twenty_words_of_four_ranges_have_minimum_distance_eight() -> None:
     words = [0, *(word for row in FOUR_DISJOINT_RANGES for word in row)]
     assert len(set(words)) == 21
     assert min((a ^ b).bit_count() for a, b in combinations(words, 2)) == 8
 
 
-def test_the_tail_is_the_exact_rational_that_rounds_to_the_printed_figure() -> None:
+def test_the_tail_is_exact_and_rounds_to_the_printed_figure() -> None:
     exact = tail(ONE_PERCENT, 16, 8)
     assert exact == Fraction(23966221203706743047, 2 * 10**31)
     assert Fraction(115, 10**14) < exact < Fraction(125, 10**14)
     assert rounds_to_the_printed_figure(exact)
 
 
-def test_the_first_term_rounds_to_it_too_and_other_candidates_do_not() -> None:
+def test_of_other_candidates_only_the_first_term_rounds_to_it() -> None:
     assert rounds_to_the_printed_figure(first_term(ONE_PERCENT, 16, 8))
     others = [
         first_term(ONE_PERCENT, 16, 8) / Fraction(99, 100) ** 8,
@@ -79,7 +79,7 @@ def test_the_first_term_rounds_to_it_too_and_other_candidates_do_not() -> None:
 
 
 @pytest.mark.parametrize("name", RANGES)
-def test_the_exact_figure_is_the_sum_over_all_error_patterns_that_are_accepted(name: str) -> None:
+def test_the_exact_figure_sums_all_accepted_error_patterns(name: str) -> None:
     codes = RANGES[name]
     accepted = _accepted(codes)
     for sent in codes:

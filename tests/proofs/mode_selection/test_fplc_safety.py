@@ -32,7 +32,7 @@ QUICK = [
 
 
 @pytest.mark.parametrize("item", QUICK, ids=lambda item: item.name)
-def test_what_is_said_of_power_up_is_proved_by_both_solvers(item: Theorem, tmp_path: Path) -> None:
+def test_both_solvers_prove_what_is_said_of_power_up(item: Theorem, tmp_path: Path) -> None:
     (result,) = prove_all([item], tmp_path, lambda line: None, LONG_MS)
     assert (result.verdict, result.reason) == ("PROVED", "")
 
@@ -357,7 +357,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(
     assert not refuted(JUDGE, sentence, control) or name == "AuthorizationByTheText"
 
 
-def test_every_property_that_a_theorem_of_the_fplc_names_has_a_planted_fault() -> None:
+def test_every_property_that_an_fplc_theorem_names_has_a_fault() -> None:
     named = {name for item in SAFETY for name in item.properties}
     assert named <= {name for name, *_ in FAULTS}
     assert {one.name for one in FPLC_INVARIANT} - named <= {name for name, *_ in FAULTS} | {

@@ -112,7 +112,7 @@ def _knows_a_sixth_word(codes: tuple[int, ...], word: int) -> int:
     return -1
 
 
-def test_a_panel_that_knows_a_sixth_word_is_told_by_its_classes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_panel_with_a_sixth_word_fails_on_its_classes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(_knows_a_sixth_word, "__module__", "refimpl.mode_selection.hmi")
     monkeypatch.setattr(hmi, "decode", _knows_a_sixth_word)
     fallen = _fallen(PANEL_WORDS)

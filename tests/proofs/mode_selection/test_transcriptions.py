@@ -41,7 +41,7 @@ def _tables_by_tlc(text: str, folder: Path) -> dict[str, tuple[int, ...]]:
     return {name: tuple(row) for name, row in rows.items()}
 
 
-def test_the_text_of_the_specification_has_the_tables_of_the_implementation() -> None:
+def test_the_specification_has_the_tables_of_the_implementation() -> None:
     assert tables_in(TEXT) == RANGES
 
 
@@ -49,7 +49,7 @@ def test_tlc_evaluates_the_tables_to_those_of_the_implementation(tmp_path: Path)
     assert _tables_by_tlc(TEXT, tmp_path) == RANGES
 
 
-def test_a_wrong_digit_in_the_specification_is_seen_by_tlc_and_by_the_reader(tmp_path: Path) -> None:
+def test_tlc_and_the_reader_see_a_wrong_specified_digit(tmp_path: Path) -> None:
     wrong = TEXT.replace(r"m = 2 -> \h0F0F", r"m = 2 -> \h0FF0")
     assert wrong != TEXT
     without_checks = re.sub(r"^ASSUME .*$", "", wrong, flags=re.M)
@@ -114,7 +114,7 @@ def _clause_texts() -> list[str]:
         return [clause["text"] for clause in tomllib.load(file)["clause"]]
 
 
-def test_the_words_in_the_paraphrased_steps_of_figures_5_to_7_are_those_of_the_tables() -> None:
+def test_steps_of_figures_5_to_7_have_the_table_words() -> None:
     found = _words_in_clauses(_clause_texts())
     assert {name: len(modes) for name, modes in found.items()} == {"RE": 4, "SE": 5, "CH": 5, "SW": 4}
     for name, modes in found.items():

@@ -85,7 +85,7 @@ def with_theorem(bench: Bench, build: Callable[[], Queries]) -> Bench:
         ),
     ],
 )
-def test_a_wrong_copy_is_killed_by_the_theorem_that_it_breaks(
+def test_the_theorem_that_a_wrong_copy_breaks_kills_it(
     bench: Bench, definition: str, old: str, new: str, killer: str
 ) -> None:
     found = judge(bench, definition, old, new)
@@ -94,7 +94,7 @@ def test_a_wrong_copy_is_killed_by_the_theorem_that_it_breaks(
     assert found.asked[-1].result == "refuted"
 
 
-def test_a_scan_that_raises_breaks_the_theorem_that_every_scan_is_answered(bench: Bench) -> None:
+def test_a_scan_that_raises_breaks_the_theorem_of_answers(bench: Bench) -> None:
     found = judge(bench, "step", "elif state.turn == Step.COPY_MW07", "elif state.turn == Step.COPY_MW03")
     assert found.killers == ("every_scan_of_the_plc_takes_exactly_one_path",)
 
@@ -145,7 +145,7 @@ def test_a_theorem_that_cannot_be_built_leaves_it_unmeasured(bench: Bench) -> No
     assert (found.verdict, found.reason) == ("UNMEASURED", "no idea")
 
 
-def test_a_theorem_that_is_false_of_the_shipped_code_kills_nobody(bench: Bench) -> None:
+def test_a_theorem_false_of_the_shipped_code_kills_nobody(bench: Bench) -> None:
     def false() -> Queries:
         """No number is greater than 5."""
         x = z3.Int("x")
@@ -165,7 +165,7 @@ def test_an_answer_that_is_not_known_leaves_it_unmeasured(
     assert "too hard" in found.reason
 
 
-def test_a_counterexample_that_ends_otherwise_when_it_is_run_kills_nobody(
+def test_a_counterexample_that_its_run_contradicts_kills_nobody(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("proofs.mutants.judge.evaluated_plain", lambda result, model: "elsewhere")
@@ -177,7 +177,7 @@ def test_a_counterexample_that_ends_otherwise_when_it_is_run_kills_nobody(
 # ---------------------------------------------------------------- copies
 
 
-def test_a_change_deep_in_the_package_is_seen_by_the_copy_and_by_nothing_else() -> None:
+def test_only_the_copy_sees_a_change_deep_in_the_package() -> None:
     text = Path(code_tables.__file__).read_text(encoding="utf-8")
     wrong = text.replace(
         "    if mode == 0:\n        return codes[0]", "    if mode == 0:\n        return codes[1]"
@@ -209,7 +209,7 @@ def test_a_text_that_cannot_be_taken_is_refused(module: str, definition: str, te
         copied(PACKAGE, Change(module, definition, text, None))
 
 
-def test_a_function_behind_a_stand_in_is_not_among_those_that_are_edited() -> None:
+def test_a_function_behind_a_stand_in_is_not_edited() -> None:
     (eks,) = [one.device for one in SUBJECTS if one.device.name == "eks"]
     names = {name for _, name in functions_of(eks)}
     assert "checksum_agrees" not in names
@@ -249,7 +249,7 @@ def test_the_claims_of_a_judge_come_before_its_controls(item: Theorem) -> None:
     assert found == sorted(found, reverse=True)
 
 
-def test_every_theorem_that_proves_a_property_of_one_device_is_a_judge() -> None:
+def test_every_theorem_of_a_property_of_one_device_judges() -> None:
     modules = (eks_prompt, fplc_order, fplc_prompt, fplc_response, fplc_safety, panel_prompt)
     stated = {one.name for module in modules for one in vars(module).values() if isinstance(one, Theorem)}
     assert stated <= {one.name for found in JUDGES.values() for one in found}

@@ -75,7 +75,7 @@ def test_the_signal_sequence_of_the_document(control: str) -> None:
     assert (state.state, out.Error, out.S_EDM_Out) == (Step.OUTPUT_DISABLE, False, False)
 
 
-def test_a_reset_with_the_request_standing_starts_only_where_that_was_chosen() -> None:
+def test_reset_with_a_standing_request_starts_only_where_chosen() -> None:
     for params, starts in ((PARAMS, False), (replace(PARAMS, AFTER_RESET="at_once"), True)):
         for before in (Step.EDM_ERROR_33, Step.INIT):
             state = at(before, params=params, out_control_before=True)
@@ -104,7 +104,7 @@ def test_at_switching_on_both_contactors_are_dropped_out(feedback: tuple[bool, b
 @pytest.mark.parametrize("feedback", FEEDBACKS)
 @pytest.mark.parametrize("elapsed_ms", [0, 99, 100])
 @pytest.mark.parametrize("make", [call, on])
-def test_a_contactor_has_monitoring_time_to_drop_out_and_no_more(
+def test_a_contactor_has_only_monitoring_time_to_drop_out(
     feedback: tuple[bool, bool], elapsed_ms: int, make: Any
 ) -> None:
     state, out = run(disabled(False, elapsed_ms), make(feedback, dt_ms=1))
@@ -117,9 +117,10 @@ def test_a_contactor_has_monitoring_time_to_drop_out_and_no_more(
 @pytest.mark.parametrize("feedback", FEEDBACKS)
 @pytest.mark.parametrize("elapsed_ms", [0, 99, 100])
 @pytest.mark.parametrize("make", [call, on])
-def test_a_contactor_has_monitoring_time_to_pick_up_and_a_stop_does_not_hide_it(
+def test_a_contactor_has_only_monitoring_time_to_pick_up(
     feedback: tuple[bool, bool], elapsed_ms: int, make: Any
 ) -> None:
+    """A stop does not hide that it came too late."""
     state, out = run(enabled(elapsed_ms), make(feedback, dt_ms=1))
     if feedback == PICKED or elapsed_ms == 0:
         assert (out.S_EDM_Out, out.Error) == (make is on, False)
@@ -136,7 +137,7 @@ def test_a_monitoring_time_that_is_not_set_leaves_no_time() -> None:
 
 
 @pytest.mark.parametrize("error", ERRORS, ids=lambda one: one[0].value)
-def test_an_error_is_reset_by_a_fresh_edge_once_its_cause_is_gone(error: Any) -> None:
+def test_a_fresh_edge_resets_an_error_whose_cause_is_gone(error: Any) -> None:
     name, code, held, held_code = error
     for feedback in FEEDBACKS[:-1]:
         state, out = run(at(name), call(feedback, Reset=True))
@@ -149,7 +150,7 @@ def test_an_error_is_reset_by_a_fresh_edge_once_its_cause_is_gone(error: Any) ->
     assert run(at(name), call(Activate=False))[1] == outputs(power_up(PARAMS))
 
 
-def test_reset_that_is_held_while_the_block_is_switched_on_removes_no_inhibit() -> None:
+def test_reset_held_while_the_block_starts_removes_no_inhibit() -> None:
     state, out = run(power_up(PARAMS), call(Activate=False, Reset=True), call(Reset=True), call(Reset=True))
     assert (state.state, out.Error, out.ResetRequest) == (Step.RESET_ERROR_1, True, False)
     state, out = run(state, call(), call(Reset=True))

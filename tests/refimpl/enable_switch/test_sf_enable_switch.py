@@ -75,7 +75,7 @@ def test_the_signal_sequence_of_the_document() -> None:
 
 
 @pytest.mark.parametrize("late", ["the time is reached", "the time is passed"])
-def test_channels_that_come_together_when_the_time_is_over_do_not_enable(late: str) -> None:
+def test_channels_that_come_together_too_late_do_not_enable(late: str) -> None:
     dt_ms = 100 if late == "the time is reached" else 101
     for pattern in BETWEEN:
         after, out = run(at(Step.STAGE_0), call(pattern), call(S1, dt_ms=dt_ms))
@@ -89,7 +89,7 @@ def test_the_time_goes_on_whichever_patterns_follow_each_other() -> None:
     assert run(at(Step.CHANGE_TO_STAGE_1), *calls, call(BETWEEN[0], dt_ms=5))[1].Error
 
 
-def test_the_initial_time_accepts_only_what_is_complete_in_one_call() -> None:
+def test_the_initial_time_accepts_only_changes_within_one_call() -> None:
     zero = at(Step.STAGE_0, params=Params())
     assert run(zero, call(S1))[1].S_EnableSwitchOut
     for pattern in BETWEEN:
@@ -97,25 +97,25 @@ def test_the_initial_time_accepts_only_what_is_complete_in_one_call() -> None:
         assert run(zero, call(pattern), call(S1, dt_ms=0))[1].Error
 
 
-def test_channel_2_that_stays_true_is_named_by_its_own_error() -> None:
+def test_channel_2_that_stays_true_has_its_own_error() -> None:
     assert run(at(Step.CHANGE_TO_STAGE_1), call((True, True, True), dt_ms=100))[1].DiagCode == 0xC030
     assert run(at(Step.CHANGE_TO_STAGE_0), call((True, False, False), dt_ms=100))[1].DiagCode == 0xC050
 
 
-def test_the_enable_drops_in_the_call_that_does_not_see_stage_1() -> None:
+def test_the_enable_drops_in_any_call_without_stage_1() -> None:
     for pattern in PATTERNS:
         assert run(at(Step.STAGE_1), call(pattern))[1].S_EnableSwitchOut == (pattern == S1)
     assert not run(at(Step.STAGE_1), call(S1, S_SafetyActive=False))[1].S_EnableSwitchOut
     assert not run(at(Step.STAGE_1), call(S1, Activate=False))[1].S_EnableSwitchOut
 
 
-def test_stage_1_that_does_not_come_out_of_stage_0_is_an_error() -> None:
+def test_stage_1_not_out_of_stage_0_is_an_error() -> None:
     for control in (Step.STAGE_2, Step.CHANGE_TO_STAGE_0):
         assert run(at(control), call(S1))[0].state == Step.PLAUSIBILITY_ERROR
     assert run(at(Step.SAFE_MODE), call(S1))[0].state == Step.OPERATION_ERROR
 
 
-def test_the_mode_ends_an_error_only_where_the_parameter_says_so() -> None:
+def test_the_mode_ends_errors_only_where_the_parameter_permits() -> None:
     off = call(S_SafetyActive=False)
     for control in Step:
         out = outputs(at(control))

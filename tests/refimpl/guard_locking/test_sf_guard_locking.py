@@ -79,7 +79,7 @@ def test_the_signal_sequence_of_the_document() -> None:
     assert not out.S_UnlockGuard and not out.S_GuardLocked and not out.Error
 
 
-def test_nothing_is_enabled_before_the_guard_is_locked_again_and_reset_has_risen() -> None:
+def test_the_enable_waits_for_the_locked_guard_and_reset() -> None:
     state = at(Step.WAIT_FOR_OPERATOR)
     state, out = run(state, call(S_GuardLock=False), call())
     assert out.DiagCode == 0x8003 and not out.S_GuardLocked
@@ -87,7 +87,7 @@ def test_nothing_is_enabled_before_the_guard_is_locked_again_and_reset_has_risen
     assert run(state, call(S_AutoReset=True))[1].S_GuardLocked
 
 
-def test_a_request_before_the_zone_is_safe_does_what_unlock_on_says() -> None:
+def test_an_early_request_does_what_unlock_on_says() -> None:
     early = (call(S_SafetyActive=False, UnlockRequest=True), call(UnlockRequest=True))
     seen = {one: run(enabled(Params(UNLOCK_ON=one)), *early)[1] for one in ("edge", "latched", "level")}
     assert {one: out.S_UnlockGuard for one, out in seen.items()} == {
@@ -97,7 +97,7 @@ def test_a_request_before_the_zone_is_safe_does_what_unlock_on_says() -> None:
     }
 
 
-def test_a_request_that_is_older_than_the_enable_unlocks_by_its_level_alone() -> None:
+def test_a_request_before_the_enable_unlocks_only_by_level() -> None:
     for one in ("edge", "latched", "level"):
         state = at(Step.GUARD_CLOSED_AND_LOCKED, Params(UNLOCK_ON=one), unlock_request_before=True)
         assert run(state, call(UnlockRequest=True))[1].S_UnlockGuard == (one == "level")
@@ -136,7 +136,7 @@ def test_a_start_up_inhibit_is_not_walked_round() -> None:
     assert run(power_up(PARAMS), *free)[1].S_GuardLocked
 
 
-def test_a_lost_guard_needs_an_edge_of_reset_whatever_s_auto_reset_says() -> None:
+def test_a_lost_guard_needs_reset_even_with_s_auto_reset() -> None:
     state, out = run(enabled(), call(S_GuardMonitoring=False, S_AutoReset=True))
     assert out.Error and out.DiagCode == 0xC004
     state, out = run(state, *[call(S_AutoReset=True)] * 5)
@@ -169,14 +169,14 @@ def test_a_loss_is_acknowledged_only_behind_the_guard() -> None:
         (Step.WAIT_FOR_RESET, Step.RESET_ERROR3),
     ],
 )
-def test_a_reset_that_does_not_move_is_an_error_until_it_is_released(control: Step, error: Step) -> None:
+def test_a_static_reset_is_an_error_until_its_release(control: Step, error: Step) -> None:
     state, out = run(at(control, reset_before=True), call(Reset=True))
     assert state.state == error and out.Error
     assert run(state, call(Reset=True))[0].state == error
     assert run(state, call())[0].state == control
 
 
-def test_a_reset_that_is_held_while_activate_comes_is_no_edge() -> None:
+def test_a_reset_held_while_activate_comes_is_no_edge() -> None:
     _, out = run(power_up(PARAMS), call(Reset=True), call(Reset=True))
     assert out.Error and not out.S_GuardLocked
 
@@ -190,7 +190,7 @@ def test_every_call_without_activate_ends_idle(params: Params) -> None:
 
 
 @pytest.mark.parametrize("params", EVERY)
-def test_the_enable_is_never_there_with_the_guard_lost_in_that_call(params: Params) -> None:
+def test_a_call_that_loses_the_guard_never_enables(params: Params) -> None:
     for control, request, reset in itertools.product(Step, (False, True), (False, True)):
         for lost in (OPEN, {"S_GuardLock": False}, {"S_GuardMonitoring": False}):
             inputs = call(UnlockRequest=request, Reset=reset, S_AutoReset=True, S_StartReset=True, **lost)

@@ -19,7 +19,7 @@ def cited(name: str) -> set[str]:
 
 
 @pytest.mark.parametrize("device", DEVICES)
-def test_every_behaviour_clause_of_a_device_is_cited_by_its_code(device: str) -> None:
+def test_the_code_cites_every_behaviour_clause_of_its_device(device: str) -> None:
     demanded = {c["id"] for c in CLAUSES if c["kind"] == "behaviour" and device in c["device"]}
     assert len(demanded) > 5
     assert sorted(demanded - cited(device)) == []

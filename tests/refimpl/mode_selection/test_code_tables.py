@@ -31,13 +31,13 @@ def test_table_2_has_the_printed_words(name: str) -> None:
     assert hex_row(tables.RANGES[name]) == PRINTED[name]
 
 
-def test_there_are_four_ranges_and_each_uses_exactly_the_words_of_table_1() -> None:
+def test_four_ranges_use_exactly_the_words_of_table_1() -> None:
     assert list(tables.RANGES) == ["RE", "SE", "CH", "SW"]
     for codes in tables.RANGES.values():
         assert sorted(codes) == sorted(tables.SET_OF_VALUES)
 
 
-def test_all_pairs_of_the_five_words_and_zero_differ_in_exactly_eight_bits() -> None:
+def test_five_words_and_zero_differ_in_exactly_eight_bits() -> None:
     words = (*tables.SET_OF_VALUES, tables.ZERO)
     distances = [(a ^ b).bit_count() for i, a in enumerate(words) for b in words[:i]]
     assert distances == [8] * 15

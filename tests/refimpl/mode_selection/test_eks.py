@@ -104,7 +104,7 @@ def test_step_leads_to_the_state_that_the_procedure_names(
         assert after.elapsed_ms == 0
 
 
-def test_the_rows_above_cover_every_step_and_every_state_of_the_register() -> None:
+def test_the_rows_cover_every_registered_step_and_state() -> None:
     assert {name for name, *_ in ROWS} | OTHER_STEPS == set(EKS["steps"])
     assert {before.state.value for _, before, *_ in ROWS} == set(EKS["states"])
 
@@ -143,7 +143,7 @@ def signed(key: KeyMemory) -> KeyMemory:
 
 
 @pytest.mark.parametrize("level", range(5))
-def test_a_good_key_sets_la_and_the_one_output_of_its_level(level: int) -> None:
+def test_a_good_key_sets_la_and_its_levels_output(level: int) -> None:
     key = signed(replace(KEY, authorization_level=RE[level]))
     assert verdict(key) == Step.SIGNAL
     row = eks.outputs(at(Step.SIGNAL, key=key))
@@ -161,7 +161,7 @@ def test_a_copy_on_a_key_with_another_number_is_refused() -> None:
 
 
 @pytest.mark.parametrize("level", [0, 0x0F0E, 0xF0F0, 0xFFFF, 0xCCCC])
-def test_a_level_that_is_not_in_table_1_refuses_the_key(level: int) -> None:
+def test_a_level_outside_table_1_refuses_the_key(level: int) -> None:
     assert verdict(signed(replace(KEY, authorization_level=level))) == Step.REJECTED
 
 
@@ -174,7 +174,7 @@ def test_no_level_but_the_five_is_accepted() -> None:
 
 @pytest.mark.parametrize("on_device", [6, 7])
 @pytest.mark.parametrize("on_key", [0, 5, 6, 7, 8, 255])
-def test_the_operating_state_must_be_the_same_on_key_and_device(on_device: int, on_key: int) -> None:
+def test_key_and_device_must_have_the_same_operating_state(on_device: int, on_key: int) -> None:
     params = replace(PARAMS, operating_state=on_device)
     expected = Step.SIGNAL if on_key == on_device else Step.REJECTED
     assert verdict(signed(replace(KEY, operating_state=on_key)), params) == expected
@@ -192,7 +192,7 @@ def test_operating_state_7_wants_a_common_one_bit(dip: int, code: int) -> None:
     assert eks.access_code_accepted(7, dip, code) == (common and code < 1024)
 
 
-def test_an_access_code_of_more_than_ten_bits_refuses_the_key() -> None:
+def test_an_access_code_above_ten_bits_refuses_the_key() -> None:
     for operating_state in (6, 7):
         params = replace(PARAMS, operating_state=operating_state)
         key = replace(KEY, operating_state=operating_state, access_code=KEY.access_code | 0x400)
@@ -202,7 +202,7 @@ def test_an_access_code_of_more_than_ten_bits_refuses_the_key() -> None:
 # ---------------------------------------------------------------- outputs over time
 
 
-def test_the_test_pulse_is_all_ones_then_all_zeros_each_200_ms_then_one_output() -> None:
+def test_the_output_follows_200_ms_ones_and_200_ms_zeros() -> None:
     state, seen = eks.power_up(PARAMS), []
     for _ in range(60):
         state, row = eks.step(state, inputs())
@@ -211,7 +211,7 @@ def test_the_test_pulse_is_all_ones_then_all_zeros_each_200_ms_then_one_output()
     assert seen == [dark] * 4 + [LA] + [ones] * 20 + [LA] * 20 + [one] * 15
 
 
-def test_la_goes_off_first_then_the_output_then_the_registers_are_checked() -> None:
+def test_la_drops_then_the_output_then_registers_are_checked() -> None:
     first, row = eks.step(at(Step.SIGNAL), inputs(None))
     assert row == ONLY_D
     second, row = eks.step(first, inputs(None, registers_zero=False))
@@ -266,7 +266,7 @@ def test_each_field_of_the_key_lies_at_its_bytes() -> None:
 
 
 @given(st.binary(min_size=15, max_size=15))
-def test_any_fifteen_bytes_are_a_key_memory_and_come_back_unchanged(data: bytes) -> None:
+def test_any_fifteen_bytes_of_key_memory_come_back_unchanged(data: bytes) -> None:
     assert eks.key_to_bytes(eks.key_from_bytes(data)) == data
 
 
@@ -286,7 +286,7 @@ def test_anything_but_fifteen_bytes_is_refused(data: object) -> None:
         ("KeyID", 1 << 64),
     ],
 )
-def test_a_field_that_does_not_fit_its_bytes_is_refused_by_name(field: str, value: int) -> None:
+def test_a_field_too_big_for_its_bytes_is_named(field: str, value: int) -> None:
     with pytest.raises(KeyDataError, match=rf"^{field}: expected "):
         eks.key_to_bytes(replace(KEY, **{field: value}))
 
@@ -303,7 +303,7 @@ def test_a_field_that_does_not_fit_its_bytes_is_refused_by_name(field: str, valu
         ("KeyID", -1),
     ],
 )
-def test_data_that_must_not_be_on_a_key_are_not_written(field: str, value: int) -> None:
+def test_data_that_no_key_may_hold_are_not_written(field: str, value: int) -> None:
     good = {"operating_state": 6, "authorization_level": RE[0], "access_code": 1, "KeyID": 1}
     eks.written_key(**good, checksum=stand_in)
     with pytest.raises(KeyDataError, match=rf"^{field}: expected "):
@@ -320,7 +320,7 @@ def test_the_checksum_is_a_required_parameter() -> None:
         Params(0x1234)  # type: ignore[arg-type]
 
 
-def test_a_checksum_that_is_no_word_is_an_error_and_never_accepts() -> None:
+def test_a_checksum_that_is_no_word_is_an_error() -> None:
     for wrong in (65536, -1, None, True):
         params = replace(PARAMS, checksum=lambda _data, wrong=wrong: wrong)
         with pytest.raises(ParameterError, match=r"^checksum: expected a word"):
@@ -360,6 +360,6 @@ def test_a_wrong_input_is_refused_by_name(field: str, value: object) -> None:
         replace(inputs(), **{field: value})
 
 
-def test_a_control_state_that_is_none_of_the_states_is_refused() -> None:
+def test_a_control_state_that_does_not_exist_is_refused() -> None:
     with pytest.raises(StateError, match=r"^state:"):
         eks.step(replace(at(Step.SIGNAL), state="Signal"), inputs())

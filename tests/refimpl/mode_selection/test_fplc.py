@@ -179,7 +179,7 @@ def test_step_leads_to_the_state_that_the_procedure_names(
     assert after(before, i).state == expected
 
 
-def test_the_rows_above_cover_every_step_and_every_state_of_the_register() -> None:
+def test_the_rows_cover_every_registered_step_and_state() -> None:
     assert {name for name, *_ in ROWS} == set(FPLC["steps"])
     assert {state.state.value for _, state, *_ in ROWS} == set(FPLC["states"])
 
@@ -223,7 +223,7 @@ def test_every_step_of_the_register_is_named_in_the_code() -> None:
         (Step.AWAIT_ZEROS, 700, inputs(False, "", dt_ms=1), Step.IDLE),
     ],
 )
-def test_a_deadline_expires_when_it_is_reached_and_not_a_millisecond_earlier(
+def test_a_deadline_expires_at_the_exact_millisecond(
     step: Step, limit: int, i: Inputs, expected: Step
 ) -> None:
     assert after(at(step, limit - 2), i).state == expected
@@ -239,7 +239,7 @@ def test_a_deadline_expires_when_it_is_reached_and_not_a_millisecond_earlier(
         (Step.ERROR, False, "", Step.IDLE),
     ],
 )
-def test_zeros_count_as_returned_when_the_dwell_is_reached_and_not_a_millisecond_earlier(
+def test_zeros_have_returned_at_the_exact_millisecond_of_the_dwell(
     step: Step, LA: bool, on: str, left_to: Step
 ) -> None:
     assert after(at(step, 398), inputs(LA, on, dt_ms=1)).state == step
@@ -251,9 +251,7 @@ def test_the_time_of_the_first_scan_after_power_up_counts() -> None:
 
 
 @pytest.mark.parametrize(("params", "at_ones"), [(PARAMS, 510), (FROM_ONES, 0)], ids=["LA", "ones"])
-def test_the_timer_of_the_sequence_goes_on_from_la_or_starts_at_all_ones_and_runs_on_through_zeros(
-    params: Params, at_ones: int
-) -> None:
+def test_the_sequence_timer_starts_at_la_or_ones_and_continues(params: Params, at_ones: int) -> None:
     ones = after(replace(at(Step.PULSE_ONES, 500), params=params), inputs(True, ALL))
     assert (ones.state, ones.elapsed_ms) == (Step.PULSE_ZEROS, at_ones)
     zeros = after(after(ones, inputs(True, ALL, dt_ms=200)), inputs(True, "", dt_ms=100))
@@ -284,7 +282,7 @@ COMPLETE = [Step.PULSE_ONES, Step.PULSE_ZEROS, Step.ONE_OUTPUT, Step.AUTHORIZE]
         (FROM_ONES, (899, 400, 399), (899, 400, 400), 3),
     ],
 )
-def test_from_la_one_window_limits_the_sequence_and_from_ones_a_second_one_follows(
+def test_the_sequence_has_one_window_from_la_two_from_ones(
     params: Params, in_time: tuple[int, int, int], late: tuple[int, int, int], reached: int
 ) -> None:
     assert sequence(params, *in_time) == COMPLETE
@@ -293,13 +291,13 @@ def test_from_la_one_window_limits_the_sequence_and_from_ones_a_second_one_follo
     assert stopped[reached] == Step.ERROR
 
 
-def test_with_one_window_the_wait_for_ones_may_last_as_long_as_the_window() -> None:
+def test_with_one_window_ones_may_take_all_of_it() -> None:
     same = replace(PARAMS, T_ON_ms=900)
     assert sequence(same, 899, 0, 0) == COMPLETE
     assert sequence(same, 899, 1, 0)[2] == Step.ERROR
 
 
-def test_the_timer_of_the_removal_starts_on_entering_clear_and_runs_on_in_await_zeros() -> None:
+def test_the_removal_timer_runs_from_clear_through_await_zeros() -> None:
     clear = after(at(Step.AWAIT_SELECTION), inputs(False, "D", dt_ms=77))
     assert (clear.state, clear.elapsed_ms) == (Step.CLEAR, 0)
     assert after(clear, inputs(False, "", dt_ms=77)).elapsed_ms == 77
@@ -326,7 +324,7 @@ def test_no_timer_runs_while_a_person_is_awaited(step: Step) -> None:
 
 @pytest.mark.parametrize("level", range(5))
 @pytest.mark.parametrize("mode", range(5))
-def test_figure_5_permits_a_mode_up_to_the_level_and_no_other(level: int, mode: int) -> None:
+def test_figure_5_permits_only_modes_up_to_the_level(level: int, mode: int) -> None:
     assert fplc.permitted(RE[level], SE[mode]) == (mode <= level)
     expected = Step.ECHO_SELECTION if mode <= level else Step.ERROR
     output = OUTPUTS[level]
@@ -347,7 +345,7 @@ def test_figure_5_permits_no_word_that_is_no_mode() -> None:
 
 @pytest.mark.parametrize("level", range(5))
 @pytest.mark.parametrize("mode", range(5))
-def test_a_machine_may_permit_less_and_refuses_the_rest_with_error(level: int, mode: int) -> None:
+def test_a_machine_may_permit_less_and_answers_more_with_error(level: int, mode: int) -> None:
     permits = ([0], [1], [2], [1, 2, 3], [4])
     before = replace(at(Step.CHECK_SELECTION, level=level), params=TEXT_ORDER)
     reached = after(before, inputs(on=OUTPUTS[level], MW03=SE[mode]))
@@ -363,23 +361,23 @@ def test_a_word_that_is_no_code_passes_on_no_machine() -> None:
             assert not fplc.within_authority(TEXT_ORDER, level, MW03)
 
 
-def test_figure_5_permits_nothing_to_a_word_that_is_no_level() -> None:
+def test_figure_5_permits_nothing_to_words_without_a_level() -> None:
     for MW01 in set(range(0x10000)) - set(RE):
         assert not any(fplc.permitted(MW01, MW03) for MW03 in (*SE, 0))
 
 
-def test_figure_6_answers_the_five_selection_words_and_no_other_word() -> None:
+def test_figure_6_answers_only_the_five_selection_words() -> None:
     answered = {word: fplc.echo(word) for word in range(0x10000) if fplc.echo(word) != 0}
     assert answered == {0x0FF0: 0x3333, 0x3333: 0x33CC, 0x33CC: 0x3C3C, 0x3C3C: 0x0F0F, 0x0F0F: 0x0FF0}
 
 
-def test_figure_7_accepts_the_five_matching_pairs_and_no_other_pair_of_words() -> None:
+def test_figure_7_accepts_only_the_five_matching_pairs() -> None:
     selections = (*SE, 0, NOT_A_CODE)
     accepted = {(a, b) for a in selections for b in range(0x10000) if fplc.matches(a, b)}
     assert accepted == set(zip(SE, SW, strict=True))
 
 
-def test_figure_7_row_5_follows_table_2_and_not_its_own_misprint() -> None:
+def test_figure_7_row_5_follows_table_2_despite_its_misprint() -> None:
     assert fplc.matches(0x33CC, 0x0F0F)
     assert not fplc.matches(0x33CC, 0x0FF0)
 
@@ -400,14 +398,14 @@ def test_outputs_are_the_row_of_the_state(step: Step) -> None:
     assert (step == Step.ERROR) == row.ERROR
 
 
-def test_outputs_of_a_scan_are_those_of_the_state_after_it() -> None:
+def test_outputs_of_a_scan_are_of_the_state_after() -> None:
     for _, before, i, _ in ROWS:
         state, row = fplc.step(before, i)
         assert row == fplc.outputs(state)
 
 
 @pytest.mark.parametrize("step", [*IN_FLOW[1:]])
-def test_both_words_drop_in_the_very_scan_that_sees_the_key_gone(step: Step) -> None:
+def test_both_words_drop_in_the_scan_without_the_key(step: Step) -> None:
     _, row = fplc.step(at(step), inputs(False, "", MW03=SE[2], MW07=SW[2]))
     assert (row.MW01, row.MW05) == (0, 0)
 
@@ -422,7 +420,7 @@ def test_the_mode_that_becomes_active_is_the_latched_selection(mode: int) -> Non
     assert [m == mode for m in range(5)] == [row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4]
 
 
-def test_power_up_is_start_with_nothing_remembered_and_no_mode_active() -> None:
+def test_power_up_is_start_without_memory_or_active_mode() -> None:
     assert fplc.power_up(PARAMS) == State(PARAMS, Step.START, -1, -1, -1, -1, 0)
     row = fplc.outputs(fplc.power_up(PARAMS))
     assert not any((row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4, row.ERROR, row.MW01, row.MW05))
@@ -431,7 +429,7 @@ def test_power_up_is_start_with_nothing_remembered_and_no_mode_active() -> None:
 # ---------------------------------------------------------------- memory
 
 
-def test_accepting_an_output_remembers_its_level_and_publishing_makes_it_the_authority() -> None:
+def test_an_accepted_level_becomes_the_authority_when_it_is_published() -> None:
     for level, name in enumerate(OUTPUTS):
         accepted = after(at(Step.ONE_OUTPUT), inputs(on=name))
         assert (accepted.accepted, accepted.authority) == (level, -1)
@@ -456,7 +454,7 @@ def test_a_step_changes_only_the_memory_that_belongs_to_it(
 
 
 @pytest.mark.parametrize(("name", "before", "i", "to"), ROWS, ids=ROW_IDS)
-def test_a_timer_starts_anew_on_entering_a_state_and_stands_still_where_none_is_needed(
+def test_timers_restart_in_new_states_or_stop_where_not_needed(
     name: str, before: State, i: Inputs, to: Step
 ) -> None:
     elapsed = 0
@@ -481,7 +479,7 @@ def test_removal_and_error_forget_the_insertion_and_hold_the_mode(step: Step, i:
     assert forgotten.mode == 1
 
 
-def test_error_drops_the_mode_where_the_parameter_says_so_and_removal_still_does_not() -> None:
+def test_the_parameter_drops_the_mode_in_error_not_in_removal() -> None:
     dropping = replace(PARAMS, ON_ERROR="none")
     state = replace(at(Step.AWAIT_SELECTION, mode=1), params=dropping)
     assert after(state, inputs(True, ALL)) == State(dropping, Step.ERROR, -1, -1, -1, -1, 0)
@@ -581,7 +579,7 @@ def test_one_window_cannot_be_shorter_than_the_wait_for_ones() -> None:
         Params(T_ON_ms=900, T_SEQ_ms=899)
 
 
-def test_a_control_state_that_is_none_of_the_states_never_switches() -> None:
+def test_a_control_state_that_does_not_exist_never_switches() -> None:
     forged = replace(at(Step.SWITCH), state="Switch")
     with pytest.raises(StateError, match="state"):
         fplc.step(forged, inputs(MW03=SE[2], MW07=SW[2]))

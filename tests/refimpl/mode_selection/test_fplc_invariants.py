@@ -90,7 +90,7 @@ def test_the_sequences_drawn_below_do_switch_modes() -> None:
 @pytest.mark.parametrize("on_error", ["hold", "none"])
 @CHECKED
 @given(scans=SEQUENCES)
-def test_at_most_one_mode_output_is_set_and_none_before_the_first_switchover(
+def test_never_two_mode_outputs_and_none_before_the_first_switchover(
     on_error: str, scans: list[Inputs]
 ) -> None:
     switched = False
@@ -104,9 +104,10 @@ def test_at_most_one_mode_output_is_set_and_none_before_the_first_switchover(
 
 @CHECKED
 @given(SEQUENCES)
-def test_the_mode_changes_only_in_switch_with_key_level_selection_and_acknowledgment_of_this_scan(
+def test_the_mode_changes_only_in_switch_on_this_scans_inputs(
     scans: list[Inputs],
 ) -> None:
+    """The key, its level, the selection and the acknowledgment are those of this scan."""
     for before, i, after, row in run(scans):
         if before.mode != after.mode:
             mode = after.mode
@@ -167,7 +168,7 @@ def test_memory_has_only_what_the_state_needs(scans: list[Inputs]) -> None:
 
 @CHECKED
 @given(SEQUENCES)
-def test_two_outputs_outside_the_pulse_window_lead_to_error_in_that_scan(scans: list[Inputs]) -> None:
+def test_two_outputs_outside_the_pulse_window_are_an_error(scans: list[Inputs]) -> None:
     for before, i, after, row in run(scans):
         in_window = before.state in (Step.PULSE_ONES, Step.PULSE_ZEROS) or (
             before.state == Step.IDLE and i.LA
@@ -179,7 +180,7 @@ def test_two_outputs_outside_the_pulse_window_lead_to_error_in_that_scan(scans: 
 
 @CHECKED
 @given(SEQUENCES)
-def test_a_selection_is_echoed_only_after_it_was_read_as_a_permitted_code(scans: list[Inputs]) -> None:
+def test_only_a_selection_read_as_permitted_is_echoed(scans: list[Inputs]) -> None:
     for before, i, after, _ in run(scans):
         if after.selection != before.selection and after.selection != NONE:
             assert decode(SE, i.MW03) == after.selection
@@ -188,9 +189,7 @@ def test_a_selection_is_echoed_only_after_it_was_read_as_a_permitted_code(scans:
 
 @CHECKED
 @given(SEQUENCES, ANY_SCAN)
-def test_from_anywhere_key_out_and_zeros_for_a_dwell_lead_back_to_idle(
-    scans: list[Inputs], last: Inputs
-) -> None:
+def test_key_out_and_zeros_lead_from_anywhere_to_idle(scans: list[Inputs], last: Inputs) -> None:
     quiet = Inputs(250, False, *OFF, 0, 0)
     steps = run([*scans, last, *[quiet] * 12])
     assert steps[-1][2].state == Step.IDLE

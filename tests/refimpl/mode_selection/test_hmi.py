@@ -102,7 +102,7 @@ def test_power_up_is_inhibited_with_nothing_remembered() -> None:
     assert hmi.power_up(Params()) == State(Params(), Step.INHIBITED, -1, -1)
 
 
-def test_the_rows_above_cover_every_step_and_every_state_of_the_register() -> None:
+def test_the_rows_cover_every_registered_step_and_state() -> None:
     assert {name for name, *_ in ROWS} == set(HMI["steps"])
     assert {before.state.value for _, before, *_ in ROWS} == set(HMI["states"])
 
@@ -134,7 +134,7 @@ def test_words_and_screen_are_the_row_of_the_state(step: Step) -> None:
 
 
 @pytest.mark.parametrize("level", range(5))
-def test_the_screen_offers_the_modes_up_to_the_level_and_no_other(level: int) -> None:
+def test_the_screen_offers_only_modes_up_to_the_level(level: int) -> None:
     opened, row = hmi.step(hmi.power_up(Params()), inputs(RE[level]))
     assert [mode for mode in range(5) if row.enabled[mode]] == list(range(level + 1))
     for mode in range(5):
@@ -155,9 +155,7 @@ def test_defaults_are_those_of_the_register() -> None:
 
 
 @pytest.mark.parametrize(("level", "permits"), list(enumerate([[0], [1], [2], [1, 2, 3], [4]])))
-def test_a_machine_may_permit_less_and_the_panel_offers_and_takes_no_more(
-    level: int, permits: list[int]
-) -> None:
+def test_the_panel_offers_and_takes_what_the_machine_permits(level: int, permits: list[int]) -> None:
     opened, row = hmi.step(hmi.power_up(TEXT_ORDER), inputs(RE[level]))
     assert (opened.state, row.enabled) == (Step.SELECT, modes(*permits))
     for mode in range(5):
@@ -170,7 +168,7 @@ def test_a_machine_may_permit_less_and_the_panel_offers_and_takes_no_more(
 
 
 @pytest.mark.parametrize("level", range(5))
-def test_a_finger_on_a_field_that_is_not_permitted_means_no_touch(level: int) -> None:
+def test_a_finger_on_a_forbidden_field_is_no_touch(level: int) -> None:
     _, row = hmi.step(hmi.power_up(TEXT_ORDER), inputs(RE[level]))
     for mode, field in enumerate(DEFAULT_LAYOUT.selection):
         meant = hmi.touch_at(DEFAULT_LAYOUT, row, field.x, field.y)
@@ -198,7 +196,7 @@ def test_a_wrong_parameter_is_refused_by_name(field: str, value: object) -> None
 
 
 @pytest.mark.parametrize("active", range(-1, 5))
-def test_the_active_mode_is_displayed_even_when_the_screen_is_inhibited(active: int) -> None:
+def test_the_active_mode_shows_on_an_inhibited_screen_too(active: int) -> None:
     _, row = hmi.step(hmi.power_up(Params()), inputs(0, ActiveMSO=active))
     assert (row.screen, row.active) == ("inhibited", active)
 
@@ -214,7 +212,7 @@ SCAN = st.builds(
 
 
 @given(st.lists(SCAN, max_size=60))
-def test_an_acknowledgment_is_sent_only_for_the_mode_touched_shown_and_confirmed(scans: list[Inputs]) -> None:
+def test_only_a_mode_touched_shown_and_confirmed_is_acknowledged(scans: list[Inputs]) -> None:
     state, row = hmi.power_up(Params()), hmi.outputs(hmi.power_up(Params()))
     touched = confirmed = -1
     for i in scans:
@@ -257,7 +255,7 @@ def test_a_wrong_input_is_refused_by_name(field: str, value: object) -> None:
         replace(inputs(), **{field: value})
 
 
-def test_a_control_state_that_is_none_of_the_states_is_refused() -> None:
+def test_a_control_state_that_does_not_exist_is_refused() -> None:
     with pytest.raises(StateError, match=r"^state:"):
         hmi.step(replace(at(Step.CONFIRM), state="Confirm"), inputs(CM=CH[2], touch="confirm"))
 
@@ -308,7 +306,7 @@ LAYOUT_FAULTS = [
 
 
 @pytest.mark.parametrize(("layout", "field", "reason"), LAYOUT_FAULTS)
-def test_a_layout_that_breaks_the_rule_is_refused_with_place_and_cause(
+def test_a_wrong_layout_is_refused_with_place_and_cause(
     layout: Layout, field: str | None, reason: str | None
 ) -> None:
     if field is None:
@@ -319,7 +317,7 @@ def test_a_layout_that_breaks_the_rule_is_refused_with_place_and_cause(
 
 
 @given(st.integers(-5, 805), st.integers(-5, 485), st.integers(-5, 485), st.integers(-5, 805))
-def test_no_finger_that_stays_in_its_column_or_its_row_selects_and_then_confirms(
+def test_no_finger_in_one_row_or_column_selects_and_confirms(
     x: int, y: int, other_y: int, other_x: int
 ) -> None:
     choosing = hmi.outputs(at(Step.SELECT, offered=4))

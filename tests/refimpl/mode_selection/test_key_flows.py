@@ -144,7 +144,7 @@ def test_the_user_can_reject_the_echo_and_choose_again() -> None:
     assert key_flows.active_mode(system) == 1
 
 
-def test_several_modes_can_be_selected_on_one_insertion_and_the_same_one_again() -> None:
+def test_one_insertion_selects_several_modes_and_a_mode_again() -> None:
     system = switched(4, 0)
     for mode in (4, 2, 2, 0):
         system = until(touch(system, f"select:{mode}"), screen("confirm"))
@@ -173,7 +173,7 @@ def opened_after(system: System) -> bool:
     return until(insert_key(rounds(system, 5), key_of(3)), screen("select")).hmi_out.enabled[3]
 
 
-def test_a_key_that_is_in_at_power_up_must_be_put_in_again() -> None:
+def test_a_key_from_before_power_up_must_be_reinserted() -> None:
     system = insert_key(key_flows.power_up(EKS_PARAMS, FPLC_PARAMS), key_of(3))
     system = rounds(system, 300)
     assert system.fplc_out.MW01 == 0
@@ -188,7 +188,7 @@ def all_words(system: System) -> set[int]:
     return {f.MW01, f.MW05, p.ReadAuthorization, p.CheckMSO, p.MW03, p.MW07, h.SelectMSO, h.SwitchMSO}
 
 
-def test_removal_brings_all_words_to_zero_and_keeps_the_mode_and_its_display() -> None:
+def test_removal_clears_all_words_and_keeps_mode_and_display() -> None:
     system = until(remove_key(switched(3, 2)), idle)
     assert all_words(system) == {0}
     assert system.hmi_out.screen == "inhibited"
@@ -196,7 +196,7 @@ def test_removal_brings_all_words_to_zero_and_keeps_the_mode_and_its_display() -
 
 
 @pytest.mark.parametrize("moment", range(20))
-def test_a_key_pulled_at_any_moment_leads_back_to_idle_with_the_mode_unchanged(moment: int) -> None:
+def test_a_key_pulled_anytime_leads_to_idle_without_mode_change(moment: int) -> None:
     system = rounds(touch(asked(3, 2), "confirm"), moment)
     system = key_flows.scan_eks(remove_key(system), 10)
     before = key_flows.active_mode(system)
@@ -233,7 +233,7 @@ def test_a_key_of_another_user_never_inherits_a_selection() -> None:
     assert (RE[1], 0, 0) == (system.fplc_out.MW01, system.fplc_out.MW05, system.plc_out.MW03)
 
 
-def test_an_eks_that_finds_its_registers_not_zero_stays_dark_and_the_mode_stays() -> None:
+def test_nonzero_registers_keep_the_eks_dark_and_the_mode_active() -> None:
     system = replace(switched(3, 2), registers_zero=False)
     system = until(remove_key(system), idle)
     system = rounds(insert_key(replace(system, registers_zero=True), key_of(3)), 200)
@@ -253,7 +253,7 @@ EVENTS = st.one_of(
 
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(st.sampled_from([(4, 0), (3, 3), (1, 0)]), st.lists(EVENTS, max_size=120))
-def test_in_any_interleaving_an_active_mode_was_touched_shown_and_confirmed_by_the_user(
+def test_in_any_interleaving_active_modes_were_touched_shown_and_confirmed(
     start: tuple[int, int], events: list[str]
 ) -> None:
     system = asked(*start)
@@ -298,7 +298,7 @@ def test_a_touch_is_seen_by_one_scan_of_the_panel() -> None:
 # ---------------------------------------------------------------- logs
 
 
-def test_a_log_line_has_the_wire_form_of_the_adapter_protocol() -> None:
+def test_log_lines_have_the_wire_form_of_the_protocol() -> None:
     system = touch(opened(1), "select:1")
     line = key_flows.log_line(system, "hmi", 10)
     assert "\n" not in line

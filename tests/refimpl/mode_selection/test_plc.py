@@ -56,7 +56,7 @@ def test_the_copies_come_one_a_scan_and_in_their_order() -> None:
 
 
 @given(st.lists(st.builds(Inputs, st.integers(0, 1000), WORDS, WORDS, WORDS, WORDS), min_size=4, max_size=12))
-def test_any_word_is_sent_on_unchanged_and_only_one_word_changes_a_scan(scans: list[Inputs]) -> None:
+def test_words_pass_unchanged_and_only_one_changes_a_scan(scans: list[Inputs]) -> None:
     state = plc.power_up(Params())
     row = plc.outputs(state)
     for i in scans:

@@ -89,7 +89,7 @@ def test_a_lost_sensor_beats_the_reset_of_the_same_call() -> None:
     assert one.call(S_OSSD_In=False, Reset=True) == "8802"
 
 
-def test_a_test_runs_through_its_phases_and_each_has_the_whole_test_time() -> None:
+def test_each_phase_of_a_test_has_the_whole_test_time() -> None:
     one = Machine(TestTime_ms=10).enabled()
     assert one.call(StartTest=True) == "8020"
     assert (one.out.S_TestOut, one.out.S_OSSD_Out, one.out.TestPossible) == (False, True, False)
@@ -101,7 +101,7 @@ def test_a_test_runs_through_its_phases_and_each_has_the_whole_test_time() -> No
 
 
 @pytest.mark.parametrize("test_time", [1, 10, 149, 150])
-def test_at_test_time_a_phase_has_failed_whatever_the_sensor_shows(test_time: int) -> None:
+def test_at_test_time_a_phase_fails_whatever_the_sensor_shows(test_time: int) -> None:
     for dark in (False, True):
         one = Machine(TestTime_ms=test_time).enabled()
         one.call(StartTest=True)
@@ -130,14 +130,14 @@ def test_outside_its_range_test_time_is_the_blocks_own_error(test_time: int) -> 
     assert [one.call(), one.call(Reset=True), one.call(Activate=False)] == ["C000", "C000", "0000"]
 
 
-def test_an_edge_of_start_test_that_comes_too_early_is_not_remembered() -> None:
+def test_an_early_edge_of_start_test_is_not_remembered() -> None:
     one = Machine()
     assert one.call() == "8401"
     assert [one.call(StartTest=True), one.call(5, StartTest=True)] == ["8010", "8010"]
     assert [one.call(), one.call(StartTest=True)] == ["8010", "8020"]
 
 
-def test_test_executed_stays_over_an_interruption_and_ends_with_the_next_test() -> None:
+def test_test_executed_outlives_interruptions_and_ends_with_the_next_test() -> None:
     one = Machine().enabled()
     one.call(StartTest=True)
     one.call(S_OSSD_In=False)
@@ -151,7 +151,7 @@ def test_test_executed_stays_over_an_interruption_and_ends_with_the_next_test() 
     assert (one.call(StartTest=True), one.out.TestExecuted) == ("8020", False)
 
 
-def test_x_of_the_test_error_follows_the_sensor_and_a_reset_fits_x_4_alone() -> None:
+def test_x_follows_the_sensor_and_reset_needs_x_4() -> None:
     one = Machine().failed()
     codes = [
         one.call(S_OSSD_In=False),
@@ -164,7 +164,7 @@ def test_x_of_the_test_error_follows_the_sensor_and_a_reset_fits_x_4_alone() -> 
     assert [one.call(Reset=True), one.call(), one.call(Reset=True)] == ["C410", "C410", "8010"]
 
 
-def test_after_a_failed_test_the_manual_test_needs_free_then_dark_then_free() -> None:
+def test_the_manual_test_after_failure_needs_free_dark_free() -> None:
     no = {"NoExternalTest": False}
     one = Machine().failed(**no)
     assert f"{one.out.DiagCode:04X}" == "C010"
@@ -179,7 +179,7 @@ def test_after_a_failed_test_the_manual_test_needs_free_then_dark_then_free() ->
     assert [one.call(**no), one.call(Reset=True, **no)] == ["8404", "8010"]
 
 
-def test_a_static_reset_at_the_end_of_the_manual_test_is_a_reset_error() -> None:
+def test_a_static_reset_ending_the_manual_test_is_an_error() -> None:
     no = {"NoExternalTest": False}
     one = Machine().failed(**no)
     one.call(Reset=True, **no)
@@ -194,7 +194,7 @@ def test_a_static_reset_at_the_end_of_the_manual_test_is_a_reset_error() -> None
 
 
 @pytest.mark.parametrize(("automatic", "code"), [(False, "C410"), (True, "8010")])
-def test_s_auto_reset_ends_a_test_error_only_where_the_parameter_says_so(automatic: bool, code: str) -> None:
+def test_s_auto_reset_ends_test_errors_only_where_permitted(automatic: bool, code: str) -> None:
     one = Machine(AUTO_RESET_ERRORS=automatic).failed(S_AutoReset=True)
     assert one.call(S_AutoReset=True) == code
 
@@ -207,7 +207,7 @@ CALLS = st.lists(
 
 
 @given(st.integers(-1, 151), st.booleans(), CALLS)
-def test_whatever_is_called_no_output_stands_over_a_dark_sensor_for_test_time(
+def test_no_output_stands_over_a_dark_sensor_for_test_time(
     test_time: int, automatic: bool, calls: list[dict[str, Any]]
 ) -> None:
     one = Machine(TestTime_ms=test_time, AUTO_RESET_ERRORS=automatic)

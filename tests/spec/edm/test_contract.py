@@ -44,14 +44,14 @@ def test_the_property_falls_to_the_fault(name: str) -> None:
     assert BLOCK.falls(name, FAULTS[name], KEPT[0])
 
 
-def test_the_block_keeps_its_contract_and_puts_each_property_to_it() -> None:
+def test_the_block_keeps_its_contract_and_tests_each_property() -> None:
     assert BLOCK.put_to_it(KEPT) == set(BLOCK.properties)
 
 
-def test_a_program_that_acts_a_call_late_keeps_it_where_inputs_are_held() -> None:
+def test_a_program_a_call_late_keeps_it_with_held_inputs() -> None:
     broken, _ = BLOCK.watch(late=True, **KEPT[0])
     assert broken is None, broken
 
 
-def test_each_property_has_a_fault_and_is_judged_without_the_codes() -> None:
+def test_each_property_has_a_fault_and_needs_no_codes() -> None:
     assert set(FAULTS) == set(BLOCK.properties) and BLOCK.unjudged_without_codes() == ()

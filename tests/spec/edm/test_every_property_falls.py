@@ -103,6 +103,6 @@ def test_every_state_code_and_transition_is_witnessed() -> None:
     assert len(transitions) == 1 + 23 + 3 + 2 + 7 + 4 + 9 * 3
 
 
-def test_reading_a_trace_has_a_case_for_every_step_of_the_sequence() -> None:
+def test_reading_a_trace_has_a_case_for_every_sequence_step() -> None:
     text = (BLOCK.spec / "sequences.toml").read_text()
     assert re.findall(r"^    # (\d)$", text, re.MULTILINE) == list("0123456")

@@ -140,7 +140,7 @@ SHRUNK = replace(KEY_FLOWS, edits=(("LEVELS = {1}", "LEVELS = {0}"),))
 
 
 @pytest.mark.parametrize("trial", [Trial(SHRUNK)], ids=["LEVELS = {0}"])
-def test_a_shrunk_constant_is_noticed_even_when_the_cfg_is_pinned_again(trial: Trial, trials: Run) -> None:
+def test_a_shrunk_constant_is_noticed_despite_a_new_pin(trial: Trial, trials: Run) -> None:
     after, control = trials(trial), trials(Trial(KEY_FLOWS))
     assert after.run.cfg_sha256 is not None
     found = judge(pinned(control), after.cfg, after.run.cfg_sha256, after.outcome)
@@ -167,7 +167,7 @@ WRONG_WORDS = (
 
 
 @pytest.mark.parametrize("trial", [Trial(PLC, fault) for fault in WRONG_WORDS], ids=str)
-def test_a_wrong_word_in_table_2_ends_the_run_without_a_verdict(trial: Trial, trials: Run) -> None:
+def test_a_wrong_word_in_table_2_leaves_no_verdict(trial: Trial, trials: Run) -> None:
     found = trials(trial).judgement
     assert found.verdict == "UNJUDGED" and "Assumption" in found.reason
 
@@ -245,7 +245,7 @@ OVERLAP = Fault(
 
 
 @pytest.mark.parametrize("trial", LOST, ids=str)
-def test_a_printed_edge_that_is_lost_is_refused_by_judge_and_reader(trial: Trial, trials: Run) -> None:
+def test_judge_and_reader_refuse_the_loss_of_printed_edges(trial: Trial, trials: Run) -> None:
     after = trials(trial)
     found = judged(after, trials(Trial(trial.base)))
     assert not found.as_expected and "edges were printed, but TLC took" in found.reason
@@ -319,7 +319,7 @@ def test_an_emptied_property_list_is_missed(tmp_path: Path, trials: Run) -> None
     assert "run OPEN_Plc: the property list is empty" in register_problems(tmp_path, DOCUMENT)
 
 
-def test_a_cfg_that_no_run_lists_and_a_run_without_its_cfg_are_missed(tmp_path: Path) -> None:
+def test_unlisted_cfgs_and_runs_without_cfg_are_noticed(tmp_path: Path) -> None:
     copy(tmp_path)
     assert register_problems(tmp_path, DOCUMENT) == ()
     models = tmp_path / "spec" / DOCUMENT / "models"

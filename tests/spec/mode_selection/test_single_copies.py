@@ -31,7 +31,7 @@ def test_specification_and_implementation_agree_in_every_cell(cells: set[str]) -
     assert len(cells) > 250
 
 
-def test_every_ordered_pair_of_flag_words_and_every_word_beside_them_is_in_the_matrix(
+def test_the_matrix_has_all_word_pairs_and_words_beside(
     cells: set[str],
 ) -> None:
     pairs = {tuple(cell.split(" at ")[0].split(" over ")) for cell in cells}
@@ -40,7 +40,7 @@ def test_every_ordered_pair_of_flag_words_and_every_word_beside_them_is_in_the_m
     assert pairs == straight | beside
 
 
-def test_nothing_is_ever_switched_that_was_not_touched_and_two_copies_pass_for_a_confirmation(
+def test_only_touched_modes_switch_and_two_copies_pass_unconfirmed(
     cells: set[str],
 ) -> None:
     wrong = sorted(cell for cell in cells if "level" in cell)
