@@ -41,7 +41,7 @@ def _compared(place: Path, module: ModuleType, **verdicts: str) -> dict[str, Any
 BOTH = _module(Row("One", "first"), Row("Two", "", "nobody knows"))
 
 
-def test_what_holds_and_is_proved_agrees_and_a_reason_is_enough(tmp_path: Path) -> None:
+def test_what_holds_and_is_proved_or_has_a_reason_agrees(tmp_path: Path) -> None:
     record = _compared(tmp_path, BOTH, first="PROVED")
     assert (record["verdict"], status_of(record)) == ("EQUAL", 0)
     assert evidence.read(evidence_path(tmp_path, "toy", ID)) == record
@@ -50,9 +50,7 @@ def test_what_holds_and_is_proved_agrees_and_a_reason_is_enough(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("verdict", ["VIOLATED", "INCONCLUSIVE", "UNJUDGED"])
-def test_a_theorem_that_is_not_proved_where_tlc_says_holds_is_a_difference(
-    tmp_path: Path, verdict: str
-) -> None:
+def test_an_unproved_theorem_where_tlc_holds_is_a_difference(tmp_path: Path, verdict: str) -> None:
     record = _compared(tmp_path, BOTH, first=verdict)
     assert (record["verdict"], status_of(record)) == ("DIFFERS", 1)
     assert record["reason"] == f"One (honest): HOLDS, and first: {verdict}"
@@ -64,14 +62,14 @@ def test_a_theorem_that_was_not_asked_is_a_difference(tmp_path: Path) -> None:
     assert status_of(_compared(tmp_path, BOTH)) == 1
 
 
-def test_a_theorem_that_does_without_what_tlc_needs_is_a_difference(tmp_path: Path) -> None:
+def test_a_theorem_without_what_tlc_needs_is_a_difference(tmp_path: Path) -> None:
     module = _module(Row("One", "first"), disagreements=("One (honest): first does not rest on A-1",))
     record = _compared(tmp_path, module, first="PROVED")
     assert record["result"]["problems"] == ["One (honest): first does not rest on A-1"]
     assert status_of(record) == 1
 
 
-def test_rows_that_cannot_be_made_and_no_rows_at_all_are_a_difference(tmp_path: Path) -> None:
+def test_rows_that_fail_or_are_missing_are_a_difference(tmp_path: Path) -> None:
     def none() -> tuple[Row, ...]:
         raise ValueError("One: neither a formula proves it nor a reason says why none does")
 

@@ -29,9 +29,7 @@ def only_line(capsys: pytest.CaptureFixture[str]) -> str:
     return lines[0]
 
 
-def test_a_run_as_expected_ends_with_0_and_can_be_had_as_json(
-    toy: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_expected_run_ends_with_0_and_can_be_json(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     target = toy / "out.json"
     assert main(["check", "MC_toy", "--quiet", "--json", str(target)]) == 0
     assert "ok  toy/MC_toy: HOLDS; 16 distinct, 33 generated" in capsys.readouterr().out
@@ -39,7 +37,7 @@ def test_a_run_as_expected_ends_with_0_and_can_be_had_as_json(
     assert written["status"] == 0 and written["runs"][0]["verdict"] == "HOLDS"
 
 
-def test_a_count_that_differs_ends_with_1_and_a_repin_mends_it(
+def test_a_different_count_ends_with_1_until_it_is_repinned(
     toy: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = toy / "spec/toy/runs.toml"
@@ -122,7 +120,7 @@ def test_ctrl_c_ends_tlc_too_and_is_one_line(toy: Path) -> None:
     assert not (toy / "build/evidence/toy/MC_big.json").exists()
 
 
-def test_a_defect_of_ours_is_one_line_and_never_a_pass(
+def test_our_own_defect_is_one_line_and_never_a_pass(
     toy: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def broken() -> None:

@@ -29,7 +29,7 @@ def hold(place: Path) -> subprocess.Popen[str]:
     return holder
 
 
-def test_a_second_run_is_refused_with_the_pid_of_the_first(tmp_path: Path) -> None:
+def test_a_second_run_is_refused_with_the_first_pid(tmp_path: Path) -> None:
     holder = hold(tmp_path)
     try:
         words = rf"another modeproof is running here \(pid {holder.pid},"

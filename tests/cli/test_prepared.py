@@ -12,7 +12,7 @@ import pytest
 from modeproof.lane import prove
 
 
-def test_where_it_cannot_be_made_nothing_is_shared_and_the_theorems_are_still_asked(
+def test_theorems_are_asked_without_sharing_when_preparing_fails(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     left: list[str] = []

@@ -37,7 +37,7 @@ def _program(folder: Path) -> str:
     return str(path)
 
 
-def test_processes_know_what_was_made_before_only_when_that_is_asked_for(tmp_path: Path) -> None:
+def test_processes_know_what_was_made_before_only_if_asked(tmp_path: Path) -> None:
     def said(fork: str) -> str:
         command = [sys.executable, _program(tmp_path), fork]
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

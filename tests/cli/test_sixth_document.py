@@ -100,7 +100,7 @@ def test_without_a_document_there_is_nothing_to_verify(tmp_path: Path) -> None:
     assert status == 2 and "no document" in text
 
 
-def test_a_new_document_goes_from_clauses_to_verdicts_as_files_alone(done: dict[str, Any]) -> None:
+def test_files_alone_take_a_new_document_from_clauses_to_verdicts(done: dict[str, Any]) -> None:
     assert {name: status for name, (status, _) in done.items()} == dict.fromkeys(done, 0), done
     screen = done["verify --quiet"][1]
     for line in (
@@ -118,7 +118,7 @@ def test_a_new_document_goes_from_clauses_to_verdicts_as_files_alone(done: dict[
     assert "OpensOverBeacon HOLDS   honest" in screen and "MotorOnlyOpen   HOLDS   arbitrary" in screen
 
 
-def test_the_report_of_verify_has_the_new_document_and_no_influence_on_its_status(
+def test_the_report_shows_the_new_document_without_changing_the_status(
     done: dict[str, Any], root: Path
 ) -> None:
     status, screen = done["verify --quiet"]

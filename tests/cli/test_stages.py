@@ -57,7 +57,7 @@ def test_the_models_are_checked_before_their_graphs_are_compared() -> None:
     assert [title for title, _ in verify.stages_of_verify()] == ["registers", "TLC", "proofs", "conformance"]
 
 
-def test_a_comparison_is_made_once_and_belongs_to_its_own_stage(toy: tuple[Path, list[str]]) -> None:
+def test_a_comparison_is_made_once_in_its_own_stage(toy: tuple[Path, list[str]]) -> None:
     root, made = toy
     found = outcome(root)
     proofs, troubles = found["proofs"]
@@ -67,7 +67,7 @@ def test_a_comparison_is_made_once_and_belongs_to_its_own_stage(toy: tuple[Path,
     assert made == ["OPEN_toy"]
 
 
-def test_where_no_theorem_can_be_asked_the_comparisons_are_made_all_the_same(
+def test_comparisons_are_made_even_where_no_theorem_can_be_asked(
     toy: tuple[Path, list[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root, made = toy

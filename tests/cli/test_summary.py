@@ -42,7 +42,7 @@ def test_a_property_that_no_run_checks_is_unjudged() -> None:
     assert "no run checks it" in failures([], [line])[0]
 
 
-def test_a_property_that_another_lane_checks_is_named_and_not_counted() -> None:
+def test_a_property_of_another_lane_is_named_and_not_counted() -> None:
     (line,) = property_lines([SAFE], [], DECLARED)
     assert (line.verdict, line.status) == (ASIDE, 0)
     assert render("toy", [line], [], width=100) == "== toy\n1 more not in this lane: Safety (honest)"
@@ -61,7 +61,7 @@ def test_among_equals_the_run_that_is_declared_first_is_shown() -> None:
     assert (line.strength, line.distinct, line.seconds) == ("all levels", 16, 4.0)
 
 
-def test_a_run_that_held_with_other_counts_is_no_clean_holds() -> None:
+def test_holding_with_other_counts_is_no_clean_holds() -> None:
     other = tlc("MC_a", as_expected=False, reason="distinct states: 16, pinned 17")
     (line,) = property_lines([SAFE], [other], DECLARED)
     assert (line.verdict, line.status) == ("HOLDS?", 1)
@@ -79,7 +79,7 @@ def test_negatives_do_not_stand_for_a_property() -> None:
     assert line.verdict == "UNJUDGED"
 
 
-def test_the_screen_has_a_line_per_property_and_counts_the_rest() -> None:
+def test_the_screen_lists_each_property_and_counts_the_rest() -> None:
     records = [
         tlc("MC_a"),
         tlc("NEG_a", verdict="VIOLATED"),

@@ -67,7 +67,7 @@ def run(place: Path, *stages: Stage) -> tuple[int, list[dict[str, Any]]]:
     return verify(place, ["toy"], "smoke", named, Progress(quiet=True))
 
 
-def test_a_lane_as_expected_ends_with_0_and_a_line_per_property(
+def test_an_expected_lane_ends_with_0_and_lists_each_property(
     toy: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     status, records = run(toy, check_lane, stage("PROVED"))
@@ -105,7 +105,7 @@ def test_a_property_that_no_run_checks_spoils_the_result(
     assert "property Forgotten (honest): UNJUDGED: no run checks it" in capsys.readouterr().out
 
 
-def test_documents_have_a_screen_each_and_a_total_and_one_that_fails_is_named(
+def test_each_document_has_a_screen_and_the_total_names_failures(
     toy: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     shutil.copytree(toy / "spec/toy", toy / "spec/twin")

@@ -52,7 +52,7 @@ def misplaced(page: str, document: Document) -> list[str]:
     return [name for name in dict.fromkeys([*times, *found]) if found.count(name) != times.get(name)]
 
 
-def test_every_name_of_ours_on_the_page_is_one_of_the_registers(document: Document) -> None:
+def test_each_of_our_names_on_the_page_is_registered(document: Document) -> None:
     assert len(used_in(PAGE)) > 50
     assert unknown(PAGE, document) == []
     assert unknown(PAGE.replace("`MW05`", "`MW06`"), document) == ["MW06"]

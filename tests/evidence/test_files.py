@@ -77,7 +77,7 @@ def test_a_missing_field_is_not_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("call", ["fsync", "replace"])
-def test_a_full_disk_is_one_line_and_leaves_the_old_file(
+def test_a_full_disk_is_one_line_and_keeps_old_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: str
 ) -> None:
     path = evidence.write(tmp_path, record(seconds=1.0))

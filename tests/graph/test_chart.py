@@ -15,7 +15,7 @@ def drawn(folder: Path, printed: list[str] | None = None) -> Chart:
     return found
 
 
-def test_states_of_one_control_state_are_one_and_every_transition_is_counted(tmp_path: Path) -> None:
+def test_a_control_state_merges_its_states_and_counts_every_transition(tmp_path: Path) -> None:
     # off: 18 inputs, of which the button with the code, at each of three times, switches on
     found = drawn(tmp_path)
     assert found.initial == "Off" and found.states == {"Off": 1, "On": 2}
@@ -36,7 +36,7 @@ def test_a_transition_that_goes_elsewhere_changes_the_chart(tmp_path: Path) -> N
     assert Move("Off", "SwitchOn", "Off", 1) in drawn(tmp_path, printed).moves
 
 
-def test_an_output_that_differs_within_a_control_state_is_not_said_of_it(tmp_path: Path) -> None:
+def test_a_control_state_claims_no_output_that_differs_within_it(tmp_path: Path) -> None:
     printed = [
         line.replace("LAMP |-> TRUE", "LAMP |-> FALSE") if '"STATE", <<"On", {}, 1>>' in line else line
         for line in lines()

@@ -42,7 +42,7 @@ def on(values: Any) -> str:
     ("alphabet", "stands_for_all"),
     [(("", "A", "BC", "AB"), "AB"), (("", "A", "BC"), "BC"), (("", "ABC"), "ABC")],
 )
-def test_a_count_is_represented_by_the_named_letter_or_by_another_of_its_members_in_the_alphabet(
+def test_the_named_letter_or_another_member_represents_a_count(
     tmp_path: Path, alphabet: tuple[str, ...], stands_for_all: str
 ) -> None:
     found = the_class(tmp_path, *alphabet)

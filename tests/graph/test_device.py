@@ -9,7 +9,7 @@ from typing import Any
 from modeproof.graph.device import compared_files, graph_file
 
 
-def test_every_file_of_a_comparison_is_listed_and_a_missing_one_is_not(tmp_path: Path) -> None:
+def test_only_existing_files_of_a_comparison_are_listed(tmp_path: Path) -> None:
     run: Any = SimpleNamespace(document="toy", id="OPEN_Lamp")
     wanted = [
         tmp_path / "code" / "errors.py",

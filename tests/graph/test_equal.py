@@ -39,7 +39,7 @@ def test_one_wrong_transition_is_found_by_the_shortest_inputs(tmp_path: Path) ->
     assert dict(first.got) == {"LAMP": True, "MW": "0FF0"}
 
 
-def test_a_fault_that_shows_later_is_found_by_the_shortest_inputs(tmp_path: Path) -> None:
+def test_the_shortest_inputs_find_a_fault_that_shows_later(tmp_path: Path) -> None:
     def sticky(state: Memory, i: Inputs) -> tuple[Memory, Outputs]:
         after, out = step(state, i)
         if state.extra == 0 and not state.on and i.press and i.word == 0:
@@ -72,7 +72,7 @@ def test_a_timer_without_end_is_unjudged(tmp_path: Path) -> None:
         compare(lamp_graph(tmp_path), lamp(step=counts))
 
 
-def test_two_states_of_the_graph_that_are_one_of_the_code_are_no_equality(tmp_path: Path) -> None:
+def test_two_graph_states_in_one_code_state_are_not_equal(tmp_path: Path) -> None:
     printed = [line.replace('<<"On", {}, 1>>', '<<"On", {1}, 0>>') for line in lines()]
     twins = [line.replace('<<"Off", {}, 0>>', '<<"Off", {2}, 0>>') for line in printed if "EDGE" in line]
     twins = [line for line in twins if line.startswith('<<"EDGE", <<"Off", {2}')]

@@ -75,7 +75,7 @@ def test_inputs_that_no_state_tells_apart_share_a_column(tmp_path: Path) -> None
     assert len(set(rows)) == len(rows) < len(LETTERS)
 
 
-def test_times_are_in_ms_and_the_first_of_the_memory_names_the_state(tmp_path: Path) -> None:
+def test_times_are_in_ms_and_the_first_memory_names_states(tmp_path: Path) -> None:
     found = as_export(lamp(tmp_path), ("lampState", "nothing", "elapsed"), TICK_MS)
     assert found["control"] == 0 and found["states"][found["initial"]] == ["Off", [], 0]
     assert ["On", [], TICK_MS] in found["states"]

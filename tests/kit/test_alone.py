@@ -103,7 +103,7 @@ def found(source: str) -> list[str]:
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: path.name)
-def test_a_module_of_the_kit_has_nothing_that_one_system_alone_has(path: Path) -> None:
+def test_the_kit_uses_nothing_that_one_system_alone_has(path: Path) -> None:
     assert found(path.read_text(encoding="utf-8")) == []
 
 
@@ -194,7 +194,7 @@ def test_the_packed_kit_says_what_is_not_inside(kit: Path, toy: Path) -> None:
         assert "Traceback" not in done.stderr
 
 
-def test_the_packed_kit_is_the_same_bytes_each_time_and_has_no_dates(kit: Path) -> None:
+def test_the_packed_kit_has_the_same_bytes_and_no_dates(kit: Path) -> None:
     first = kit.read_bytes()
     assert main(["vectors", "pack"]) == 0
     assert kit.read_bytes() == first
@@ -217,7 +217,7 @@ def test_the_slow_suites_go_in_when_they_are_asked_for(toy: Path, capsys: pytest
         assert any(name.endswith(".compact") for name in archive.namelist())
 
 
-def test_what_does_not_come_back_from_its_compact_form_is_not_packed(
+def test_what_the_compact_form_cannot_give_back_is_not_packed(
     kit: Path, toy: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(packing, "same", lambda lines, data: False)

@@ -108,13 +108,13 @@ def test_they_are_left_out_and_named_and_compared_when_asked(tmp_path: Path, sta
         assert asked.difference is not None and set(asked.difference.expected) == {CODES}
 
 
-def test_who_has_our_codes_conforms_with_them_too_and_nothing_is_left_out(tmp_path: Path) -> None:
+def test_a_program_with_our_codes_conforms_and_nothing_is_omitted(tmp_path: Path) -> None:
     verdict = judged(made(tmp_path, "brief"), Lamp, codes=True)
     assert as_text(verdict).endswith("CONFORMS(exact, brief)") and verdict.not_compared == ()
 
 
 @pytest.mark.parametrize("relation", ["exact", "settled", "monitor"])
-def test_no_relation_compares_them_and_each_still_finds_what_is_wrong(tmp_path: Path, relation: str) -> None:
+def test_relations_ignore_codes_and_still_find_what_is_wrong(tmp_path: Path, relation: str) -> None:
     suite = made(tmp_path, "sic")
     start = OwnCodes if relation == "exact" else SlowOwnCodes
     assert judged(suite, start, relation).word == "CONFORMS"
@@ -123,7 +123,7 @@ def test_no_relation_compares_them_and_each_still_finds_what_is_wrong(tmp_path: 
         assert judged(suite, Dark, relation).word == "DIFFERS"
 
 
-def test_a_safety_property_that_rests_on_them_is_named_as_not_judged(tmp_path: Path) -> None:
+def test_a_safety_property_that_needs_codes_is_named_not_judged(tmp_path: Path) -> None:
     suite = made(tmp_path, "sic", ON_THE_CODE)
     verdict = judged(suite, Slow, "settled")
     assert (verdict.word, verdict.unjudged) == ("CONFORMS", ("LightNeedsCode",))
@@ -132,7 +132,7 @@ def test_a_safety_property_that_rests_on_them_is_named_as_not_judged(tmp_path: P
     assert judged(suite, SlowOwnCodes, "monitor", codes=True).word == "DIFFERS"
 
 
-def test_an_output_that_the_adapter_does_not_observe_is_named_once(tmp_path: Path) -> None:
+def test_an_output_the_adapter_does_not_observe_is_named_once(tmp_path: Path) -> None:
     class Blind(NoCodes):
         hello_says = {"unobserved": [CODES]}  # noqa: RUF012
 
@@ -156,7 +156,7 @@ def test_no_suite_tells_states_apart_by_them(tmp_path: Path, suite: str) -> None
     assert judged(open_suite(tmp_path / f"{suite}.jsonl.gz"), Bright).word == "DIFFERS"
 
 
-def test_a_program_behind_an_adapter_the_command_that_repeats_it_and_a_run_that_goes_on(
+def test_a_repeated_or_resumed_run_keeps_its_choice_of_codes(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     suite = made(tmp_path, "brief")
@@ -201,7 +201,7 @@ def test_a_package_in_this_process_is_compared_alike(tmp_path: Path, monkeypatch
         assert judged(suite, lambda name=name: Builtin(name, suite), codes=codes).word == word  # type: ignore[misc]
 
 
-def test_graphs_are_compared_with_every_output_unless_codes_are_left_out(tmp_path: Path) -> None:
+def test_graphs_compare_every_output_unless_codes_are_left_out(tmp_path: Path) -> None:
     graph = project_graph(tmp_path)
     assert compare(graph, lamp(step=own_codes)).verdict == "DIFFERS"
     found = compare(graph, lamp(step=own_codes), codes=False)

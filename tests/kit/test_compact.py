@@ -27,7 +27,7 @@ def lines(folder: Path, name: str) -> list[bytes]:
 
 
 @pytest.mark.parametrize("name", [name for name, kind in SUITES.items() if kind.always or name == "words"])
-def test_a_suite_comes_back_row_by_row_or_is_not_for_this_form(name: str, tmp_path: Path) -> None:
+def test_a_suite_comes_back_row_by_row_or_is_refused(name: str, tmp_path: Path) -> None:
     before = lines(tmp_path, name)
     if name in ("refusals", "sic"):
         with pytest.raises(ValueError, match="another kind"):

@@ -44,18 +44,18 @@ def fate(watch: Watch, *scans: tuple[bool, str, bool]) -> list[bool]:
     return found
 
 
-def test_a_property_is_judged_only_where_it_applies_and_that_is_counted() -> None:
+def test_a_property_is_judged_and_counted_only_where_it_applies() -> None:
     watch = Watch(contract("LAMP", "word == CODE"))
     assert fate(watch, (True, "0FF0", True), (True, "0001", False), (True, "0001", True)) == [0, 0, 1]
     assert watch.counts == {"P": 2}
 
 
-def test_words_are_numbers_and_what_is_not_there_is_minus_one() -> None:
+def test_words_are_numbers_and_a_missing_word_is_minus_one() -> None:
     watch = Watch(contract("True", "mode == -1 and MW == 0 and word in [CODE, 1] and LIMIT == 3"))
     assert fate(watch, (False, "0FF0", False), (False, "0001", False), (False, "0002", False)) == [0, 0, 1]
 
 
-def test_the_scan_before_is_known_and_before_the_first_all_was_off() -> None:
+def test_the_scan_before_is_known_and_starts_all_off() -> None:
     watch = Watch(contract("LAMP and not was_LAMP", "was_press"))
     assert fate(watch, (True, "0000", False), (False, "0000", True)) == [0, 0]
     assert fate(watch, (True, "0000", True)) == [1]
@@ -69,9 +69,7 @@ def test_a_memory_keeps_its_value_until_its_place_comes() -> None:
 
 
 @pytest.mark.parametrize(("latency", "broken"), [(0, [0, 1]), (1, [0, 0])])
-def test_what_was_true_lately_counts_for_as_long_as_a_program_may_need(
-    latency: int, broken: list[int]
-) -> None:
+def test_what_was_lately_true_counts_while_a_program_may_settle(latency: int, broken: list[int]) -> None:
     watch = Watch(contract("LAMP", "True in presses", rule("presses", "press", "recent")), latency)
     assert fate(watch, (True, "0000", True), (False, "0000", True)) == broken
 
@@ -82,7 +80,7 @@ def test_each_case_begins_anew() -> None:
     assert fate(watch, (False, "0000", True)) == [1]
 
 
-def test_what_rests_on_an_output_that_is_not_observed_is_not_judged() -> None:
+def test_what_needs_an_unobserved_output_is_not_judged() -> None:
     rules = (rule("lit", "LAMP"), rule("was_lit", "lit or was_lit", "memory", starts=False))
     watch = Watch(contract("True", "not was_lit", *rules), unobserved=["LAMP"])
     assert watch.judged == () and watch.unjudged == ("P",)

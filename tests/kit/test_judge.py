@@ -48,9 +48,7 @@ def test_the_list_form_judges_alike(suite: Suite, tmp_path: Path) -> None:
     assert judged(suite, tmp_path, lists + "\nLIMIT = 501").word == "DIFFERS"
 
 
-def test_a_wrong_program_differs_with_scan_step_clauses_and_shortest_way(
-    suite: Suite, tmp_path: Path
-) -> None:
+def test_a_wrong_program_differs_with_scan_step_clauses_and_way(suite: Suite, tmp_path: Path) -> None:
     verdict = judged(suite, tmp_path, "LIMIT = 501")
     assert (verdict.word, verdict.status) == ("DIFFERS", 1)
     found = verdict.difference

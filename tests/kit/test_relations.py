@@ -67,7 +67,7 @@ def test_who_answers_scan_by_scan_passes_them_all(sic: Suite, relation: str) -> 
     assert as_text(verdict).endswith(f"CONFORMS({relation}, sic)")
 
 
-def test_settled_covers_transitions_and_counts_what_the_properties_were_put_to(sic: Suite) -> None:
+def test_settled_covers_transitions_and_counts_what_properties_were_asked(sic: Suite) -> None:
     verdict = judged(sic, Slow, "settled")
     assert all(have == total for have, total in verdict.covered.values())
     assert verdict.properties["LightNeedsCode"] > 0 and verdict.latency == 3
@@ -87,7 +87,7 @@ def test_what_settles_wrongly_is_found(sic: Suite) -> None:
     assert late is not None and "not what it settles to" in late.when and late.step == "Expire > StayOff"
 
 
-def test_a_forbidden_output_on_the_way_is_found_though_it_settles_well(sic: Suite) -> None:
+def test_a_forbidden_output_is_found_even_if_it_settles_well(sic: Suite) -> None:
     verdict = judged(sic, SlowAndFlickering, "settled")
     found = verdict.difference
     assert found is not None and dict(found.got) == {"MW": "FFFF"}
@@ -95,13 +95,13 @@ def test_a_forbidden_output_on_the_way_is_found_though_it_settles_well(sic: Suit
     assert judged(sic, SlowAndFlickering, "monitor").word == "CONFORMS", "no property speaks of it"
 
 
-def test_a_program_that_is_slower_than_it_says_differs_until_it_says_so(sic: Suite) -> None:
+def test_a_program_slower_than_declared_differs_until_it_says_so(sic: Suite) -> None:
     assert judged(sic, SlowerThanItSays, "settled").word == "DIFFERS"
     assert judged(sic, SlowerThanItSays, "settled", latency=8).word == "CONFORMS"
 
 
 @pytest.mark.parametrize("relation", ["settled", "monitor"])
-def test_a_broken_property_is_found_at_any_pace_and_told_by_its_name(sic: Suite, relation: str) -> None:
+def test_a_broken_property_is_found_and_named_at_any_pace(sic: Suite, relation: str) -> None:
     verdict = judged(sic, SlowAndWrong, relation)
     found = verdict.difference
     assert found is not None and found.broken == "LightNeedsCode" and found.clauses == ("TOY-1",)
@@ -109,13 +109,13 @@ def test_a_broken_property_is_found_at_any_pace_and_told_by_its_name(sic: Suite,
     assert len(found.shortest.scans) <= len(found.case.scans)
 
 
-def test_monitor_lets_pass_what_no_property_forbids_and_says_what_it_judged(tour: Suite) -> None:
+def test_monitor_passes_what_nothing_forbids_and_says_what_it_judged(tour: Suite) -> None:
     verdict = judged(tour, Late, "monitor")
     assert verdict.word == "CONFORMS" and verdict.properties == {"LightNeedsCode": 5}
     assert "transitions" not in as_text(verdict), "what was passed through is not known"
 
 
-def test_a_property_that_was_never_put_to_the_program_is_named(tour: Suite) -> None:
+def test_a_property_never_put_to_the_program_is_named(tour: Suite) -> None:
     class Dark(Lamp):
         def shown(self, out: Mapping[str, Any]) -> Mapping[str, Any]:
             return {"LAMP": False, "MW": "0000"}
@@ -124,7 +124,7 @@ def test_a_property_that_was_never_put_to_the_program_is_named(tour: Suite) -> N
     assert "never put to the program, so not judged: LightNeedsCode" in text
 
 
-def test_properties_of_outputs_that_are_not_observed_are_named_and_not_judged(sic: Suite) -> None:
+def test_properties_of_unobserved_outputs_are_named_and_not_judged(sic: Suite) -> None:
     class Half(Slow):
         hello_says = {"unobserved": ["LAMP"]}  # noqa: RUF012
 
@@ -177,7 +177,7 @@ def timed(suite: Suite) -> Case:
     return next(one for one in suite.cases() if 0 < sum(scan.dt_ms for scan in one.scans) <= 500)
 
 
-def test_a_program_in_real_time_can_be_judged_once_it_settles(
+def test_a_real_time_program_can_be_judged_once_it_settles(
     sic: Suite, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     clock = Clock()
@@ -189,9 +189,7 @@ def test_a_program_in_real_time_can_be_judged_once_it_settles(
     assert exact.word == "UNJUDGED" and "exact" in exact.reason
 
 
-def test_holding_may_take_as_long_as_the_shortest_time_of_the_case_and_no_longer(
-    sic: Suite, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_holding_may_take_at_most_a_cases_shortest_time(sic: Suite, monkeypatch: pytest.MonkeyPatch) -> None:
     clock, case = Clock(), timed(sic)
     set_clock(monkeypatch, clock, "modeproof.kit.relation")
     plan = Plan(Options("settled"), only=case.id)
@@ -201,7 +199,7 @@ def test_holding_may_take_as_long_as_the_shortest_time_of_the_case_and_no_longer
     assert run_suite(sic, lambda: RealTime(clock, enough * 1.1), plan=plan).word == "UNJUDGED"
 
 
-def test_time_that_holding_takes_beside_that_of_the_case_is_unjudged(sic: Suite) -> None:
+def test_holding_that_adds_to_the_cases_time_is_unjudged(sic: Suite) -> None:
     """By the clock on the wall; a busy machine only makes it worse."""
     verdict = run_suite(sic, lambda: RealTime(time, 0.06), plan=Plan(Options("settled"), only=timed(sic).id))
     assert verdict.word == "UNJUDGED" and "--slow" in verdict.reason

@@ -170,7 +170,7 @@ def test_the_command_that_is_given_runs_the_shortest_part_again(
     assert kit_main([*args[:3], good, *args[4:], *tail]) == 0
 
 
-def test_junit_has_each_case_and_is_xml_whatever_the_program_says(words: Suite, tmp_path: Path) -> None:
+def test_junit_has_each_case_and_always_stays_xml(words: Suite, tmp_path: Path) -> None:
     for lamp, failures in ((Lamp, 0), (Gullible, 3)):
         tree = ElementTree.fromstring(as_junit([run_suite(words, lamp, plan=Plan(most=3))]))
         (suite,) = tree
@@ -222,7 +222,7 @@ def test_the_way_for_systems_without_poll_judges_alike(
     assert all(one.process.poll() is not None for one in made)
 
 
-def test_an_answer_may_take_the_time_of_its_scan_where_time_is_real() -> None:
+def test_in_real_time_an_answer_may_take_its_scan_time() -> None:
     hello = '{"ok": True, "time": "real", "relations": ["settled"]}'
     slow = f"time.sleep(m.get('dt_ms', 0) / 1000); return {hello} if m['op'] == 'hello' else {{'out': {{}}}}"
     code = f"import json, sys, time\ndef answer(m):\n    {slow}\n"

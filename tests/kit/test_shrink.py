@@ -70,7 +70,7 @@ def test_without_effort_the_beginning_of_the_case_is_given(tour: Suite) -> None:
     assert one.shortest.scans == one.case.scans[: one.scan] and one.part == f"1-{one.scan}"
 
 
-def test_a_difference_that_does_not_show_again_is_not_said_to(tour: Suite) -> None:
+def test_a_difference_is_repeatable_only_if_it_shows_again(tour: Suite) -> None:
     Moody.moods = 0
     verdict = run_suite(tour, Moody, plan=Plan(effort=60))
     assert verdict.difference is not None and not verdict.difference.confirmed

@@ -79,7 +79,7 @@ def test_python_comments_belong_to_their_definition() -> None:
     assert not any(word in module.stray for word in ("X-3", "X-5", "X-6", "X-9", "X-15"))
 
 
-def test_spec_common_speaks_for_several_documents_and_is_read_for_this_one(tree: Any) -> None:
+def test_spec_common_serves_several_documents_but_is_read_for_one(tree: Any) -> None:
     tree.write(
         "spec/common/Block.tla", "---- MODULE Block ----\n\\* DR-1-1, GL-4-4, E-99\nShared == 1\n====\n"
     )

@@ -90,7 +90,7 @@ def test_a_block_without_end_is_found(tree: Any) -> None:
     ]
 
 
-def test_a_picture_that_lost_a_signal_is_found_and_drawn_anew(tree: Any, registers_command: Command) -> None:
+def test_a_picture_that_lost_signals_is_found_and_drawn_anew(tree: Any, registers_command: Command) -> None:
     tree.write("README.md", "<!-- begin picture door -->\n<!-- end picture -->\n")
     assert registers_command(tree.root) == 1
     text = render(tree.root, "README.md")
@@ -102,9 +102,7 @@ def test_a_picture_that_lost_a_signal_is_found_and_drawn_anew(tree: Any, registe
     assert registers_command(tree.root) == 1
 
 
-def test_an_index_lists_each_document_with_the_page_that_it_has(
-    tree: Any, registers_command: Command
-) -> None:
+def test_an_index_lists_each_document_with_its_page(tree: Any, registers_command: Command) -> None:
     tree.write("docs/README.md", "<!-- begin documents -->\n<!-- end documents -->\n")
     assert "- **`door`** A door. Targets: `latch`. [registers and TLA+](../spec/door).\n" in render(
         tree.root, "docs/README.md"

@@ -117,7 +117,7 @@ def test_a_page_and_registers_that_differ_are_found(told: Any, file: str, old: s
         ),
     ],
 )
-def test_a_table_that_no_longer_belongs_to_its_run_is_found(told: Any, file: str, old: str, new: str) -> None:
+def test_a_table_that_left_its_run_is_found(told: Any, file: str, old: str, new: str) -> None:
     told.edit(file, old, new)
     (problem,) = problems(told.root)
     assert problem.startswith(

@@ -58,7 +58,7 @@ def test_a_run_that_shows_something_else_is_found(document: Document) -> None:
     )
 
 
-def test_a_property_that_no_run_of_the_row_checks_is_found(document: Document) -> None:
+def test_a_property_unchecked_by_its_row_is_found(document: Document) -> None:
     checked = {name for run in document.runs if run.id in document.faults[0].runs for name in run.properties}
     other = next(one.id for one in document.properties if one.tla not in checked)
     assert f"none of its runs checks {other}" in texts(changed(document, holds=(other,)))

@@ -215,7 +215,7 @@ def test_a_property_clause_without_property_or_theorem_is_an_orphan(tree: Any) -
     assert "spec/door/clauses.toml: DR-1-2: no property and no theorem cites this property" in problems(tree)
 
 
-def test_a_device_that_is_not_published_or_not_printed_has_no_vectors(tree: Any) -> None:
+def test_an_unpublished_or_unprinted_device_has_no_vectors(tree: Any) -> None:
     tree.edit("spec/door/interface.toml", "published = true", "published = false")
     assert all(row.vector == () for row in judge(load_document(tree.root, "door")).rows)
 

@@ -106,7 +106,7 @@ def test_the_same_counts_with_other_constants_say_nothing(tried: Any) -> None:
     assert problems(tried) == []
 
 
-def test_a_shared_reading_counts_only_where_a_run_could_use_it(tried: Any) -> None:
+def test_a_shared_reading_counts_where_a_run_could_use_it(tried: Any) -> None:
     shared = AS_PRINTED.replace("Latch", "Shared").replace("_Slam", "_Wide").replace("_Slow", "_Narrow")
     tried.write("spec/common/Shared.tla", "---- MODULE Shared ----\nLOCK_1 == TRUE\nCODE == 0\n====\n")
     tried.write("spec/common/SharedAsPrinted.tla", shared)
@@ -116,7 +116,7 @@ def test_a_shared_reading_counts_only_where_a_run_could_use_it(tried: Any) -> No
     assert any("Wide: no run tries this reading alone" in one for one in found), found
 
 
-def test_a_run_that_does_not_fail_says_which_reading_changed_nothing(tried: Any) -> None:
+def test_a_negative_run_that_holds_says_which_reading_changed_nothing(tried: Any) -> None:
     document = load_document(tried.root, "door")
     run = next(run for run in document.runs if run.id == "NEG_Latch_slam")
     assert "Slam changes nothing: its counts are those of MC_Latch" in idle_reading(document, run, (9, 20))

@@ -96,7 +96,7 @@ def test_ordinary_words_are_free(tree: Any, word: str) -> None:
     assert judge_tree(tree.root) == []
 
 
-def test_every_rule_reads_python_files_of_this_repository_once_the_room_exists(real_root: Path) -> None:
+def test_every_rule_reads_python_files_once_its_room_exists(real_root: Path) -> None:
     for rule in RULES:
         folder = real_root / rule.folder
         assert not folder.exists() or list(folder.rglob("*.py")), f"{rule.folder} holds no Python"
@@ -116,7 +116,7 @@ def test_the_tool_of_this_repository_knows_no_document(real_root: Path) -> None:
     assert [str(problem) for problem in check_no_document_known(real_root, interfaces, [])] == []
 
 
-def test_no_room_imports_upward_and_no_import_runs_in_a_circle(real_root: Path) -> None:
+def test_imports_run_neither_upward_nor_in_a_circle(real_root: Path) -> None:
     assert check_order(real_root) == []
 
 

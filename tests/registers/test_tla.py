@@ -86,7 +86,7 @@ def test_the_closure_follows_extends_and_instances() -> None:
 
 
 @given(st.text(alphabet='\\*()"=- \nAaV,[]x', max_size=200))
-def test_no_text_breaks_the_scanner_and_no_comment_is_lost_or_doubled(body: str) -> None:
+def test_no_text_breaks_the_scanner_or_loses_or_doubles_comments(body: str) -> None:
     text = f"---- MODULE M ----\n{body}\nLast == 1\n"
     module = scan(text, "M", "M.tla")
     whole = "\n".join([module.stray, *(one.comment for one in module.definitions)])

@@ -43,7 +43,7 @@ def device(root: Path) -> dict[str, Any]:
     return found
 
 
-def test_every_transition_stands_in_the_table_with_what_its_action_cites(root: Path) -> None:
+def test_the_table_has_every_transition_with_its_actions_citations(root: Path) -> None:
     chart = device(root)["chart"]
     rows = [(row["from"], row["step"], row["to"], row["transitions"].value) for row in chart["moves"]]
     assert rows == [("Open", "Wait", "Open", 2), ("Open", "Close", "Shut", 2), ("Shut", "Stay", "Shut", 4)]
@@ -54,7 +54,7 @@ def test_every_transition_stands_in_the_table_with_what_its_action_cites(root: P
     assert part(gather(root)).troubles == ()
 
 
-def test_the_picture_has_a_box_for_each_state_and_a_line_with_step_and_ids(root: Path) -> None:
+def test_the_picture_has_state_boxes_and_lines_with_step_ids(root: Path) -> None:
     svg = device(root)["chart"]["picture"].svg
     assert svg.count('class="state"') == 2 and 'data-state="Open" tabindex="0" role="button"' in svg
     assert svg.count('class="move"') == 1 and 'data-from="Open" data-to="Shut"' in svg
@@ -62,7 +62,7 @@ def test_the_picture_has_a_box_for_each_state_and_a_line_with_step_and_ids(root:
     assert ">↻ Wait</text>" in svg and ">● Open</text>" in svg and ">LAMP</text>" in svg
 
 
-def test_the_json_has_the_rows_and_the_words_of_the_picture_not_its_drawing(root: Path) -> None:
+def test_the_json_has_rows_and_words_but_no_drawing(root: Path) -> None:
     data = plain(part(gather(root)).data)["documents"][0]["devices"][0]
     assert data["chart"]["picture"] == {"picture": "State chart of box, a box: it shuts"}
     assert data["chart"]["moves"][1]["transitions"]["value"] == 2
@@ -98,7 +98,7 @@ def test_a_state_of_error_has_cut_corners_and_says_so() -> None:
     assert re.search(r'class="state"[^>]*aria-label="control state Well, after power-up"><rect', svg)
 
 
-def test_a_step_from_many_states_is_listed_where_it_leads_and_all_others_are_drawn() -> None:
+def test_a_step_from_many_states_is_listed_others_are_drawn() -> None:
     steps = [Step(one, "Stop", "Off") for one in ("A", "B", "C")] + [
         Step("A", "Go", "B"),
         Step("B", "Go", "C"),
@@ -110,7 +110,7 @@ def test_a_step_from_many_states_is_listed_where_it_leads_and_all_others_are_dra
     assert entries(steps[1:]) == ()
 
 
-def test_a_state_that_is_never_entered_is_not_drawn_but_listed(root: Path) -> None:
+def test_a_state_never_entered_is_listed_but_not_drawn(root: Path) -> None:
     compared(root, chart={**CHART, "states": {**CHART["states"], "Broken": 0}})
     chart = device(root)["chart"]
     assert [row["id"] for row in chart["states"]] == ["Open", "Shut", "Broken"]

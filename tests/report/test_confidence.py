@@ -138,7 +138,7 @@ def test_a_judgement_that_does_not_stand_is_not_as_expected(fault: str, tmp_path
     assert "the judgement does not stand" in troubles[0].what
 
 
-def test_a_graph_that_nothing_was_compared_with_leaves_the_judgement_open(tmp_path: Path) -> None:
+def test_a_graph_compared_with_nothing_leaves_the_judgement_open(tmp_path: Path) -> None:
     root = with_register(tmp_path, "{ compared = true }")
     assert met(root) == (None, "nothing to judge it by")
     declare_graph(root)
@@ -157,7 +157,7 @@ def test_evidence_of_another_text_leaves_the_judgement_open(tmp_path: Path) -> N
     assert met(root)[0] is None and met(root)[1].startswith("not there, or of another text: MC_Box")
 
 
-def test_each_version_of_a_tool_stands_with_its_hash_and_how_much_was_made_with_it(tmp_path: Path) -> None:
+def test_each_tool_version_has_its_hash_and_count_of_uses(tmp_path: Path) -> None:
     root = make_paper(tmp_path)
     put(root, "MC_Box", tools={"z3": {"version": "1.0", "sha256": None}})
     rows = [(row["id"], row["version"].value, row["files"].value) for row in part(gather(root)).data["tools"]]
@@ -173,7 +173,7 @@ def test_a_check_counts_the_evidence_that_is_as_expected(tmp_path: Path) -> None
     assert (check["good"], check["as_expected"].value) == (False, 0)
 
 
-def test_without_the_register_the_page_says_so_and_a_damaged_one_is_a_hole(tmp_path: Path) -> None:
+def test_missing_registers_are_named_and_damaged_ones_are_holes(tmp_path: Path) -> None:
     root = make_paper(tmp_path)
     assert [one.status for one in part(gather(root)).troubles] == [NOTE]
     assert "no known problem of a tool is judged" in make(root).html
@@ -200,7 +200,7 @@ def test_a_condition_that_nobody_can_judge_is_refused(condition: str, said: str,
         load_tools(with_register(tmp_path, condition))
 
 
-def test_each_judgement_of_this_tree_has_a_public_reference_and_a_covered_one_a_check() -> None:
+def test_judgements_have_public_references_and_covered_ones_have_checks() -> None:
     problems = load_tools(repository_root()).problems
     assert {one.tool for one in problems} == {"tlc", "z3", "cvc5", "java", "python"}
     assert all(one.holds for one in problems if one.judgement == "covered")

@@ -70,7 +70,7 @@ def entry(part: Any, root: Path) -> dict[str, Any]:
     return found
 
 
-def test_a_graph_stands_beside_the_program_that_was_compared_with_it(root: Path) -> None:
+def test_a_graph_stands_beside_the_program_compared_with_it(root: Path) -> None:
     put(root, "refimpl_OPEN_Box", kind="conformance", verdict="EQUAL", expected="EQUAL", result=COMPARED)
     graph = entry(conformance, root)["graphs"][0]
     one = graph["compared"][0]
@@ -80,14 +80,14 @@ def test_a_graph_stands_beside_the_program_that_was_compared_with_it(root: Path)
     assert "not in full" in make(root).html
 
 
-def test_a_graph_that_nothing_was_compared_with_is_a_hole_with_the_command(root: Path) -> None:
+def test_a_graph_compared_with_nothing_is_a_hole_with_command(root: Path) -> None:
     assert entry(conformance, root)["graphs"][0]["compared"] == []
     html = make(root).html
     assert "modeproof conform box --builtin refimpl --document box" in html
     assert "no program was run against test vectors" in html
 
 
-def test_a_program_stands_with_what_its_suite_guarantees_and_does_not_show(root: Path) -> None:
+def test_a_program_has_its_suites_guarantees_and_limits(root: Path) -> None:
     put(root, "adapter_box_brief", kind="conformance", verdict="CONFORMS", result=PROGRAM)
     one = entry(conformance, root)["programs"][0]
     assert (one["relation"], one["suite"], one["scans"].value) == ("exact", "brief", 40)
@@ -105,7 +105,7 @@ def test_a_program_that_differs_is_not_as_expected(root: Path) -> None:
     assert make(root).status == 1
 
 
-def test_a_theorem_stands_as_a_sentence_with_its_questions_and_what_no_proof_needs(root: Path) -> None:
+def test_a_theorem_has_its_sentence_questions_and_unneeded_assumptions(root: Path) -> None:
     put(root, THEOREM, result={"unused": ["there is one door"]})
     found = entry(proofs, root)
     one = found["theorems"][0]
@@ -116,7 +116,7 @@ def test_a_theorem_stands_as_a_sentence_with_its_questions_and_what_no_proof_nee
     assert found["never_needed"] == ["there is one door"]
 
 
-def test_a_question_that_the_solvers_answer_otherwise_than_expected_is_not_counted_as_agreed(
+def test_an_unexpected_answer_of_the_solvers_is_no_agreement(
     root: Path,
 ) -> None:
     queries = [{**RESULT[THEOREM]["queries"][0], "cvc5": "sat"}, RESULT[THEOREM]["queries"][1]]
@@ -126,7 +126,7 @@ def test_a_question_that_the_solvers_answer_otherwise_than_expected_is_not_count
     assert (one["word"], one["good"], one["counts"]["agree"].value) == ("UNJUDGED", None, 1)
 
 
-def test_a_theorem_without_evidence_is_a_hole_that_keeps_its_sentence(root: Path) -> None:
+def test_a_theorem_without_evidence_is_a_hole_with_its_sentence(root: Path) -> None:
     without(root, THEOREM)
     one = entry(proofs, root)["theorems"][0]
     assert (one["word"], one["good"], one["counts"]) == ("not there", None, None)
@@ -145,7 +145,7 @@ def test_the_table_of_agreement_tells_both_from_one_alone(root: Path) -> None:
     assert entry(proofs, root)["agreement"]["rows"][0]["good"] is False
 
 
-def test_what_lies_on_no_path_stands_with_its_reason_and_the_unexplained_apart(root: Path) -> None:
+def test_unreached_code_has_its_reason_and_unexplained_code_stands_apart(root: Path) -> None:
     counted = {key: [3, 4] for key in ("lines", "branches", "answers")}
     lost = {"unreachable": [{"what": "line 7", "why": "never"}], "unexplained": ["line 9"]}
     device = {"states": 2, "paths": 5, **counted, **lost}

@@ -38,7 +38,7 @@ def test_the_page_carries_the_graph_as_it_was_exported(root: Path) -> None:
     assert graph["steps"] == ["Wait", "Close", "Stay"] and len(graph["states"]) == 2
 
 
-def test_its_counts_and_its_verdict_come_from_the_evidence_of_the_comparison(root: Path) -> None:
+def test_counts_and_verdict_come_from_evidence_of_the_comparison(root: Path) -> None:
     one = row(part(gather(root)))
     assert [one[key].value for key in ("states", "inputs", "transitions", "verdict")] == [2, 4, 8, "EQUAL"]
     assert {one[key].source for key in ("states", "verdict")} == {"build/evidence/box/refimpl_OPEN_Box.json"}
@@ -51,7 +51,7 @@ def test_the_export_is_one_of_the_hashed_files(root: Path) -> None:
     assert len(sources.files[EXPORT]) == 64 and "spec/box/sequences.toml" in sources.files
 
 
-def test_a_changed_export_is_not_shown_and_is_not_as_expected(root: Path) -> None:
+def test_a_changed_export_is_hidden_and_not_as_expected(root: Path) -> None:
     (root / EXPORT).write_bytes(gzip.compress(b'{"format":1}'))
     found = part(gather(root))
     assert PAYLOAD not in found.payload and row(found)["shown"] is False
@@ -59,7 +59,7 @@ def test_a_changed_export_is_not_shown_and_is_not_as_expected(root: Path) -> Non
     assert f"{EXPORT} is not what the comparison wrote" in found.troubles[0].what
 
 
-def test_a_missing_export_is_a_hole_with_the_command_that_fills_it(root: Path) -> None:
+def test_a_missing_export_is_a_hole_with_its_command(root: Path) -> None:
     (root / EXPORT).unlink()
     found = part(gather(root))
     assert [(one.status, one.remedy) for one in found.troubles] == [(HOLE, "modeproof verify --document box")]
@@ -114,14 +114,14 @@ def test_words_are_decoded_by_the_tables_of_the_registers(root: Path) -> None:
     assert part(gather(root)).data["devices"]["box/box"]["codes"] == {}
 
 
-def test_a_property_of_the_device_says_what_it_speaks_of_and_whether_this_graph_was_asked(root: Path) -> None:
+def test_properties_say_their_subject_and_whether_this_graph_was_asked(root: Path) -> None:
     found = part(gather(root))
     (one,) = found.data["devices"]["box/box"]["properties"]
     assert (one["id"], one["of"], one["clauses"]) == ("ShutsOverDoor", "each transition", ["BX-1-2"])
     assert json.loads(found.payload[ABOUT])["graphs"] == {"box-OPEN_Box": ["ShutsOverDoor"]}
 
 
-def test_a_run_that_is_not_as_expected_makes_no_property_hold(root: Path) -> None:
+def test_an_unexpected_run_makes_no_property_hold(root: Path) -> None:
     put(root, "OPEN_Box", verdict="VIOLATED", expected="HOLDS", as_expected=False, reason="it falls")
     assert row(part(gather(root)))["checked"] == []
 

@@ -28,7 +28,7 @@ def change(root: Path, name: str, old: str, new: str) -> None:
     (root / name).write_text(text.replace(old, new), encoding="utf-8")
 
 
-def test_the_page_shows_a_counterexample_and_renders_again_to_the_same(
+def test_the_page_shows_a_counterexample_and_renders_the_same_again(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     page = (checked / PAGE).read_text(encoding="utf-8")
@@ -121,7 +121,7 @@ def _other_specification(root: Path) -> None:
         (_other_specification, "spec/box/Box.tla has changed since"),
     ],
 )
-def test_evidence_that_is_missing_or_of_something_else_writes_nothing_and_names_run_and_command(
+def test_missing_or_foreign_evidence_only_names_its_run_and_command(
     checked: Path,
     capsys: pytest.CaptureFixture[str],
     spoil: Callable[[Path], None],
@@ -137,7 +137,7 @@ def test_evidence_that_is_missing_or_of_something_else_writes_nothing_and_names_
     assert not (checked / "docs").exists()
 
 
-def test_a_negative_run_that_holds_names_the_reading_that_changes_nothing(
+def test_a_negative_run_that_holds_names_the_reading_without_effect(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     change(checked, "spec/box/BoxAsPrinted.tla", "Ready_Eager(i) == TRUE", "Ready_Eager(i) == i.door")

@@ -50,7 +50,7 @@ def entry(part: Any, root: Path) -> dict[str, Any]:
     return found
 
 
-def test_a_finding_shows_its_readings_its_decision_and_each_piece_of_evidence_with_its_verdict(
+def test_a_finding_shows_readings_decision_and_evidence_with_verdicts(
     root: Path,
 ) -> None:
     one = entry(findings, root)["findings"][0]
@@ -65,7 +65,7 @@ def test_a_finding_shows_its_readings_its_decision_and_each_piece_of_evidence_wi
     assert "could settle it; this is no error of the document" in html
 
 
-def test_each_reading_restored_alone_stands_with_what_falls_and_in_how_many_steps(root: Path) -> None:
+def test_each_restored_reading_has_what_falls_in_how_many_steps(root: Path) -> None:
     rows = {row["id"]: row for row in entry(findings, root)["alone"]}
     assert list(rows) == ["MC_Box_lazy", "NEG_Box_eager"]
     assert (rows["NEG_Box_eager"]["readings"], rows["NEG_Box_eager"]["property"]) == (
@@ -90,13 +90,13 @@ def test_a_negative_that_holds_is_not_as_expected(root: Path) -> None:
     assert make(root).status == DIFFERS
 
 
-def test_a_finding_with_neither_evidence_nor_a_reason_is_a_hole(root: Path) -> None:
+def test_a_finding_without_evidence_or_reason_is_a_hole(root: Path) -> None:
     change(root / "spec" / "box" / "findings.toml", "no model can show a slip of the pen", "")
     troubles = findings.part(gather(root)).troubles
     assert [one.what for one in troubles] == ["box: E-02 names no evidence and does not say why"]
 
 
-def test_an_assumption_says_who_ensures_it_how_to_check_it_and_what_falls_without_it(root: Path) -> None:
+def test_assumptions_say_who_ensures_them_their_check_and_what_falls(root: Path) -> None:
     one = entry(assumptions, root)["assumptions"][0]
     assert (one["who"], one["check"]) == ("the builder", "count")
     assert (one["breaks"][0]["property"], one["breaks"][0]["steps"].value) == ("ShutsOverDoor", 1)
@@ -111,7 +111,7 @@ def test_a_document_without_a_fault_table_says_so(root: Path) -> None:
     assert "declares no table of faults" in make(root).html
 
 
-def test_the_fault_table_says_what_holds_what_falls_and_why_something_is_not_modelled(root: Path) -> None:
+def test_the_fault_table_says_what_holds_falls_or_is_unmodelled(root: Path) -> None:
     (root / "spec" / "box" / "faults.toml").write_text(FAULTS)
     gone, late = entry(faults, root)["faults"]
     assert (gone["holds"], gone["runs"][0]["word"]) == (["ShutsOverDoor"], "HOLDS")
@@ -122,7 +122,7 @@ def test_the_fault_table_says_what_holds_what_falls_and_why_something_is_not_mod
     assert (gone["runs"][0]["word"], gone["runs"][0]["good"]) == ("not there", None)
 
 
-def test_a_cell_of_the_fault_matrix_that_was_not_reached_says_so(root: Path) -> None:
+def test_an_unreached_cell_of_the_fault_matrix_says_so(root: Path) -> None:
     (root / "spec" / "box" / "faults.toml").write_text(FAULTS)
     runs = root / "spec" / "box" / "runs.toml"
     change(runs, 'witnesses = ["Close"]', 'witnesses = ["Close", "door at noon: shut", "door at dusk: open"]')

@@ -73,7 +73,7 @@ def test_the_weakest_of_several_runs_counts(root: Path) -> None:
     assert (cell["verdict"], cell["status"], cell["run"]) == ("INCONCLUSIVE", HOLE, "MC_Box_lazy")
 
 
-def test_a_run_that_held_with_other_counts_is_not_as_declared_and_no_word_is_invented(root: Path) -> None:
+def test_holding_with_other_counts_is_merely_not_as_declared(root: Path) -> None:
     put(root, "MC_Box", as_expected=False, reason="distinct states: 5, pinned 6")
     (cell,) = glance(root)["rows"][0]["cells"]
     assert (cell["verdict"], cell["status"]) == ("HOLDS", 1)
@@ -97,7 +97,7 @@ def test_stale_evidence_counts_nowhere(root: Path) -> None:
     )
 
 
-def test_a_property_without_any_evidence_is_unjudged_and_one_of_another_lane_is_aside(root: Path) -> None:
+def test_a_property_without_evidence_is_unjudged_or_of_another_lane(root: Path) -> None:
     without(root, "MC_Box")
     without(root, "MC_Box_lazy")
     (cell,) = glance(root)["rows"][0]["cells"]
@@ -109,7 +109,7 @@ def test_a_property_without_any_evidence_is_unjudged_and_one_of_another_lane_is_
     assert glance(root)["environments"][0]["aside"] == 1
 
 
-def test_what_is_not_as_expected_comes_first_and_its_document_is_open(root: Path) -> None:
+def test_the_unexpected_comes_first_and_its_document_is_open(root: Path) -> None:
     second = """
 [[property]]
 id = "AlwaysShut"
@@ -146,7 +146,7 @@ def test_mutants_are_counted_from_the_evidence_of_their_campaigns(root: Path) ->
     assert glance(root)["mutants"] == []
 
 
-def test_the_first_screen_has_troubles_in_one_line_each_and_all_of_them_behind(root: Path) -> None:
+def test_the_first_screen_has_trouble_lines_with_all_troubles_behind(root: Path) -> None:
     for number in range(7):
         put(root, f"MC_{number}", verdict="VIOLATED", as_expected=False, reason="it fell")
     html = make(root).html
@@ -159,7 +159,7 @@ def test_the_first_screen_has_troubles_in_one_line_each_and_all_of_them_behind(r
 # ------------------------------------------------------------------------------------------ review sheet
 
 
-def test_every_clause_finding_assumption_and_property_is_a_row_to_judge(root: Path) -> None:
+def test_clauses_findings_assumptions_and_properties_are_rows_to_judge(root: Path) -> None:
     (document,) = review.part(gather(root)).data["documents"]
     ids = {group["kind"]: [row["id"] for row in group["rows"]] for group in document["groups"]}
     assert ids == {
@@ -172,7 +172,7 @@ def test_every_clause_finding_assumption_and_property_is_a_row_to_judge(root: Pa
     assert html.count('aria-label="box to fill in"') == 6
 
 
-def test_an_abstraction_and_a_merged_step_have_a_question_of_their_own(root: Path) -> None:
+def test_abstractions_and_merged_steps_have_questions_of_their_own(root: Path) -> None:
     change(root / "spec" / "box" / "assumptions.toml", 'kind = "assumption"', 'kind = "merged step"')
     (document,) = review.part(gather(root)).data["documents"]
     assert [group["kind"] for group in document["groups"]] == [
@@ -183,7 +183,7 @@ def test_an_abstraction_and_a_merged_step_have_a_question_of_their_own(root: Pat
     ]
 
 
-def test_the_sheet_as_csv_has_the_same_rows_and_empty_fields(root: Path) -> None:
+def test_the_csv_sheet_has_the_same_rows_and_empty_fields(root: Path) -> None:
     change(root / "spec" / "box" / "assumptions.toml", 'text = "There', 'text = "=1+1; There')
     content = review.part(gather(root)).attachments["review.csv"].decode("utf-8-sig")
     rows = list(csv.reader(io.StringIO(content)))
@@ -196,7 +196,7 @@ def test_the_sheet_as_csv_has_the_same_rows_and_empty_fields(root: Path) -> None
 # ------------------------------------------------------------------------------ scope, limits, reproduce
 
 
-def test_scope_names_edition_hash_what_was_there_and_what_was_left_out(root: Path) -> None:
+def test_scope_names_edition_hash_what_was_there_and_what_not(root: Path) -> None:
     change(
         root / "spec" / "box" / "clauses.toml",
         'kind = "behaviour"\ndevice = ["box"]',
@@ -245,7 +245,7 @@ def test_each_piece_of_evidence_has_its_command_and_its_hash(root: Path) -> None
     assert made["z3", "5.4.0.0"] == len(rows)
 
 
-def test_what_the_page_carries_of_others_is_listed_with_its_licence(root: Path) -> None:
+def test_the_page_lists_foreign_parts_with_their_licence(root: Path) -> None:
     packages = {one.name: one for one in vendored.packages()}
     assert packages["itables"].licence.startswith("MIT")
     assert "jQuery" in packages["itables"].notices and "DataTables" in packages["itables"].notices
@@ -273,7 +273,7 @@ def test_another_build_of_the_tables_is_refused_in_one_line(
 # ---------------------------------------------------------------------------------------------- glossary
 
 
-def test_the_first_use_of_a_word_in_a_part_leads_to_its_meaning(root: Path) -> None:
+def test_each_part_links_a_words_first_use_to_its_meaning(root: Path) -> None:
     html = Terms(gather(root)).linked("scope", "<p>the Doors and <a>door</a> and the door</p>")
     assert html == '<p>the <a class="term" href="#term-door">Doors</a> and <a>door</a> and the door</p>'
 

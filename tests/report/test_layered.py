@@ -59,7 +59,7 @@ def test_boxes_stand_apart_within_the_picture(aside: bool, graph: Graph) -> None
 
 @settings(max_examples=60, deadline=None)
 @given(graph=graphs())
-def test_each_line_leaves_and_enters_its_boxes_and_runs_straight_past_all_others(graph: Graph) -> None:
+def test_each_line_meets_its_own_boxes_and_passes_all_others(graph: Graph) -> None:
     sizes, chains = graph
     placed = place(sizes, chains)
     for chain, paths in zip(chains, placed.lines, strict=True):
@@ -75,7 +75,7 @@ def test_each_line_leaves_and_enters_its_boxes_and_runs_straight_past_all_others
                     assert not (inside and abs(one.y - at.y) < sizes[name].height / 2 - 0.1), name
 
 
-def test_a_link_back_runs_upwards_and_its_arrow_ends_where_it_leads() -> None:
+def test_a_back_link_runs_upwards_and_points_where_it_leads() -> None:
     sizes = {name: Size(20, 10) for name in ("first", "second", "there", "back")}
     placed = place(sizes, [Chain("first", "second", "there"), Chain("second", "first", "back")])
     assert placed.middle["first"].y < placed.middle["there"].y < placed.middle["second"].y

@@ -58,14 +58,14 @@ def test_work_that_no_clause_asks_for_is_named(root: Path) -> None:
     assert [(one["file"], one["place"]) for one in astray] == [("refimpl/box/box.py", "step")]
 
 
-def test_a_result_that_is_missing_or_wrong_shows_in_the_row_of_its_clause(root: Path) -> None:
+def test_the_row_of_a_clause_shows_missing_or_wrong_results(root: Path) -> None:
     without(root, THEOREM)
     assert (rows(root)["BX-1-2"]["word"], rows(root)["BX-1-2"]["good"]) == ("not there", None)
     put(root, THEOREM, verdict="VIOLATED", as_expected=False, reason="counterexample")
     assert (rows(root)["BX-1-2"]["word"], rows(root)["BX-1-2"]["good"]) == ("not as expected", False)
 
 
-def test_a_vector_says_what_came_of_the_programs_that_took_its_step(root: Path) -> None:
+def test_a_vector_says_how_programs_that_took_its_step_fared(root: Path) -> None:
     change(root / "spec" / "box" / "interface.toml", "published = false", "published = true")
     declare_graph(root, "states = 2\nedges = 4\n")
     assert rows(root)["BX-1-1"]["vector"][0]["text"] == "not there"
@@ -88,7 +88,7 @@ def test_a_vector_says_what_came_of_the_programs_that_took_its_step(root: Path) 
     assert rows(root)["BX-1-1"]["vector"][0]["text"] == "of another text (brief)"
 
 
-def test_the_csv_has_a_row_a_clause_and_no_cell_that_a_spreadsheet_takes_for_a_formula(root: Path) -> None:
+def test_the_csv_has_a_row_per_clause_and_no_formula(root: Path) -> None:
     change(root / "spec" / "box" / "clauses.toml", 'title = "the box shuts"', 'title = "=1+1"')
     content = part(gather(root)).attachments["matrix.csv"].decode()
     found = list(csv.DictReader(io.StringIO(content)))
@@ -106,7 +106,7 @@ def suite_of(root: Path) -> ElementTree.Element:
     return ElementTree.fromstring(part(gather(root)).attachments["junit.xml"])[0]
 
 
-def test_a_test_case_names_its_clauses_its_evidence_and_the_hash_of_it(root: Path) -> None:
+def test_a_test_case_names_clauses_evidence_and_the_evidence_hash(root: Path) -> None:
     suite = suite_of(root)
     case = next(one for one in suite if one.attrib["name"] == "MC_Box")
     told = [(one.attrib["name"], one.attrib["value"]) for one in case.iter("property")]
@@ -116,7 +116,7 @@ def test_a_test_case_names_its_clauses_its_evidence_and_the_hash_of_it(root: Pat
     assert (suite.attrib["failures"], suite.attrib["errors"]) == ("0", "0")
 
 
-def test_what_is_not_as_expected_fails_what_is_missing_is_an_error_and_neither_passes(root: Path) -> None:
+def test_unexpected_results_fail_and_missing_ones_are_errors(root: Path) -> None:
     reason = "bad \x00 <b>text</b>"
     put(root, "MC_Box", verdict="VIOLATED", as_expected=False, reason=reason)
     without(root, THEOREM)
@@ -138,7 +138,7 @@ def test_a_run_of_another_lane_is_skipped(root: Path) -> None:
     assert case[1].tag == "skipped"
 
 
-def test_the_page_offers_the_files_and_each_clause_has_its_place(root: Path) -> None:
+def test_the_page_offers_the_files_and_places_each_clause(root: Path) -> None:
     report = make(root)
     assert {"matrix.csv", "junit.xml"} <= set(report.attachments)
     assert 'id="clause-BX-1-1"' in report.html and 'data-file="matrix.csv"' in report.html

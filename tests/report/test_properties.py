@@ -26,7 +26,7 @@ def shown(root: Path) -> dict[str, Any]:
     return found
 
 
-def test_a_property_has_sentence_hazard_clause_formal_text_witness_and_what_each_engine_says(
+def test_a_property_has_meaning_sources_witness_and_each_engines_verdict(
     root: Path,
 ) -> None:
     one = shown(root)
@@ -79,20 +79,20 @@ def test_a_run_that_fails_outweighs_one_that_holds(root: Path) -> None:
     assert (row["run"], row["word"], row["good"]) == ("MC_Box_lazy", "VIOLATED", False)
 
 
-def test_where_another_property_fell_first_nothing_is_known_of_this_one(root: Path) -> None:
+def test_nothing_is_known_where_another_property_fell_first(root: Path) -> None:
     changes = {"verdict": "VIOLATED", "as_expected": False, "reason": "TypeOK is violated"}
     put(root, "MC_Box", result={"violated": "TypeOK"}, **changes)
     assert shown(root)["environments"][0]["word"] == "INCONCLUSIVE"
 
 
-def test_a_witness_that_the_run_did_not_reach_is_not_as_expected(root: Path) -> None:
+def test_an_unreached_witness_is_not_as_expected(root: Path) -> None:
     put(root, "WIT_Box", result={"reached": []})
     found = part(gather(root))
     assert [one.status for one in found.troubles] == [DIFFERS]
     assert "WIT_Box has not reached Close" in found.troubles[0].what
 
 
-def test_a_run_of_another_lane_alone_is_no_hole_and_no_verdict(root: Path) -> None:
+def test_a_run_of_another_lane_is_no_hole_or_verdict(root: Path) -> None:
     without(root, "MC_Box")
     without(root, "MC_Box_lazy")
     path = root / "spec" / "box" / "runs.toml"
@@ -102,12 +102,12 @@ def test_a_run_of_another_lane_alone_is_no_hole_and_no_verdict(root: Path) -> No
     assert (row["word"], row["good"], found.troubles) == ("not in this lane", None, ())
 
 
-def test_without_a_recorded_campaign_the_kills_are_a_hole_with_the_command(root: Path) -> None:
+def test_unrecorded_kills_are_a_hole_with_the_command(root: Path) -> None:
     assert shown(root)["kills"] is None
     assert "no campaign is recorded: <code>modeproof mutate spec --document box</code>" in make(root).html
 
 
-def test_a_property_says_which_mutants_it_kills_and_how_many_alone(root: Path) -> None:
+def test_a_property_says_its_killed_mutants_and_how_many_alone(root: Path) -> None:
     mutants = [
         {"id": "Box-1", "killers": ["ShutsOverDoor"], "verdict": "KILLED", "operator": "swap"},
         {"id": "Box-2", "killers": ["ShutsOverDoor", "TypeOK"], "verdict": "KILLED", "operator": "swap"},
@@ -128,7 +128,7 @@ def test_text_of_registers_and_evidence_cannot_become_markup(root: Path) -> None
     assert "alert(1)&lt;/script&gt;" in html and hostile not in html
 
 
-def test_the_table_of_runs_has_every_declared_run_with_its_command(root: Path) -> None:
+def test_the_runs_table_has_every_declared_run_with_its_command(root: Path) -> None:
     without(root, "NEG_Box_hasty")
     rows = {row["id"]: row for row in part(gather(root)).data["documents"][0]["runs"]}
     assert list(rows) == ["MC_Box", "MC_Box_lazy", "NEG_Box_eager", "NEG_Box_hasty", "WIT_Box"]

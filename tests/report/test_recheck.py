@@ -30,9 +30,7 @@ def flip(path: Path, at: int) -> None:
     path.write_bytes(bytes(content))
 
 
-def test_a_report_that_was_just_made_is_as_it_was_made(
-    root: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_report_just_made_is_as_it_was_made(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["report", "--verify"]) == 0
     assert capsys.readouterr().out.endswith("files: as it was made\n")
     assert main(["report", "--verify", str(root / "build" / "report" / "report.json")]) == 0
@@ -96,7 +94,7 @@ def test_page_and_json_of_two_reports_do_not_belong_together(
     assert "does not belong to report.json" in capsys.readouterr().out
 
 
-def test_what_was_stale_when_the_report_was_made_is_no_change_since(root: Path) -> None:
+def test_what_was_stale_at_report_time_is_no_later_change(root: Path) -> None:
     change(root / "spec" / "box" / "Box.tla", "The box: it shuts", "The box: it shuts now")
     assert main(["report"]) == 2
     assert main(["report", "--verify"]) == 0
@@ -120,7 +118,7 @@ def test_evidence_that_went_is_gone_and_nothing_else_is_wrong(
     assert result["status"] == 2 and [one["word"] for one in result["differences"]] == ["gone"]
 
 
-def test_a_text_that_evidence_rests_on_and_that_went_is_gone(
+def test_a_removed_text_that_evidence_rests_on_is_gone(
     root: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     made = root / "build" / "made.txt"
@@ -150,7 +148,7 @@ def test_what_is_no_report_is_one_line(
     assert str(path) in err and len(err.splitlines()) == 1
 
 
-def test_a_seal_is_the_hash_of_the_text_with_zeros_in_its_place() -> None:
+def test_a_seal_hashes_the_text_with_zeros_in_its_place() -> None:
     page = f'<meta name="modeproof-page" content="{BLANK}"><p>text</p>'
     sealed = seal_of_page(seal_page(page))
     assert sealed is not None and sealed[0] == sealed[1] != BLANK

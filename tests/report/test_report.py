@@ -65,7 +65,7 @@ def test_every_part_is_there_in_the_order_of_the_page(root: Path) -> None:
     assert sections == names and sections[:3] == ["verdict", "review", "scope"]
 
 
-def test_no_part_of_the_order_is_missing_and_none_stands_outside(real_root: Path) -> None:
+def test_the_parts_are_exactly_those_of_the_order(real_root: Path) -> None:
     folder = real_root / "modeproof" / "report"
     modules = {path.stem for path in (folder / "parts").glob("*.py")} - {"__init__"}
     assert modules == set(parts.ORDER)
@@ -157,7 +157,7 @@ def test_the_json_is_what_its_schema_says(root: Path) -> None:
     assert list(validator.iter_errors(content))
 
 
-def test_a_figure_shows_its_source_and_the_page_knows_its_hash(root: Path) -> None:
+def test_a_figure_shows_its_source_and_has_a_known_hash(root: Path) -> None:
     html = make(root).html
     sources = json.loads(re.search(r'id="sources">(.*?)</script>', html)[1])  # type: ignore[index]
     folders = json.loads(re.search(r'id="folders">(.*?)</script>', html)[1])  # type: ignore[index]
@@ -166,7 +166,7 @@ def test_a_figure_shows_its_source_and_the_page_knows_its_hash(root: Path) -> No
     assert "build/evidence/box/MC_Box.json" in used and "build/evidence/box/" in folders
 
 
-def test_every_link_within_the_page_leads_somewhere_and_no_id_is_there_twice(root: Path) -> None:
+def test_every_inner_link_leads_somewhere_and_ids_are_unique(root: Path) -> None:
     put_graph(root, 4, 4)
     html = make(root).html
     lost = {one for one in lost_links(html) if not one.startswith("trace-")}
@@ -229,7 +229,7 @@ def test_evidence_of_two_texts_of_one_file_is_a_contradiction(root: Path) -> Non
     assert "the evidence is of different texts of spec/box/Box.tla" in troubles(root, DIFFERS)
 
 
-def test_a_run_and_a_comparison_that_count_differently_are_a_contradiction(root: Path) -> None:
+def test_different_counts_of_run_and_comparison_are_a_contradiction(root: Path) -> None:
     put_graph(root, states=4, compared=4)
     assert troubles(root, DIFFERS) == []
     without(root, "refimpl_OPEN_Box")
@@ -252,7 +252,7 @@ def test_two_solvers_that_disagree_are_a_contradiction(root: Path) -> None:
     assert found in troubles(root, DIFFERS)
 
 
-def test_a_run_that_holds_and_a_theorem_that_falls_are_a_contradiction(root: Path) -> None:
+def test_a_holding_run_and_a_falling_theorem_are_a_contradiction(root: Path) -> None:
     put(root, "it_shuts_over_the_door_only", verdict="VIOLATED", as_expected=False, reason="a model")
     assert make(root).status == DIFFERS
     assert any("two engines disagree" in one for one in troubles(root, DIFFERS))
@@ -276,7 +276,7 @@ def test_evidence_that_no_register_declares_is_named(root: Path) -> None:
     assert any("declared no more: MC_Gone" in one for one in troubles(root, HOLE))
 
 
-def test_different_versions_of_a_tool_are_named_and_change_no_status(root: Path) -> None:
+def test_different_tool_versions_are_named_and_change_no_status(root: Path) -> None:
     tools = {"tlc": {"version": "another", "sha256": "6" * 64}}
     put(root, "MC_Box", tools=tools)
     report = make(root)
@@ -284,7 +284,7 @@ def test_different_versions_of_a_tool_are_named_and_change_no_status(root: Path)
     assert any("2 versions of tlc" in one and "1 by another" in one for one in troubles(root, NOTE))
 
 
-def test_a_part_has_the_troubles_that_concern_it_and_the_first_the_rest(root: Path) -> None:
+def test_parts_have_their_own_troubles_and_the_first_the_rest(root: Path) -> None:
     sources = gather(root)
     strange = Trouble(HOLE, "nowhere", "x")
     sources = type(sources)(sources.root, sources.documents, sources.evidence, sources.files, (strange,))
@@ -319,7 +319,7 @@ def test_a_report_of_the_largest_inputs_stays_under_ten_megabytes(root: Path) ->
         ("agreement", {"rows": [0]}),
     ],
 )
-def test_evidence_of_a_strange_form_is_a_hole_in_its_place_and_no_crash(
+def test_strangely_formed_evidence_is_a_hole_and_no_crash(
     root: Path, name: str, result: dict[str, Any]
 ) -> None:
     kinds = {"coverage": "coverage", "strength_spec": "strength", "agreement": "agreement"}
@@ -329,9 +329,7 @@ def test_evidence_of_a_strange_form_is_a_hole_in_its_place_and_no_crash(
     assert [one for one in report.troubles if one.status == HOLE] or name in ("MC_Box", "NEG_Box_eager")
 
 
-def test_a_part_that_cannot_be_made_says_so_and_the_others_are_there(
-    root: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_part_that_fails_says_so_and_others_are_there(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(sources: Sources) -> Part:
         raise KeyError("planted")
 
@@ -347,7 +345,7 @@ def test_a_part_that_cannot_be_made_says_so_and_the_others_are_there(
 # ------------------------------------------------------------------------------------------ the command
 
 
-def test_the_command_writes_page_json_and_sheet_and_gives_the_status(
+def test_the_command_writes_page_json_sheet_and_gives_the_status(
     root: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["report", "--json", str(root / "result.json")]) == 0

@@ -27,7 +27,7 @@ CURVES = (
 )
 
 
-def test_the_chart_has_a_dot_for_every_point_inside_its_panel() -> None:
+def test_the_chart_has_every_points_dot_inside_its_panel() -> None:
     root = ElementTree.fromstring(chart(CURVES))
     width, height = float(root.attrib["width"]), float(root.attrib["height"])
     panels = root.findall("{*}g")

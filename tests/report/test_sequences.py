@@ -47,7 +47,7 @@ def holes(root: Path) -> list[Trouble]:
     return [one for one in part(gather(root)).troubles if one.remedy == REMEDY]
 
 
-def test_a_scan_shows_all_that_stands_though_the_file_has_only_what_changed(root: Path) -> None:
+def test_a_scan_shows_all_values_though_files_hold_only_changes(root: Path) -> None:
     one = told(root)
     assert one["columns"] == ["after", "door", "box is in", "WORD", "LAMP"]
     assert [row["cells"] for row in one["rows"]] == [
@@ -60,7 +60,7 @@ def test_a_scan_shows_all_that_stands_though_the_file_has_only_what_changed(root
     assert one["constant"] == "SPARE 0"
 
 
-def test_a_changed_cell_is_marked_and_an_unchanged_one_is_not(root: Path) -> None:
+def test_only_a_changed_cell_is_marked(root: Path) -> None:
     assert [row["changed"] for row in told(root)["rows"]] == [[], [], [1, 2, 3, 4], [1]]
     html = make(root).html
     marked = '<b><span aria-hidden="true">▸</span>{}</b>'
@@ -69,7 +69,7 @@ def test_a_changed_cell_is_marked_and_an_unchanged_one_is_not(root: Path) -> Non
     assert f"<td>0 ms</td><td>{marked.format(0)}</td><td>Shut</td>" in html
 
 
-def test_what_changed_runs_from_the_inputs_to_the_device_and_on_to_the_outputs(root: Path) -> None:
+def test_changes_run_from_inputs_through_the_device_to_outputs(root: Path) -> None:
     one = told(root)
     assert [lane["title"] for lane in one["lanes"]] == ["inputs", "box", "outputs"]
     _, device, end = (lane["id"] for lane in one["lanes"])
@@ -81,7 +81,7 @@ def test_what_changed_runs_from_the_inputs_to_the_device_and_on_to_the_outputs(r
     assert [row["states"][device] for row in one["rows"]] == ["Open", "Open", "Shut", "Shut"]
 
 
-def test_a_sequence_says_what_happens_who_demands_the_answer_and_by_which_clauses(root: Path) -> None:
+def test_a_sequence_says_what_happens_who_demands_it_and_clauses(root: Path) -> None:
     first, second = told(root), told(root, f"trace-box-{WAITS}")
     assert (first["kind"], first["document"], first["run"]) == ("sequence", "box", SHUTS)
     assert (first["why"], first["basis"]) == ("The door comes and the box shuts.", "document")
@@ -95,7 +95,7 @@ def test_a_sequence_says_what_happens_who_demands_the_answer_and_by_which_clause
     assert f'data-source="{FILE}">1</span>' in row
 
 
-def test_its_file_is_one_of_those_that_the_report_rests_on(root: Path) -> None:
+def test_its_file_is_one_that_the_report_rests_on(root: Path) -> None:
     sources = gather(root)
     found = part(sources)
     assert FILE in sources.files and not [one for one in found.troubles if one.remedy == REMEDY]
@@ -103,13 +103,13 @@ def test_its_file_is_one_of_those_that_the_report_rests_on(root: Path) -> None:
     assert [one["scans"] for one in rows] == [Figure(3, FILE), Figure(1, FILE)]
 
 
-def test_the_first_sequence_stands_on_paper_and_all_in_the_order_of_the_file(root: Path) -> None:
+def test_paper_has_the_first_sequence_and_all_keep_file_order(root: Path) -> None:
     found = listed(root)
     assert [one["case"] for one in found["cases"]] == [one["id"] for one in CASES] == [SHUTS, WAITS]
     assert [one["case"] for one in found["first"]] == [SHUTS] and len(found["first"][0]["rows"]) == 4
 
 
-def test_a_word_without_a_meaning_where_it_stands_is_no_code(root: Path) -> None:
+def test_a_word_without_meaning_in_its_place_is_no_code(root: Path) -> None:
     put_vectors(root, case(SHUTS, "A wrong word.", FIRST, scan(0, "Wait", 0, {}, {"WORD": "0F11"})))
     assert told(root)["rows"][2]["cells"] == ["0 ms", "0F11 = no code"]
     assert told(root)["constant"] == "door 0, box is in Open, LAMP 0, SPARE 0"
@@ -152,9 +152,7 @@ FAULTS: dict[str, Callable[[Path], Any]] = {
 
 
 @pytest.mark.parametrize("what", FAULTS)
-def test_a_file_that_is_damaged_missing_or_of_another_text_is_a_hole_in_its_place(
-    root: Path, what: str
-) -> None:
+def test_a_damaged_missing_or_foreign_file_is_a_hole(root: Path, what: str) -> None:
     assert not holes(root)
     FAULTS[what](root)
     (hole,) = holes(root)
@@ -166,7 +164,7 @@ def test_a_file_that_is_damaged_missing_or_of_another_text_is_a_hole_in_its_plac
     }
 
 
-def test_the_hole_is_shown_where_the_sequences_would_stand_and_makes_the_report_incomplete(
+def test_the_hole_replaces_the_sequences_and_leaves_the_report_incomplete(
     root: Path,
 ) -> None:
     _cut(root)

@@ -52,7 +52,7 @@ def spec(root: Path) -> dict[str, Any]:
     return found
 
 
-def test_each_judge_stands_with_what_it_was_asked_killed_killed_first_and_killed_alone(root: Path) -> None:
+def test_each_judge_counts_asked_killed_killed_first_and_killed_alone(root: Path) -> None:
     rows = {row["id"]: row for row in spec(root)["judges"]}
     numbers = [
         [rows[name][key].value for key in ("asked", "killed", "first", "alone", "negatives")]
@@ -93,7 +93,7 @@ def test_a_survivor_that_nobody_explained_is_not_as_expected(root: Path) -> None
     assert make(root).status == 1
 
 
-def test_a_campaign_with_unmeasured_mutants_is_a_hole_and_no_kill(root: Path) -> None:
+def test_unmeasured_mutants_of_a_campaign_are_a_hole_not_kills(root: Path) -> None:
     why = "1 of 5 mutants are not judged"
     recorded(root, [*MUTANTS, mutant(5, "UNMEASURED")], verdict="UNMEASURED", as_expected=False, reason=why)
     found = spec(root)
@@ -101,7 +101,7 @@ def test_a_campaign_with_unmeasured_mutants_is_a_hole_and_no_kill(root: Path) ->
     assert make(root).status == HOLE
 
 
-def test_a_campaign_that_is_not_recorded_shows_as_a_hole_with_the_command_that_runs_it(root: Path) -> None:
+def test_an_unrecorded_campaign_is_a_hole_with_its_command(root: Path) -> None:
     found = part(gather(root))
     assert [one["recorded"] is None for one in found.data["documents"][0]["campaigns"]] == [
         False,

@@ -50,7 +50,7 @@ def test_a_single_block_shows_each_pin_at_its_side(tmp_path: Path) -> None:
     assert svg.count("marker-end") == 4 and ">BX-1-1</text>" in svg
 
 
-def test_between_devices_a_signal_runs_from_its_output_to_each_reader(tmp_path: Path) -> None:
+def test_a_signal_runs_from_its_output_to_each_reading_device(tmp_path: Path) -> None:
     root = make_paper(tmp_path)
     with (root / "spec/box/interface.toml").open("a") as stream:
         stream.write(WATCH)

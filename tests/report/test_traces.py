@@ -96,7 +96,7 @@ def told(root: Path, link: str = LINK) -> dict[str, Any]:
     return found
 
 
-def test_a_step_says_who_executed_it_what_changed_and_what_ran_where(root: Path) -> None:
+def test_a_step_says_who_executed_what_where_and_what_changed(root: Path) -> None:
     one = told(root)
     assert [lane["title"] for lane in one["lanes"]] == ["environment", "box"]
     assert one["columns"] == ["box is in", "WORD", "lamps"]
@@ -112,7 +112,7 @@ def test_a_step_says_who_executed_it_what_changed_and_what_ran_where(root: Path)
     assert (one["property"], one["findings"], one["wires"]) == ("ShutsOverDoor", ["E-01"], True)
 
 
-def test_a_changed_cell_is_marked_and_an_unchanged_one_is_not(root: Path) -> None:
+def test_only_a_changed_cell_is_marked(root: Path) -> None:
     assert told(root)["rows"][1]["changed"] == [0, 1, 2]
     assert '<td><b><span aria-hidden="true">▸</span>Shut</b></td>' in make(root).html
     still = walk()
@@ -127,7 +127,7 @@ def test_a_changed_cell_is_marked_and_an_unchanged_one_is_not(root: Path) -> Non
     assert one["rows"][2]["messages"] == [{"source": "", "target": "box", "signals": ["door 1"]}]
 
 
-def test_where_the_decided_device_does_otherwise_the_row_says_what_and_how_it_shows(root: Path) -> None:
+def test_a_row_says_how_the_decided_device_does_otherwise(root: Path) -> None:
     (text,) = told(root)["rows"][1]["instead"]
     assert text == "box, as decided: Wait instead of Close; WORD 0, not 0F10 = code 1; LAMP 0, not 1"
     assert told(root)["rows"][0]["instead"] == []
@@ -145,9 +145,7 @@ def test_the_digest_of_a_trace_is_that_of_its_walk() -> None:
         {"rows": []},
     ],
 )
-def test_a_walk_of_another_trace_or_text_is_not_shown_but_the_variables_are(
-    root: Path, changes: dict[str, Any]
-) -> None:
+def test_a_foreign_walk_is_hidden_but_its_variables_are_shown(root: Path, changes: dict[str, Any]) -> None:
     lay(root, walk(**changes))
     one = told(root)
     assert not one["wires"] and one["columns"] == ["boxState", "shut"]
@@ -157,7 +155,7 @@ def test_a_walk_of_another_trace_or_text_is_not_shown_but_the_variables_are(
     assert notes[0].items == ("NEG_Box_eager", "NEG_Box_hasty")
 
 
-def test_a_walk_that_is_shown_is_one_of_the_files_that_the_report_rests_on(root: Path) -> None:
+def test_a_shown_walk_is_a_file_the_report_rests_on(root: Path) -> None:
     sources = gather(root)
     part(sources)
     assert "build/walks/box/NEG_Box_eager.json" in sources.files

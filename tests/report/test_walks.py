@@ -15,7 +15,7 @@ from modeproof.report.sources import gather
 from tests.report.paper import change
 
 
-def test_every_counterexample_is_walked_once_and_the_report_shows_its_wires(
+def test_each_counterexample_is_walked_once_and_its_wires_shown(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = checked / "build/walks/box"
@@ -55,7 +55,7 @@ def test_a_module_that_the_register_does_not_declare_is_named(
     )
 
 
-def test_a_trace_that_the_specification_does_not_allow_is_not_followed(
+def test_a_trace_the_specification_forbids_is_not_followed(
     checked: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     change(

@@ -75,13 +75,13 @@ def test_what_the_protocol_forbids_is_refused_and_changes_nothing(
     assert ask(adapter, SCAN) == before and not adapter.ended
 
 
-def test_a_scan_before_reset_and_a_line_of_noise_are_refused(adapter: Adapter) -> None:
+def test_scans_before_reset_and_noise_are_refused(adapter: Adapter) -> None:
     assert "hello must come first" in ask(adapter, {"op": "reset"})["error"]
     assert "scan before reset" in ask(adapter, HELLO, SCAN)["error"]
     assert "error" in adapter.answer(b"\xff\n") and "error" in adapter.answer(b'{"op":NaN}\n')
 
 
-def test_a_plc_that_runs_freely_says_that_its_time_is_real(tmp_path: Path) -> None:
+def test_a_freely_running_plc_says_its_time_is_real(tmp_path: Path) -> None:
     path = tmp_path / "map.csv"
     path.write_text(FREE, encoding="utf-8")
     with Plc(cycle_ms=1) as plc:

@@ -83,9 +83,7 @@ def test_a_map_that_fits_is_read(tmp_path: Path) -> None:
         ("symbol,address,type", 'symbol,"address,type', "plc.csv"),
     ],
 )
-def test_a_map_that_does_not_fit_is_refused_with_line_and_symbol(
-    tmp_path: Path, old: str, new: str, said: str
-) -> None:
+def test_an_unfit_map_is_refused_with_line_and_symbol(tmp_path: Path, old: str, new: str, said: str) -> None:
     with pytest.raises(Unjudged, match=r"^plc\.csv: ") as caught:
         read_map(written(tmp_path, (old, new)), INPUTS, OUTPUTS, PARAMETERS)
     assert said in str(caught.value) and "\n" not in str(caught.value)
@@ -98,7 +96,7 @@ pieces = st.sampled_from(
 
 @settings(max_examples=200, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(st.lists(pieces, max_size=40).map("".join))
-def test_any_text_is_a_map_that_fits_or_is_refused_in_one_line(tmp_path: Path, text: str) -> None:
+def test_any_text_fits_or_is_refused_in_one_line(tmp_path: Path, text: str) -> None:
     path = tmp_path / "plc.csv"
     for whole in (text, GOOD + text):
         path.write_text(whole, encoding="utf-8", newline="")
@@ -122,7 +120,7 @@ def test_the_proposed_map_fits_and_keeps_the_tags() -> None:
 
 
 @pytest.mark.parametrize("target", ["fplc", "plc", "hmi"])
-def test_the_command_writes_a_map_for_each_target_that_its_own_check_takes(
+def test_the_command_writes_a_map_it_accepts_for_each_target(
     target: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "map.csv"
@@ -198,7 +196,7 @@ PUBLISHED = [
 
 
 @pytest.mark.parametrize(("document", "target"), PUBLISHED, ids=[target for _, target in PUBLISHED])
-def test_the_map_to_start_from_can_be_used_for_every_published_target(
+def test_the_starting_map_can_be_used_for_every_published_target(
     document: str, target: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = str(tmp_path / "map.csv")

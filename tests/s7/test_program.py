@@ -171,7 +171,7 @@ def test_outputs_without_an_address_are_unobserved(suite: Suite, plc: Plc) -> No
     assert (verdict.word, verdict.unobserved) == ("CONFORMS", ("ERROR",))
 
 
-def test_a_plc_that_runs_freely_conforms_by_settled_and_cannot_be_judged_by_exact(
+def test_a_free_plc_conforms_by_settled_and_exact_cannot_judge(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     slow = {"T_ON_ms": 60_000, "T_SEQ_ms": 60_000, "T_REM_ms": 60_000, "T_DWELL_ms": 900}
@@ -220,16 +220,14 @@ def test_somebody_who_speaks_something_else_or_nothing_is_unjudged(
 
 
 @pytest.mark.parametrize("most", [0, 1, 20])
-def test_a_plc_that_dies_midway_is_unjudged_with_case_and_scan(most: int, suite: Suite) -> None:
+def test_a_plc_dying_midway_is_unjudged_with_case_and_scan(most: int, suite: Suite) -> None:
     with Plc(most=most) as plc:
         verdict = judged(suite, plc, STEPPED, EXACT)
     assert (verdict.word, verdict.status) == ("UNJUDGED", 2)
     assert "scan" in verdict.reason and "S7 server 127.0.0.1" in verdict.reason and "\n" not in verdict.reason
 
 
-def test_a_plc_without_a_harness_is_unjudged_within_the_time_limit(
-    suite: Suite, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_a_harness_a_plc_is_unjudged_in_time(suite: Suite, monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock(look_s=1.0)
     set_clock(monkeypatch, clock, "modeproof.s7.program")
     with Plc(dead=True) as plc:
@@ -290,7 +288,7 @@ def conform(suite: Suite, map_file: Path, address: str, *options: str) -> subpro
     return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False, env={**os.environ})
 
 
-def test_the_command_judges_the_statement_list_program_in_its_simulated_plc(suite: Suite) -> None:
+def test_the_command_judges_the_statement_list_in_a_simulated_plc(suite: Suite) -> None:
     awl = ROOT / "examples/awl"
     with subprocess.Popen(
         [sys.executable, str(awl / "server.py"), "fplc"],
@@ -315,5 +313,5 @@ def test_the_command_judges_the_statement_list_program_in_its_simulated_plc(suit
     assert len([line for line in said if "no S7 server" in line]) == 1
 
 
-def test_the_fields_of_the_settings_are_packed_as_the_test_plc_unpacks_them() -> None:
+def test_fields_of_settings_are_packed_as_the_plc_unpacks_them() -> None:
     assert struct.calcsize(">iiii6B") == 22 and changes([]) == []

@@ -122,7 +122,7 @@ def test_the_whole_campaign_is_kept_as_evidence(place: Path) -> None:
     assert "refimpl/toy/gate.py" in found["inputs"] and "proofs/toy/strength.toml" in found["inputs"]
 
 
-def test_what_is_known_is_not_judged_again_and_an_interrupted_campaign_goes_on(place: Path) -> None:
+def test_an_interrupted_campaign_goes_on_without_judging_known_mutants_again(place: Path) -> None:
     run(place, Reader(place))
     file = place / "impl.jsonl"
     lines = file.read_bytes().splitlines(keepends=True)

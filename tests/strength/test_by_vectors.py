@@ -135,7 +135,7 @@ def test_a_mutant_that_never_ends_is_ended_and_unmeasured(place: Path) -> None:
     assert not endless.killers
 
 
-def test_refusing_what_must_be_answered_kills_in_the_end_and_is_told_apart(place: Path) -> None:
+def test_a_wrong_refusal_kills_in_the_end_and_stands_apart(place: Path) -> None:
     _, _, judged = campaign(place)
     one = by_edit(judged, "word", "count <= 2", "count < 2")
     assert (one.word, one.killers) == ("KILLED", ("long",))
@@ -155,7 +155,7 @@ class Refusal(ValueError):
     ("presses", "result", "scan"),
     [([1, 0, 1], "refuses", 0), ([1, 0, 2], "differs", 3), ([0, 0], "refuses", 0), ([1, 1], "differs", 2)],
 )
-def test_a_refusal_leaves_the_memory_as_it_was_and_what_follows_is_compared(
+def test_a_refusal_leaves_the_memory_and_comparing_goes_on(
     presses: list[int], result: str, scan: int
 ) -> None:
     """The program adds what it is given, but refuses zero; it should add 1 in every scan that is not zero."""
@@ -272,14 +272,14 @@ def test_what_is_proved_equivalent_is_not_judged_again(place: Path) -> None:
     assert not results.of(survivor.id)
 
 
-def test_a_proof_that_is_not_of_this_code_is_not_used(place: Path) -> None:
+def test_a_proof_of_other_code_is_not_used(place: Path) -> None:
     _, _, judged = campaign(place, names=("short",))
     proved_equivalent(place, by_edit(judged, "WORDS", "9", "10").mutant)
     (place / "proofs/mutants/bench.py").write_text("X = 1\n")
     assert not judges_of(place).equivalent
 
 
-def test_a_suite_that_catches_what_is_proved_equivalent_is_a_contradiction(place: Path) -> None:
+def test_catching_what_is_proved_equivalent_is_a_contradiction(place: Path) -> None:
     judges = judges_of(place)
     (mutant,) = [one for one in judges.mutants if (one.definition, one.new) == ("WORDS", "10")]
     proved_equivalent(place, mutant)
@@ -288,7 +288,7 @@ def test_a_suite_that_catches_what_is_proved_equivalent_is_a_contradiction(place
         campaign(place, complete=True, names=("short", "long", "longer"))
 
 
-def test_what_nobody_can_tell_is_not_put_to_the_longest_suite(place: Path) -> None:
+def test_the_longest_suite_is_not_asked_what_nobody_can_tell(place: Path) -> None:
     watcher = Watcher(same=("count <= 3",))
     _, _, judged = campaign(place, watcher=watcher)
     same = by_edit(judged, "word", "2", "3")
@@ -316,7 +316,7 @@ def test_what_the_observer_does_not_know_survives(place: Path) -> None:
 # ---------------------------------------------------------------- going on
 
 
-def test_a_campaign_that_was_cut_off_goes_on_and_known_answers_stay(
+def test_a_cut_off_campaign_goes_on_and_known_answers_stay(
     place: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _, _, before = campaign(place)
@@ -344,7 +344,7 @@ def test_a_new_suite_is_asked_of_what_is_left_alone(place: Path) -> None:
         assert asked == (["short"] if id in killed else ["short", "long"])
 
 
-def test_a_new_suite_that_is_shorter_than_the_killer_is_asked_first(place: Path) -> None:
+def test_a_new_suite_shorter_than_the_killer_is_asked_first(place: Path) -> None:
     _, _, before = campaign(place, names=("long",))
     assert by_edit(before, "WORDS", "5", "6").killers == ("long",)
     _, _, after = campaign(place)

@@ -65,7 +65,7 @@ def test_what_was_judged_before_an_interruption_is_not_judged_again(
     assert len(first.judged) + len(second.judged) == len(every)
 
 
-def test_a_cut_last_line_is_dropped_with_a_remark_and_its_mutant_judged_again(
+def test_a_cut_line_is_remarked_and_its_mutant_judged_again(
     bench: Bench, every: tuple[Mutant, ...], tmp_path: Path, stand_in: Callable[[Judge], Judge]
 ) -> None:
     path = tmp_path / "spec.jsonl"
@@ -88,7 +88,7 @@ def test_any_other_damage_is_an_error(damage: bytes, tmp_path: Path) -> None:
         read_results(path)
 
 
-def test_a_result_of_fewer_tiers_does_not_do_when_all_are_asked_for(
+def test_fewer_tiers_do_not_do_when_all_are_asked(
     bench: Bench, every: tuple[Mutant, ...], tmp_path: Path, stand_in: Callable[[Judge], Judge]
 ) -> None:
     path = tmp_path / "spec.jsonl"
@@ -102,7 +102,7 @@ def test_a_result_of_fewer_tiers_does_not_do_when_all_are_asked_for(
     assert less.judged == []
 
 
-def test_results_hold_for_the_texts_they_were_made_from_and_comments_are_none(tmp_path: Path) -> None:
+def test_results_hold_for_their_texts_and_comments_do_not_matter(tmp_path: Path) -> None:
     now = ByProperties(lamp(tmp_path / "a")).stamps
     commented = lamp(tmp_path / "b")
     path = commented.folder / "Lamp.tla"
@@ -113,7 +113,7 @@ def test_results_hold_for_the_texts_they_were_made_from_and_comments_are_none(tm
     assert ByProperties(commented).stamps == now != ByProperties(changed).stamps
 
 
-def test_a_killed_mutant_need_not_be_judged_again_when_a_later_tier_changes(tmp_path: Path) -> None:
+def test_a_killed_mutant_stays_judged_when_a_later_tier_changes(tmp_path: Path) -> None:
     bench = lamp(tmp_path)
     tiers = bench.strength.tiers_of("Lamp")
     first = next(tier for tier in tiers if tier.when == "always")

@@ -113,20 +113,20 @@ def test_two_neighbouring_ifs_change_places_with_their_blocks() -> None:
     assert text.index("Step.STUCK, s.count") < text.index("Step.OPEN, 0")
 
 
-def test_every_mutant_is_a_program_of_its_own_that_differs_from_the_original() -> None:
+def test_every_mutant_is_a_distinct_program_unlike_the_original() -> None:
     programs = [ast.dump(ast.parse(applied(DOOR.splitlines(), one.mutant.edit))) for one in mutants_of(DOOR)]
     assert len(programs) > 30
     assert len(set(programs) | {ast.dump(ast.parse(DOOR))}) == len(programs) + 1
 
 
-def test_what_only_builds_an_error_a_docstring_or_another_function_is_not_edited() -> None:
+def test_errors_docstrings_and_other_functions_are_not_edited() -> None:
     lines = DOOR.splitlines()
     edited = {lines[one.mutant.line - 1].strip() for one in mutants_of(DOOR)}
     assert not {line for line in edited if line.startswith(("raise", '"""', "return i.push"))}
     assert "if s.state == Step.STUCK:" in edited
 
 
-def test_an_edit_says_which_lines_must_be_passed_and_a_constant_may_be_read_anywhere() -> None:
+def test_an_edit_says_lines_to_pass_unless_it_changes_constants() -> None:
     lines = DOOR.splitlines()
     for one in mutants_of(DOOR):
         if one.mutant.definition in ("TABLE", "LIMIT"):

@@ -75,7 +75,7 @@ def kept(root: Path, *ones: Judged, every: int = 0, explained: tuple[Explained, 
 ALL = (judged(1, "KILLED", "brief"), judged(2, "EQUIVALENT"), judged(3, "SURVIVED"))
 
 
-def test_a_complete_campaign_is_as_expected_and_names_each_mutant_and_each_judge(tmp_path: Path) -> None:
+def test_a_complete_campaign_is_expected_and_names_mutants_and_judges(tmp_path: Path) -> None:
     found = kept(tmp_path, *ALL)
     assert (found["verdict"], found["as_expected"], found["seconds"]) == ("KILLED", True, 4.5)
     assert found["result"]["judges"] == {"brief": 3, "wp": 0, "tour": 3}
@@ -90,7 +90,7 @@ def test_a_survivor_without_an_explanation_is_not_as_expected(tmp_path: Path) ->
     assert found["reason"] == "toy-3 survives without an explanation (1 in all)"
 
 
-def test_an_explanation_of_a_mutant_that_is_killed_is_not_as_expected(tmp_path: Path) -> None:
+def test_explaining_a_killed_mutant_is_not_as_expected(tmp_path: Path) -> None:
     found = kept(tmp_path, ALL[0], judged(3, "KILLED", "brief"))
     assert (found["verdict"], found["as_expected"]) == ("KILLED", False)
     assert "toy-3 is explained as a survivor and is KILLED" in found["reason"]
@@ -148,7 +148,7 @@ def test_a_part_of_a_campaign_is_no_score(tmp_path: Path) -> None:
     assert not scores_path(tmp_path, "toy").exists()
 
 
-def test_a_row_that_claims_the_present_text_and_is_not_of_it_is_found(tmp_path: Path) -> None:
+def test_a_row_falsely_claiming_the_present_text_is_found(tmp_path: Path) -> None:
     campaign = recorded(tmp_path, *ALL)
     register = campaign.judges.register
     register.write_text("x = 1 # a comment\n[[survivor]]\nwhy = 'only told to people'\n")
@@ -174,7 +174,7 @@ def test_a_record_that_is_not_understood_is_refused(text: str, tmp_path: Path) -
 
 
 @pytest.mark.parametrize("document", documents(root()))
-def test_the_recorded_scores_fit_the_text_or_say_that_they_do_not(document: str) -> None:
+def test_recorded_scores_fit_the_text_or_say_otherwise(document: str) -> None:
     rows = load_scores(root(), document)
     assert [row.what for row in rows] == ["spec", "impl", "vectors"]
     assert stale(root(), document) == []

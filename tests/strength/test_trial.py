@@ -66,7 +66,7 @@ def test_a_property_of_time_is_not_taken_apart() -> None:
         make_trial(tree, tier, (folder / live.cfg).read_text())
 
 
-def test_a_contract_in_another_module_is_judged_in_its_first_state_and_in_every_step() -> None:
+def test_another_modules_contract_is_judged_initially_and_in_every_step() -> None:
     flows = next(run for run in RUNS.values() if "RefinesModeSelection" in run.properties)
     folder = root() / "spec" / DOCUMENT
     tree = bench_of(DOCUMENT).tree(flows.module)

@@ -94,9 +94,7 @@ def test_a_wrong_builtin_differs(toy: Path, capsys: pytest.CaptureFixture[str]) 
     assert evidence.read(evidence.evidence_path(toy, "toy", "brokenimpl_OPEN_Lamp"))["verdict"] == "DIFFERS"
 
 
-def test_an_adapter_is_judged_by_a_suite_that_is_built_once(
-    toy: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_suite_built_once_judges_an_adapter(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = " ".join(f'"{word}"' for word in program(toy))
     assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
     first = capsys.readouterr()

@@ -50,7 +50,7 @@ def test_a_document_without_contracts_has_no_relation_monitor(toy: Path) -> None
     assert suite.relations == ("exact", "settled") and suite.contract() is None
 
 
-def test_a_contract_goes_into_the_header_with_its_clauses_and_builds_anew(toy: Path) -> None:
+def test_a_contract_enters_the_header_with_clauses_and_rebuilds(toy: Path) -> None:
     before = built(toy).read_bytes()
     declare(toy)
     path = built(toy)

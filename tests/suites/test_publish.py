@@ -17,7 +17,7 @@ from modeproof.suites.kinds import SUITES
 from tests.suites.test_command import toy as toy  # the fixture
 
 
-def test_what_is_published_is_what_was_built_and_is_left_alone_when_it_is_the_same(
+def test_what_was_built_is_published_unless_it_is_the_same(
     toy: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["vectors", "publish"]) == 0
@@ -45,7 +45,7 @@ def test_what_is_published_is_what_was_built_and_is_left_alone_when_it_is_the_sa
         ("sources", "does not say which specification"),
     ],
 )
-def test_a_published_file_of_another_text_is_found_without_making_it_again(
+def test_a_published_file_of_another_text_is_found_without_rebuilding(
     toy: Path, spoil: str, said: str
 ) -> None:
     assert main(["vectors", "publish"]) == 0

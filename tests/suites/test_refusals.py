@@ -55,7 +55,7 @@ def suite(tmp_path: Path) -> Suite:
     return open_suite(tmp_path / "refusals.jsonl")
 
 
-def test_before_any_reset_is_the_first_case_alone_however_many_graphs_there_are(
+def test_with_many_graphs_only_the_first_case_comes_before_reset(
     tmp_path: Path,
 ) -> None:
     first = lamp_graph(tmp_path)
@@ -84,7 +84,7 @@ def test_an_adapter_that_refuses_all_of_it_passes(suite: Suite, tmp_path: Path) 
         ("word", 'word is "0ff0"'),
     ],
 )
-def test_an_adapter_that_lets_one_form_pass_differs_and_no_word_is_said_of_the_program(
+def test_accepting_one_wrong_form_differs_without_judging_the_program(
     suite: Suite, tmp_path: Path, skipped: str, shown: str
 ) -> None:
     verdict = run_suite(suite, starter(tmp_path, STRICT.replace("SKIPPED", skipped)))
@@ -102,7 +102,7 @@ def test_a_refused_request_that_has_an_effect_is_noticed(suite: Suite, tmp_path:
     assert verdict.difference.step != "protocol" and verdict.reason == ""
 
 
-def test_an_adapter_that_refuses_what_the_program_must_answer_is_unjudged(tmp_path: Path) -> None:
+def test_an_adapter_that_refuses_required_inputs_is_unjudged(tmp_path: Path) -> None:
     every = lamp_graph(tmp_path)
     write_suite(tmp_path / "r.jsonl", "refusals", [every])
     suite = open_suite(tmp_path / "r.jsonl")

@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[2]
 NOTE = "mode_selection"
 
 
-def test_flows_and_their_branches_are_cases_that_a_good_program_passes(tmp_path: Path) -> None:
+def test_flows_and_branches_are_cases_a_good_program_passes(tmp_path: Path) -> None:
     write_suite(tmp_path / "s", "sequences", [lamp_graph(tmp_path)])
     suite = open_suite(tmp_path / "s")
     cases = list(suite.cases())
@@ -130,7 +130,7 @@ def clauses_of(device: str) -> set[str]:
 
 
 @pytest.mark.parametrize("device", ["fplc", "plc", "hmi"])
-def test_every_box_of_the_figures_is_in_a_sequence_of_its_device(device: str) -> None:
+def test_every_figure_box_is_in_a_sequence_of_its_device(device: str) -> None:
     """Of Figures 2 to 9, what the clauses call behaviour of the device."""
     boxes = {
         clause.id
@@ -144,7 +144,7 @@ def test_every_box_of_the_figures_is_in_a_sequence_of_its_device(device: str) ->
 
 
 @pytest.mark.parametrize("device", ["fplc", "plc", "hmi"])
-def test_every_clause_of_a_sequence_is_cited_by_the_specification_of_the_device(device: str) -> None:
+def test_the_specification_cites_every_clause_of_a_sequence(device: str) -> None:
     registers = load_document(ROOT, NOTE)
     module = load_interface(ROOT, NOTE).devices[device].module
     cited = {

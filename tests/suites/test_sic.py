@@ -79,7 +79,7 @@ def test_what_needs_two_changes_at_once_is_listed(tmp_path: Path) -> None:
     assert header["graphs"][0]["not_so"]["SwitchOn"] == "1 of 1"
 
 
-def test_the_right_program_passes_and_so_does_one_that_settles_late(suite: Suite, tmp_path: Path) -> None:
+def test_the_right_program_passes_even_if_it_settles_late(suite: Suite, tmp_path: Path) -> None:
     assert run_suite(suite, starter(tmp_path)).word == CONFORMS
     assert run_suite(suite, starter(tmp_path, LATE)).word == CONFORMS
 

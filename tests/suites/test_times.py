@@ -43,9 +43,7 @@ def test_a_good_program_passes(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("unit", [2, 10, 50])
-def test_a_program_that_rounds_the_time_of_each_scan_passes_the_tour_but_not_this(
-    tmp_path: Path, unit: int
-) -> None:
+def test_rounding_each_scans_time_passes_only_the_tour(tmp_path: Path, unit: int) -> None:
     graph = lamp_graph(tmp_path)
     for name, word in (("tour", CONFORMS), ("wp", CONFORMS), ("times", DIFFERS)):
         write_suite(tmp_path / name, name, [graph])
@@ -54,7 +52,7 @@ def test_a_program_that_rounds_the_time_of_each_scan_passes_the_tour_but_not_thi
 
 
 @pytest.mark.parametrize("bits", [1 << 15, 1 << 16])
-def test_a_program_whose_timer_overflows_passes_the_tour_but_not_this(tmp_path: Path, bits: int) -> None:
+def test_an_overflowing_timer_passes_the_tour_but_not_this(tmp_path: Path, bits: int) -> None:
     graph = lamp_graph(tmp_path, lines())
     for name, word in (("tour", CONFORMS), ("times", DIFFERS)):
         write_suite(tmp_path / name, name, [graph])
@@ -72,7 +70,7 @@ def uneven_lamp(folder: Path, monkeypatch: pytest.MonkeyPatch) -> DeviceGraph:
     return lamp_graph(folder)
 
 
-def test_a_time_comes_in_pieces_only_where_nothing_can_happen_before_it_is_over(
+def test_time_comes_in_pieces_only_where_nothing_can_happen_meanwhile(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """After 9 ms another 5 would end in the middle: 5 ms are no pieces of anything; 10 are, of 9 and 1."""

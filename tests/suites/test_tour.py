@@ -81,7 +81,7 @@ def test_members_of_a_column_and_of_a_class_take_turns(tmp_path: Path) -> None:
     assert stats.inputs_used > stats.columns and {"0000", "0001", "0FF0"} <= words
 
 
-def test_a_suite_is_the_same_each_time_and_says_what_it_is(tmp_path: Path) -> None:
+def test_a_suite_stays_the_same_and_says_what_it_is(tmp_path: Path) -> None:
     graph = lamp_graph(tmp_path)
     for name in ("a", "b"):
         write_suite(tmp_path / name, "tour", [graph], sources={"spec/x": "00"})
@@ -102,7 +102,7 @@ def test_the_brief_suite_is_shorter_and_takes_every_step(tmp_path: Path) -> None
     assert len(steps) == 4
 
 
-def test_no_part_of_a_suite_is_left_where_it_cannot_be_written(tmp_path: Path) -> None:
+def test_a_suite_that_cannot_be_written_leaves_no_part_behind(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(Unjudged, match="cannot be written"):
         write_suite(tmp_path / "file" / "t.jsonl", "tour", [lamp_graph(tmp_path)])

@@ -79,7 +79,7 @@ def test_no_tour_costs_less_than_the_lower_bound(columns: Columns) -> None:
     assert columns.transitions <= bound <= sum(map(len, cases)) + len(cases)
 
 
-def test_the_lower_bound_is_reached_where_the_best_tour_is_known() -> None:
+def test_the_lower_bound_is_reached_by_known_best_tours() -> None:
     two_traps = table([[1, 2], [1, 1], [2, 2]])
     assert lower_bound(two_traps, 0) == 8, "six scans and two resets"
     there_and_back = table([[1, 1], [0, 0]])
@@ -133,7 +133,7 @@ def test_the_command_builds_counts_lints_and_shows(toy: Path, capsys: pytest.Cap
     assert main(["vectors", "lint", "--suite", "words"]) == 1
 
 
-def test_packed_files_are_the_same_bytes_each_time_and_hold_the_same_lines(
+def test_packed_files_have_the_same_bytes_and_lines_each_time(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ("a.jsonl.gz", "b.jsonl.gz", "c.jsonl"):

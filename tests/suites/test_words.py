@@ -117,9 +117,7 @@ def test_a_wrong_row_of_the_rule_copied_is_refused(tmp_path: Path, old: str, new
 
 
 @given(graphs(), st.data())
-def test_states_are_told_apart_by_outputs_as_soon_as_they_can_be(
-    columns: object, data: st.DataObject
-) -> None:
+def test_outputs_tell_states_apart_as_soon_as_they_can(columns: object, data: st.DataObject) -> None:
     table = columns.next_of  # type: ignore[attr-defined]
     rows = data.draw(st.lists(st.integers(0, 1), min_size=len(table), max_size=len(table)))
     apart = Apart(columns, rows)  # type: ignore[arg-type]

@@ -106,7 +106,7 @@ def test_there_are_machines_to_try() -> None:
 
 
 @pytest.mark.parametrize("part", range(4))
-def test_no_wrong_machine_of_two_states_passes_and_every_right_one_does(part: int) -> None:
+def test_of_machines_of_two_states_only_right_ones_pass(part: int) -> None:
     for table, found in TWO[part::4]:
         cases = words(found)
         assert judged(found, cases) == []
@@ -164,9 +164,7 @@ def test_power_up_must_be_told_apart_itself() -> None:
 
 @settings(max_examples=30, deadline=None)
 @given(tables, st.data())
-def test_a_case_that_is_missing_and_lets_a_wrong_machine_pass_is_noticed(
-    table: Table, data: st.DataObject
-) -> None:
+def test_a_missing_case_that_passes_a_wrong_machine_is_noticed(table: Table, data: st.DataObject) -> None:
     found = as_machine(table)
     assume(found is not None)
     assert found is not None
@@ -216,7 +214,7 @@ def scan(m):  # a second press, right after the first one, stops the time once
 """
 
 
-def test_a_program_in_a_wrong_state_that_shows_the_right_outputs_passes_the_tour_but_not_wp(
+def test_a_hidden_wrong_state_passes_the_tour_but_not_wp(
     tmp_path: Path,
 ) -> None:
     graph = lamp_graph(tmp_path)
@@ -230,7 +228,7 @@ def test_a_program_in_a_wrong_state_that_shows_the_right_outputs_passes_the_tour
     assert verdicts["wp"].word == DIFFERS and verdicts["wp"].difference is not None
 
 
-def test_a_file_says_for_whom_it_is_complete_and_lint_proves_it(tmp_path: Path) -> None:
+def test_files_say_for_whom_they_are_complete_and_lint_agrees(tmp_path: Path) -> None:
     path = tmp_path / "wp.jsonl"
     write_suite(path, "wp", [lamp_graph(tmp_path)])
     assert lint(path, every=1) == []
@@ -250,7 +248,7 @@ def test_lint_notices_each_case_of_a_walk_that_is_missing(tmp_path: Path) -> Non
     assert any("not complete" in problem and "not settled" in problem for problem in lint(path, every=1))
 
 
-def test_lint_notices_a_transition_whose_end_nothing_tells_and_numbers_that_are_wrong(tmp_path: Path) -> None:
+def test_lint_notices_an_untold_end_state_and_wrong_numbers(tmp_path: Path) -> None:
     path = tmp_path / "wp.jsonl"
     write_suite(path, "tour", [lamp_graph(tmp_path)])
     header, *cases = path.read_text(encoding="utf-8").splitlines(keepends=True)

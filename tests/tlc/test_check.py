@@ -32,7 +32,7 @@ def check(root: Path, *names: str) -> dict[str, Checked]:
     return {one.run.id: one for one in done}
 
 
-def test_a_small_run_leaves_a_part_of_its_core_to_others(
+def test_a_small_run_leaves_part_of_its_core_to_others(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root = toy_tree(tmp_path, "MC_toy")
@@ -78,7 +78,7 @@ def test_each_kind_of_run_is_as_expected(good: tuple[Path, dict[str, Checked]]) 
 
 
 @pytest.mark.parametrize(("name", "violated"), [("NEG_risen", "Risen"), ("NEG_starts", "StartsTop")])
-def test_what_the_first_state_violates_is_a_counterexample_of_length_1(
+def test_a_violation_in_the_first_state_has_length_1(
     good: tuple[Path, dict[str, Checked]], name: str, violated: str
 ) -> None:
     one = good[1][name]
@@ -245,7 +245,7 @@ def test_old_evidence_is_gone_before_a_run_begins(tmp_path: Path, monkeypatch: p
     assert not path.exists()
 
 
-def test_a_full_disk_while_the_graph_is_written_leaves_no_graph(
+def test_a_full_disk_while_writing_the_graph_leaves_no_graph(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     root = toy_tree(tmp_path, "OPEN_toy")
@@ -291,7 +291,7 @@ def test_a_reading_takes_the_place_of_what_was_decided(tmp_path: Path) -> None:
     assert moves(root, one) == ()
 
 
-def test_the_pins_of_a_run_with_a_base_are_its_row(tmp_path: Path) -> None:
+def test_a_run_with_a_base_has_pins_in_its_row(tmp_path: Path) -> None:
     root = with_reading(tmp_path, "NEG_over", "Overflows", 'property = "TypeOK"\ndistinct = 3\n')
     one = check(root, "NEG_over")["NEG_over"]
     assert one.judgement.reason == "not pinned yet: trace_length"

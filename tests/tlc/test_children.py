@@ -70,7 +70,7 @@ def test_tlc_ends_when_modeproof_is_killed_by_sigkill(tmp_path: Path) -> None:
     assert not (root / "build/evidence/toy/MC_big.json").exists()
 
 
-def test_what_a_killed_run_left_is_cleared_away_by_the_next(tmp_path: Path) -> None:
+def test_the_next_run_clears_what_a_killed_run_left(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_toy")
     stale = root / "build/tlc/toy/MC_toy.abcd1234"
     (stale / "states").mkdir(parents=True)

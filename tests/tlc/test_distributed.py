@@ -174,7 +174,7 @@ def counts_of(checked: Checked) -> dict[str, int]:
     return {"distinct": result["distinct"], "generated": result["generated"]}
 
 
-def test_verdict_and_counts_are_those_of_the_local_run_with_workers_from_elsewhere_too(
+def test_workers_from_elsewhere_give_the_local_verdict_and_counts(
     root: Path, local: Checked, tmp_path: Path
 ) -> None:
     pins = counts_of(local)
@@ -201,7 +201,7 @@ def test_verdict_and_counts_are_those_of_the_local_run_with_workers_from_elsewhe
 
 
 @pytest.mark.deep
-def test_a_property_that_breaks_on_a_way_back_is_violated_and_named(root: Path) -> None:
+def test_a_property_broken_on_a_way_back_is_named(root: Path) -> None:
     one = spread(root, "MC_back", Where(1))
     assert (one.judgement.verdict, one.judgement.violated) == ("VIOLATED", "NeverBack")
     assert one.record["result"]["trace"][-1]["action"] == "Back"
@@ -229,7 +229,7 @@ def test_an_assumption_that_is_false_is_not_overlooked(root: Path) -> None:
 
 
 @pytest.mark.deep
-def test_a_killed_worker_does_not_end_the_run_and_does_not_make_it_green(root: Path) -> None:
+def test_a_killed_worker_neither_ends_nor_passes_the_run(root: Path) -> None:
     one = killed(root, WORKER, 1)
     assert one.judgement.verdict == "HOLDS" and one.status == 1
     assert "1 of 2 workers lost on the way" in one.judgement.reason

@@ -96,7 +96,7 @@ def test_a_negative_that_holds_is_not_as_expected() -> None:
     assert judgement.verdict == HOLDS and judgement.reason == "Small was to be violated, and is not"
 
 
-def test_a_violation_of_a_run_that_must_hold_is_not_as_expected() -> None:
+def test_a_violation_where_a_run_must_hold_is_not_expected() -> None:
     judgement = judged(declared("MC_toy"), outcome("NEG_small"))
     assert judgement.verdict == VIOLATED and not judgement.as_expected
 
@@ -166,7 +166,7 @@ def test_a_heap_that_is_too_small_is_inconclusive() -> None:
         assert judgement.verdict == INCONCLUSIVE and "out of memory with heap_mb = 256" in judgement.reason
 
 
-def test_a_java_that_cannot_start_is_unjudged_with_its_own_words() -> None:
+def test_java_that_cannot_start_is_unjudged_in_its_own_words() -> None:
     judgement = judged(declared("MC_toy"), outcome("MC_toy", [b"Unrecognized VM option\n"], status=1))
     assert judgement.verdict == UNJUDGED and "Unrecognized VM option" in judgement.reason
 
@@ -197,7 +197,7 @@ def graph_outcome(states: int, edges: int) -> Outcome:
     return found
 
 
-def test_a_graph_is_complete_or_the_run_is_not_as_expected() -> None:
+def test_a_run_with_an_incomplete_graph_is_not_as_expected() -> None:
     graph = declared("OPEN_toy").graph
     assert graph is not None
     run = declared("OPEN_toy", distinct=16, generated=33, graph=with_values(graph, states=16, edges=32))

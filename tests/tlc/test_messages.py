@@ -39,7 +39,7 @@ def test_a_counterexample_shows_what_each_step_changes() -> None:
 
 
 @given(st.text(st.characters(codec="utf-8", exclude_characters="\n\r")))
-def test_a_printed_string_is_given_back_as_the_model_wrote_it(text: str) -> None:
+def test_a_printed_string_comes_back_as_the_model_wrote_it(text: str) -> None:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     assert unquote(f'"{escaped}"'.encode()) == text.encode()
 

@@ -45,7 +45,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> ParseTree:
     return read_tree(folder, "Top", find_toolchain(), library)
 
 
-def test_every_definition_of_our_own_modules_is_there_and_none_of_the_standard_ones(tree: ParseTree) -> None:
+def test_the_tree_has_all_our_definitions_and_no_standard_ones(tree: ParseTree) -> None:
     assert {module: list(found) for module, found in tree.definitions.items()} == {
         "Base": ["Room", "Up"],
         "Top": ["Next"],
@@ -81,14 +81,14 @@ def test_an_action_is_taken_apart_whatever_its_layout(tree: ParseTree) -> None:
     assert any(one.kind == "string" and one.operator == "a" for one in following.body.walk())
 
 
-def test_the_text_of_several_lines_can_be_had_as_it_stands(tree: ParseTree) -> None:
+def test_a_text_of_several_lines_is_had_as_it_stands(tree: ParseTree) -> None:
     up = tree.find("Up")
     assert up is not None
     text = tree.text(up.place, joined=False)
     assert text.startswith("Up(d) ==\n    /\\ Room(d)") and text.endswith("ELSE x")
 
 
-def test_a_text_that_is_wrong_is_not_judged_and_the_place_is_named(tmp_path: Path) -> None:
+def test_a_wrong_text_is_unjudged_and_its_place_is_named(tmp_path: Path) -> None:
     (tmp_path / "Base.tla").write_text(BASE)
     (tmp_path / "Top.tla").write_text(TOP)
     with pytest.raises(Unjudged, match=r"Top: cannot be parsed: line 5.*Room2"):

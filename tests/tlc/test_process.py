@@ -15,7 +15,7 @@ QUICK = "-XX:TieredStopAtLevel=1"
 
 
 @pytest.mark.parametrize(("heap_mb", "small"), [(64, True), (512, True), (513, False), (4096, False)])
-def test_a_run_of_little_heap_is_compiled_by_the_quick_compiler_alone(heap_mb: int, small: bool) -> None:
+def test_only_the_quick_compiler_compiles_a_run_of_little_heap(heap_mb: int, small: bool) -> None:
     command = command_line(declared("MC_toy", heap_mb=heap_mb), TOOLS, Path("/states"))
     assert (QUICK in command) == small
     if small:

@@ -23,7 +23,7 @@ def checked(root: Path, run_id: str, found: Outcome) -> Checked:
     return Checked(run, judged(run, found, text), found, sha256(text), {})
 
 
-def test_a_count_that_grew_is_shown_old_to_new_and_moved(tmp_path: Path) -> None:
+def test_a_grown_count_is_shown_old_to_new_and_moved(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_toy", distinct=12, generated=20)
     moved = moves(root, checked(root, "MC_toy", outcome("MC_toy")))
     assert [str(move) for move in moved] == ["distinct: 12 -> 16", "generated: 20 -> 33"]

@@ -100,7 +100,7 @@ def derived(id: str = "NEG_sinks", base: str = "MC_toy", reading: str = "Sinks",
     return DERIVED.format(id=id, base=base, reading=reading, more=more or 'property = "TypeOK"')
 
 
-def test_a_run_with_a_base_takes_from_it_what_it_does_not_say(tmp_path: Path) -> None:
+def test_a_run_takes_what_it_lacks_from_its_base(tmp_path: Path) -> None:
     text = declaration("MC_toy") + derived(more='property = "TypeOK"\nheap_mb = 300\nconstants = { N = "3" }')
     base, run = load_runs(with_runs(tmp_path, text), "toy")
     assert (run.kind, run.expect, run.lanes, run.readings) == ("NEG", "VIOLATED", ("full",), ("Sinks",))
@@ -114,7 +114,7 @@ def test_a_run_with_a_base_takes_from_it_what_it_does_not_say(tmp_path: Path) ->
     assert (run.properties, run.distinct, run.cfg_sha256) == (("TypeOK",), None, None)
 
 
-def test_a_harmless_reading_is_checked_by_all_properties_of_the_base(tmp_path: Path) -> None:
+def test_all_properties_of_the_base_check_a_harmless_reading(tmp_path: Path) -> None:
     text = declaration("WIT_toy") + derived("MC_sinks", "WIT_toy", more="workers = 1")
     _, run = load_runs(with_runs(tmp_path, text), "toy")
     assert run.properties == ("TypeOK", "Witness") and run.witnesses == ()
@@ -134,7 +134,7 @@ def test_a_harmless_reading_is_checked_by_all_properties_of_the_base(tmp_path: P
         (declaration("WIT_toy", reading="Sinks"), "belong to a run with a base"),
     ],
 )
-def test_a_mistake_in_a_run_with_a_base_names_place_and_cause(tmp_path: Path, text: str, words: str) -> None:
+def test_a_mistake_in_a_based_run_names_place_and_cause(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(Unjudged) as caught:
         load_runs(with_runs(tmp_path, declaration("MC_toy") + text), "toy")
     assert caught.value.message.startswith("spec/toy/runs.toml: run ") and words in caught.value.message

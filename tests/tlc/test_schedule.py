@@ -51,7 +51,7 @@ def test_a_job_that_is_too_big_runs_alone() -> None:
     assert fits(small, [small], 2, 4000)
 
 
-def test_three_small_runs_share_two_cores_and_leave_a_core_to_a_big_one() -> None:
+def test_three_small_runs_share_two_cores_beside_a_big_one() -> None:
     small, big = Job("small", SMALL_SHARE, 100, 1), Job("big", 1, 100, 9)
     assert fits(small, [small, small], 2, 4000)
     assert not fits(small, [small, small, small], 2, 4000)
@@ -63,7 +63,7 @@ def test_the_longest_job_starts_first() -> None:
     assert order([Job("a", 1, 1, 2), Job("b", 1, 1, 9), Job("c", 1, 1, 2)]) == [1, 0, 2]
 
 
-def test_a_failing_job_is_raised_and_the_waiting_ones_do_not_start() -> None:
+def test_a_failing_job_is_raised_and_waiting_ones_never_start() -> None:
     begun: list[int] = []
 
     def work(index: int) -> None:

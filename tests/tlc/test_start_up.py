@@ -56,15 +56,14 @@ def test_a_damaged_cache_is_refused_by_its_checksum(tools: Toolchain, cache: Pat
     assert "checksum" in said_at_start(tools, damaged).lower()
 
 
-def test_without_a_cache_or_with_another_java_there_are_no_options(tools: Toolchain, cache: Path) -> None:
+def test_no_cache_or_another_java_means_no_options(tools: Toolchain, cache: Path) -> None:
     assert start_up_options(tools, cache.parent / "none.aot") == []
     assert start_up_options(dataclasses.replace(tools, pinned=False), cache) == []
     assert start_up_options(dataclasses.replace(tools, java=Path("/usr/bin/java")), cache) == []
 
 
-def test_no_cache_is_made_from_another_jar_for_java_may_not_tell_them_apart(
-    tools: Toolchain, tmp_path: Path
-) -> None:
+def test_no_cache_is_made_from_another_jar(tools: Toolchain, tmp_path: Path) -> None:
+    """Java may not tell them apart."""
     with pytest.raises(Unjudged, match="not the pinned jar"):
         write_cache(dataclasses.replace(tools, pinned=False), tmp_path / "start.aot")
     assert list(tmp_path.iterdir()) == []

@@ -31,7 +31,7 @@ def test_a_changed_jar_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
         toolchain.find_jar()
 
 
-def test_a_named_jar_is_taken_and_known_not_to_be_the_pinned_one(
+def test_a_named_jar_is_taken_and_known_as_not_pinned(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     other = tmp_path / "other.jar"

@@ -84,6 +84,6 @@ def test_a_wrong_output_is_found_in_its_scan(judged: Judged) -> None:
     assert isinstance(judged.bad.followed, Followed) and judged.bad.followed.accepted == judged.at
 
 
-def test_the_log_may_begin_in_the_middle_and_a_wrong_output_is_still_found(judged: Judged) -> None:
+def test_wrong_outputs_are_found_though_a_log_starts_midway(judged: Judged) -> None:
     assert (judged.rest.verdict, judged.rest.accepted) == ("CONFORMS", SCANS - CUT)
     assert (judged.wrong_rest.verdict, judged.wrong_rest.accepted) == ("DIFFERS", judged.at - CUT)

@@ -176,7 +176,7 @@ def test_an_output_that_repeats_an_input_must_do_so(batches: dict[str, Batch]) -
 
 
 @pytest.mark.deep
-def test_a_key_that_no_graph_has_is_judged_by_tlc_alone(batches: dict[str, Batch]) -> None:
+def test_tlc_alone_judges_a_key_that_no_graph_has(batches: dict[str, Batch]) -> None:
     found = batches["eks"].extra["a long KeyID"]
     assert "stands for KeyID = 18446744073709551615" in str(found.followed)
     assert isinstance(found.followed, NotFollowed) and found.accepted > 0
@@ -202,7 +202,7 @@ def test_judges_that_contradict_each_other_are_no_verdict(batches: dict[str, Bat
 @pytest.mark.deep
 @settings(max_examples=25, deadline=None, suppress_health_check=SHARED_FIXTURE)
 @given(device=st.sampled_from(("plc", "hmi", "eks")), seed=st.integers(0, 2**32), data=st.data())
-def test_the_graph_accepts_any_walk_and_any_part_of_what_it_shows(
+def test_the_graph_accepts_any_walk_even_if_partly_shown(
     device: str, seed: int, data: st.DataObject, alphabets: dict[str, Alphabet], tmp_path: Path
 ) -> None:
     alphabet = alphabets[RUN[device]]

@@ -69,7 +69,7 @@ def wrong_sample() -> Log:
     return replace(log, rows=(*log.rows[:9], wrong, *log.rows[10:]))
 
 
-def test_a_log_of_the_whole_system_is_judged_scan_by_scan(graphs: Graphs) -> None:
+def test_a_log_of_the_system_is_judged_scan_by_scan(graphs: Graphs) -> None:
     names = ("key_flows_good.jsonl", "key_flows_lost_word.jsonl")
     good, lost = judge("key_flows", [example("key_flows", name) for name in names], graphs)
     assert (good.verdict, len(good.log.rows)) == ("CONFORMS", 364)

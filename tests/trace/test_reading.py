@@ -135,7 +135,7 @@ def test_parameters_come_from_the_header_and_the_rest_is_default(tmp_path: Path)
             lines(tmp_path, header, SCAN)
 
 
-def test_a_system_needs_the_device_of_each_line_and_the_checksum(tmp_path: Path) -> None:
+def test_a_system_needs_each_lines_device_and_the_checksum(tmp_path: Path) -> None:
     params = {"params": {"eks": {"checksum": "1234"}}}
     assert lines(tmp_path, params, {**SCAN, "device": "fplc"}, target=SYSTEM).rows[0].device == "fplc"
     for rows, wanted in (
@@ -223,7 +223,7 @@ def test_the_recorder_writes_what_the_devices_read_and_wrote() -> None:
     assert any(line["out"]["MSO_1"] for line in recorder.of("fplc"))
 
 
-def test_an_output_whose_values_the_document_does_not_give_is_left_out_and_named(tmp_path: Path) -> None:
+def test_an_output_without_documented_values_is_omitted_and_named(tmp_path: Path) -> None:
     log = lines(tmp_path, '{"target":"fplc"}', SCAN)
     assert without_codes(log, FPLC) is log
     part = FPLC.parts["fplc"]

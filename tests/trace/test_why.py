@@ -32,7 +32,7 @@ def explained(graphs: Graphs) -> dict[str, tuple[Why, str]]:
     return found
 
 
-def test_a_wrong_output_is_shown_beside_the_expected_one_with_what_sets_it(
+def test_a_wrong_output_stands_beside_the_expected_with_its_cause(
     explained: dict[str, tuple[Why, str]],
 ) -> None:
     why, text = explained["fplc_wrong_echo.jsonl"]
@@ -44,7 +44,7 @@ def test_a_wrong_output_is_shown_beside_the_expected_one_with_what_sets_it(
     assert taken.outputs[0][0].startswith("MW05 == IF fplcState") and taken.outputs[0][1].module == "Fplc"
 
 
-def test_a_dwell_time_that_lacks_one_ms_is_the_conjunct_with_both_sides(
+def test_a_dwell_short_by_one_ms_shows_both_conjunct_sides(
     explained: dict[str, tuple[Why, str]],
 ) -> None:
     why, text = explained["fplc_short_dwell.jsonl"]
@@ -68,7 +68,7 @@ def test_the_page_about_logs_shows_what_is_printed(explained: dict[str, tuple[Wh
     assert printed.endswith(shown)
 
 
-def test_a_step_that_was_left_out_is_named_and_one_scan_is_missing(
+def test_a_step_left_out_is_named_and_a_scan_missing(
     explained: dict[str, tuple[Why, str]],
 ) -> None:
     why, _ = explained["fplc_skipped_step.jsonl"]
@@ -91,7 +91,7 @@ def test_in_the_whole_system_the_wire_is_named(graphs: Graphs) -> None:
 
 
 @pytest.mark.deep
-def test_every_step_of_every_device_has_a_guard_that_ends_with_its_own() -> None:
+def test_every_step_of_each_device_has_its_own_guard() -> None:
     spec = root() / "spec"
     for target in targets_of(root(), DOCUMENT):
         if target.system or target.id not in ("fplc", "eks"):

@@ -40,9 +40,7 @@ def faulty(browser: Browser, box_report: Path) -> Iterator[Opened]:
         yield opened
 
 
-def test_it_opens_without_a_word_on_the_console_and_asks_for_nothing(
-    anyone: Opened, any_report: Path
-) -> None:
+def test_it_opens_with_a_silent_console_and_requests_nothing(anyone: Opened, any_report: Path) -> None:
     anyone.page.wait_for_load_state("networkidle")
     assert anyone.said == []
     assert [url for url in anyone.asked if not url.startswith("data:")] == [any_report.as_uri()]

@@ -10,9 +10,7 @@ from tests.report.box_vectors import SHUTS
 from tests.report.browser.opened import open_page
 
 
-def test_a_trace_is_opened_by_its_link_and_stepped_by_the_arrow_keys(
-    browser: Browser, box_report: Path
-) -> None:
+def test_a_link_opens_a_trace_and_arrow_keys_step_it(browser: Browser, box_report: Path) -> None:
     with open_page(browser, box_report, f"#trace-box-{SHUTS}") as opened:
         page = opened.page
         expect(page.locator("#trace-view")).to_be_focused()

@@ -44,7 +44,7 @@ def test_a_graph_is_opened_and_walked_by_keyboard_alone(box: Opened) -> None:
     assert box.said == []
 
 
-def test_the_state_shows_memory_and_outputs_and_marks_by_words_what_changed(box: Opened) -> None:
+def test_the_state_shows_memory_and_outputs_and_words_for_changes(box: Opened) -> None:
     page = box.page
     page.locator("#explore-graph").select_option(ID)
     page.get_by_role("button", name="Take Close to Shut (shut 1)").click()
@@ -55,7 +55,7 @@ def test_the_state_shows_memory_and_outputs_and_marks_by_words_what_changed(box:
     expect(page.locator("#explore-where")).to_be_focused()
 
 
-def test_the_enabled_actions_say_which_inputs_lead_to_them_and_what_they_cite(box: Opened) -> None:
+def test_enabled_actions_say_their_inputs_and_what_they_cite(box: Opened) -> None:
     page = box.page
     page.locator("#explore-graph").select_option(ID)
     rows = page.locator("#explore-actions tbody tr")
@@ -66,7 +66,7 @@ def test_the_enabled_actions_say_which_inputs_lead_to_them_and_what_they_cite(bo
     expect(rows).to_have_text(["StayBX-1-1the same stateevery input4 of 4Take"])
 
 
-def test_a_state_that_is_chosen_is_reached_by_a_shortest_trail(box: Opened) -> None:
+def test_a_chosen_state_is_reached_by_a_shortest_trail(box: Opened) -> None:
     page = box.page
     page.locator("#explore-graph").select_option(ID)
     page.locator("#explore-state").select_option("Shut (shut 1)")
@@ -98,7 +98,7 @@ def test_a_link_that_does_not_fit_says_so(browser: Browser, box_report: Path) ->
         said(opened.page, "This page has no graph box-OPEN_None.")
 
 
-def test_a_property_says_what_it_speaks_of_and_whether_it_holds_on_this_graph(box: Opened) -> None:
+def test_a_property_says_its_subject_and_whether_it_holds_here(box: Opened) -> None:
     page = box.page
     page.locator("#explore-graph").select_option(ID)
     item = page.locator("#explore-properties li")
@@ -108,7 +108,7 @@ def test_a_property_says_what_it_speaks_of_and_whether_it_holds_on_this_graph(bo
     )
 
 
-def test_a_trail_goes_back_by_its_own_entries_and_keeps_what_lies_ahead(box: Opened) -> None:
+def test_a_trail_goes_back_and_keeps_what_lies_ahead(box: Opened) -> None:
     page = box.page
     page.locator("#explore-graph").select_option(ID)
     page.get_by_role("button", name="Take Close to Shut (shut 1)").click()
