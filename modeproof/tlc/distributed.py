@@ -391,7 +391,9 @@ class _Session:
         log.initial = self._first.counts.generated if self._first.counts is not None else None
         log.files = [path for path in files if Path(path).name in self._parsed()]
         if self._lost:  # a connection that broke is what `lost` counts; it is no error of the model
-            log.errors = [one for one in log.errors if not (one[0] == GENERAL and "java.rmi." in one[1])]
+            log.errors = [
+                error for error in log.errors if not (error[0] == GENERAL and "java.rmi." in error[1])
+            ]
         if log.counts is not None and log.final and log.success:
             # The server adds, for each block of states: successors - 1; and the distinct states once.
             successors = log.counts.generated - log.counts.distinct + self._blocks
