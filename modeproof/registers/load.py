@@ -83,10 +83,10 @@ def read_register(root: Path, name: str, register: str) -> dict[str, Any]:
 
 
 def _refuse_twice(source: str, key: str, ids: list[str]) -> None:
-    for n, one in enumerate(ids):
-        if one in ids[:n]:
-            first = ids.index(one) + 1
-            raise Unjudged(f"{source}: [[{key}]] {one}: declared twice (rows {first} and {n + 1})")
+    for n, row_id in enumerate(ids):
+        if row_id in ids[:n]:
+            first = ids.index(row_id) + 1
+            raise Unjudged(f"{source}: [[{key}]] {row_id}: declared twice (rows {first} and {n + 1})")
 
 
 def _names(row: Table, key: str) -> tuple[str, ...]:
@@ -217,6 +217,6 @@ def _fault(row: Table) -> Fault:
         not_detected=row["not_detected"],
         holds=_names(row, "holds"),
         runs=_names(row, "runs"),
-        falls=tuple(Fall(**one) for one in row.get("falls", [])),
+        falls=tuple(Fall(**fall) for fall in row.get("falls", [])),
         not_modelled=row.get("not_modelled", ""),
     )

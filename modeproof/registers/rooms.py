@@ -111,7 +111,7 @@ def _height(module: str) -> int:
 def _allowed(rule: Rule, name: str) -> bool:
     top = name.split(".")[0]
     if top in OURS:
-        return any(name == one or name.startswith(f"{one}.") for one in rule.allowed)
+        return any(name == package or name.startswith(f"{package}.") for package in rule.allowed)
     return not rule.stdlib_only or top in sys.stdlib_module_names
 
 
@@ -135,7 +135,7 @@ def _imports(root: Path, path: Path, submodules: frozenset[str] = frozenset()) -
                 inner = [
                     f"{name}.{alias.name}" for alias in node.names if f"{name}.{alias.name}" in submodules
                 ]
-                yield from ((node.lineno, one) for one in inner or [name])
+                yield from ((node.lineno, module) for module in inner or [name])
 
 
 def check_no_document_known(
@@ -170,8 +170,8 @@ def declared_names(interfaces: list[Interface], documents: list[Document]) -> fr
             names |= {name for name in {*inner, *device.states, *device.steps} if _peculiar(name)}
     for document in documents:
         names.add(document.about.prefix)
-        names |= {one.id for one in document.properties if _peculiar(one.id)}
-        names |= {one.id for one in document.runs}
+        names |= {prop.id for prop in document.properties if _peculiar(prop.id)}
+        names |= {run.id for run in document.runs}
     return frozenset(names)
 
 
