@@ -215,7 +215,14 @@ class ByVectors(Judges):
     def observed(self, before: Sequence[Answers]) -> Mapping[str, Any] | None:
         """What the observer said, if that holds now."""
         said = [record.get("observed") for record in before if record["inputs"] == self.base]
-        return next((one for one in said if one is not None and one["inputs"] == self.observes_by), None)
+        return next(
+            (
+                observed
+                for observed in said
+                if observed is not None and observed["inputs"] == self.observes_by
+            ),
+            None,
+        )
 
     def _in_order(self, answers: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
         return sorted(answers, key=lambda answer: self.names.index(answer["suite"]))
