@@ -103,15 +103,15 @@ class _Reasoning:
         return True
 
     def _all_apart(self) -> bool:
-        for one in range(self.states):
-            for other in range(one):
-                if not self._apart(self.chosen[one], self.chosen[other]):
-                    self.problems.append(f"no case tells the states {other} and {one} apart")
+        for state in range(self.states):
+            for other in range(state):
+                if not self._apart(self.chosen[state], self.chosen[other]):
+                    self.problems.append(f"no case tells the states {other} and {state} apart")
                     return False
         return True
 
-    def _apart(self, one: int, other: int) -> bool:
-        mine, theirs = self.children[one], self.children[other]
+    def _apart(self, state: int, other: int) -> bool:
+        mine, theirs = self.children[state], self.children[other]
         common = [column for column in mine if column in theirs]
         return any(mine[c][0] != theirs[c][0] for c in common) or any(
             self._apart(mine[c][1], theirs[c][1]) for c in common

@@ -154,7 +154,11 @@ class _Build:
         cases = walk.cases
         turn = 1
         while order:
-            order = [one for one in order if len(self.identify[self.of.next_of[one[0]][one[1]]]) > turn]
+            order = [
+                transition
+                for transition in order
+                if len(self.identify[self.of.next_of[transition[0]][transition[1]]]) > turn
+            ]
             walk = _Walk(self)
             for state, column in order:
                 walk.go_to(state)
