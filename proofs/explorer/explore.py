@@ -144,7 +144,9 @@ def explore(
     ends a path (`raised`). twice: run each path again, so that a function that keeps state is found out.
     Raises ExplorationError when the function cannot be followed.
     """
-    ranges = [one.premise for one in (*_distinct(arguments), *(stand_in.answer for stand_in in stand_ins))]
+    ranges = [
+        symbol.premise for symbol in (*_distinct(arguments), *(stand_in.answer for stand_in in stand_ins))
+    ]
     known = [term for term in (*ranges, premise) if term is not None and not z3.is_true(term)]
     return _Explorer(function, arguments, conjunction(known), stand_ins, max_paths).explore(twice)
 
@@ -152,10 +154,10 @@ def explore(
 def _distinct(arguments: Sequence[Any]) -> Iterator[Symbol]:
     seen: set[int] = set()
     for argument in arguments:
-        for one in symbols(argument):
-            if one.term.get_id() not in seen:
-                seen.add(one.term.get_id())
-                yield one
+        for symbol in symbols(argument):
+            if symbol.term.get_id() not in seen:
+                seen.add(symbol.term.get_id())
+                yield symbol
 
 
 @dataclass(frozen=True)
@@ -260,11 +262,11 @@ class _Explorer:
     @contextmanager
     def standing_in(self, run: _Run) -> Iterator[None]:
         """Put the stand-ins in place for one run."""
-        before = [(one.module, one.name, getattr(one.module, one.name)) for one in self.stand_ins]
+        before = [(each.module, each.name, getattr(each.module, each.name)) for each in self.stand_ins]
         try:
-            for one in self.stand_ins:
-                proxy = one.answer.proxy(run)
-                setattr(one.module, one.name, lambda *_, answer=proxy: answer)
+            for stand_in in self.stand_ins:
+                proxy = stand_in.answer.proxy(run)
+                setattr(stand_in.module, stand_in.name, lambda *_, answer=proxy: answer)
             yield
         finally:
             for module, name, function in before:
