@@ -31,7 +31,7 @@ def to_smtlib(theorem: Theorem, query: Query) -> str:
     printed = {name: _printed(formula) for name, formula in query.formulas.items()}
     lines += [
         f"(set-logic {query.logic})",
-        *sorted({one for symbols, _ in printed.values() for one in symbols}),
+        *sorted({declaration for symbols, _ in printed.values() for declaration in symbols}),
     ]
     for name, (_, assertion) in printed.items():
         lines += [*_comment("Assert", name), assertion]
