@@ -1,4 +1,4 @@
-"""Who cites which clause. Computed from comments, docstrings, decorators and registers; never typed."""
+"""Computes who cites which clause, from comments, docstrings, decorators and registers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contradictions between the registers of one document, which no schema of one file can see."""
+"""Finds contradictions between the registers of one document. The schema of a single file cannot see them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
 
 PERSON = "user"
-"""The one actor that is no device of an interface."""
+"""The only actor that is not a device of an interface."""
 
 TECHNICAL = re.compile(r"\w*TypeOK|Print\w*")
 """Invariants that type the variables or print the graph; they state no requirement and need no row."""

@@ -32,7 +32,7 @@ _TABLE = re.compile(r"<!-- begin trace (\w+) (\w{12}) -->\n(.*?)<!-- end trace -
 _BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
 """A decision or a consequence that names readings by their number."""
 _MANY = 3
-"""Of more counterexamples than this of one finding, a line names the first ones."""
+"""Of a finding with more counterexamples than this, the line names only the first ones."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequenc
 
 
 def check_document_page(document: Document, sources: Sources) -> list[Problem]:
-    """What has drifted between a document's registers and its page; nothing where it has no page yet."""
+    """Where a document's page differs from its registers; nothing when it has no page yet."""
     problems = [
         Problem(
             document.source("findings"),
@@ -281,7 +281,7 @@ def _tried(run: Run) -> str:
 
 
 def falls_of(document: Document, run: Run) -> Property | None:
-    """The property that a run must violate; that of the run's own module first."""
+    """The property that a run must violate. A property of the run's own module is preferred."""
     rows = [row for row in document.properties if run.property in (row.id, row.tla)]
     return min(
         rows,

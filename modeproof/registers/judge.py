@@ -1,4 +1,4 @@
-"""Judges the registers of a document: no contradiction, no unknown id, no orphan, one name everywhere."""
+"""Judges the registers of a document. It finds contradictions, unknown ids, orphans and differing names."""
 
 from __future__ import annotations
 

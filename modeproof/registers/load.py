@@ -90,7 +90,7 @@ def _refuse_twice(source: str, key: str, ids: list[str]) -> None:
 
 
 def _names(row: Table, key: str) -> tuple[str, ...]:
-    """A list of texts; one text alone stands for a list of one, an empty text for none."""
+    """A list of texts. A single text counts as a list with one entry, an empty text as an empty list."""
     value = row.get(key, [])
     if isinstance(value, str):
         return (value,) if value else ()

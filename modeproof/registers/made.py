@@ -66,7 +66,7 @@ def reading_problems(modules: Mapping[str, Module]) -> Iterator[tuple[str, str, 
 
 
 def _fault(modules: Mapping[str, Module], replacement: Replacement) -> str:
-    """Why TLC could not put an operator in the place of the decided one; empty when it can."""
+    """Says why TLC cannot replace the decided operator; empty when it can."""
     own = {name.name: name for name in modules[replacement.module].definitions}
     reached = _closure(modules, replacement.module)
     decided = [(m, d) for m in reached for d in m.definitions if d.name == replacement.replaced]
@@ -139,7 +139,7 @@ def replacing(
 
 
 def decided_modules(modules: Mapping[str, Module], name: str) -> set[str]:
-    """The modules that a module of readings extends, but for other modules of readings."""
+    """The modules that a module of readings extends, without other modules of readings."""
     return {module.name for module in _closure(modules, name) if not module.name.endswith(SUFFIX)}
 
 
@@ -187,7 +187,7 @@ def module_text(root: Path, run: Run) -> str:
 
 
 def root_module(name: str, module: str, replaced: Sequence[Replacement]) -> str:
-    """A module that has all of another one and the operators of readings."""
+    """The text of a module that extends a module and the modules of the readings."""
     holding = dict.fromkeys(replacement.module for replacement in replaced)
     return f"---- MODULE {name} ----\nEXTENDS {', '.join((module, *holding))}\n====\n"
 

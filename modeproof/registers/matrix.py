@@ -120,7 +120,7 @@ def _clause_orphans(
 
 
 def _unserved(document: Document, clause: Clause, room: str, cited: Sequence[Citation]) -> list[str]:
-    """The devices of the clause for which nothing in the room cites it; [""] when nothing does at all.
+    """The devices of the clause for which the room does not cite it; [""] when the room never cites it.
 
     A module that belongs to no device (code tables, the composition) speaks for every device.
     """

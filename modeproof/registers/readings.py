@@ -49,7 +49,7 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
     """Every reading is tried alone in exactly one run, and named by a finding.
 
-    One that joins others which meet in one operator ends with SUFFIX; it is tried together with more.
+    A reading that joins others which replace the same operator ends with SUFFIX. A run tries it with others.
     """
     named = {name for finding in document.findings for name in finding.tries}
     for name in readings:

@@ -79,7 +79,7 @@ def check_imports(root: Path) -> list[Problem]:
 
 
 def check_order(root: Path) -> list[Problem]:
-    """Every import of modeproof/ that runs upward, and one for each circle of imports."""
+    """Every import of modeproof/ that runs upward, and a problem for each circle of imports."""
     files = {
         ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
         for path in sorted((root / "modeproof").rglob("*.py"))
@@ -103,7 +103,7 @@ def check_order(root: Path) -> list[Problem]:
 
 
 def _height(module: str) -> int:
-    """The place of a module's room in the order; what is in no room (`__main__`) stands above all."""
+    """The place of a module's room in the order. A module in no room (`__main__`) stands above all rooms."""
     room = module.split(".")[1] if "." in module else ORDER[0]
     return ORDER.index(room) if room in ORDER else len(ORDER)
 

@@ -16,7 +16,7 @@ SOURCE = "docs/tools.toml"
 
 @dataclass(frozen=True)
 class Check:
-    """What one engine says is checked by another; `kind` is that of the evidence of the comparison."""
+    """The check of one engine by another. `kind` is the kind of evidence of the comparison."""
 
     engine: str
     by: str

@@ -39,7 +39,7 @@ def test_what_is_published_is_what_was_built_and_is_left_alone_when_it_is_the_sa
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        ("register", "spec/toy/classes.toml is another one now; run modeproof vectors publish"),
+        ("register", "spec/toy/classes.toml has changed; run modeproof vectors publish"),
         ("cut", "is no file of vectors"),
         ("header", "is no file of vectors"),
         ("sources", "does not say which specification"),
