@@ -50,7 +50,7 @@ def _program(args: argparse.Namespace) -> int:
     place = root()
     document, device = find_target(place, args.target, args.document)
     if not device.published and args.builtin is None:
-        raise Unjudged(f"{args.target} is no published target: nobody builds one; --builtin compares ours")
+        raise Unjudged(f"{args.target} is not a published target; --builtin compares our own code")
     if args.vectors is not None:
         suites = [kit_command.open_vectors(args)]
     else:

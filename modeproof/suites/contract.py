@@ -65,7 +65,7 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
     for entry in row.get("property", []):
         _only(entry, _PROPERTY, f"{where}: property {entry.get('id')!r}")
         if entry.get("id") not in clauses:
-            raise Unjudged(f"{where}: property {entry.get('id')!r} is none of properties.toml")
+            raise Unjudged(f"{where}: property {entry.get('id')!r} is not in properties.toml")
         properties.append({**entry, "clauses": clauses[entry["id"]]})
     table = {"constants": row.get("constants", {}), "rules": rules, "properties": properties}
     try:

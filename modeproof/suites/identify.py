@@ -1,4 +1,4 @@
-"""Which state is this? Sequences of inputs whose outputs only one state of a graph answers.
+"""Finds sequences of inputs that identify a state of a graph by the outputs.
 
 Everything here reads a graph as a program is seen from outside: a scan goes in, outputs come out. What a
 state shows of itself before the next scan counts for nothing, so that a program is covered whose outputs

@@ -149,7 +149,7 @@ def _publish(place: Path, args: argparse.Namespace) -> int:
 
 
 def _digest(path: Path) -> str:
-    """The hash of what is in the file: what packs it may pack otherwise on another machine."""
+    """The hash of the unpacked file, because another machine may compress it differently."""
     content = hashlib.sha256()
     for line in read_lines(path):
         content.update(line)

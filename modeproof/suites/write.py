@@ -177,7 +177,7 @@ class _Writer:
         params = dict(device.params) if script.reset else {}
         id = id_of_text(device.device.id, params, ",".join(going_in))
         if id in self.ids or (not script.reset and self.cases):
-            return  # before any reset is only the first case of all
+            return  # only the first case of all stands before any reset
         self.ids.add(id)
         case = {
             "id": id,
@@ -297,7 +297,7 @@ def _write_lines(path: Path, lines: Sequence[str]) -> None:
     content = "".join(lines).encode()
     if path.suffix == PACKED:
         held = io.BytesIO()
-        # No name, date or system (gzip.compress names the system): the same lines, the same bytes anywhere.
+        # No name, date or system (gzip.compress names the system), so the same lines give the same bytes.
         with gzip.GzipFile("", "wb", PACKING, held, mtime=0) as packed:
             packed.write(content)
         content = held.getvalue()
