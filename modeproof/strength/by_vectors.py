@@ -187,7 +187,7 @@ class ByVectors(Judges):
         return digest([self.base, self.theorems.base, _program_of(self.observer)])
 
     def stamp(self, record: Answers) -> str:
-        """The hash of the code and the replay; each answer has that of its suite besides."""
+        """The hash of the code and the replay. Each answer also holds the hash of its suite."""
         return self.base
 
     def theorems_say(self, mutant: Mutant) -> Answers | None:

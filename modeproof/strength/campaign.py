@@ -108,7 +108,7 @@ class Judges(ABC):
         """The hash of what a judgement rests on now; empty when a judge of it is gone."""
 
     def find(self, mutant: Mutant, complete: bool, before: Sequence[Answers]) -> dict[str, Any] | None:
-        """The last judgement that holds now; one of fewer judges does not do when `complete`."""
+        """The last judgement that still holds. With `complete`, all judges must have been asked."""
         holding = [
             record
             for record in before
@@ -139,7 +139,7 @@ class Judged:
 
     @property
     def killers(self) -> tuple[str, ...]:
-        """Those that it breaks, the first one first."""
+        """What the mutant breaks, in the order in which it was found."""
         return tuple(self.record["killers"])
 
 
@@ -202,7 +202,7 @@ class Campaign:
     def _records(
         self, waiting: Sequence[Mutant], jobs: int, complete: bool
     ) -> Generator[dict[str, Any] | None, None, None]:
-        """Each record as it comes, which is on the disk by then; None now and then."""
+        """Each record after it is written to the disk. Now and then it yields None."""
         limit_s = self.judges.limit_s
 
         def judge(mutant: Mutant) -> dict[str, Any]:

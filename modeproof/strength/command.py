@@ -167,7 +167,7 @@ def chosen_of(campaign: Campaign, args: argparse.Namespace) -> list[Mutant]:
     known = dict.fromkeys(mutant.module for mutant in campaign.mutants)
     strange = [name for name in args.modules if name not in known]
     if strange:
-        raise Unjudged(f"{strange[0]} is none of the modules that are mutated: {', '.join(known)}")
+        raise Unjudged(f"{strange[0]} is not mutated; the mutated modules are {', '.join(known)}")
     chosen = [mutant for mutant in campaign.mutants if not args.modules or mutant.module in args.modules]
     patterns = [args.show] if args.show is not None else args.only
     for pattern in patterns or ():

@@ -54,7 +54,7 @@ QUANTIFIERS = {"$BoundedExists": (r"\\E\b", "\\A"), "$BoundedForall": (r"\\A\b",
 
 @dataclass(frozen=True)
 class Rule:
-    """What is edited, and into what, besides the operators.
+    """What else is edited beside the operators, and what replaces it.
 
     `behaviour`: the names of the module that make up its behaviour; all that they reach in it is edited.
     `leave`: operators whose use is never edited. `kinds`: lists of strings; a string
@@ -169,7 +169,7 @@ class _Editor:
         return name in self._rule.leave
 
     def _parts(self, node: Node) -> Iterator[Node]:
-        """The node and all below it, but for what is left alone."""
+        """The node and all nodes below it, without those that are left alone."""
         yield node
         for part in self._parts_of(node):
             yield from self._parts(part)

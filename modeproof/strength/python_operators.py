@@ -50,7 +50,7 @@ OPERATORS: Mapping[type[ast.operator], tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class PythonRule:
-    """What becomes what, besides the operators."""
+    """What else is replaced beside the operators, and by what."""
 
     cycles: tuple[tuple[str, ...], ...] = ()
     """Names; each becomes the next one of its list that can be named in its place."""
