@@ -86,7 +86,7 @@ def command_line(
     tlc += [
         "-lncheck",
         "final",
-    ]  # else the clock decides when liveness is checked, and so which lasso is found
+    ]  # otherwise the clock would decide when liveness is checked, and which lasso is found
     if not run.deadlock:
         tlc.append("-deadlock")  # this option of TLC turns the check off
     return [*java, "-cp", str(tools.jar), "tlc2.TLC", *tlc, run.module]

@@ -286,7 +286,7 @@ def _path(
 
 
 def _departs(plan: Plan, device: Device, scan: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether one scan of the decided device, from the recorded memory, is another than the recorded one."""
+    """Whether a scan of the decided device from the recorded memory differs from the recorded scan."""
     row = rows[scan["at"] - 1]
     own = [name for name in plan.shadows(device) if name != plan.traces.step]
     return (

@@ -54,7 +54,7 @@ def extended(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
 
 
 def constants_of(place: Path, modules: Mapping[str, Module], trace: Recorded) -> Mapping[str, Constant]:
-    """What the cfg of a run gives, but for the operators of its readings."""
+    """The constants in the cfg of a run, without the operators of its readings."""
     tried = {each.replaced for each in replacing(modules, trace.module, trace.readings, trace.run)}
     given = parse_cfg(read_text(place, place / trace.cfg), trace.cfg).constants
     return {name: constant for name, constant in given.items() if name not in tried}
@@ -87,7 +87,7 @@ class Copies:
     root: str
 
     def operator(self, replacing_operator: Replacement) -> str:
-        """The name in the generated module of what takes the place of an operator."""
+        """The name, in the generated module, of the operator that replaces another."""
         return f"walk{self.number}_{replacing_operator.replaced}"
 
     def texts(self, place: Path, modules: Mapping[str, Module]) -> Iterator[tuple[str, str]]:
@@ -329,8 +329,8 @@ def _behaviour(
         "    /\\ walk_at' = walk_at + 1 /\\ UNCHANGED <<walk_run, walk_device, walk_from>>",
         *[f"    /\\ {name}' = T{number}[walk_at + 1].{name}" for name in kept],
     ]
-    # The recorded states are steps of the specification still; where the step was not recorded, this
-    # finds it.
+    # The recorded states must still be steps of the specification. This also finds a step that was not
+    # recorded.
     allowed = f"L{number}!{plan.top.next}"
     lines.append(
         f"    /\\ {allowed}" if computed else f'    /\\ IF walk_device = "" THEN {allowed} ELSE TRUE'
