@@ -93,7 +93,7 @@ def _text(file: str, line: int, columns: tuple[int, int] | None = None) -> str:
 
 @dataclass(frozen=True)
 class Explained:
-    """What no path of a device passes, each with its reason; and what is wrong with the explanations."""
+    """The lines that no path of a device passes, with their reasons, and the faults in the explanations."""
 
     coverage: Coverage
     reasons: tuple[tuple[str, str], ...]
@@ -177,7 +177,7 @@ def _run_member(device: Device, scan: Scan, path: Path, watch: Watch) -> None:
 
 @contextmanager
 def answering(device: Device, model: z3.ModelRef) -> Iterator[None]:
-    """In place of what the device takes from outside, the answers of the example."""
+    """Replace the stand-ins of the device by their answers in the example."""
     before = [(each.module, each.name, getattr(each.module, each.name)) for each in device.stand_ins]
     try:
         for stand_in in device.stand_ins:

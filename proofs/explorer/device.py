@@ -214,7 +214,7 @@ def no_two_paths(conditions: Sequence[z3.BoolRef]) -> z3.BoolRef:
 
 
 def _any_of(conditions: Sequence[z3.BoolRef], overlaps: list[z3.BoolRef]) -> z3.BoolRef:
-    """One of the conditions holds; what would be an overlap among them is added to the list."""
+    """A formula that one of the conditions holds. Overlaps among the conditions are added to the list."""
     if len(conditions) == 1:
         return conditions[0]
     half = len(conditions) // 2

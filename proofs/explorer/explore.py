@@ -110,7 +110,7 @@ class StandIn:
 
 
 def conjunction(literals: Sequence[z3.BoolRef]) -> z3.BoolRef:
-    """All the literals; SMT-LIB has no conjunction of none or of one."""
+    """The conjunction of the literals. In SMT-LIB a conjunction has at least two parts."""
     if not literals:
         return z3.BoolVal(True)
     return literals[0] if len(literals) == 1 else _joined(z3.Z3_mk_and, literals)
@@ -226,7 +226,7 @@ class _Explorer:
                 )
 
     def atom(self, question: z3.BoolRef) -> _Atom:
-        """The question in a simpler form, always the same one; kept, so that ids of terms stay theirs."""
+        """The question in a simpler form, always the same. It is kept, so that ids of terms stay valid."""
         known = self.atoms.get(question.get_id())
         if known is None:
             simple = z3.simplify(question)
@@ -247,7 +247,7 @@ class _Explorer:
         return self.solver.model() if answer == z3.sat else None
 
     def assume(self, answers: list[z3.BoolRef]) -> None:
-        """Make these answers, and no others, the ones on the solver's stack."""
+        """Put exactly these answers on the solver's stack."""
         common = 0
         while common < min(len(answers), len(self.stack)) and self.stack[common] is answers[common]:
             common += 1

@@ -164,7 +164,7 @@ class _Reading:
             self.waiting.append(function)
 
     def follow_class(self, record: type) -> str:
-        """Follow what building a record runs; the empty text, or why it cannot be followed."""
+        """Follow the code that builds a record. Returns the empty text, or why it cannot be followed."""
         if issubclass(record, Enum):
             return "it looks the member up; write one comparison for each member"
         if type(record) is not type:
@@ -350,7 +350,7 @@ class _Function:
             self.spoken([*node.exc.args, *[keyword.value for keyword in node.exc.keywords]])
 
     def spoken(self, message: Iterable[ast.expr]) -> None:
-        """A message may show any value; what it calls or assigns would happen unseen."""
+        """A message may show any value. It must not call or assign anything, because that would go unseen."""
         for expression in [inner for part in message for inner in ast.walk(part)]:
             if isinstance(expression, (ast.Call, ast.NamedExpr, ast.Await, ast.Yield, ast.YieldFrom)):
                 self.fault(
@@ -471,7 +471,7 @@ def _made_by_dataclass(function: object) -> bool:
 
 
 def _own_comparison(kind: type) -> str:
-    """What an Enum defines of that which comparing its members runs; the empty text for a plain one."""
+    """Names what an Enum redefines of the comparison of its members; the empty text for a plain Enum."""
     for base in kind.__mro__[: kind.__mro__.index(Enum)]:
         for name in ("__eq__", "__ne__", "__lt__", "__le__", "__gt__", "__ge__", "__bool__"):
             if name in vars(base):
