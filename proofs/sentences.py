@@ -142,7 +142,7 @@ class Judge:
         yield from claim(f"{self.device.name} at power-up", given, always(scan, self.nothing), LOGIC)
 
     def _power_up(self) -> tuple[Scanned, z3.BoolRef]:
-        """Power-up in the form of a scan: before it is the same as after it; and the premise."""
+        """Power-up in the form of a scan whose state before equals its state after, and the premise."""
         module, params = judged(self.device).module, self.device.params()
         found = explore(
             lambda given: (module.power_up(given), module.outputs(module.power_up(given))),
