@@ -167,7 +167,7 @@ def premises_of(built: Iterable[Query]) -> tuple[str, ...]:
 
 
 def unused_premises(built: tuple[Query, ...], results: Iterable[QueryResult]) -> tuple[str, ...]:
-    """Names of premises that are in no core of a theorem's claims; none as long as a core is not known."""
+    """The premises that no core of a theorem's claims uses. A claim without a core counts as using all."""
     used: set[str] = set()
     for query, result in zip(built, results, strict=True):
         if query.expected == "unsat":

@@ -35,8 +35,8 @@ Known = Mapping[str, z3.BoolRef]
 def supposed(sentence: Sentence) -> Property:
     """The sentence speaks of the scan."""
 
-    def of(one: Scanned) -> z3.BoolRef:
-        obligation = sentence(one)
+    def of(scan: Scanned) -> z3.BoolRef:
+        obligation = sentence(scan)
         return FALSE if obligation is None else obligation[0]
 
     return of
@@ -45,8 +45,8 @@ def supposed(sentence: Sentence) -> Property:
 def demanded(sentence: Sentence) -> Property:
     """Where the sentence speaks of the scan, what it demands is so."""
 
-    def of(one: Scanned) -> z3.BoolRef:
-        obligation = sentence(one)
+    def of(scan: Scanned) -> z3.BoolRef:
+        obligation = sentence(scan)
         return TRUE if obligation is None else z3.Implies(*obligation)
 
     return of
@@ -63,7 +63,7 @@ class Judge:
     device: Device
     invariant: tuple[Conjunct, ...]
     seen: Any = None
-    sees: Callable[[Scanned], Any] = lambda one: None
+    sees: Callable[[Scanned], Any] = lambda scan: None
     nothing: Any = None
     explored: tuple[Scan, ...] = ()
 
@@ -92,30 +92,30 @@ class Judge:
 
     def initiation(self) -> Queries:
         """Each conjunct is true at power-up."""
-        one, premise = self._power_up()
-        for name, formula in conjuncts(self.invariant, self.device, one.result, self.nothing).items():
+        scan, premise = self._power_up()
+        for name, formula in conjuncts(self.invariant, self.device, scan.result, self.nothing).items():
             yield from claim(name, {"parameters in their ranges": premise}, formula, LOGIC)
 
     def consecution(self) -> Queries:
         """Every scan keeps the invariant: a claim for each control state and each one that follows it."""
         for scans in self.scans():
-            for end in dict.fromkeys(control_of(self.device, one.after) for one in scans.read.values()):
+            for end in dict.fromkeys(control_of(self.device, scan.after) for scan in scans.read.values()):
                 given = {**self.premises(scans), f"it leads to {end}": scans.some(_leads_to(end))}
                 yield from claim(f"{scans.control} to {end}", given, scans.always(self.kept(end)), LOGIC)
 
     def kept(self, end: str = "") -> Property:
         """The invariant after a scan, or after one that leads to the control state `end`."""
 
-        def after(one: Scanned) -> z3.BoolRef:
-            if end and not one.becomes(end):
+        def after(scan: Scanned) -> z3.BoolRef:
+            if end and not scan.becomes(end):
                 return TRUE
-            return conjunction([*self.after(one).values()])
+            return conjunction([*self.after(scan).values()])
 
         return after
 
-    def after(self, one: Scanned) -> dict[str, z3.BoolRef]:
+    def after(self, scan: Scanned) -> dict[str, z3.BoolRef]:
         """The conjuncts of the state after a scan, by name."""
-        return conjuncts(self.invariant, self.device, one.result, self.sees(one))
+        return conjuncts(self.invariant, self.device, scan.result, self.sees(scan))
 
     # ---- what follows from it
 
@@ -123,7 +123,7 @@ class Judge:
         """The claim for each control state that the sentence speaks of; `also`: further premises."""
         sentence = cache(sentence)
         for scans in self.scans():
-            if any(sentence(one) is not None for one in scans.read.values()):
+            if any(sentence(scan) is not None for scan in scans.read.values()):
                 spoken = {"it is spoken of": scans.some(supposed(sentence))}
                 given = {**self.premises(scans), **(also or {}), **spoken}
                 yield from claim(f"from {scans.control}", given, scans.always(demanded(sentence)), LOGIC)
@@ -132,17 +132,17 @@ class Judge:
         """The claim on the state after a scan, for each control state before it; and at power-up."""
         yield from self.at_power_up(always)
         for scans in self.scans():
-            then = scans.always(lambda one: always(one, self.sees(one)))
+            then = scans.always(lambda scan: always(scan, self.sees(scan)))
             yield from claim(f"from {scans.control}", self.premises(scans), then, LOGIC)
 
     def at_power_up(self, always: Always) -> Queries:
         """The claim on the state after power-up and the outputs that belong to it."""
-        one, premise = self._power_up()
+        scan, premise = self._power_up()
         given = {"parameters in their ranges": premise}
-        yield from claim(f"{self.device.name} at power-up", given, always(one, self.nothing), LOGIC)
+        yield from claim(f"{self.device.name} at power-up", given, always(scan, self.nothing), LOGIC)
 
     def _power_up(self) -> tuple[Scanned, z3.BoolRef]:
-        """Power-up in the form of a scan: before it is the same as after it; and the premise."""
+        """Power-up in the form of a scan whose state before equals its state after, and the premise."""
         module, params = judged(self.device).module, self.device.params()
         found = explore(
             lambda given: (module.power_up(given), module.outputs(module.power_up(given))),
@@ -169,7 +169,7 @@ class Judge:
 
     def after_a_scan(self, always: Always) -> Sentence:
         """What is said of a state, as a sentence on the scan that leads there."""
-        return lambda one: (TRUE, always(one, self.sees(one)))
+        return lambda scan: (TRUE, always(scan, self.sees(scan)))
 
     def _broken(self, what: str, scans: Scans, given: Known, sentence: Sentence) -> Query:
         broken = z3.Not(scans.always(demanded(sentence)))
@@ -177,7 +177,7 @@ class Judge:
 
 
 def _leads_to(end: str) -> Property:
-    return lambda one: TRUE if one.becomes(end) else FALSE
+    return lambda scan: TRUE if scan.becomes(end) else FALSE
 
 
 def exactly_one_path(device: Device) -> Queries:

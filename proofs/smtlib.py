@@ -31,7 +31,7 @@ def to_smtlib(theorem: Theorem, query: Query) -> str:
     printed = {name: _printed(formula) for name, formula in query.formulas.items()}
     lines += [
         f"(set-logic {query.logic})",
-        *sorted({one for symbols, _ in printed.values() for one in symbols}),
+        *sorted({declaration for symbols, _ in printed.values() for declaration in symbols}),
     ]
     for name, (_, assertion) in printed.items():
         lines += [*_comment("Assert", name), assertion]
@@ -55,7 +55,7 @@ def _printed(formula: z3.BoolRef) -> tuple[list[str], str]:
     The names are z3's own numbers of terms, which differ from run to run; they are counted anew from 1.
     Words are written as four hexadecimal digits.
     """
-    # What z3.Solver().to_smt2() calls, without a solver for every formula, which takes 25 times as long.
+    # to_smt2() calls this too, but it needs a solver for every formula and takes 25 times as long.
     text = z3.Z3_benchmark_to_smtlib_string(
         formula.ctx.ref(), "", "", "unknown", "", 0, (z3.Ast * 0)(), formula.as_ast()
     )

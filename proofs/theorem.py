@@ -110,7 +110,7 @@ def claim(
 
 
 def control(name: str, formulas: Mapping[str, z3.BoolRef], logic: str = "QF_BV") -> Query:
-    """A query that must find an example; one that does not would show that the claims beside it are empty."""
+    """A query that must find an example. If it finds none, the claims beside it are empty."""
     return Query(name, dict(formulas), "sat", logic)
 
 

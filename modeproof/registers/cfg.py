@@ -70,7 +70,7 @@ class Cfg:
 
     def text(self) -> str:
         """The text of such a file."""
-        given = [f"    {name} {one.sign} {one.text}" for name, one in self.constants.items()]
+        given = [f"    {name} {constant.sign} {constant.text}" for name, constant in self.constants.items()]
         lines = ["CONSTANTS", *given] if given else []
         for word in ("INIT", "NEXT", "SPECIFICATION", "SYMMETRY", "VIEW"):
             if value := getattr(self, word.lower()):

@@ -1,4 +1,4 @@
-"""Who cites which clause. Computed from comments, docstrings, decorators and registers; never typed."""
+"""Computes who cites which clause, from comments, docstrings, decorators and registers."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class Ids:
     ) -> None:
         self.clauses, self.findings, self.assumptions = set(clauses), set(findings), set(assumptions)
         self.clause_form = re.compile(rf"\b{re.escape(prefix)}(?:-[A-Z0-9]+)+\b")
-        letters = {one.rsplit("-", 1)[0] for one in self.findings | self.assumptions}
+        letters = {name.rsplit("-", 1)[0] for name in self.findings | self.assumptions}
         names = "|".join(sorted(map(re.escape, letters))) or r"(?!)"
         self.other_form = re.compile(rf"(?<![\w-])(?:{names})-\d+[a-z]?\b")
 
@@ -69,16 +69,18 @@ class Ids:
         findings: list[str] = []
         unknown: list[str] = []
         for match in self.clause_form.finditer(text):
-            one = match.group()
-            (clauses if one in self.clauses else findings if one in self.findings else unknown).append(one)
+            clause = match.group()
+            (clauses if clause in self.clauses else findings if clause in self.findings else unknown).append(
+                clause
+            )
             tail = RANGE.match(text, match.end())
             if tail:
-                unknown.append(f"{one}{tail.group()}")
-        for one in self.other_form.findall(self.clause_form.sub(" ", text)):
-            if one in self.findings:
-                findings.append(one)
-            elif one not in self.assumptions:
-                unknown.append(one)
+                unknown.append(f"{clause}{tail.group()}")
+        for name in self.other_form.findall(self.clause_form.sub(" ", text)):
+            if name in self.findings:
+                findings.append(name)
+            elif name not in self.assumptions:
+                unknown.append(name)
         return _once(clauses), _once(findings), _once(unknown)
 
 
@@ -116,7 +118,7 @@ def _in_tla(document: Document, sources: Sources, ids: Ids) -> Iterator[Citation
             clauses, findings, unknown = ids.read(definition.comment)
             name = f"{module.name}!{definition.name}"
             if shared:
-                findings, unknown = (), tuple(one for one in unknown if ids.clause_form.match(one))
+                findings, unknown = (), tuple(unread for unread in unknown if ids.clause_form.match(unread))
             yield Citation("definition", "spec", module.file, name, device, clauses, findings, unknown)
         clauses, findings, unknown = ids.read(module.stray)
         yield Citation(
@@ -139,14 +141,14 @@ def _in_theorems(sources: Sources, ids: Ids) -> Iterator[Citation]:
             yield _listed(
                 "theorem", "proofs", module.file, theorem.name, theorem.clauses, theorem.findings, ids
             )
-        said = "\n".join([module.stray, *(one.comment for one in module.definitions)])
+        said = "\n".join([module.stray, *(definition.comment for definition in module.definitions)])
         yield Citation("module", "proofs", module.file, module.name, "", *ids.read(said))
 
 
 def _in_registers(document: Document, ids: Ids) -> Iterator[Citation]:
-    for one in document.properties:
+    for prop in document.properties:
         yield _listed(
-            "property", "registers", document.source("properties"), one.id, one.clauses, one.findings, ids
+            "property", "registers", document.source("properties"), prop.id, prop.clauses, prop.findings, ids
         )
     for finding in document.findings:
         yield _listed(
@@ -173,10 +175,10 @@ def _in_registers(document: Document, ids: Ids) -> Iterator[Citation]:
 def _listed(
     kind: str, room: str, file: str, name: str, clauses: tuple[str, ...], findings: tuple[str, ...], ids: Ids
 ) -> Citation:
-    unknown = [one for one in clauses if one not in ids.clauses] + [
-        one for one in findings if one not in ids.findings
+    unknown = [clause for clause in clauses if clause not in ids.clauses] + [
+        finding for finding in findings if finding not in ids.findings
     ]
-    known = tuple(one for one in clauses if one in ids.clauses)
+    known = tuple(clause for clause in clauses if clause in ids.clauses)
     return Citation(
         kind,
         room,
@@ -184,7 +186,7 @@ def _listed(
         name,
         "",
         known,
-        tuple(one for one in findings if one in ids.findings),
+        tuple(finding for finding in findings if finding in ids.findings),
         tuple(unknown),
     )
 
@@ -193,10 +195,10 @@ def unresolved(document: Document, cited: Iterable[Citation]) -> list[Problem]:
     """A problem for each cited id that no register declares, and for each range of ids."""
     problems = []
     for citation in cited:
-        for one in citation.unknown:
-            if RANGE.search(one):
-                text = f"{one!r} reads like a range; write each id out"
+        for name in citation.unknown:
+            if RANGE.search(name):
+                text = f"{name!r} reads like a range; write each id out"
             else:
-                text = f"cites {one}, which no register of {document.name} declares"
+                text = f"cites {name}, which no register of {document.name} declares"
             problems.append(Problem(citation.file, citation.name, text))
     return problems

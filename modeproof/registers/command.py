@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
         if args.matrix:
             print(matrix_text(judgement.rows))
         print(summary(judgement))
-    problems = [*(problem for one in judgements for problem in one.problems), *tree]
+    problems = [*(problem for judgement in judgements for problem in judgement.problems), *tree]
     for problem in problems:
         print(f"  {problem}")
     print(f"registers: {'as expected' if not problems else f'not as expected, {len(problems)} problems'}")
@@ -56,7 +56,7 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.json, json.dumps(record(judgements, tree), indent=2, ensure_ascii=False) + "\n")
     if args.csv:
         write_text(args.csv, matrix_csv(judgements[0].rows))
-    as_expected = not problems and all(one.as_expected for one in judgements)
+    as_expected = not problems and all(judgement.as_expected for judgement in judgements)
     return EXIT_AS_EXPECTED if as_expected else EXIT_NOT_AS_EXPECTED
 
 
@@ -79,14 +79,14 @@ def record(judgements: list[Judgement], tree: list[Problem]) -> dict[str, object
     return {
         "documents": [
             {
-                "document": one.document,
-                "as_expected": one.as_expected,
-                "citations": one.citations,
-                "unresolved": one.unresolved,
-                "problems": [str(problem) for problem in one.problems],
-                "matrix": matrix_records(one.rows),
+                "document": judgement.document,
+                "as_expected": judgement.as_expected,
+                "citations": judgement.citations,
+                "unresolved": judgement.unresolved,
+                "problems": [str(problem) for problem in judgement.problems],
+                "matrix": matrix_records(judgement.rows),
             }
-            for one in judgements
+            for judgement in judgements
         ],
         "problems": [str(problem) for problem in tree],
     }

@@ -1,4 +1,4 @@
-"""Contradictions between the registers of one document, which no schema of one file can see."""
+"""Finds contradictions between the registers of one document. The schema of a single file cannot see them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
 
 PERSON = "user"
-"""The one actor that is no device of an interface."""
+"""The only actor that is not a device of an interface."""
 
 TECHNICAL = re.compile(r"\w*TypeOK|Print\w*")
 """Invariants that type the variables or print the graph; they state no requirement and need no row."""
@@ -95,7 +95,7 @@ def value_fault(signal: Signal, value: object) -> str:
     if signal.type == "text":
         return "" if value in signal.values else f"is not one of {', '.join(map(repr, signal.values))}"
     if signal.type == "modes":
-        modes = [one for one in value if type(one) is int and one >= 0] if isinstance(value, list) else []
+        modes = [mode for mode in value if type(mode) is int and mode >= 0] if isinstance(value, list) else []
         return "" if modes == value and modes == sorted(set(modes)) else "is not an ascending list of modes"
     if isinstance(value, str) and signal.type in ("word", "function"):
         return "" if re.fullmatch(r"[0-9A-F]{4}", value) else "is not a word of four upper-case hex digits"
@@ -111,41 +111,45 @@ def value_fault(signal: Signal, value: object) -> str:
 def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("properties")
     witnesses = [name for run in document.runs for name in run.witnesses]
-    for one in document.properties:
-        runs = [run for run in document.runs if one.tla in run.properties and run.kind != "NEG"]
+    for prop in document.properties:
+        runs = [run for run in document.runs if prop.tla in run.properties and run.kind != "NEG"]
         if not runs:
-            yield Problem(file, one.id, f"no run checks {one.tla}")
-        for environment in one.environments:
+            yield Problem(file, prop.id, f"no run checks {prop.tla}")
+        for environment in prop.environments:
             if runs and environment not in [run.environment for run in runs]:
                 names = dict.fromkeys(run.environment for run in runs)
                 yield Problem(
                     file,
-                    one.id,
+                    prop.id,
                     f"no run checks it in the environment {environment!r}; checked in: {', '.join(names)}",
                 )
-        if one.antecedent and one.antecedent not in witnesses:
+        if prop.antecedent and prop.antecedent not in witnesses:
             yield Problem(
                 file,
-                one.id,
-                f"no run has the witness {one.antecedent!r}; {suggestion(one.antecedent, witnesses)}",
+                prop.id,
+                f"no run has the witness {prop.antecedent!r}; {suggestion(prop.antecedent, witnesses)}",
             )
-        if not one.antecedent and not one.reason.strip():
-            yield Problem(file, one.id, "names no antecedent, and `reason` does not say why it needs none")
-        modules = closure(sources.modules, one.module)
+        if not prop.antecedent and not prop.reason.strip():
+            yield Problem(file, prop.id, "names no antecedent, and `reason` does not say why it needs none")
+        modules = closure(sources.modules, prop.module)
         if not modules:
             yield Problem(
-                file, one.id, f"module {one.module} does not exist; {suggestion(one.module, sources.modules)}"
+                file,
+                prop.id,
+                f"module {prop.module} does not exist; {suggestion(prop.module, sources.modules)}",
             )
-        elif not any(one.tla in module.defined for module in modules):
+        elif not any(prop.tla in module.defined for module in modules):
             defined = sorted(modules[0].defined)
             yield Problem(
-                file, one.id, f"{one.module}.tla does not define {one.tla}; {suggestion_of(one.tla, defined)}"
+                file,
+                prop.id,
+                f"{prop.module}.tla does not define {prop.tla}; {suggestion_of(prop.tla, defined)}",
             )
 
 
 def _theorems(document: Document, sources: Sources) -> Iterator[Problem]:
     """A theorem that says that it proves a property names one that the register has."""
-    known = [one.id for one in document.properties]
+    known = [prop.id for prop in document.properties]
     for module in sources.proofs:
         for theorem in module.theorems:
             for name in theorem.properties:
@@ -168,19 +172,25 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
     known = _evidence_names(document, sources)
     clauses = {clause.id for clause in document.clauses}
     constants = sorted({name for module in sources.modules.values() for name in module.constants})
-    for one in document.findings:
-        for name in one.evidence:
+    for finding in document.findings:
+        for name in finding.evidence:
             if name not in known and name not in clauses:
                 yield Problem(
-                    file, one.id, f"evidence {name!r} is no run and no theorem; {suggestion_of(name, known)}"
+                    file,
+                    finding.id,
+                    f"evidence {name!r} is no run and no theorem; {suggestion_of(name, known)}",
                 )
-        if not one.evidence and not one.evidence_open.strip():
-            yield Problem(file, one.id, "names no evidence, and `evidence_open` does not say what is open")
-        if match := PROMISE.search(one.evidence_open):
-            yield Problem(file, one.id, _promise("evidence_open", match.group(), "why no model can show it"))
-        if one.parameter and one.parameter not in constants:
-            text = f"parameter {one.parameter!r} is no CONSTANT of the specification; "
-            yield Problem(file, one.id, text + suggestion_of(one.parameter, constants))
+        if not finding.evidence and not finding.evidence_open.strip():
+            yield Problem(
+                file, finding.id, "names no evidence, and `evidence_open` does not say what is open"
+            )
+        if match := PROMISE.search(finding.evidence_open):
+            yield Problem(
+                file, finding.id, _promise("evidence_open", match.group(), "why no model can show it")
+            )
+        if finding.parameter and finding.parameter not in constants:
+            text = f"parameter {finding.parameter!r} is no CONSTANT of the specification; "
+            yield Problem(file, finding.id, text + suggestion_of(finding.parameter, constants))
 
 
 def _promise(key: str, words: str, instead: str) -> str:
@@ -195,21 +205,27 @@ def _evidence_names(document: Document, sources: Sources) -> list[str]:
 def _assumptions(document: Document) -> Iterator[Problem]:
     file = document.source("assumptions")
     runs = [run.id for run in document.runs]
-    for one in document.assumptions:
-        for name in one.breaks:
+    for assumption in document.assumptions:
+        for name in assumption.breaks:
             if name not in runs:
-                yield Problem(file, one.id, f"breaks: unknown run {name!r}; {suggestion_of(name, runs)}")
-        if not one.breaks and not one.breaks_open.strip():
-            yield Problem(file, one.id, "names no run that breaks it, and `breaks_open` does not say why")
-        if match := PROMISE.search(one.breaks_open):
-            yield Problem(file, one.id, _promise("breaks_open", match.group(), "why no run can break it"))
+                yield Problem(
+                    file, assumption.id, f"breaks: unknown run {name!r}; {suggestion_of(name, runs)}"
+                )
+        if not assumption.breaks and not assumption.breaks_open.strip():
+            yield Problem(
+                file, assumption.id, "names no run that breaks it, and `breaks_open` does not say why"
+            )
+        if match := PROMISE.search(assumption.breaks_open):
+            yield Problem(
+                file, assumption.id, _promise("breaks_open", match.group(), "why no run can break it")
+            )
 
 
 def _runs(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("runs")
-    known = [one.tla for one in document.properties]
-    shown = {name for one in document.findings for name in one.evidence}
-    shown |= {name for one in document.assumptions for name in one.breaks}
+    known = [prop.tla for prop in document.properties]
+    shown = {name for finding in document.findings for name in finding.evidence}
+    shown |= {name for assumption in document.assumptions for name in assumption.breaks}
     yield from _steps_never_seen(document)
     for run in document.runs:
         modules = closure(sources.modules, run.module)

@@ -32,7 +32,7 @@ _TABLE = re.compile(r"<!-- begin trace (\w+) (\w{12}) -->\n(.*?)<!-- end trace -
 _BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
 """A decision or a consequence that names readings by their number."""
 _MANY = 3
-"""Of more counterexamples than this of one finding, a line names the first ones."""
+"""Of a finding with more counterexamples than this, the line names only the first ones."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +58,9 @@ def tellings(document: Document) -> tuple[Telling, ...]:
     """The counterexamples that findings.toml marks as telling: safety first, then in its order."""
     rows = {row["id"]: row for row in read_register(document.root, document.name, "findings")["finding"]}
     return tuple(
-        Telling(one, rows[one.id]["telling"]["run"], rows[one.id]["telling"]["story"])
-        for one in sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
-        if "telling" in rows[one.id]
+        Telling(finding, rows[finding.id]["telling"]["run"], rows[finding.id]["telling"]["story"])
+        for finding in sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
+        if "telling" in rows[finding.id]
     )
 
 
@@ -78,20 +78,24 @@ def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequenc
 
 
 def check_document_page(document: Document, sources: Sources) -> list[Problem]:
-    """What has drifted between a document's registers and its page; nothing where it has no page yet."""
+    """Where a document's page differs from its registers; nothing when it has no page yet."""
     problems = [
-        Problem(document.source("findings"), one.finding.id, f"telling: {one.run} is no counterexample of it")
-        for one in tellings(document)
-        if _run(document, one.run) is None or one.run not in one.finding.evidence
+        Problem(
+            document.source("findings"),
+            telling.finding.id,
+            f"telling: {telling.run} is no counterexample of it",
+        )
+        for telling in tellings(document)
+        if _run(document, telling.run) is None or telling.run not in telling.finding.evidence
     ]
     name = page_name(document.name)
     if problems or not (document.root / name).is_file():
         return problems
     text = read_text(document.root, document.root / name)
     tables = tables_of(document, text)
-    for one in tellings(document):
-        if tables.get(one.run) is None:
-            cause = f"the table of {one.run} is missing, was changed by hand, or its run has changed"
+    for telling in tellings(document):
+        if tables.get(telling.run) is None:
+            cause = f"the table of {telling.run} is missing, was changed by hand, or its run has changed"
             problems.append(Problem(name, "", f"{cause}; {REMEDY}"))
     if not problems and (expected := page(document, sources, tables)) != text:
         line = _first_difference(expected, text)
@@ -138,7 +142,9 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
 def _head(document: Document) -> str:
     about, name = document.about, document.name
     number = "" if about.number == "unknown" else f" Number: {about.number}."
-    targets = ", ".join(f"`{one.id}`" for one in document.interface.devices.values() if one.published)
+    targets = ", ".join(
+        f"`{device.id}`" for device in document.interface.devices.values() if device.published
+    )
     return f"""# {about.title}
 
 <!-- made by modeproof render from spec/{name}: edit the registers there, not this page -->
@@ -161,7 +167,7 @@ def _shown(document: Document, sources: Sources) -> str:
     name = document.name
     holding = [run for run in document.runs if run.kind in ("MC", "OPEN", "LIVE")]
     negatives = [run for run in document.runs if run.kind == "NEG"]
-    witnesses = {one for run in document.runs if run.kind == "WIT" for one in run.witnesses}
+    witnesses = {witness for run in document.runs if run.kind == "WIT" for witness in run.witnesses}
     graphs = [run for run in document.runs if run.graph is not None]
     theorems = sum(len(module.theorems) for module in sources.proofs)
     verify = f"`modeproof verify --document {name}`"
@@ -189,7 +195,7 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof prove --document {name}`",
         ],
     ]
-    rows += [_score(one) for one in load_scores(document.root, name)]
+    rows += [_score(score) for score in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
@@ -205,28 +211,28 @@ def _shown(document: Document, sources: Sources) -> str:
     )
 
 
-def _score(one: Score) -> list[str]:
-    edited, judge = WHAT[one.what]
-    share = f" ({100 * one.killed / one.different:.1f} %)" if one.different else ""
-    open_ones = one.survived - one.survived_explained
-    rest = [f"{one.killed} of {one.different}{share}"]
-    if one.survived:
+def _score(score: Score) -> list[str]:
+    edited, judge = WHAT[score.what]
+    share = f" ({100 * score.killed / score.different:.1f} %)" if score.different else ""
+    open_ones = score.survived - score.survived_explained
+    rest = [f"{score.killed} of {score.different}{share}"]
+    if score.survived:
         explained = f"{open_ones} unexplained" if open_ones else "each explained"
-        rest.append(f"{one.survived} not noticed, {explained}")
-    if one.unmeasured:
-        rest.append(f"{one.unmeasured} unmeasured")
-    if one.earlier_text:
+        rest.append(f"{score.survived} not noticed, {explained}")
+    if score.unmeasured:
+        rest.append(f"{score.unmeasured} unmeasured")
+    if score.earlier_text:
         rest.append("of an earlier text")
     return [
-        f"planted faults in {edited} that {judge} notices ({one.judged_on})",
+        f"planted faults in {edited} that {judge} notices ({score.judged_on})",
         "; ".join(rest),
-        f"`{one.command}`",
+        f"`{score.command}`",
     ]
 
 
 def _limits(document: Document) -> str:
-    left_out = [one for one in document.clauses if one.kind == "not modelled"]
-    broken = [one for one in document.assumptions if one.breaks]
+    left_out = [clause for clause in document.clauses if clause.kind == "not modelled"]
+    broken = [assumption for assumption in document.assumptions if assumption.breaks]
     lines = [
         "## What this does not show\n",
         "- Nothing about a program other than ours, and nothing about a misreading that specification and "
@@ -251,20 +257,20 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
         "scan, or one step of somebody else, with what it read and what stands afterwards; **bold** is new.\n"
         "`dt` is the time since the scan before, in ticks of the model.\n"
     )
-    for one in found:
-        run, table = _run(document, one.run), tables[one.run]
-        mark = f"trace {one.run} {_digest(document, one.run, table)}"
+    for trace in found:
+        run, table = _run(document, trace.run), tables[trace.run]
+        mark = f"trace {trace.run} {_digest(document, trace.run, table)}"
         assert run is not None
         falls = falls_of(document, run)
         requirement = (
             f"{_sentence(falls.sentence)} (`{falls.id}`)" if falls is not None else f"`{run.property}`"
         )
         yield (
-            f"### {one.finding.id}: {one.finding.title}\n\n"
-            f"{_sentence(one.story)}\n\n"
+            f"### {trace.finding.id}: {trace.finding.title}\n\n"
+            f"{_sentence(trace.story)}\n\n"
             f"What fails: {requirement}\n\n"
             f"<!-- begin {mark} -->\n{table}<!-- end trace -->\n\n"
-            f"`modeproof check {one.run} --trace`{_tried(run)}\n"
+            f"`modeproof check {trace.run} --trace`{_tried(run)}\n"
         )
 
 
@@ -275,17 +281,17 @@ def _tried(run: Run) -> str:
 
 
 def falls_of(document: Document, run: Run) -> Property | None:
-    """The property that a run must violate; that of the run's own module first."""
-    rows = [one for one in document.properties if run.property in (one.id, one.tla)]
+    """The property that a run must violate. A property of the run's own module is preferred."""
+    rows = [row for row in document.properties if run.property in (row.id, row.tla)]
     return min(
         rows,
-        key=lambda one: (one.module != run.module, run.environment not in one.environments),
+        key=lambda row: (row.module != run.module, run.environment not in row.environments),
         default=None,
     )
 
 
 def _findings(document: Document) -> str:
-    count = {name: sum(one.severity == name for one in document.findings) for name in CLASSES}
+    count = {name: sum(finding.severity == name for finding in document.findings) for name in CLASSES}
     lines = [
         "## Findings\n",
         "Where the text contradicts itself, is silent, or can be read in more than one way: "
@@ -296,32 +302,32 @@ def _findings(document: Document) -> str:
         f"error of the document. All readings: [findings.toml](../{document.source('findings')}).",
     ]
     for name, words in CLASSES.items():
-        rows = [one for one in document.findings if one.severity == name]
+        rows = [finding for finding in document.findings if finding.severity == name]
         if rows:
             lines += ["", f"### {words}", ""]
-        for one in rows:
-            lines.append(_finding(document, one))
+        for finding in rows:
+            lines.append(_finding(document, finding))
     return "\n".join(lines) + "\n"
 
 
-def _finding(document: Document, one: Finding) -> str:
-    mark = " †" if one.drawing_could_settle else ""
-    parts = [f"- **{one.id}{mark}: {one.title}.** {_sentence(one.says)}"]
-    if _BY_NUMBER.search(f"{one.decision} {one.consequence}"):
-        readings = "; ".join(f"({number}) {text}" for number, text in enumerate(one.readings, 1))
+def _finding(document: Document, finding: Finding) -> str:
+    mark = " †" if finding.drawing_could_settle else ""
+    parts = [f"- **{finding.id}{mark}: {finding.title}.** {_sentence(finding.says)}"]
+    if _BY_NUMBER.search(f"{finding.decision} {finding.consequence}"):
+        readings = "; ".join(f"({number}) {text}" for number, text in enumerate(finding.readings, 1))
         parts.append(f"*Readings:* {readings}.")
-    parts.append(f"*Decided:* {_sentence(one.decision)}")
-    if one.severity != "wording":
-        parts += [f"*Otherwise:* {_sentence(one.consequence)}", _evidence(document, one)]
+    parts.append(f"*Decided:* {_sentence(finding.decision)}")
+    if finding.severity != "wording":
+        parts += [f"*Otherwise:* {_sentence(finding.consequence)}", _evidence(document, finding)]
     return " ".join(parts)
 
 
-def _evidence(document: Document, one: Finding) -> str:
+def _evidence(document: Document, finding: Finding) -> str:
     """What shows a finding, with the command."""
-    runs = [run for name in one.evidence if (run := _run(document, name)) is not None]
+    runs = [run for name in finding.evidence if (run := _run(document, name)) is not None]
     negatives = [run for run in runs if run.kind == "NEG"]
     clauses = {clause.id for clause in document.clauses}
-    theorems = [name for name in one.evidence if _run(document, name) is None and name not in clauses]
+    theorems = [name for name in finding.evidence if _run(document, name) is None and name not in clauses]
     if negatives:
         lengths: dict[str, set[int]] = {}
         for run in negatives[:_MANY]:
@@ -334,7 +340,7 @@ def _evidence(document: Document, one: Finding) -> str:
         return f"Checked: `modeproof check {' '.join(run.id for run in runs)}`."
     if theorems:
         return f"Proved: `modeproof prove --document {document.name} {' '.join(theorems)}`."
-    return f"Not shown by a run: {_sentence(one.evidence_open)}"
+    return f"Not shown by a run: {_sentence(finding.evidence_open)}"
 
 
 def _after(lengths: set[int]) -> str:
@@ -351,14 +357,14 @@ def _faults(document: Document) -> Iterator[str]:
         return
     summary = read_register(document.root, document.name, "faults").get("summary", "")
     rows = []
-    for one in document.faults:
-        falls = "; ".join(f"`{fall.property}`: {fall.needs}" for fall in one.falls)
+    for fault in document.faults:
+        falls = "; ".join(f"`{fall.property}`: {fall.needs}" for fall in fault.falls)
         rows.append(
             [
-                one.title,
-                ", ".join(one.detected_by) or "nothing",
-                falls or (f"not modelled: {one.not_modelled}" if one.not_modelled else "nothing"),
-                one.not_detected,
+                fault.title,
+                ", ".join(fault.detected_by) or "nothing",
+                falls or (f"not modelled: {fault.not_modelled}" if fault.not_modelled else "nothing"),
+                fault.not_detected,
             ]
         )
     more = f"[faults.toml](../{document.source('faults')}) and the report"

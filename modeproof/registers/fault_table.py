@@ -19,27 +19,27 @@ def check_faults(document: Document) -> Iterator[Problem]:
         return
     file = document.source("faults")
     classes: list[str] = schema("faults")["properties"]["fault"]["items"]["properties"]["class"]["enum"]
-    for missing in [name for name in classes if name not in {one.kind for one in document.faults}]:
+    for missing in [name for name in classes if name not in {fault.kind for fault in document.faults}]:
         yield Problem(file, missing, "no row for this class of faults")
     runs = {run.id: run for run in document.runs}
-    properties = {one.id: one for one in document.properties}
-    for one in document.faults:
-        if not one.runs and not one.falls and not one.not_modelled:
-            yield Problem(file, one.id, "names no run, and `not_modelled` does not say why")
-        for name in (*one.runs, *(fall.run for fall in one.falls)):
+    properties = {prop.id: prop for prop in document.properties}
+    for fault in document.faults:
+        if not fault.runs and not fault.falls and not fault.not_modelled:
+            yield Problem(file, fault.id, "names no run, and `not_modelled` does not say why")
+        for name in (*fault.runs, *(fall.run for fall in fault.falls)):
             if name not in runs:
-                yield Problem(file, one.id, f"unknown run {name!r}; {suggestion(name, runs)}")
-        for name in (*one.holds, *(fall.property for fall in one.falls)):
+                yield Problem(file, fault.id, f"unknown run {name!r}; {suggestion(name, runs)}")
+        for name in (*fault.holds, *(fall.property for fall in fault.falls)):
             if name not in properties:
-                yield Problem(file, one.id, f"unknown property {name!r}; {suggestion(name, properties)}")
-        for fall in one.falls:
+                yield Problem(file, fault.id, f"unknown property {name!r}; {suggestion(name, properties)}")
+        for fall in fault.falls:
             run, known = runs.get(fall.run), properties.get(fall.property)
             if run and known and run.property != known.tla:
-                yield Problem(file, one.id, f"{fall.run} does not show that {fall.property} falls")
-        checked = {name for run in one.runs if run in runs for name in runs[run].properties}
-        for name in one.holds:
+                yield Problem(file, fault.id, f"{fall.run} does not show that {fall.property} falls")
+        checked = {name for run in fault.runs if run in runs for name in runs[run].properties}
+        for name in fault.holds:
             if name in properties and properties[name].tla not in checked:
-                yield Problem(file, one.id, f"none of its runs checks {name}")
+                yield Problem(file, fault.id, f"none of its runs checks {name}")
     if document.matrix is not None and not (
         document.matrix.run in runs and any(map(CELL.fullmatch, runs[document.matrix.run].witnesses))
     ):

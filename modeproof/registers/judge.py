@@ -1,4 +1,4 @@
-"""Judges the registers of a document: no contradiction, no unknown id, no orphan, one name everywhere."""
+"""Judges the registers of a document. It finds contradictions, unknown ids, orphans and differing names."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def judge(document: Document) -> Judgement:
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),
     ]
-    count = sum(len(one.clauses) + len(one.findings) for one in cited)
+    count = sum(len(citation.clauses) + len(citation.findings) for citation in cited)
     return Judgement(document.name, rows, tuple(problems), count, len(lost))
 
 
@@ -60,7 +60,7 @@ def judge_tree(root: Path) -> list[Problem]:
     return [
         *check_imports(root),
         *check_order(root),
-        *check_no_document_known(root, [one.interface for one in loaded], loaded),
+        *check_no_document_known(root, [document.interface for document in loaded], loaded),
         *check_pages(root, loaded),
         *check_vectors(root),
     ]

@@ -83,14 +83,14 @@ def read_register(root: Path, name: str, register: str) -> dict[str, Any]:
 
 
 def _refuse_twice(source: str, key: str, ids: list[str]) -> None:
-    for n, one in enumerate(ids):
-        if one in ids[:n]:
-            first = ids.index(one) + 1
-            raise Unjudged(f"{source}: [[{key}]] {one}: declared twice (rows {first} and {n + 1})")
+    for n, row_id in enumerate(ids):
+        if row_id in ids[:n]:
+            first = ids.index(row_id) + 1
+            raise Unjudged(f"{source}: [[{key}]] {row_id}: declared twice (rows {first} and {n + 1})")
 
 
 def _names(row: Table, key: str) -> tuple[str, ...]:
-    """A list of texts; one text alone stands for a list of one, an empty text for none."""
+    """A list of texts. A single text counts as a list with one entry, an empty text as an empty list."""
     value = row.get(key, [])
     if isinstance(value, str):
         return (value,) if value else ()
@@ -217,6 +217,6 @@ def _fault(row: Table) -> Fault:
         not_detected=row["not_detected"],
         holds=_names(row, "holds"),
         runs=_names(row, "runs"),
-        falls=tuple(Fall(**one) for one in row.get("falls", [])),
+        falls=tuple(Fall(**fall) for fall in row.get("falls", [])),
         not_modelled=row.get("not_modelled", ""),
     )

@@ -44,40 +44,42 @@ class Replacement:
 def replacements(modules: Mapping[str, Module]) -> tuple[Replacement, ...]:
     """Every operator of every reading, in the order of the modules and of their text."""
     return tuple(
-        Replacement(match.group(2), match.group(1), one.name, module.name, one.parameters)
+        Replacement(match.group(2), match.group(1), definition.name, module.name, definition.parameters)
         for module in modules.values()
         if module.name.endswith(SUFFIX)
-        for one in module.definitions
-        if (match := _NAME.fullmatch(one.name))
+        for definition in module.definitions
+        if (match := _NAME.fullmatch(definition.name))
     )
 
 
 def reading_problems(modules: Mapping[str, Module]) -> Iterator[tuple[str, str, str]]:
     """What is wrong with the modules of readings: file, definition, and cause."""
-    known = {(one.module, one.operator) for one in replacements(modules)}
-    for module in (one for one in modules.values() if one.name.endswith(SUFFIX)):
+    known = {(replacement.module, replacement.operator) for replacement in replacements(modules)}
+    for module in (candidate for candidate in modules.values() if candidate.name.endswith(SUFFIX)):
         for definition in module.definitions:
             if "_" in definition.name and (module.name, definition.name) not in known:
                 text = "is no Op_Reading (a reading is called by a name such as Figure7)"
                 yield module.file, definition.name, text
-    for one in replacements(modules):
-        if fault := _fault(modules, one):
-            yield modules[one.module].file, one.operator, fault
+    for replacement in replacements(modules):
+        if fault := _fault(modules, replacement):
+            yield modules[replacement.module].file, replacement.operator, fault
 
 
-def _fault(modules: Mapping[str, Module], one: Replacement) -> str:
-    """Why TLC could not put an operator in the place of the decided one; empty when it can."""
-    own = {name.name: name for name in modules[one.module].definitions}
-    reached = _closure(modules, one.module)
-    decided = [(m, d) for m in reached for d in m.definitions if d.name == one.replaced]
-    if own[one.operator].local:
+def _fault(modules: Mapping[str, Module], replacement: Replacement) -> str:
+    """Says why TLC cannot replace the decided operator; empty when it can."""
+    own = {name.name: name for name in modules[replacement.module].definitions}
+    reached = _closure(modules, replacement.module)
+    decided = [(m, d) for m in reached for d in m.definitions if d.name == replacement.replaced]
+    if own[replacement.operator].local:
         return "is LOCAL, so that it cannot take the place of another"
     if not decided:
-        return f"replaces nothing: no module that {one.module} extends defines {one.replaced}"
+        return f"replaces nothing: no module that {replacement.module} extends defines {replacement.replaced}"
     if decided[0][1].local:
-        return f"cannot replace {one.replaced}, which is LOCAL in {decided[0][0].file}"
-    if one.replaced in _used({d.name: d.body for m in reached for d in m.definitions}, one.operator):
-        return f"uses {one.replaced}, which it replaces: TLC would never come to an end"
+        return f"cannot replace {replacement.replaced}, which is LOCAL in {decided[0][0].file}"
+    if replacement.replaced in _used(
+        {d.name: d.body for m in reached for d in m.definitions}, replacement.operator
+    ):
+        return f"uses {replacement.replaced}, which it replaces: TLC would never come to an end"
     return ""
 
 
@@ -111,30 +113,34 @@ def replacing(
 ) -> tuple[Replacement, ...]:
     """What readings replace in a module and all that it extends. Raises Unjudged like `replaced_by`."""
     every = replacements(modules)
-    there = {one.name for one in _closure(modules, module)}
+    there = {extended.name for extended in _closure(modules, module)}
     found: dict[str, Replacement] = {}
     for reading in readings:
-        own = [one for one in every if one.reading == reading]
+        own = [replacement for replacement in every if replacement.reading == reading]
         if not own:
-            known = dict.fromkeys(one.reading for one in every)
+            known = dict.fromkeys(replacement.reading for replacement in every)
             raise Unjudged(f"{place}: unknown reading {reading!r}; {suggestion(reading, known)}")
-        fitting = [one for one in own if decided_modules(modules, one.module) <= there]
+        fitting = [
+            replacement for replacement in own if decided_modules(modules, replacement.module) <= there
+        ]
         if not fitting:
-            names = " and ".join(dict.fromkeys(one.module for one in own))
+            names = " and ".join(dict.fromkeys(replacement.module for replacement in own))
             raise Unjudged(f"{place}: the reading {reading} stands in {names}, which {module} cannot use")
-        for one in fitting:
-            if fault := _fault(modules, one):
-                raise Unjudged(f"{place}: {modules[one.module].file}: {one.operator} {fault}")
-            if (other := found.get(one.replaced)) is not None:
+        for replacement in fitting:
+            if fault := _fault(modules, replacement):
+                raise Unjudged(f"{place}: {modules[replacement.module].file}: {replacement.operator} {fault}")
+            if (other := found.get(replacement.replaced)) is not None:
                 both = f"{other.reading} and {reading}" if other.reading != reading else f"{reading} twice"
-                raise Unjudged(f"{place}: {one.replaced} is replaced by {both}; write one reading of its own")
-            found[one.replaced] = one
+                raise Unjudged(
+                    f"{place}: {replacement.replaced} is replaced by {both}; write one reading of its own"
+                )
+            found[replacement.replaced] = replacement
     return tuple(found.values())
 
 
 def decided_modules(modules: Mapping[str, Module], name: str) -> set[str]:
-    """The modules that a module of readings extends, but for other modules of readings."""
-    return {one.name for one in _closure(modules, name) if not one.name.endswith(SUFFIX)}
+    """The modules that a module of readings extends, without other modules of readings."""
+    return {module.name for module in _closure(modules, name) if not module.name.endswith(SUFFIX)}
 
 
 def read_cfg(root: Path, run: Run) -> Cfg:
@@ -156,8 +162,8 @@ def cfg_text(root: Path, run: Run) -> str:
         named = value.startswith("<-")
         given[name] = Constant(value.removeprefix("<-").strip(), named)
     if run.readings:
-        for one in replaced_by(read_modules(root, run.document), run):
-            given[one.replaced] = Constant(one.operator, True)
+        for replacement in replaced_by(read_modules(root, run.document), run):
+            given[replacement.replaced] = Constant(replacement.operator, True)
     cfg = replace(
         cfg,
         constants=given,
@@ -181,8 +187,8 @@ def module_text(root: Path, run: Run) -> str:
 
 
 def root_module(name: str, module: str, replaced: Sequence[Replacement]) -> str:
-    """A module that has all of another one and the operators of readings."""
-    holding = dict.fromkeys(one.module for one in replaced)
+    """The text of a module that extends a module and the modules of the readings."""
+    holding = dict.fromkeys(replacement.module for replacement in replaced)
     return f"---- MODULE {name} ----\nEXTENDS {', '.join((module, *holding))}\n====\n"
 
 

@@ -53,17 +53,19 @@ def vector_targets(document: Document) -> frozenset[str]:
     """The published devices whose graph a run prints, so that tours over their steps exist."""
     printed = {run.graph.device for run in document.runs if run.graph is not None}
     return frozenset(
-        one.id for one in document.interface.devices.values() if one.published and one.id in printed
+        device.id
+        for device in document.interface.devices.values()
+        if device.published and device.id in printed
     )
 
 
 def _row(
     clause: Clause, cited: Sequence[Citation], actions: dict[str, tuple[str, str]], targets: frozenset[str]
 ) -> Row:
-    citing = [one for one in cited if clause.id in one.clauses]
+    citing = [citation for citation in cited if clause.id in citation.clauses]
 
     def names(kind: str, room: str) -> list[str]:
-        return [one.name for one in citing if one.kind == kind and one.room == room]
+        return [citation.name for citation in citing if citation.kind == kind and citation.room == room]
 
     spec = names("definition", "spec")
     taken = [name for name in spec if name in actions]
@@ -94,9 +96,9 @@ def orphans(
         problems += _clause_orphans(document, clause, row, cited)
     problems += _step_orphans(document, cited)
     problems += _function_orphans(document, cited, sources)
-    for one in cited:
-        if one.kind in ("property", "theorem") and not one.clauses:
-            problems.append(Problem(one.file, one.name, f"the {one.kind} cites no clause"))
+    for citation in cited:
+        if citation.kind in ("property", "theorem") and not citation.clauses:
+            problems.append(Problem(citation.file, citation.name, f"the {citation.kind} cites no clause"))
     return problems
 
 
@@ -118,18 +120,20 @@ def _clause_orphans(
 
 
 def _unserved(document: Document, clause: Clause, room: str, cited: Sequence[Citation]) -> list[str]:
-    """The devices of the clause for which nothing in the room cites it; [""] when nothing does at all.
+    """The devices of the clause for which the room does not cite it; [""] when the room never cites it.
 
     A module that belongs to no device (code tables, the composition) speaks for every device.
     """
     citing = [
-        one for one in cited if one.room == room and one.kind == "definition" and clause.id in one.clauses
+        citation
+        for citation in cited
+        if citation.room == room and citation.kind == "definition" and clause.id in citation.clauses
     ]
     if not citing:
         return [""]
-    if any(not one.device for one in citing):
+    if any(not citation.device for citation in citing):
         return []
-    served = {one.device for one in citing}
+    served = {citation.device for citation in citing}
     return [
         device for device in clause.device if device in document.interface.devices and device not in served
     ]
@@ -137,13 +141,21 @@ def _unserved(document: Document, clause: Clause, room: str, cited: Sequence[Cit
 
 def _step_orphans(document: Document, cited: Sequence[Citation]) -> Iterable[Problem]:
     actions = step_actions(document)
-    for one in cited:
-        if one.kind == "definition" and one.name in actions and not (one.clauses or one.findings):
-            yield Problem(one.file, one.name, "the step cites no clause and no finding")
+    for citation in cited:
+        if (
+            citation.kind == "definition"
+            and citation.name in actions
+            and not (citation.clauses or citation.findings)
+        ):
+            yield Problem(citation.file, citation.name, "the step cites no clause and no finding")
 
 
 def _function_orphans(document: Document, cited: Sequence[Citation], sources: Sources) -> Iterable[Problem]:
-    by_name = {one.name: one for one in cited if one.room == "refimpl" and one.kind == "definition"}
+    by_name = {
+        function.name: function
+        for function in cited
+        if function.room == "refimpl" and function.kind == "definition"
+    }
     for module in sources.refimpl:
         device = document.interface.devices.get(module.name)
         if device is None:

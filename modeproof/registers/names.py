@@ -19,7 +19,7 @@ def check_names(document: Document, sources: Sources) -> list[Problem]:
     problems: list[Problem] = []
     for device in document.interface.devices.values():
         problems += _in_spec(document, device, sources)
-        module = next((one for one in sources.refimpl if one.name == device.id), None)
+        module = next((source for source in sources.refimpl if source.name == device.id), None)
         if module is None:
             problems.append(Problem(f"refimpl/{document.name}/{device.id}.py", "", "not found"))
         else:
@@ -70,7 +70,7 @@ def _constant(signal: Signal) -> str:
 
 
 def _uses(module: Module, name: str, sources: Sources) -> bool:
-    return name in {one.name for one in closure(sources.modules, module.name)}
+    return name in {extended.name for extended in closure(sources.modules, module.name)}
 
 
 def _in_python(device: Device, module: PythonModule) -> Iterator[Problem]:
@@ -88,9 +88,9 @@ def _in_python(device: Device, module: PythonModule) -> Iterator[Problem]:
             yield Problem(module.file, label, "the class is missing")
             continue
         found = {
-            one.target.id: ast.unparse(one.annotation)
-            for one in node.body
-            if isinstance(one, ast.AnnAssign) and isinstance(one.target, ast.Name)
+            statement.target.id: ast.unparse(statement.annotation)
+            for statement in node.body
+            if isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name)
         }
         for name in fields.keys() - found.keys():
             yield Problem(module.file, f"{label}.{name}", "declared in interface.toml, but no field here")
@@ -111,9 +111,9 @@ def _fields(signals: Mapping[str, Signal]) -> dict[str, str]:
     An integer without a range is a number that stands for something; the implementation may hold the thing.
     """
     fields = {}
-    for one in signals.values():
-        stands_for = one.type == "int" and one.maximum is None
-        fields[one.python] = "" if stands_for else ANNOTATIONS.get(one.type, "")
+    for signal in signals.values():
+        stands_for = signal.type == "int" and signal.maximum is None
+        fields[signal.python] = "" if stands_for else ANNOTATIONS.get(signal.type, "")
     return fields
 
 
@@ -124,11 +124,11 @@ def _states(device: Device, module: PythonModule, classes: Mapping[str, ast.Clas
         if not any(isinstance(base, ast.Name) and base.id.endswith("Enum") for base in node.bases):
             continue
         values = {
-            one.value.value
-            for one in node.body
-            if isinstance(one, ast.Assign)
-            and isinstance(one.value, ast.Constant)
-            and isinstance(one.value.value, str)
+            statement.value.value
+            for statement in node.body
+            if isinstance(statement, ast.Assign)
+            and isinstance(statement.value, ast.Constant)
+            and isinstance(statement.value.value, str)
         }
         if values & declared:
             for value in sorted(declared - values):

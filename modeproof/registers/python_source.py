@@ -83,21 +83,25 @@ def scan_python(text: str, name: str, file: str) -> PythonModule:
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             definitions.append(_function(node, node.name, "function", take))
         elif isinstance(node, ast.ClassDef):
-            methods = [one for one in node.body if isinstance(one, ast.FunctionDef | ast.AsyncFunctionDef)]
+            methods = [
+                statement
+                for statement in node.body
+                if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef)
+            ]
             for method in methods:
                 definitions.append(_function(method, f"{node.name}.{method.name}", "method", take))
             strings = [
-                one.value.value
-                for one in node.body
-                if isinstance(one, ast.Expr)
-                and isinstance(one.value, ast.Constant)
-                and isinstance(one.value.value, str)
+                statement.value.value
+                for statement in node.body
+                if isinstance(statement, ast.Expr)
+                and isinstance(statement.value, ast.Constant)
+                and isinstance(statement.value.value, str)
             ]
             text_of_class = [*strings, *take(_first_line(node), node.end_lineno or node.lineno)]
             definitions.append(PythonDefinition(node.name, "class", node.lineno, "\n".join(text_of_class)))
         elif isinstance(node, ast.Assign | ast.AnnAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            label = next((one.id for one in targets if isinstance(one, ast.Name)), "")
+            label = next((target.id for target in targets if isinstance(target, ast.Name)), "")
             if label:
                 lines = take(node.lineno, node.end_lineno or node.lineno)
                 definitions.append(PythonDefinition(label, "constant", node.lineno, "\n".join(lines)))
@@ -113,7 +117,7 @@ def scan_python(text: str, name: str, file: str) -> PythonModule:
     return PythonModule(
         name=name,
         file=file,
-        definitions=tuple(sorted(definitions, key=lambda one: one.line)),
+        definitions=tuple(sorted(definitions, key=lambda definition: definition.line)),
         theorems=tuple(theorems),
         tree=tree,
         stray="\n".join(stray),
@@ -130,7 +134,7 @@ def _comments(text: str) -> dict[int, tuple[str, bool]]:
 
 
 def _first_line(node: ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) -> int:
-    return min([node.lineno, *(one.lineno for one in node.decorator_list)])
+    return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
 
 
 def _function(
@@ -148,7 +152,7 @@ def _theorem(node: ast.FunctionDef, file: str) -> PythonTheorem | None:
         label = target.id if isinstance(target, ast.Name) else getattr(target, "attr", "")
         if label != "theorem":
             continue
-        keywords = {one.arg: one.value for one in decorator.keywords if one.arg}
+        keywords = {keyword.arg: keyword.value for keyword in decorator.keywords if keyword.arg}
         document = (ast.get_docstring(node) or "").strip().split("\n\n")[0]
         return PythonTheorem(
             name=node.name,
@@ -173,6 +177,6 @@ def _literal(node: ast.expr | None, place: str) -> tuple[str, ...]:
         raise Unjudged(
             f"{place} must be a literal list of ids, so that it can be read without running the code"
         ) from None
-    if not isinstance(value, list | tuple) or not all(isinstance(one, str) for one in value):
+    if not isinstance(value, list | tuple) or not all(isinstance(entry, str) for entry in value):
         raise Unjudged(f"{place} must be a list of texts")
     return tuple(value)

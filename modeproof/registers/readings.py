@@ -18,13 +18,14 @@ def readings_of(document: Document, modules: Mapping[str, Module]) -> tuple[str,
     """The readings of a document: those of its own modules, and of shared ones that a run could use."""
     reached: set[str] = set()
     for name in {run.module for run in document.runs}:
-        reached |= {one.name for one in closure(dict(modules), name)}
+        reached |= {module.name for module in closure(dict(modules), name)}
     own = f"spec/{document.name}/"
     return tuple(
         dict.fromkeys(
-            one.reading
-            for one in replacements(modules)
-            if modules[one.module].file.startswith(own) or decided_modules(modules, one.module) <= reached
+            replacement.reading
+            for replacement in replacements(modules)
+            if modules[replacement.module].file.startswith(own)
+            or decided_modules(modules, replacement.module) <= reached
         )
     )
 
@@ -48,9 +49,9 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
     """Every reading is tried alone in exactly one run, and named by a finding.
 
-    One that joins others which meet in one operator ends with SUFFIX; it is tried together with more.
+    A reading that joins others which replace the same operator ends with SUFFIX. A run tries it with others.
     """
-    named = {name for one in document.findings for name in one.tries}
+    named = {name for finding in document.findings for name in finding.tries}
     for name in readings:
         alone = [run.id for run in document.runs if run.readings == (name,)]
         if name.endswith(SUFFIX):
@@ -81,21 +82,23 @@ def _runs(document: Document, modules: Mapping[str, Module]) -> Iterator[Problem
 def _findings(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
     """A finding names readings that there are, and among its evidence a run that has each."""
     file = document.source("findings")
-    for one in document.findings:
-        evidence = [run for run in document.runs if run.id in one.evidence]
-        for name in one.tries:
+    for finding in document.findings:
+        evidence = [run for run in document.runs if run.id in finding.evidence]
+        for name in finding.tries:
             if name not in readings:
                 text = f"tries {name!r}, which no module of readings has; {suggestion(name, readings)}"
-                yield Problem(file, one.id, text)
+                yield Problem(file, finding.id, text)
             elif not any(name in run.readings for run in evidence):
-                yield Problem(file, one.id, f"tries {name!r}, but no run in its evidence has this reading")
+                yield Problem(
+                    file, finding.id, f"tries {name!r}, but no run in its evidence has this reading"
+                )
 
 
 def _idle(document: Document, run: Run, counts: tuple[int | None, int | None]) -> str:
     """Whether the readings of a run leave all counts as they are in its base; "" where they do not, or where
     something else differs too.
     """
-    base = next((one for one in document.runs if one.id == run.base), None)
+    base = next((candidate for candidate in document.runs if candidate.id == run.base), None)
     others = run.constants or run.specification or run.view is not None
     if base is None or not run.readings or others or run.module != base.module:
         return ""
@@ -125,7 +128,7 @@ def check_tops(document: Document, modules: Mapping[str, Module]) -> Iterator[Pr
         if module not in traces.tops:
             yield Problem(file, f"tops.{module}", f"missing; {run} checks that module")
     for module, top in traces.tops.items():
-        defined = {name for one in closure(dict(modules), module) for name in one.defined}
+        defined = {name for reached in closure(dict(modules), module) for name in reached.defined}
         names = {top.next, top.wires, *(text.split("(")[0] for text in top.inputs.values())}
         for name in sorted(names - defined) if defined else ():
             yield Problem(file, f"tops.{module}", f"{module}.tla and what it extends do not define {name}")

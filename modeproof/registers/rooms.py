@@ -79,7 +79,7 @@ def check_imports(root: Path) -> list[Problem]:
 
 
 def check_order(root: Path) -> list[Problem]:
-    """Every import of modeproof/ that runs upward, and one for each circle of imports."""
+    """Every import of modeproof/ that runs upward, and a problem for each circle of imports."""
     files = {
         ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
         for path in sorted((root / "modeproof").rglob("*.py"))
@@ -103,7 +103,7 @@ def check_order(root: Path) -> list[Problem]:
 
 
 def _height(module: str) -> int:
-    """The place of a module's room in the order; what is in no room (`__main__`) stands above all."""
+    """The place of a module's room in the order. A module in no room (`__main__`) stands above all rooms."""
     room = module.split(".")[1] if "." in module else ORDER[0]
     return ORDER.index(room) if room in ORDER else len(ORDER)
 
@@ -111,7 +111,7 @@ def _height(module: str) -> int:
 def _allowed(rule: Rule, name: str) -> bool:
     top = name.split(".")[0]
     if top in OURS:
-        return any(name == one or name.startswith(f"{one}.") for one in rule.allowed)
+        return any(name == package or name.startswith(f"{package}.") for package in rule.allowed)
     return not rule.stdlib_only or top in sys.stdlib_module_names
 
 
@@ -135,7 +135,7 @@ def _imports(root: Path, path: Path, submodules: frozenset[str] = frozenset()) -
                 inner = [
                     f"{name}.{alias.name}" for alias in node.names if f"{name}.{alias.name}" in submodules
                 ]
-                yield from ((node.lineno, one) for one in inner or [name])
+                yield from ((node.lineno, module) for module in inner or [name])
 
 
 def check_no_document_known(
@@ -170,8 +170,8 @@ def declared_names(interfaces: list[Interface], documents: list[Document]) -> fr
             names |= {name for name in {*inner, *device.states, *device.steps} if _peculiar(name)}
     for document in documents:
         names.add(document.about.prefix)
-        names |= {one.id for one in document.properties if _peculiar(one.id)}
-        names |= {one.id for one in document.runs}
+        names |= {prop.id for prop in document.properties if _peculiar(prop.id)}
+        names |= {run.id for run in document.runs}
     return frozenset(names)
 
 

@@ -165,7 +165,7 @@ def _derived(
     rows: Mapping[str, Mapping[str, Any]],
     found: Mapping[str, Run],
 ) -> Run:
-    """A run that is another one but for what its row says."""
+    """A run that takes from its base whatever its own row does not give."""
     place = f"{source}: run {values.get('id', '?')}"
     base = values["base"]
     if base not in rows:

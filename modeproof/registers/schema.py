@@ -83,7 +83,7 @@ def _explain(fault: ValidationError) -> str:
         missing = [key for key in value if key not in instance]
         return f"key {missing[0]!r} is missing"
     if rule == "enum":
-        names = [str(one) for one in value]
+        names = [str(allowed) for allowed in value]
         return f"{instance!r} is not allowed; {suggestion(str(instance), names)}"
     if rule == "type":
         names = [value] if isinstance(value, str) else list(value)
@@ -93,7 +93,7 @@ def _explain(fault: ValidationError) -> str:
     if rule in ("minLength", "minItems", "minProperties"):
         return "must not be empty"
     if rule == "uniqueItems":
-        twice = next(one for n, one in enumerate(instance) if one in instance[:n])
+        twice = next(entry for n, entry in enumerate(instance) if entry in instance[:n])
         return f"holds {twice!r} twice"
     if rule in ("minimum", "exclusiveMinimum"):
         return f"{instance!r} is too small; it must be {'at least' if rule == 'minimum' else 'above'} {value}"

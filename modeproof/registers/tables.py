@@ -71,21 +71,21 @@ def render_picture(document: Document) -> str:
     """
     devices = document.interface.devices
     flows: dict[tuple[str, str], list[str]] = {}
-    for one in devices.values():
-        for name in one.outputs:
+    for device in devices.values():
+        for name in device.outputs:
             readers = [other.id for other in devices.values() if name in other.inputs]
             for reader in readers or ["sink"]:
-                flows.setdefault((one.id, reader), []).append(name)
+                flows.setdefault((device.id, reader), []).append(name)
         sent = {name for other in devices.values() for name in other.outputs}
-        for name in (name for name in one.inputs if name not in sent):
-            flows.setdefault(("source", one.id), []).append(name)
+        for name in (name for name in device.inputs if name not in sent):
+            flows.setdefault(("source", device.id), []).append(name)
     lines = [
         "```mermaid",
         "flowchart TB",
         '    source(["from the user and the machine"])',
         '    sink(["to the user and the machine"])',
     ]
-    lines += [f'    {one.id}["{one.title.replace(": ", "<br>", 1)}"]' for one in devices.values()]
+    lines += [f'    {device.id}["{device.title.replace(": ", "<br>", 1)}"]' for device in devices.values()]
     for (a, b), names in flows.items():
         back = flows.get((b, a))
         if back is None:
@@ -104,7 +104,7 @@ def render_index(document: Document, here: PurePosixPath) -> str:
     """A document in an index: its title, its targets and where to read on; `here` is the page's folder."""
     name = document.name
     devices = document.interface.devices.values()
-    targets = ", ".join(f"`{one.id}`" for one in devices if one.published) or "none"
+    targets = ", ".join(f"`{device.id}`" for device in devices if device.published) or "none"
     places = [(page_name(name), "what was shown and found"), (f"spec/{name}", "registers and TLA+")]
     links = [
         f"[{words}]({_relative(path, here)})" for path, words in places if (document.root / path).exists()
@@ -125,9 +125,11 @@ def render_blocks(text: str, documents: Sequence[Document], page: str = "README.
     here = PurePosixPath(page).parent
 
     def block(match: re.Match[str]) -> str:
-        chosen = [one for one in documents if match.group(3) in (None, one.name)]
+        chosen = [document for document in documents if match.group(3) in (None, document.name)]
         if match.group(2) == "documents":
-            return match.group(1) + "".join(render_index(one, here) for one in chosen) + match.group(5)
+            return (
+                match.group(1) + "".join(render_index(document, here) for document in chosen) + match.group(5)
+            )
         return match.group(1) + "\n".join(map(render_picture, chosen)) + match.group(5)
 
     return BLOCK.sub(block, text)

@@ -71,7 +71,7 @@ class Module:
     @property
     def defined(self) -> frozenset[str]:
         """The names of its definitions."""
-        return frozenset(one.name for one in self.definitions)
+        return frozenset(definition.name for definition in self.definitions)
 
 
 def read_modules(root: Path, document: str) -> dict[str, Module]:
@@ -89,10 +89,10 @@ def closure(modules: dict[str, Module], name: str) -> tuple[Module, ...]:
     reached: dict[str, Module] = {}
     waiting = [name]
     while waiting:
-        one = waiting.pop()
-        if one in modules and one not in reached:
-            reached[one] = modules[one]
-            waiting += [*modules[one].extends, *modules[one].instances]
+        module_name = waiting.pop()
+        if module_name in modules and module_name not in reached:
+            reached[module_name] = modules[module_name]
+            waiting += [*modules[module_name].extends, *modules[module_name].instances]
     return tuple(reached.values())
 
 

@@ -16,7 +16,7 @@ SOURCE = "docs/tools.toml"
 
 @dataclass(frozen=True)
 class Check:
-    """What one engine says is checked by another; `kind` is that of the evidence of the comparison."""
+    """The check of one engine by another. `kind` is the kind of evidence of the comparison."""
 
     engine: str
     by: str
@@ -63,7 +63,7 @@ def load_tools(root: Path) -> Tools:
     data = read_toml(root, root / SOURCE)
     check_schema("tools", SOURCE, data)
     problems = tuple(_problem(row) for row in data["problem"])
-    ids = [one.id for one in problems]
+    ids = [problem.id for problem in problems]
     for id in ids:
         if ids.count(id) > 1:
             raise Unjudged(f"{SOURCE}: problem {id} is declared twice")
@@ -74,7 +74,7 @@ def _problem(row: Mapping[str, Any]) -> ToolProblem:
     return ToolProblem(
         **{key: value for key, value in row.items() if key not in ("also", "holds")},
         also=tuple(row.get("also", ())),
-        holds=tuple(_condition(row["id"], one) for one in row.get("holds", ())),
+        holds=tuple(_condition(row["id"], condition) for condition in row.get("holds", ())),
     )
 
 

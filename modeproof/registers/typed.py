@@ -42,8 +42,8 @@ def _explained(kind: type, text: str) -> str:
 
 
 def _keys(kind: type, path: str) -> tuple[str, ...]:
-    struct = next((one for one in _parts(_at(kind, path)) if _is_struct(one)), None)
-    return tuple(one.encode_name for one in msgspec.structs.fields(struct)) if struct else ()
+    struct = next((part for part in _parts(_at(kind, path)) if _is_struct(part)), None)
+    return tuple(field.encode_name for field in msgspec.structs.fields(struct)) if struct else ()
 
 
 def _at(kind: Any, path: str) -> Any:
@@ -51,11 +51,18 @@ def _at(kind: Any, path: str) -> Any:
     for part in re.findall(r"\w+|\[\S*?\]", path):
         if part.startswith("["):
             kind = next(
-                (get_args(one)[-1 if dict is one else 0] for one in _parts(kind) if get_args(one)), None
+                (
+                    get_args(choice)[-1 if dict is choice else 0]
+                    for choice in _parts(kind)
+                    if get_args(choice)
+                ),
+                None,
             )
         else:
-            struct = next((one for one in _parts(kind) if _is_struct(one)), None)
-            fields = {one.encode_name: one.type for one in msgspec.structs.fields(struct)} if struct else {}
+            struct = next((choice for choice in _parts(kind) if _is_struct(choice)), None)
+            fields = (
+                {field.encode_name: field.type for field in msgspec.structs.fields(struct)} if struct else {}
+            )
             kind = fields.get(part)
     return kind
 
@@ -71,4 +78,4 @@ def _parts(kind: Any) -> tuple[Any, ...]:
 
 
 def _allowed(kind: Any) -> tuple[str, ...]:
-    return tuple(one for one in get_args(kind) if isinstance(one, str))
+    return tuple(value for value in get_args(kind) if isinstance(value, str))

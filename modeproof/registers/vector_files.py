@@ -52,13 +52,13 @@ def read_vectors(packed: bytes) -> VectorFile:
 
 
 def drift(sources: Mapping[str, str], digest: Callable[[str], str]) -> Iterator[str]:
-    """In what a file was made from another text, if in anything; `digest` gives the SHA-256 of a file now."""
+    """The first source of a file that has changed, if any has; `digest` gives the SHA-256 of a file now."""
     deciding = [name for name in sources if name.startswith("spec/") and _decides(name)]
     if not deciding:
         yield "does not say which specification it was made from"
     for name in deciding:
         if digest(name) != sources[name]:
-            yield f"{name} is another one now"
+            yield f"{name} has changed"
             return
 
 

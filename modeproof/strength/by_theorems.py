@@ -106,7 +106,7 @@ class ByTheorems(Judges):
     def stamp(self, record: Answers) -> str:
         """The hash of what a judgement rests on now; empty when a theorem of it is gone.
 
-        One killed rests on the theorems asked, one proved equivalent on none, any other on all.
+        A killed mutant rests on the theorems asked, one proved equivalent on none, any other mutant on all.
         """
         asked: Iterable[str] = [answer["theorem"] for answer in record["answers"]]
         if record["verdict"] == "EQUIVALENT":

@@ -187,7 +187,7 @@ class ByVectors(Judges):
         return digest([self.base, self.theorems.base, _program_of(self.observer)])
 
     def stamp(self, record: Answers) -> str:
-        """The hash of the code and the replay; each answer has that of its suite besides."""
+        """The hash of the code and the replay. Each answer also holds the hash of its suite."""
         return self.base
 
     def theorems_say(self, mutant: Mutant) -> Answers | None:
@@ -215,7 +215,14 @@ class ByVectors(Judges):
     def observed(self, before: Sequence[Answers]) -> Mapping[str, Any] | None:
         """What the observer said, if that holds now."""
         said = [record.get("observed") for record in before if record["inputs"] == self.base]
-        return next((one for one in said if one is not None and one["inputs"] == self.observes_by), None)
+        return next(
+            (
+                observed
+                for observed in said
+                if observed is not None and observed["inputs"] == self.observes_by
+            ),
+            None,
+        )
 
     def _in_order(self, answers: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
         return sorted(answers, key=lambda answer: self.names.index(answer["suite"]))

@@ -108,7 +108,7 @@ class Judges(ABC):
         """The hash of what a judgement rests on now; empty when a judge of it is gone."""
 
     def find(self, mutant: Mutant, complete: bool, before: Sequence[Answers]) -> dict[str, Any] | None:
-        """The last judgement that holds now; one of fewer judges does not do when `complete`."""
+        """The last judgement that still holds. With `complete`, all judges must have been asked."""
         holding = [
             record
             for record in before
@@ -139,7 +139,7 @@ class Judged:
 
     @property
     def killers(self) -> tuple[str, ...]:
-        """Those that it breaks, the first one first."""
+        """What the mutant breaks, in the order in which it was found."""
         return tuple(self.record["killers"])
 
 
@@ -202,7 +202,7 @@ class Campaign:
     def _records(
         self, waiting: Sequence[Mutant], jobs: int, complete: bool
     ) -> Generator[dict[str, Any] | None, None, None]:
-        """Each record as it comes, which is on the disk by then; None now and then."""
+        """Each record after it is written to the disk. Now and then it yields None."""
         limit_s = self.judges.limit_s
 
         def judge(mutant: Mutant) -> dict[str, Any]:
@@ -236,7 +236,7 @@ class Campaign:
         Unjudged when it cannot be written.
         """
         judges, every = self.judges, self.mutants
-        counts = Counter(one.word for one in judged)
+        counts = Counter(judgement.word for judgement in judged)
         missing = len(every) - len(judged)
         open_ones = unexplained(judges.explained, judged)
         problems = explanation_problems(judges.explained, judged, complete=not missing)
@@ -247,7 +247,9 @@ class Campaign:
         elif open_ones:
             verdict = "SURVIVED"
             reason = f"{open_ones[0].mutant.id} survives without an explanation ({len(open_ones)} in all)"
-        asked = Counter(name for one in judged for name in dict.fromkeys(judges.asked(one.record)))
+        asked = Counter(
+            name for judgement in judged for name in dict.fromkeys(judges.asked(judgement.record))
+        )
         made = evidence.make(
             kind=KIND,
             id=f"{KIND}_{judges.what}",
@@ -258,7 +260,7 @@ class Campaign:
             strength=f"every single edit by the rules: {len(every)} mutants",
             command=judges.command,
             started=time.time(),
-            seconds=float(sum(one.record["seconds"] for one in judged)),
+            seconds=float(sum(judgement.record["seconds"] for judgement in judged)),
             inputs=evidence.hashes(judges.place, judges.rests_on),
             tools=judges.tools,
             result={
@@ -266,7 +268,7 @@ class Campaign:
                 "every": len(every),
                 "out_of_scope": judges.out_of_scope,
                 "judges": {name: asked[name] for name in dict.fromkeys([*judges.names, *sorted(asked)])},
-                "mutants": [_told(one, judges.explained) for one in judged],
+                "mutants": [_told(judgement, judges.explained) for judgement in judged],
                 "problems": problems,
             },
             reason=reason,
@@ -304,7 +306,7 @@ def so_far(total: int, done: int, seconds: float, known: Mapping[str, Answers]) 
 
 def summary(judged: Sequence[Judged], unexplained_count: int) -> str:
     """Counts and score in one line: killed of those that are neither invalid nor equivalent."""
-    counts = Counter(one.word for one in judged)
+    counts = Counter(judgement.word for judgement in judged)
     real = counts["KILLED"] + counts["SURVIVED"] + counts["UNMEASURED"]
     score = f"{100 * counts['KILLED'] / real:.1f} %" if real else "none"
     words = ", ".join(f"{counts[word]} {word}" for word in WORDS)
@@ -314,9 +316,9 @@ def summary(judged: Sequence[Judged], unexplained_count: int) -> str:
     )
 
 
-def _told(one: Judged, explained: Sequence[Explained]) -> dict[str, Any]:
+def _told(judgement: Judged, explained: Sequence[Explained]) -> dict[str, Any]:
     """A mutant as the evidence has it."""
-    mutant = one.mutant
+    mutant = judgement.mutant
     told: dict[str, Any] = {
         "id": mutant.id,
         "module": mutant.module,
@@ -325,12 +327,12 @@ def _told(one: Judged, explained: Sequence[Explained]) -> dict[str, Any]:
         "line": mutant.line,
         "old": mutant.old,
         "new": mutant.new,
-        "verdict": one.word,
-        "killers": list(one.killers),
+        "verdict": judgement.word,
+        "killers": list(judgement.killers),
     }
-    if one.record["reason"] and one.word != "KILLED":
-        told["reason"] = str(one.record["reason"])[:200]
-    found = explanation_of(explained, mutant.id) if one.word == "SURVIVED" else None
+    if judgement.record["reason"] and judgement.word != "KILLED":
+        told["reason"] = str(judgement.record["reason"])[:200]
+    found = explanation_of(explained, mutant.id) if judgement.word == "SURVIVED" else None
     return told if found is None else {**told, "kind": found.kind, "why": found.why}
 
 
@@ -348,7 +350,9 @@ def explanation_of(explained: Sequence[Explained], mutant: str) -> Explained | N
 def unexplained(explained: Sequence[Explained], judged: Sequence[Judged]) -> list[Judged]:
     """The survivors that nobody has explained."""
     return [
-        one for one in judged if one.word == "SURVIVED" and explanation_of(explained, one.mutant.id) is None
+        judgement
+        for judgement in judged
+        if judgement.word == "SURVIVED" and explanation_of(explained, judgement.mutant.id) is None
     ]
 
 
@@ -359,7 +363,7 @@ def explanation_problems(
     that is not there any more; and mutants that are explained twice.
     """
     problems: list[str] = []
-    words = {one.mutant.id: one.word for one in judged}
+    words = {judgement.mutant.id: judgement.word for judgement in judged}
     seen: set[str] = set()
     for row in explained:
         for pattern in row.ids:

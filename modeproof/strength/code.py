@@ -1,4 +1,4 @@
-"""The shipped code of a document and its mutants; who judges them is said elsewhere.
+"""The shipped code of a document and its mutants. by_theorems.py and by_vectors.py judge them.
 
 What is edited in which function is a rule (python_operators.py). The room of proofs says which functions
 some step reaches; `proofs/<document>/strength.toml` says what is put in the place of a name. No file of the

@@ -167,7 +167,7 @@ def chosen_of(campaign: Campaign, args: argparse.Namespace) -> list[Mutant]:
     known = dict.fromkeys(mutant.module for mutant in campaign.mutants)
     strange = [name for name in args.modules if name not in known]
     if strange:
-        raise Unjudged(f"{strange[0]} is none of the modules that are mutated: {', '.join(known)}")
+        raise Unjudged(f"{strange[0]} is not mutated; the mutated modules are {', '.join(known)}")
     chosen = [mutant for mutant in campaign.mutants if not args.modules or mutant.module in args.modules]
     patterns = [args.show] if args.show is not None else args.only
     for pattern in patterns or ():
@@ -205,20 +205,20 @@ def _report(campaign: Campaign, judged: Sequence[Judged], whole: bool, args: arg
     open_ones = unexplained(judges.explained, judged)
     for note in judges.notes:
         print(note)
-    for one in judged:
-        if one.word == "UNMEASURED" or one in open_ones or len(judged) <= 10:
-            told = [text for text in (", ".join(one.killers), one.record["reason"]) if text]
-            print("; ".join([f"{one.word}  {one.mutant}", *told]))
+    for judgement in judged:
+        if judgement.word == "UNMEASURED" or judgement in open_ones or len(judged) <= 10:
+            told = [text for text in (", ".join(judgement.killers), judgement.record["reason"]) if text]
+            print("; ".join([f"{judgement.word}  {judgement.mutant}", *told]))
     for problem in problems:
         print(f"{judges.register.relative_to(judges.place).as_posix()}: {problem}")
     print(f"{judges.document}: {summary(judged, len(open_ones))}")
-    unmeasured = any(one.word == "UNMEASURED" for one in judged)
+    unmeasured = any(judgement.word == "UNMEASURED" for judgement in judged)
     status = EXIT_NOT_AS_EXPECTED if open_ones or problems else EXIT_UNJUDGED if unmeasured else 0
     if args.json is not None:
         content = {
             "command": "mutate",
             "status": status,
-            "mutants": [{**one.record, "edit": str(one.mutant)} for one in judged],
+            "mutants": [{**judgement.record, "edit": str(judgement.mutant)} for judgement in judged],
             "problems": problems,
         }
         write_whole(args.json, (json.dumps(content, indent=1, ensure_ascii=False) + "\n").encode("utf-8"))

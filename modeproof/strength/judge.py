@@ -64,7 +64,7 @@ class Verdict:
     @property
     def seconds(self) -> float:
         """Wall-clock time of all tiers."""
-        return sum(one.seconds for one in self.answers)
+        return sum(answer.seconds for answer in self.answers)
 
 
 @dataclass
@@ -317,14 +317,14 @@ def judge(bench: Bench, mutant: Mutant, complete: bool = False) -> Verdict:
 
 def _verdict(answers: Sequence[Answer], killers: tuple[str, ...], differs: str) -> Verdict:
     if killers:
-        cut_off = [one.tier for one in answers if not one.complete]
+        cut_off = [answer.tier for answer in answers if not answer.complete]
         return Verdict(
             "KILLED",
             tuple(answers),
             killers,
             f"not explored to the end in {', '.join(cut_off)}" if cut_off else "",
         )
-    limits = [one for one in answers if one.result == LIMIT]
+    limits = [answer for answer in answers if answer.result == LIMIT]
     if limits:
         return Verdict("UNMEASURED", tuple(answers), reason=f"tier {limits[0].tier}: {limits[0].detail}")
     return Verdict("SURVIVED", tuple(answers), reason=differs)
@@ -336,5 +336,5 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         "verdict": verdict.word,
         "killers": list(verdict.killers),
         "reason": verdict.reason,
-        "answers": [asdict(one) for one in verdict.answers],
+        "answers": [asdict(answer) for answer in verdict.answers],
     }

@@ -54,7 +54,7 @@ QUANTIFIERS = {"$BoundedExists": (r"\\E\b", "\\A"), "$BoundedForall": (r"\\A\b",
 
 @dataclass(frozen=True)
 class Rule:
-    """What is edited, and into what, besides the operators.
+    """What else is edited beside the operators, and what replaces it.
 
     `behaviour`: the names of the module that make up its behaviour; all that they reach in it is edited.
     `leave`: operators whose use is never edited. `kinds`: lists of strings; a string
@@ -116,28 +116,28 @@ class _Editor:
         seen: set[str] = set()
         counted: Counter[tuple[str, ...]] = Counter()
         made: list[Mutant] = []
-        for definition in sorted(self._reached(), key=lambda one: one.place):
+        for definition in sorted(self._reached(), key=lambda reached: reached.place):
             found = self._visit(definition.body, _Where(initial=definition.name in self._initial_names))
             if definition.name in self._rule.groups:
-                found = (one for one in found if one.operator == "action removed")
-            for one in sorted(found, key=lambda one: (one.place, one.operator)):
-                text = applied(self._lines, Edit(one.place, one.new))
+                found = (mutant for mutant in found if mutant.operator == "action removed")
+            for mutant in sorted(found, key=lambda mutant: (mutant.place, mutant.operator)):
+                text = applied(self._lines, Edit(mutant.place, mutant.new))
                 if text in seen:
                     continue
                 seen.add(text)
-                old, new = one_line(cut(self._lines, one.place)), one_line(one.new)
-                key = (definition.name, one.operator, old, new)
+                old, new = one_line(cut(self._lines, mutant.place)), one_line(mutant.new)
+                key = (definition.name, mutant.operator, old, new)
                 counted[key] += 1
                 made.append(
                     Mutant(
                         id=identity(self._module, (*key, str(counted[key]))),
                         module=self._module,
                         definition=definition.name,
-                        operator=one.operator,
-                        line=one.place.first_line,
+                        operator=mutant.operator,
+                        line=mutant.place.first_line,
                         old=old,
                         new=new,
-                        edit=Edit(one.place, one.new),
+                        edit=Edit(mutant.place, mutant.new),
                     )
                 )
         return tuple(made)
@@ -152,11 +152,15 @@ class _Editor:
         waiting = [self._own[name] for name in self._rule.behaviour]
         reached: dict[str, Definition] = {}
         while waiting:
-            one = waiting.pop()
-            if one.name in reached or one.name in self._untouched or self._left_alone(one.name):
+            definition = waiting.pop()
+            if (
+                definition.name in reached
+                or definition.name in self._untouched
+                or self._left_alone(definition.name)
+            ):
                 continue
-            reached[one.name] = one
-            for node in self._parts(one.body):
+            reached[definition.name] = definition
+            for node in self._parts(definition.body):
                 if node.kind == "defined" and node.operator in self._own:
                     waiting.append(self._own[node.operator])
         return list(reached.values())
@@ -165,7 +169,7 @@ class _Editor:
         return name in self._rule.leave
 
     def _parts(self, node: Node) -> Iterator[Node]:
-        """The node and all below it, but for what is left alone."""
+        """The node and all nodes below it, without those that are left alone."""
         yield node
         for part in self._parts_of(node):
             yield from self._parts(part)
@@ -174,7 +178,7 @@ class _Editor:
         if node.kind == "defined" and self._left_alone(node.operator):
             return ()
         inner = tuple(domain for _, domain in node.bound if domain is not None)
-        return inner + tuple(one.body for one in node.definitions) + node.operands
+        return inner + tuple(definition.body for definition in node.definitions) + node.operands
 
     # -------------------------------------------------------------------------------- initial values
 
@@ -208,15 +212,15 @@ class _Editor:
         if self._assigned(node) is not None or (where.initial and node.operator == "="):
             parts = node.operands[1:]
         elif node.kind == "builtin" and node.operator in ("=", "/="):
-            parts = tuple(one for one in parts if not self._is_constant(one))
+            parts = tuple(part for part in parts if not self._is_constant(part))
         inner = where
         if node.operator not in AND | OR:
             inner = _Where(where.initial)
         elif len(parts) > 1:
             of_action = node.operator in AND and (where.of_action or node.level >= 2)
             inner = _Where(where.initial, "and" if node.operator in AND else "or", of_action)
-        for one in parts:
-            yield from self._visit(one, inner)
+        for part in parts:
+            yield from self._visit(part, inner)
 
     def _is_place_guard(self, node: Node) -> bool:
         """`state = "Name"` or `At("Name", i)` as a conjunct of a step: it says where the step belongs.
@@ -228,7 +232,7 @@ class _Editor:
             return False
         if node.kind == "builtin" and node.operator == "=":
             return node.operands[0].kind == "declared" and node.operands[1].kind == "string"
-        return node.kind == "defined" and any(one.kind == "string" for one in node.operands)
+        return node.kind == "defined" and any(operand.kind == "string" for operand in node.operands)
 
     def _edits(self, node: Node, where: _Where) -> Iterator[_Found]:
         if not node.place.module:
@@ -334,11 +338,11 @@ class _Editor:
             )
 
     def _branches(self, node: Node) -> Iterator[_Found]:
-        condition, then, other = (cut(self._lines, one.place) for one in node.operands)
+        condition, then, other = (cut(self._lines, operand.place) for operand in node.operands)
         if "\n" in then or "\n" in other or "\n" in condition:
             columns = node.place.first_column - 1
             lines = [f"IF {one_line(condition)}", f"THEN {one_line(other)}", f"ELSE {one_line(then)}"]
-            if any(re.search(r"^\s*(/\\|\\/)", one) for one in (then, other)):
+            if any(re.search(r"^\s*(/\\|\\/)", branch) for branch in (then, other)):
                 return  # bullets cannot be joined to one line
             yield self._replaced("branches exchanged", node, ("\n" + " " * columns).join(lines))
             return
@@ -349,7 +353,7 @@ class _Editor:
         for name in names:
             if name not in self._initial:
                 continue
-            rest = [one for one in names if one != name]
+            rest = [other for other in names if other != name]
             kept = f" /\\ UNCHANGED <<{', '.join(rest)}>>" if rest else ""
             yield self._replaced("wrong UNCHANGED", node, f"({name}' = {self._initial[name]}{kept})")
 
@@ -357,7 +361,7 @@ class _Editor:
         if node.kind == "declared" and node.operator in self._variables:
             return [node.operator]
         if node.kind == "builtin" and node.operator == "$Tuple":
-            return [name for one in node.operands for name in self._tuple_names(one)]
+            return [name for operand in node.operands for name in self._tuple_names(operand)]
         if node.kind == "defined" and node.operator in self._own and not node.operands:
             return self._tuple_names(self._own[node.operator].body)
         return []

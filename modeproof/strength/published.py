@@ -39,10 +39,10 @@ class Published:
 def published(suites: Sequence[Suite]) -> tuple[Published, ...]:
     """The suites, those of the same name together, the shortest name first. Raises Unjudged."""
     cost: dict[str, int] = {}
-    for one in suites:
-        cost[one.name] = cost.get(one.name, 0) + one.scan_count
-    ordered = sorted(suites, key=lambda one: (cost[one.name], one.name))
-    return tuple(Published(one, contents(one.path)) for one in ordered)
+    for suite in suites:
+        cost[suite.name] = cost.get(suite.name, 0) + suite.scan_count
+    ordered = sorted(suites, key=lambda suite: (cost[suite.name], suite.name))
+    return tuple(Published(suite, contents(suite.path)) for suite in ordered)
 
 
 def contents(path: Path) -> str:

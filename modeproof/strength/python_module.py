@@ -39,30 +39,38 @@ class Module:
     @property
     def functions(self) -> dict[str, ast.FunctionDef]:
         """The functions of the module by name."""
-        return {one.name: one for one in self.tree.body if isinstance(one, ast.FunctionDef)}
+        return {
+            statement.name: statement
+            for statement in self.tree.body
+            if isinstance(statement, ast.FunctionDef)
+        }
 
     @property
     def classes(self) -> dict[str, tuple[str, ...]]:
         """The classes of the module and the names that each declares or assigns, in order."""
         found: dict[str, tuple[str, ...]] = {}
-        for one in self.tree.body:
-            if isinstance(one, ast.ClassDef):
+        for statement in self.tree.body:
+            if isinstance(statement, ast.ClassDef):
                 names = [
                     target.id
-                    for part in one.body
+                    for part in statement.body
                     for target in _targets(part)
                     if isinstance(target, ast.Name)
                 ]
-                found[one.name] = tuple(names)
+                found[statement.name] = tuple(names)
         return found
 
     @property
     def constants(self) -> dict[str, ast.expr]:
         """What the module assigns to a name once, and not inside a function."""
         found: dict[str, ast.expr] = {}
-        for one in self.tree.body:
-            if isinstance(one, ast.Assign) and len(one.targets) == 1 and isinstance(one.targets[0], ast.Name):
-                found[one.targets[0].id] = one.value
+        for statement in self.tree.body:
+            if (
+                isinstance(statement, ast.Assign)
+                and len(statement.targets) == 1
+                and isinstance(statement.targets[0], ast.Name)
+            ):
+                found[statement.targets[0].id] = statement.value
         return found
 
     @property
@@ -70,9 +78,9 @@ class Module:
         """Everything that a function of the module can name."""
         imported = [
             alias.asname or alias.name
-            for one in self.tree.body
-            if isinstance(one, (ast.Import, ast.ImportFrom))
-            for alias in one.names
+            for statement in self.tree.body
+            if isinstance(statement, (ast.Import, ast.ImportFrom))
+            for alias in statement.names
         ]
         return frozenset([*imported, *self.functions, *self.classes, *self.constants])
 

@@ -50,7 +50,7 @@ OPERATORS: Mapping[type[ast.operator], tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class PythonRule:
-    """What becomes what, besides the operators."""
+    """What else is replaced beside the operators, and by what."""
 
     cycles: tuple[tuple[str, ...], ...] = ()
     """Names; each becomes the next one of its list that can be named in its place."""
@@ -154,19 +154,19 @@ def _is_member(value: ast.expr, module: Module) -> bool:
 
 def _of_table(module: Module, value: ast.expr, kinds: _Kinds) -> Iterator[Found]:
     if isinstance(value, ast.Tuple):
-        for one, other in zip(value.elts, value.elts[1:], strict=False):
-            between = _between(module, one, other)
-            yield "entries exchanged", (one, other), module.source(other) + between + module.source(one)
+        for entry, other in zip(value.elts, value.elts[1:], strict=False):
+            between = _between(module, entry, other)
+            yield "entries exchanged", (entry, other), module.source(other) + between + module.source(entry)
     for node in ast.walk(value):
         if isinstance(node, ast.Constant):
             for new in kinds.constant(node):
                 yield "constant swapped", node, new
 
 
-def _between(module: Module, one: ast.AST, other: ast.AST) -> str:
+def _between(module: Module, node: ast.AST, other: ast.AST) -> str:
     """The text from the end of one node to the beginning of the next one."""
-    whole = module.source(one, other)
-    return whole[len(module.source(one)) : len(whole) - len(module.source(other))]
+    whole = module.source(node, other)
+    return whole[len(module.source(node)) : len(whole) - len(module.source(other))]
 
 
 @dataclass(frozen=True)
@@ -245,36 +245,41 @@ class _Function:
         yield from self._block(body[1:] if _is_docstring(body[0]) else body)
 
     def _block(self, statements: Sequence[ast.stmt]) -> Iterator[_Edit]:
-        for number, one in enumerate(statements):
-            if isinstance(one, ast.Raise):
+        for number, statement in enumerate(statements):
+            if isinstance(statement, ast.Raise):
                 continue
-            if isinstance(one, ast.If):
-                lines = (one.lineno, one.test.end_lineno or one.lineno)
-                for found in self._condition(one.test):
+            if isinstance(statement, ast.If):
+                lines = (statement.lineno, statement.test.end_lineno or statement.lineno)
+                for found in self._condition(statement.test):
                     yield self._edit(found, lines)
-                yield "branch removed", (one.test, one.test), "False", lines
+                yield "branch removed", (statement.test, statement.test), "False", lines
                 other = statements[number + 1] if number + 1 < len(statements) else None
-                if isinstance(other, ast.If) and not one.orelse and not other.orelse:
-                    yield self._exchanged(one, other)
-                if len(one.orelse) == 1 and isinstance(one.orelse[0], ast.If):
-                    yield self._exchanged(one, one.orelse[0])
-                yield from self._block(one.body)
-                yield from self._block(one.orelse)
+                if isinstance(other, ast.If) and not statement.orelse and not other.orelse:
+                    yield self._exchanged(statement, other)
+                if len(statement.orelse) == 1 and isinstance(statement.orelse[0], ast.If):
+                    yield self._exchanged(statement, statement.orelse[0])
+                yield from self._block(statement.body)
+                yield from self._block(statement.orelse)
             else:
-                lines = (one.lineno, one.end_lineno or one.lineno)
-                for found in self._everything(one):
+                lines = (statement.lineno, statement.end_lineno or statement.lineno)
+                for found in self._everything(statement):
                     yield self._edit(found, lines)
 
     def _edit(self, found: Found, lines: tuple[int, int]) -> _Edit:
         operator, what, new = found
         return operator, _pair(what), new, lines
 
-    def _exchanged(self, one: ast.If, other: ast.If) -> _Edit:
-        first, second = one.test, other.test
-        between = self._text(one.body[-1], second)[len(self.module.source(one.body[-1])) :]
+    def _exchanged(self, branch: ast.If, other: ast.If) -> _Edit:
+        first, second = branch.test, other.test
+        between = self._text(branch.body[-1], second)[len(self.module.source(branch.body[-1])) :]
         between = between[: len(between) - len(self.module.source(second))]
-        new = self._text(second, other.body[-1]) + between + self._text(first, one.body[-1])
-        return "order exchanged", (first, other.body[-1]), new, (one.lineno, other.end_lineno or other.lineno)
+        new = self._text(second, other.body[-1]) + between + self._text(first, branch.body[-1])
+        return (
+            "order exchanged",
+            (first, other.body[-1]),
+            new,
+            (branch.lineno, other.end_lineno or other.lineno),
+        )
 
     def _text(self, first: ast.AST, last: ast.AST) -> str:
         return self.module.source(first, last)
@@ -329,8 +334,12 @@ class _Function:
                 for new in self.kinds.constant(node):
                     yield "constant swapped", node, new
         elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
-            own = frozenset(one.arg for one in self.function.args.args)
-            stored = {one.id for one in ast.walk(self.function) if isinstance(one, ast.Name) and _stored(one)}
+            own = frozenset(argument.arg for argument in self.function.args.args)
+            stored = {
+                inner.id
+                for inner in ast.walk(self.function)
+                if isinstance(inner, ast.Name) and _stored(inner)
+            }
             for new in self.kinds.name(node.id, self.module.names | own | stored):
                 if new != self.function.name:  # it would never end
                     yield "constant swapped", node, new
@@ -340,10 +349,12 @@ class _Function:
 
     def _of_operands(self, node: ast.BoolOp) -> Iterator[Found]:
         both = isinstance(node.op, ast.And)
-        for one in node.values:
-            yield "conjunct dropped" if both else "disjunct dropped", one, "True" if both else "False"
-            yield from self._negated(one)
-        joined = (" or " if both else " and ").join(f"({self.module.source(one)})" for one in node.values)
+        for operand in node.values:
+            yield "conjunct dropped" if both else "disjunct dropped", operand, "True" if both else "False"
+            yield from self._negated(operand)
+        joined = (" or " if both else " and ").join(
+            f"({self.module.source(operand)})" for operand in node.values
+        )
         yield "and, or exchanged", node, f"({joined})"
 
     def _of_index(self, node: ast.Subscript) -> Iterator[Found]:
@@ -351,12 +362,12 @@ class _Function:
             base = ast.dump(node.value)
             used = sorted(
                 {
-                    one.slice.value
-                    for one in ast.walk(self.function)
-                    if isinstance(one, ast.Subscript)
-                    and isinstance(one.slice, ast.Constant)
-                    and isinstance(one.slice.value, int)
-                    and ast.dump(one.value) == base
+                    inner.slice.value
+                    for inner in ast.walk(self.function)
+                    if isinstance(inner, ast.Subscript)
+                    and isinstance(inner.slice, ast.Constant)
+                    and isinstance(inner.slice.value, int)
+                    and ast.dump(inner.value) == base
                 }
             )
             if len(used) > 1:
@@ -364,13 +375,17 @@ class _Function:
                 yield "constant swapped", node.slice, str(after)
 
     def _is_index(self, node: ast.Constant) -> bool:
-        return any(isinstance(one, ast.Subscript) and one.slice is node for one in ast.walk(self.function))
+        return any(
+            isinstance(inner, ast.Subscript) and inner.slice is node for inner in ast.walk(self.function)
+        )
 
     def _of_call(self, node: ast.Call) -> Iterator[Found]:
         """The fields of the state that a step builds."""
         if not isinstance(node.func, ast.Name) or node.func.id != self.rule.record:
             return
-        before = next((one.arg for one in self.function.args.args if _named(one, self.rule.record)), "")
+        before = next(
+            (argument.arg for argument in self.function.args.args if _named(argument, self.rule.record)), ""
+        )
         first = self._first_values()
         fields = self.module.classes.get(self.rule.record, ())
         for name, value in zip(fields, node.args, strict=False):

@@ -255,13 +255,13 @@ def _kinds(place: Path, document: str, device: Any) -> tuple[tuple[str, ...], ..
     for group in ("inputs", "outputs", "parameters"):
         for values in declared.get(group, {}).values():
             if isinstance(values, dict) and "values" in values:
-                kinds.append(tuple(str(one) for one in values["values"]))
+                kinds.append(tuple(str(entry) for entry in values["values"]))
     return tuple(kind for kind in kinds if len(kind) > 1)
 
 
 def _tables(source: str, data: dict[str, Any], key: str) -> list[dict[str, Any]]:
     tables = data.pop(key, [])
-    if not isinstance(tables, list) or not all(isinstance(one, dict) for one in tables):
+    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
         raise Unjudged(f"{source}: `{key}` must be a list of tables ([[{key}]])")
     return tables
 
@@ -290,7 +290,7 @@ def _text(at: str, values: Mapping[str, Any], key: str) -> str:
 
 def _names(at: str, values: Mapping[str, Any], key: str, required: bool = False) -> tuple[str, ...]:
     value = values.get(key, [])
-    if not isinstance(value, list) or not all(isinstance(one, str) and one for one in value):
+    if not isinstance(value, list) or not all(isinstance(name, str) and name for name in value):
         raise Unjudged(f"{at}: {key} must be a list of names")
     if required and not value:
         raise Unjudged(f"{at}: {key} is missing or empty")

@@ -50,7 +50,7 @@ def record_score(campaign: Campaign, judged: Sequence[Judged]) -> Score:
     missing = len(campaign.mutants) - len(judged)
     if missing:
         raise Unjudged(f"{judges.document}: {missing} mutants are not judged, so nothing is recorded")
-    counts = Counter(one.word.lower() for one in judged)
+    counts = Counter(judgement.word.lower() for judgement in judged)
     counts["survived_explained"] = counts["survived"] - len(unexplained(judges.explained, judged))
     score = Score(
         what=judges.what,

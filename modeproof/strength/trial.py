@@ -76,10 +76,10 @@ def _graph(tree: ParseTree, given: str) -> tuple[list[str], str, tuple[str, ...]
     kept: list[str] = []
     for line in _CHECKED.findall(given):
         keyword, *names = line.split()
-        for one in names:
-            definition = tree.find(one)
+        for name in names:
+            definition = tree.find(name)
             if definition is not None and _prints(definition):
-                kept.append(f"{keyword} {one}\n")
+                kept.append(f"{keyword} {name}\n")
     if not kept:
         raise Unjudged("nothing that the cfg of a graph checks prints anything")
     return [], "".join(kept), ()
@@ -151,15 +151,23 @@ def _of_instance(tree: ParseTree, definition: Definition, name: str) -> list[tup
             found.append((f'    TLCGet("level") > 1 \\/ {instance}!{part.operator}', ""))
             continue
         act = part.operands[0] if part.operator == "[]" else None
-        if act is None or act.operator != "$SquareAct" or any(one.kind != "defined" for one in act.operands):
+        if (
+            act is None
+            or act.operator != "$SquareAct"
+            or any(operand.kind != "defined" for operand in act.operands)
+        ):
             raise Unjudged(f"{definition.name}: a part of {name} is neither a name nor [][Name]_name")
-        action, view = (f"    {instance}!{one.operator}" for one in act.operands)
+        action, view = (f"    {instance}!{operand.operator}" for operand in act.operands)
         found.append((action, view))
     return found
 
 
 def _conjuncts(node: Node) -> list[Node]:
-    return [part for one in node.operands for part in _conjuncts(one)] if node.operator in AND else [node]
+    return (
+        [part for operand in node.operands for part in _conjuncts(operand)]
+        if node.operator in AND
+        else [node]
+    )
 
 
 def _in_place(tree: ParseTree, node: Node) -> str:

@@ -34,16 +34,16 @@ class Apart:
         """Whether every two states can be told apart."""
         return len(set(self.rounds[-1])) == len(self._next)
 
-    def sequence(self, one: int, other: int) -> tuple[int, ...] | None:
+    def sequence(self, state: int, other: int) -> tuple[int, ...] | None:
         """Columns after which the outputs differ; empty when they differ already, None when they never do."""
-        if self.rounds[-1][one] == self.rounds[-1][other]:
+        if self.rounds[-1][state] == self.rounds[-1][other]:
             return None
         found: list[int] = []
-        while self.rounds[0][one] == self.rounds[0][other]:
-            level = next(n for n, part in enumerate(self.rounds) if part[one] != part[other])
+        while self.rounds[0][state] == self.rounds[0][other]:
+            level = next(n for n, part in enumerate(self.rounds) if part[state] != part[other])
             finer = self.rounds[level - 1]
-            rows = zip(self._next[one], self._next[other], strict=True)
+            rows = zip(self._next[state], self._next[other], strict=True)
             column = next(c for c, (a, b) in enumerate(rows) if finer[a] != finer[b])
             found.append(column)
-            one, other = self._next[one][column], self._next[other][column]
+            state, other = self._next[state][column], self._next[other][column]
         return tuple(found)

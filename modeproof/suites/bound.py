@@ -25,8 +25,8 @@ def lower_bound(columns: Columns, initial: int) -> int:
     network: networkx.DiGraph[int] = networkx.DiGraph()
     for state, excess in supply.items():
         network.add_node(state, demand=-excess)
-    for (one, other), cost in arcs.items():
-        network.add_edge(one, other, weight=cost)
+    for (node, other), cost in arcs.items():
+        network.add_edge(node, other, weight=cost)
     extra, flow = networkx.network_simplex(network)
     prices = _prices(arcs, flow)
     proved = proved_by(prices, supply, arcs)
@@ -52,16 +52,16 @@ def problem(columns: Columns, initial: int) -> tuple[Counter[int], Arcs]:
 
 def _prices(arcs: Arcs, flow: dict[int, dict[int, int]]) -> dict[int, int]:
     """Distances in the residual network from a source that reaches all (Bellman and Ford)."""
-    costs = {(one, other): cost for (one, other), cost in arcs.items()}
-    for (one, other), cost in arcs.items():
-        if flow[one].get(other, 0) > 0:
-            costs[other, one] = min(-cost, costs.get((other, one), -cost))
+    costs = {(node, other): cost for (node, other), cost in arcs.items()}
+    for (node, other), cost in arcs.items():
+        if flow[node].get(other, 0) > 0:
+            costs[other, node] = min(-cost, costs.get((other, node), -cost))
     prices = dict.fromkeys((state for arc in arcs for state in arc), 0)
     for _ in prices:
         changed = False
-        for (one, other), cost in costs.items():
-            if prices[one] + cost < prices[other]:
-                prices[other] = prices[one] + cost
+        for (node, other), cost in costs.items():
+            if prices[node] + cost < prices[other]:
+                prices[other] = prices[node] + cost
                 changed = True
         if not changed:
             return prices
@@ -73,7 +73,7 @@ def proved_by(prices: dict[int, int], supply: Counter[int], arcs: Arcs) -> int:
 
     Raises Unjudged when an arc gains more than it costs.
     """
-    for (one, other), cost in arcs.items():
-        if prices[other] - prices[one] > cost:
-            raise Unjudged(f"the lower bound is not proved: the prices break the arc {one} to {other}")
+    for (node, other), cost in arcs.items():
+        if prices[other] - prices[node] > cost:
+            raise Unjudged(f"the lower bound is not proved: the prices break the arc {node} to {other}")
     return sum(-prices[state] * excess for state, excess in supply.items())

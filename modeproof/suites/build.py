@@ -137,9 +137,9 @@ def step_citations(
         return lambda step: ((), ())
     module = registers.interface.devices[target].module
     table = {
-        one.name: (one.clauses, one.findings)
-        for one in found
-        if one.kind == "definition" and one.room == "spec"
+        citation.name: (citation.clauses, citation.findings)
+        for citation in found
+        if citation.kind == "definition" and citation.room == "spec"
     }
     return lambda step: table.get(f"{module}!{step}", ((), ()))
 
@@ -151,7 +151,7 @@ def document_texts(place: Path, document: str) -> dict[str, str]:
     except Unjudged:
         return {}
     texts = {clause.id: clause.text for clause in registers.clauses}
-    return texts | {one.id: f"{one.title}: {one.decision}" for one in registers.findings}
+    return texts | {finding.id: f"{finding.title}: {finding.decision}" for finding in registers.findings}
 
 
 def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:

@@ -50,7 +50,7 @@ def _program(args: argparse.Namespace) -> int:
     place = root()
     document, device = find_target(place, args.target, args.document)
     if not device.published and args.builtin is None:
-        raise Unjudged(f"{args.target} is no published target: nobody builds one; --builtin compares ours")
+        raise Unjudged(f"{args.target} is not a published target; --builtin compares our own code")
     if args.vectors is not None:
         suites = [kit_command.open_vectors(args)]
     else:
@@ -107,7 +107,7 @@ def chosen_suites(names: list[str] | None, relation: str) -> list[str]:
         return [name for name, kind in SUITES.items() if SETTLED in kind.relations]
     chosen: list[str] = []
     for name in names:
-        every = [one for one, kind in SUITES.items() if kind.fast and relation in kind.relations]
+        every = [suite for suite, kind in SUITES.items() if kind.fast and relation in kind.relations]
         chosen += every if name == kit_command.FAST else [name]
     return list(dict.fromkeys(chosen))
 
@@ -128,14 +128,14 @@ def _builtin(args: argparse.Namespace) -> int:
     found: list[tuple[Run, Comparison]] = []
     with only_one(place):
         make_graphs(place, runs, args.quiet)
-        for one in runs:
+        for kit_run in runs:
             codes = args.codes or args.builtin == REFERENCE  # of our own code every output
-            found.append((one, _compare(place, one, code, args.builtin, progress, codes)))
-    for one, result in found:
-        print(_text(one, result))
+            found.append((kit_run, _compare(place, kit_run, code, args.builtin, progress, codes)))
+    for kit_run, result in found:
+        print(_text(kit_run, result))
     status = max(0 if result.equal else 1 for _, result in found)
     if args.json is not None:
-        rows = [{"run": one.id, "verdict": result.verdict, **asdict(result)} for one, result in found]
+        rows = [{"run": kit_run.id, "verdict": result.verdict, **asdict(result)} for kit_run, result in found]
         write_json(args.json, {"command": "conform", "status": status, "builtin": args.builtin, "runs": rows})
     return status
 

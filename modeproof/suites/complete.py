@@ -91,8 +91,8 @@ class _Reasoning:
                 if known != outputs:
                     self.problems.append("two cases begin alike and expect different outputs")
                     return False
-        first = {0: 0}  # cases are followed from power-up, so that stands for its own state
-        for node, state in hints.items():  # where most is tried
+        first = {0: 0}  # cases are followed from power-up, so power-up represents its state
+        for node, state in hints.items():  # the node with the most columns represents a state
             if state and len(self.children[node]) > len(self.children[first.setdefault(state, node)]):
                 first[state] = node
         self.chosen = [first.get(state, -1) for state in range(self.states)]
@@ -103,15 +103,15 @@ class _Reasoning:
         return True
 
     def _all_apart(self) -> bool:
-        for one in range(self.states):
-            for other in range(one):
-                if not self._apart(self.chosen[one], self.chosen[other]):
-                    self.problems.append(f"no case tells the states {other} and {one} apart")
+        for state in range(self.states):
+            for other in range(state):
+                if not self._apart(self.chosen[state], self.chosen[other]):
+                    self.problems.append(f"no case tells the states {other} and {state} apart")
                     return False
         return True
 
-    def _apart(self, one: int, other: int) -> bool:
-        mine, theirs = self.children[one], self.children[other]
+    def _apart(self, state: int, other: int) -> bool:
+        mine, theirs = self.children[state], self.children[other]
         common = [column for column in mine if column in theirs]
         return any(mine[c][0] != theirs[c][0] for c in common) or any(
             self._apart(mine[c][1], theirs[c][1]) for c in common
@@ -146,7 +146,7 @@ class _Reasoning:
                 mine[column] = (outputs, child)
 
     def _join(self, node: int, other: int) -> None:
-        """Two nodes are in one state, not known yet: what the tree shows at one holds at the other."""
+        """Two nodes are in the same unknown state, so what the tree shows at one holds at the other."""
         mine = self.children[node]
         for column, (outputs, child) in self.children[other].items():
             if column not in mine:
@@ -233,7 +233,7 @@ class _Reasoning:
                 queue.extend(self._resolve(state, column, self.waiting[state, column]))
 
     def _along(self, track: Track, at: int, state: int) -> tuple[int, int] | None:
-        """From a known state on; where the case stops being known, and in which state, or None at its end."""
+        """Follow a case from a known state. Returns where its state stops being known, or None at its end."""
         for n in range(at, len(track.columns)):
             column = track.columns[n]
             self._answers_once(state, column, track.outputs[n])
@@ -248,7 +248,7 @@ class _Reasoning:
             self._answers(state, column, outputs)
 
     def _resolve(self, state: int, column: int, seen: list[tuple[int, int]]) -> list[tuple[int, int, int]]:
-        """Rule out states by what follows; when one is left, the cases that can be followed further."""
+        """Rule out states by what follows. When a single state is left, return the cases that can go on."""
         left = self.left.get((state, column), self.every)
         for n, at in seen:
             left = self._still(left, self.tracks[n], at + 1)

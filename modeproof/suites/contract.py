@@ -62,11 +62,11 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
         _only(rule, _RULE, f"{where}: rule {rule.get('name')!r}")
         rules.append({"kind": "value", **rule})
     properties = []
-    for one in row.get("property", []):
-        _only(one, _PROPERTY, f"{where}: property {one.get('id')!r}")
-        if one.get("id") not in clauses:
-            raise Unjudged(f"{where}: property {one.get('id')!r} is none of properties.toml")
-        properties.append({**one, "clauses": clauses[one["id"]]})
+    for entry in row.get("property", []):
+        _only(entry, _PROPERTY, f"{where}: property {entry.get('id')!r}")
+        if entry.get("id") not in clauses:
+            raise Unjudged(f"{where}: property {entry.get('id')!r} is not in properties.toml")
+        properties.append({**entry, "clauses": clauses[entry["id"]]})
     table = {"constants": row.get("constants", {}), "rules": rules, "properties": properties}
     try:
         inputs, outputs = (

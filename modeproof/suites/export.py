@@ -16,7 +16,7 @@ def as_csv(suite: Suite, case: Case) -> str:
     Raises Unjudged for a case with requests to be refused: they are messages, not scans.
     """
     if case.requests:
-        raise Unjudged(f"{case.id}: holds a request that must be refused, which no trace can show")
+        raise Unjudged(f"{case.id}: holds a request that must be refused; a trace cannot show it")
     stream = io.StringIO()
     table = csv.writer(stream, lineterminator="\n")
     table.writerow(["time_ms", *suite.inputs, *suite.outputs])

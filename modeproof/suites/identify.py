@@ -1,4 +1,4 @@
-"""Which state is this? Sequences of inputs whose outputs only one state of a graph answers.
+"""Finds sequences of inputs that identify a state of a graph by the outputs.
 
 Everything here reads a graph as a program is seen from outside: a scan goes in, outputs come out. What a
 state shows of itself before the next scan counts for nothing, so that a program is covered whose outputs
@@ -45,12 +45,12 @@ class Machine:
             state = self.next_of[state][column]
         return state
 
-    def apart_at(self, one: int, other: int, word: Sequence[int]) -> int:
+    def apart_at(self, state: int, other: int, word: Sequence[int]) -> int:
         """After how many columns of `word` the outputs of two states differ; 0 when they never do."""
         for length, column in enumerate(word, 1):
-            if self.out_of[one][column] != self.out_of[other][column]:
+            if self.out_of[state][column] != self.out_of[other][column]:
                 return length
-            one, other = self.next_of[one][column], self.next_of[other][column]
+            state, other = self.next_of[state][column], self.next_of[other][column]
         return 0
 
     @cached_property
@@ -70,7 +70,7 @@ class Machine:
 def machine(columns: Columns, rows: Sequence[Hashable], initial: int) -> Machine:
     """Read a graph from outside; `rows` are the outputs of its states."""
     numbers: dict[Hashable, int] = {}
-    row = [numbers.setdefault(one, len(numbers)) for one in rows]
+    row = [numbers.setdefault(outputs, len(numbers)) for outputs in rows]
     every = range(len(columns.members))
     classes = _classes(columns.next_of, row, every, [0] * len(row))
     first: dict[int, int] = {classes[initial]: 0}
@@ -81,9 +81,11 @@ def machine(columns: Columns, rows: Sequence[Hashable], initial: int) -> Machine
                 first[classes[after]] = len(members)
                 members.append(after)
     return Machine(
-        number_of=tuple(first[one] for one in classes),
-        next_of=tuple(tuple(first[classes[after]] for after in columns.next_of[one]) for one in members),
-        out_of=tuple(tuple(row[after] for after in columns.next_of[one]) for one in members),
+        number_of=tuple(first[number] for number in classes),
+        next_of=tuple(
+            tuple(first[classes[after]] for after in columns.next_of[member]) for member in members
+        ),
+        out_of=tuple(tuple(row[after] for after in columns.next_of[member]) for member in members),
     )
 
 
@@ -167,10 +169,10 @@ class Identifiers:
 
     def _pool(self) -> Iterator[Word]:
         """Every sequence of one or two chosen columns."""
-        for one in self.chosen:
-            yield (one,)
+        for column in self.chosen:
+            yield (column,)
             for other in self.chosen:
-                yield (one, other)
+                yield (column, other)
 
     def _answers(self, word: Word) -> tuple[list[int], dict[int, int]]:
         """For each state the number of its answer to the word, and for each answer the set of its states."""
@@ -207,10 +209,10 @@ class Identifiers:
         return None
 
 
-def between(of: Machine, chosen: Sequence[int], one: int, other: int) -> Word:
+def between(of: Machine, chosen: Sequence[int], state: int, other: int) -> Word:
     """A shortest sequence of chosen columns that tells two states apart. Raises Unjudged where none does."""
-    queue: deque[tuple[int, int, Word]] = deque([(one, other, ())])
-    seen = {(one, other)}
+    queue: deque[tuple[int, int, Word]] = deque([(state, other, ())])
+    seen = {(state, other)}
     while queue:
         a, b, word = queue.popleft()
         for column in chosen:

@@ -113,7 +113,7 @@ class _Tracks:
         for scan in case.scans:
             if scan.outputs != before:
                 before = scan.outputs
-                seen = [one for one in scan.outputs.items() if one[0] not in self._codes]
+                seen = [output for output in scan.outputs.items() if output[0] not in self._codes]
                 text = repr(sorted(seen))
                 number = self._numbers.setdefault(text, len(self._numbers))
             track.add(scan.column, number, number_of[scan.to])

@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
             f"parameters without address: {', '.join(left) or 'none'}"
         )
         return EXIT_AS_EXPECTED
-    tags = {name: one.tag for table in (device.inputs, device.outputs) for name, one in table.items()}
+    tags = {name: signal.tag for table in (device.inputs, device.outputs) for name, signal in table.items()}
     text = proposed_map(inputs, outputs, parameters, tags)
     if args.out is not None:
         write_whole(args.out, text.encode("utf-8"))

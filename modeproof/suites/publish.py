@@ -55,7 +55,7 @@ def publish(place: Path, targets: Mapping[str, str]) -> Published:
     return Published(tuple(written), tuple(kept), tuple(removed))
 
 
-def _same(one: Path, other: Path) -> bool:
-    if one.name == SCHEMA:
-        return one.read_bytes() == other.read_bytes()
-    return list(read_lines(one)) == list(read_lines(other))
+def _same(path: Path, other: Path) -> bool:
+    if path.name == SCHEMA:
+        return path.read_bytes() == other.read_bytes()
+    return list(read_lines(path)) == list(read_lines(other))

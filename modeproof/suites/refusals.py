@@ -70,11 +70,13 @@ def _adapter(
     faults = len(list(_faults(device, first)))
     for n in range(faults):
         control, way, letter, following = chances[n % len(chances)]
-        why, request = next(one for k, one in enumerate(_faults(device, _message(device, letter))) if k == n)
+        why, request = next(
+            fault for k, fault in enumerate(_faults(device, _message(device, letter))) if k == n
+        )
         shots = [
-            *(Shot(one) for one in way),
+            *(Shot(letter_before) for letter_before in way),
             Shot(refuse=request),
-            *(Shot(one) for one in following or (letter,)),
+            *(Shot(letter_after) for letter_after in following or (letter,)),
         ]
         yield Script(f"refused, and without effect, in {control}: {why}", shots, judges="adapter")
 
@@ -142,11 +144,13 @@ def wrong_values(signal: Signal, modes: tuple[int, ...]) -> list[Any]:
 def _program(device: DeviceGraph, nearest: list[tuple[str, int, tuple[int, ...]]]) -> Iterator[Script]:
     graph = device.graph
     for control, state, way in nearest:
-        for one in device.classes:
+        for input_class in device.classes:
             letters = [
-                n for n, have in enumerate(device.alphabet) if one.representative.items() <= have.items()
+                n
+                for n, have in enumerate(device.alphabet)
+                if input_class.representative.items() <= have.items()
             ]
-            members = one.members[:: max(1, len(one.members) // MEMBERS)][:MEMBERS]
+            members = input_class.members[:: max(1, len(input_class.members) // MEMBERS)][:MEMBERS]
             for n, member in enumerate(members):
                 letter = letters[n * 7 % len(letters)]
                 step = graph.steps[graph.step_of[state][letter]]

@@ -37,7 +37,7 @@ class Rows:
             if shot.letter not in self._in:
                 self._in[shot.letter] = _pieces(device.wire_inputs(values))
             now_in = self._in[shot.letter]
-        key = (state, *[values[one] for one in device.passed.values()])
+        key = (state, *[values[name] for name in device.passed.values()])
         if key not in self._out:
             self._out[key] = _pieces(device.wire_outputs(device.expected(state, values)))
         return now_in, self._out[key]

@@ -191,8 +191,8 @@ class _Declared:
         found = _WHEN.fullmatch(when)
         if found is None:
             raise Unjudged(f"{self.where}: when = {when!r}: two names and a comparison expected")
-        one, compare, other = found.groups()
-        return _COMPARE[compare](self._number(one, names), self._number(other, names))
+        name, compare, other = found.groups()
+        return _COMPARE[compare](self._number(name, names), self._number(other, names))
 
     def _number(self, text: str, names: Names) -> int:
         if text in names:
@@ -247,10 +247,10 @@ class _Declared:
         found: dict[str, Any] = {}
         for name, value in given.items():
             if name in self.groups:
-                chosen = {self._entry(where, one, names) for one in value}
+                chosen = {self._entry(where, member, names) for member in value}
                 if chosen - set(self.groups[name]):
                     raise Unjudged(f"{where}: {sorted(chosen)} are not all in the group {name}")
-                found.update({one: one in chosen for one in self.groups[name]})
+                found.update({member: member in chosen for member in self.groups[name]})
             elif name in inputs:
                 entry = self._entry(where, value, names)
                 found[name] = int(entry, 16) if inputs[name].type == "word" else entry

@@ -86,7 +86,7 @@ class _Search:
 
     def run(self) -> None:
         """Search all nodes; `found` holds for each transition the event that takes it first."""
-        first = next(n for n, one in enumerate(self.device.alphabet) if one["dt_ms"] == self.least)
+        first = next(n for n, inputs in enumerate(self.device.alphabet) if inputs["dt_ms"] == self.least)
         start = (self.graph.initial, first)
         queue = [] if self._go(start, first, first, None) is None else list(self.parent)
         for node in queue:
@@ -138,7 +138,7 @@ class _Search:
                 path.append(after)
             cycle = path[at[after] :]
             rows = self.device.rows
-            if any(rows[one] != rows[cycle[0]] for one in cycle):
+            if any(rows[node] != rows[cycle[0]] for node in cycle):
                 self.settled[key] = None
             else:
                 path = path[: at[after] + 1]
@@ -155,8 +155,8 @@ class _Search:
         for triple in order:
             if triple in left:
                 script, taken = self._script(triple, left[triple])
-                for one in taken:
-                    left.pop(one, None)
+                for transition in taken:
+                    left.pop(transition, None)
                 yield script
 
     def _script(self, triple: Triple, event: _Event) -> tuple[Script, set[Triple]]:
@@ -164,16 +164,16 @@ class _Search:
         while chain[-1] is not self.first:
             chain.append(self.parent[chain[-1].before])
         walk = _Walk(self.graph.initial)
-        for one in reversed(chain):
-            if one is not self.first:
-                target = one.letter if one.letter in self.neighbours[one.before[1]] else one.before[1]
-                *inner, last = self.inputs.way(walk.pattern, one.before[1], target)
+        for step in reversed(chain):
+            if step is not self.first:
+                target = step.letter if step.letter in self.neighbours[step.before[1]] else step.before[1]
+                *inner, last = self.inputs.way(walk.pattern, step.before[1], target)
                 for pattern in inner:
-                    self._take(walk, one.before[1], one.before[1], pattern)
+                    self._take(walk, step.before[1], step.before[1], pattern)
                 walk.pattern = last
             else:
-                walk.pattern = self.inputs.own(one.letter)
-            self._take(walk, one.letter, one.to[1], walk.pattern)
+                walk.pattern = self.inputs.own(step.letter)
+            self._take(walk, step.letter, step.to[1], walk.pattern)
         if triple not in walk.taken:
             raise Unjudged(f"{self.device.name}: a case of the suite sic does not take what it must")
         control = control_state(self.device, triple[0])
@@ -210,14 +210,14 @@ class _Inputs:
 
     def __init__(self, device: DeviceGraph) -> None:
         self.device, self.alphabet = device, Alphabet(device)
-        classes = [one for one in device.classes if len(one.representative) > 1]
-        self.fields = tuple(sorted({name for one in classes for name in one.representative}))
+        classes = [input_class for input_class in device.classes if len(input_class.representative) > 1]
+        self.fields = tuple(sorted({name for input_class in classes for name in input_class.representative}))
         letters = {self.own(n) for n in range(len(device.alphabet))}
-        self._of: dict[Pattern, Pattern] = {one: one for one in letters}
-        for one in classes:
-            if set(one.representative) == set(self.fields):
-                stands = self._pattern(one.representative)
-                for member in one.members:
+        self._of: dict[Pattern, Pattern] = {pattern: pattern for pattern in letters}
+        for input_class in classes:
+            if set(input_class.representative) == set(self.fields):
+                stands = self._pattern(input_class.representative)
+                for member in input_class.members:
                     self._of.setdefault(self._pattern(member), stands)
 
     def own(self, letter: int) -> Pattern:
@@ -245,7 +245,7 @@ class _Inputs:
                 if other is not None and value != have[name]:
                     found[other] = None
         mine = self.own(letter)
-        for pattern in [one for one, stands in self._of.items() if stands == mine]:
+        for pattern in [known for known, stands in self._of.items() if stands == mine]:
             for flipped in self._flips(pattern):
                 fields = dict(zip(self.fields, self._of[flipped], strict=True))
                 other = self.alphabet.changed(letter, **fields)
@@ -261,7 +261,7 @@ class _Inputs:
         """The letters of the same inputs with more time."""
         times = [time for time in self._values("dt_ms") if time > least]
         found = [self.alphabet.changed(letter, dt_ms=time) for time in sorted(times)]
-        return tuple(one for one in found if one is not None)
+        return tuple(changed for changed in found if changed is not None)
 
     def way(self, pattern: Pattern, held: int, letter: int) -> list[Pattern]:
         """Patterns one flip apart, within what `held` stands for, to one that `letter` stands for."""
@@ -270,11 +270,11 @@ class _Inputs:
             return [pattern]
         before: dict[Pattern, Pattern] = {pattern: pattern}
         queue = [pattern]
-        for one in queue:
-            for flipped in self._flips(one):
+        for reached in queue:
+            for flipped in self._flips(reached):
                 if flipped in before or self._of[flipped] not in (mine, goal):
                     continue
-                before[flipped] = one
+                before[flipped] = reached
                 if self._of[flipped] == goal:
                     way = [flipped]
                     while (back := before[way[-1]]) != pattern:

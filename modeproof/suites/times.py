@@ -75,7 +75,7 @@ class _Search:
                     yield from self._pieces(time_ms, before)
 
     def _pieces(self, time_ms: int, before_ms: int) -> Iterator[Script]:
-        """Cases for one time; nothing may happen in `before_ms` (0: nothing can)."""
+        """The cases for one time. Nothing may happen in `before_ms`; with 0 there is no earlier time."""
         alphabet = Alphabet(self.device)
         pairs = [
             (n, later)

@@ -43,16 +43,16 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         ("lint", "check files against the schema, and what they say of themselves"),
         ("stats", "cases, scans and transitions of each file; of tours also the lower bound"),
     ):
-        one = actions.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
-        one.add_argument("targets", nargs="*", metavar="TARGET", help="only these targets (default: all)")
-        one.add_argument(
+        action = actions.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".")
+        action.add_argument("targets", nargs="*", metavar="TARGET", help="only these targets (default: all)")
+        action.add_argument(
             "--suite", action="append", choices=list(SUITES), help="only this suite (may be repeated)"
         )
         if name == "build":
-            one.add_argument("--anew", action="store_true", help="also what is up to date")
+            action.add_argument("--anew", action="store_true", help="also what is up to date")
         if name == "stats":
-            one.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON as well")
-        one.set_defaults(run=run)
+            action.add_argument("--json", type=Path, metavar="FILE", help="write the figures as JSON as well")
+        action.set_defaults(run=run)
     packer = actions.add_parser(
         "pack",
         help="write build/modeproof-kit.pyz: the kit with its vectors, for any Python",
@@ -149,7 +149,7 @@ def _publish(place: Path, args: argparse.Namespace) -> int:
 
 
 def _digest(path: Path) -> str:
-    """The hash of what is in the file: what packs it may pack otherwise on another machine."""
+    """The hash of the unpacked file, because another machine may compress it differently."""
     content = hashlib.sha256()
     for line in read_lines(path):
         content.update(line)
@@ -216,7 +216,7 @@ def _not_so(steps: Mapping[str, str]) -> str:
     if not steps:
         return "every transition by single changes of inputs"
     counts = [[int(part) for part in text.split(" of ")] for text in steps.values()]
-    missed, of_all = (sum(one[n] for one in counts) for n in (0, 1))
+    missed, of_all = (sum(count[n] for count in counts) for n in (0, 1))
     return (
         f"{missed:,} of {of_all:,} transitions of {len(counts)} steps not reached by single changes of inputs"
     )

@@ -20,7 +20,7 @@ TELLING = "ends each new transition with inputs that tell the state it led to fr
 
 
 def covering(wanted: Callable[[Columns], list[list[int]]], bounded: bool = False) -> Plan:
-    """A suite that takes the `wanted` columns of every state; bounded: it states what that costs at least."""
+    """A suite that takes the `wanted` columns of every state. `bounded`: it states the least cost of that."""
 
     def plan(device: DeviceGraph, columns: Columns) -> Scripts:
         initial, chosen = device.graph.initial, wanted(columns)

@@ -53,14 +53,14 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
 def _wrong_words(
     device: DeviceGraph, columns: Columns, counts: dict[str, dict[str, dict[str, int]]]
 ) -> Iterator[Script]:
-    classes = [one for one in device.classes if _of_words(device, one)]
+    classes = [input_class for input_class in device.classes if _of_words(device, input_class)]
     if not classes:
         return
     apart = Apart(columns, device.seen)
     ways = ways_from_power_up(device)
     graph = device.graph
-    for one in classes:
-        ((field, representative),) = one.representative.items()
+    for input_class in classes:
+        ((field, representative),) = input_class.representative.items()
         named = sorted({letter[field] for letter in device.alphabet} - {representative})
         places = _places(device, field, representative, named, apart, ways)
         for code in named:
@@ -93,9 +93,9 @@ def _wrong_words(
                     )
 
 
-def _of_words(device: DeviceGraph, one: InputClass) -> bool:
-    return len(one.representative) == 1 and all(
-        device.device.inputs[field].type == "word" for field in one.representative
+def _of_words(device: DeviceGraph, input_class: InputClass) -> bool:
+    return len(input_class.representative) == 1 and all(
+        device.device.inputs[field].type == "word" for field in input_class.representative
     )
 
 
@@ -165,14 +165,14 @@ def _passed_words(device: DeviceGraph, counts: dict[str, dict[str, dict[str, int
         return
     for field in copied.fields:
         counts[field] = {"every": {"copied": len(_passed(copied))}}
-    for one, other in _passed(copied):
+    for word, other in _passed(copied):
         shots = []
         for turn in range(len(copied.fields) + 1):
             letter = _turned(device, copied, turn)
             shots += [Shot(letter)] * len(copied.fields)
-        names: Mapping[int, int] = dict(zip(copied.words, (one, other), strict=True))
+        names: Mapping[int, int] = dict(zip(copied.words, (word, other), strict=True))
         yield Script(
-            why=f"the words {one:04X} and {other:04X} pass through every field unchanged",
+            why=f"the words {word:04X} and {other:04X} pass through every field unchanged",
             shots=shots,
             renamed=names,
         )
@@ -183,7 +183,7 @@ def _passed(copied: Copied) -> list[tuple[int, int]]:
     pairs = [(1 << bit, WORD ^ (1 << bit)) for bit in range(16)]
     pairs += [(code, code ^ (1 << bit)) for code in copied.codes for bit in range(16)]
     pairs += [(value << 8 | (value ^ 0xFF), value) for value in range(1, 256)]
-    return [(one, other) for one, other in dict.fromkeys(pairs) if one != other and 0 not in (one, other)]
+    return [(word, other) for word, other in dict.fromkeys(pairs) if word != other and 0 not in (word, other)]
 
 
 def _turned(device: DeviceGraph, copied: Copied, turn: int) -> int:

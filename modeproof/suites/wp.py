@@ -106,7 +106,7 @@ class _Build:
                     yield (*way, column, *word)
 
     def _answers(self, state: int) -> set[Word]:
-        """Its own sequences, and of those of each other state what tells that one from it."""
+        """Its own sequences, and those sequences of each other state that tell the two apart."""
         of = self.of
         found = {word[:n] for word in self.identify[state] for n in range(1, len(word) + 1)}
         for sequences in self.by_number:
@@ -154,7 +154,11 @@ class _Build:
         cases = walk.cases
         turn = 1
         while order:
-            order = [one for one in order if len(self.identify[self.of.next_of[one[0]][one[1]]]) > turn]
+            order = [
+                transition
+                for transition in order
+                if len(self.identify[self.of.next_of[transition[0]][transition[1]]]) > turn
+            ]
             walk = _Walk(self)
             for state, column in order:
                 walk.go_to(state)
@@ -255,7 +259,7 @@ class _Walk:
 
 
 def _longest(found: Iterator[Word]) -> list[Word]:
-    """Without those that are the beginning of another one."""
+    """The words without those that are the beginning of another word."""
     every = sorted(set(found))
     return [
         word

@@ -83,7 +83,7 @@ def write_suite(
     """
     if suite not in SUITES:
         raise Unjudged(f"no suite {suite!r}; there are: {', '.join(SUITES)}")
-    if not devices or len({(one.document, one.device.id) for one in devices}) != 1:
+    if not devices or len({(device.document, device.device.id) for device in devices}) != 1:
         raise Unjudged("a suite is built from the graphs of one target")
     writer = _Writer(suite, devices, citations)
     for number, device in enumerate(devices):
@@ -177,7 +177,7 @@ class _Writer:
         params = dict(device.params) if script.reset else {}
         id = id_of_text(device.device.id, params, ",".join(going_in))
         if id in self.ids or (not script.reset and self.cases):
-            return  # before any reset is only the first case of all
+            return  # only the first case of all stands before any reset
         self.ids.add(id)
         case = {
             "id": id,
@@ -216,7 +216,7 @@ class _Writer:
         device = self.device.device
         modes = list(self.device.forms.modes)
         kind = self.kind
-        relations = [one for one in kind.relations if one != MONITOR or contract]
+        relations = [relation for relation in kind.relations if relation != MONITOR or contract]
         return {
             "kind": KIND,
             "version": VERSION,
@@ -284,8 +284,8 @@ def _codes(names: Sequence[str]) -> str:
 def _cited_texts(header: Mapping[str, Any], texts: Mapping[str, str]) -> dict[str, str]:
     """What is said of everything that the steps and the contract cite."""
     cited = {id for step in header["steps"] for id in (*step["clauses"], *step["findings"])}
-    for one in header.get("contract", {}).get("properties", []):
-        cited.update(one["clauses"])
+    for row in header.get("contract", {}).get("properties", []):
+        cited.update(row["clauses"])
     return {id: texts[id] for id in sorted(cited) if id in texts}
 
 
@@ -297,7 +297,7 @@ def _write_lines(path: Path, lines: Sequence[str]) -> None:
     content = "".join(lines).encode()
     if path.suffix == PACKED:
         held = io.BytesIO()
-        # No name, date or system (gzip.compress names the system): the same lines, the same bytes anywhere.
+        # No name, date or system (gzip.compress names the system), so the same lines give the same bytes.
         with gzip.GzipFile("", "wb", PACKING, held, mtime=0) as packed:
             packed.write(content)
         content = held.getvalue()

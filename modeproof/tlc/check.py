@@ -105,7 +105,7 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
         for run in runs
         if not run.properties and run.kind != "WIT"
     ]
-    for run in (one for one in runs if one.base):
+    for run in (based for based in runs if based.base):
         try:
             module_text(place, run)
         except Unjudged as error:

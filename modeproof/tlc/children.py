@@ -1,4 +1,4 @@
-"""The processes that we start: each in a group of its own, and none outlives us, whatever ends us.
+"""Starts processes, each in a group of its own. They all end when we end, however we end.
 
 Ctrl-C, SIGTERM and every exception pass through `stop_all`. Against SIGKILL, which no program can catch, a
 watcher holds the reading end of a pipe of which only we hold the other: when that is closed, it kills what is
@@ -37,7 +37,7 @@ _pipe: int | None = None
 
 
 def _tell(word: str, group: int) -> None:
-    """Tell the watcher, started when first needed. Without one we go on: it is a second net."""
+    """Tell the watcher, and start it if needed. It is a second safeguard, so we go on without it."""
     with contextlib.suppress(OSError):
         if _watcher is None or _watcher.poll() is not None:
             _start_watcher()

@@ -81,10 +81,12 @@ def run(args: argparse.Namespace) -> int:
         again = [run for run in runs if run.name not in still]
         done = list(still.values())
         if again:
-            done += check_all(place, again, tools, progress, lambda one: progress.say(line_of(one)), spread)
-        for one in done if not args.repin or args.trace else ():
-            _show_trace(one, args)
-        status: int = max(one.status for one in done)
+            done += check_all(
+                place, again, tools, progress, lambda checked: progress.say(line_of(checked)), spread
+            )
+        for checked in done if not args.repin or args.trace else ():
+            _show_trace(checked, args)
+        status: int = max(checked.status for checked in done)
         problems: list[str] = []
         for document in sorted({run.document for run in runs}):
             problems += [f"{document}: {problem}" for problem in register_problems(place, document)]
@@ -95,9 +97,9 @@ def run(args: argparse.Namespace) -> int:
         if args.repin:
             status = _repin(place, done, args.reason)
     if len(done) > 1 and not args.repin:
-        good = sum(1 for one in done if one.status == 0)
+        good = sum(1 for checked in done if checked.status == 0)
         print(f"{good} of {len(done)} runs as expected")
-    write_json(args, status, runs=[one.record for one in done], problems=problems)
+    write_json(args, status, runs=[checked.record for checked in done], problems=problems)
     return status
 
 
@@ -148,31 +150,31 @@ def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[
     return found
 
 
-def _show_trace(one: Any, args: argparse.Namespace) -> None:
-    if one.outcome is not None and not one.judgement.judged:
-        for _, text in one.outcome.log.errors[:4]:
+def _show_trace(checked: Any, args: argparse.Namespace) -> None:
+    if checked.outcome is not None and not checked.judgement.judged:
+        for _, text in checked.outcome.log.errors[:4]:
             print("\n".join(f"    {line}" for line in essence(text)[:12]))
-    if one.outcome is None or not one.outcome.log.trace:
+    if checked.outcome is None or not checked.outcome.log.trace:
         return
-    if one.judgement.as_expected and not args.trace:
+    if checked.judgement.as_expected and not args.trace:
         return
     print(
-        f"counterexample of {one.run.name}"
-        + (f" ({one.judgement.violated})" if one.judgement.violated else "")
+        f"counterexample of {checked.run.name}"
+        + (f" ({checked.judgement.violated})" if checked.judgement.violated else "")
     )
-    print(format_trace(one.outcome.log.trace, one.outcome.log.loop, args.all_variables))
+    print(format_trace(checked.outcome.log.trace, checked.outcome.log.loop, args.all_variables))
 
 
 def _repin(place: Path, done: list[Any], given: str | None) -> int:
     changes: dict[str, dict[str, tuple[Move, ...]]] = {}
-    for one in done:
-        moved = moves(place, one)
-        print(f"{one.run.name}:" + ("" if moved else " pins stay as they are"))
+    for checked in done:
+        moved = moves(place, checked)
+        print(f"{checked.run.name}:" + ("" if moved else " pins stay as they are"))
         for move in moved:
             print(f"  {move}")
         if moved:
-            print("  " + cfg_diff(place, one).replace("\n", "\n  "))
-            changes.setdefault(one.run.document, {})[one.run.id] = moved
+            print("  " + cfg_diff(place, checked).replace("\n", "\n  "))
+            changes.setdefault(checked.run.document, {})[checked.run.id] = moved
     if not changes:
         return 0
     reason = ask_reason(given)

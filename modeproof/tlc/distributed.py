@@ -371,7 +371,7 @@ class _Session:
         log = self.room / "worker1.log"
         lines = log.read_text("utf-8", "replace").splitlines() if log.is_file() else []
         said = [line.strip() for line in lines if "Error" in line or "Exception" in line]
-        kept = [line for line in said if "UnicastRef port" not in line]  # that one, any Java of today says
+        kept = [line for line in said if "UnicastRef port" not in line]  # every current Java says that
         return f": {kept[0][:200]}" if kept else ""
 
     def _end_workers(self, grace_s: float) -> None:
@@ -390,8 +390,10 @@ class _Session:
         log.version = self._first.version
         log.initial = self._first.counts.generated if self._first.counts is not None else None
         log.files = [path for path in files if Path(path).name in self._parsed()]
-        if self._lost:  # a connection that broke is what `lost` counts; it is no error of the model
-            log.errors = [one for one in log.errors if not (one[0] == GENERAL and "java.rmi." in one[1])]
+        if self._lost:  # `lost` counts broken connections; they are no error of the model
+            log.errors = [
+                error for error in log.errors if not (error[0] == GENERAL and "java.rmi." in error[1])
+            ]
         if log.counts is not None and log.final and log.success:
             # The server adds, for each block of states: successors - 1; and the distinct states once.
             successors = log.counts.generated - log.counts.distinct + self._blocks

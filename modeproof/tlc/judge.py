@@ -141,7 +141,7 @@ def _witnesses(run: Run, outcome: Outcome) -> Judgement:
 
 def _declaration(run: Run, cfg: Cfg, cfg_sha256: str) -> str:
     """What is wrong with the declaration against the cfg that TLC read; empty when nothing is."""
-    if run.kind != "WIT":  # what a WIT run shows are its witnesses, and their list is never empty
+    if run.kind != "WIT":  # a WIT run shows its witnesses; their list is never empty
         if not cfg.checked:
             return f"{run.config} checks no property"
         if not run.properties:

@@ -111,7 +111,7 @@ class ParseTree:
     def find(self, name: str) -> Definition | None:
         """The definition of this name, in whichever module it is; LOCAL ones only when no other has it."""
         found = [table[name] for table in self.definitions.values() if name in table]
-        return next((one for one in found if not one.local), found[0] if found else None)
+        return next((definition for definition in found if not definition.local), found[0] if found else None)
 
     def text(self, place: Place, joined: bool = True) -> str:
         """The source text at a place; lines are joined and shortened to single blanks unless told not to."""
@@ -154,7 +154,7 @@ def read_tree(folder: Path, module: str, tools: Toolchain, library: Path | None 
     except ElementTree.ParseError as error:
         raise Unjudged(f"{module}: the parse tree is no XML: {error}") from None
     files = {}
-    for name in {text for one in root.iter("filename") if (text := one.text or "")}:
+    for name in {text for element in root.iter("filename") if (text := element.text or "")}:
         for place in (folder, library):
             if place is not None and (path := place / f"{name}.tla").is_file():
                 files[name] = path
@@ -211,7 +211,10 @@ class _Reader:
         }
 
     def tree(self) -> ParseTree:
-        inner = {_text(one, "UID") for one in self._root.iterfind("context//opDefs/UserDefinedOpKindRef")}
+        inner = {
+            _text(reference, "UID")
+            for reference in self._root.iterfind("context//opDefs/UserDefinedOpKindRef")
+        }
         definitions: dict[str, list[Definition]] = {name: [] for name in self._files}
         assumes: dict[str, list[Node]] = {name: [] for name in self._files}
         declared: dict[str, dict[str, list[tuple[Place, str]]]] = {
@@ -222,9 +225,11 @@ class _Reader:
             if place.module not in self._files:
                 continue
             if entry.tag == "UserDefinedOpKind" and uid not in inner:
-                one = self._definition(entry)
-                if one is not None and "!" not in one.name:  # not the copies that INSTANCE makes
-                    definitions[place.module].append(one)
+                definition = self._definition(entry)
+                if (
+                    definition is not None and "!" not in definition.name
+                ):  # not the copies that INSTANCE makes
+                    definitions[place.module].append(definition)
             elif entry.tag == "AssumeNode":
                 assumes[place.module] += [self._node(body[0]) for body in entry.iterfind("body") if len(body)]
             elif entry.tag == "OpDeclNode" and (kind := _text(entry, "kind")) in declared:
@@ -237,11 +242,15 @@ class _Reader:
             root=_text(self._root, "RootModule"),
             files=dict(sorted(self._files.items())),
             definitions={
-                module: {one.name: one for one in sorted(found, key=lambda one: one.place)}
+                module: {
+                    definition.name: definition
+                    for definition in sorted(found, key=lambda definition: definition.place)
+                }
                 for module, found in definitions.items()
             },
             assumes={
-                name: tuple(sorted(found, key=lambda one: one.place)) for name, found in assumes.items()
+                name: tuple(sorted(found, key=lambda assumed: assumed.place))
+                for name, found in assumes.items()
             },
             constants=names[_CONSTANT],
             variables=names[_VARIABLE],
@@ -252,7 +261,9 @@ class _Reader:
         body = entry.find("body")
         if body is None or not len(body):
             return None
-        names = [self._name(one) for one in entry.iterfind("params/leibnizparam/FormalParamNodeRef")]
+        names = [
+            self._name(parameter) for parameter in entry.iterfind("params/leibnizparam/FormalParamNodeRef")
+        ]
         place = self._place(entry)
         line = self._texts[place.module][place.first_line - 1] if place.module in self._texts else ""
         return Definition(
@@ -275,15 +286,15 @@ class _Reader:
             operands = element.find("operands")
             bound = [
                 (
-                    tuple(self._name(one) for one in part if one.tag == "FormalParamNodeRef"),
-                    next((self._node(one) for one in part if _is_expression(one)), None),
+                    tuple(self._name(child) for child in part if child.tag == "FormalParamNodeRef"),
+                    next((self._node(child) for child in part if _is_expression(child)), None),
                 )
                 for part in element.iterfind("boundSymbols/*")
             ]
             return Node(
                 kind=_KINDS.get(target.tag, "other"),
                 operator=self._name(target),
-                operands=tuple(self._node(one) for one in (() if operands is None else operands)),
+                operands=tuple(self._node(operand) for operand in (() if operands is None else operands)),
                 place=place,
                 level=level,
                 bound=tuple(bound),
@@ -296,9 +307,9 @@ class _Reader:
         inner = () if body is None or not len(body) else (self._node(body[0]),)
         if tag == "LetInNode":
             own = [
-                one
+                definition
                 for reference in element.iterfind("opDefs/UserDefinedOpKindRef")
-                if (one := self._definition(self._entries[_text(reference, "UID")])) is not None
+                if (definition := self._definition(self._entries[_text(reference, "UID")])) is not None
             ]
             return Node("let", "LET", inner, place, level, definitions=tuple(own))
         return Node("other", tag, inner, place, level)

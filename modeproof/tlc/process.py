@@ -86,7 +86,7 @@ def command_line(
     tlc += [
         "-lncheck",
         "final",
-    ]  # else the clock decides when liveness is checked, and so which lasso is found
+    ]  # otherwise the clock would decide when liveness is checked, and which lasso is found
     if not run.deadlock:
         tlc.append("-deadlock")  # this option of TLC turns the check off
     return [*java, "-cp", str(tools.jar), "tlc2.TLC", *tlc, run.module]
@@ -153,7 +153,7 @@ def run_tlc(
             raise Unjudged(f"{run.name}: {needed.relative_to(place)} is missing")
     logs = build(place) / "tlc" / run.document
     graph = build(place) / "graphs" / run.document / f"{run.id}.txt"
-    places = [one for one in (own, place / "spec" / "common") if one != folder and one.is_dir()]
+    places = [path for path in (own, place / "spec" / "common") if path != folder and path.is_dir()]
     try:
         logs.mkdir(parents=True, exist_ok=True)
         for stale in logs.glob(f"{run.id}.????????"):  # of a run that was killed

@@ -76,7 +76,7 @@ def moves(place: Path, checked: Checked) -> tuple[Move, ...]:
     if log.counts is not None:
         counts = Move("", "distinct", run.distinct, log.counts.distinct)
         generated = Move("", "generated", run.generated, log.counts.generated)
-        wanted += [one for one in (counts, generated) if run.kind != "NEG" or one.old is not None]
+        wanted += [pin for pin in (counts, generated) if run.kind != "NEG" or pin.old is not None]
     if run.graph is not None and log.initial is not None:
         states, edges = log.tags.get("STATE", 0), log.tags.get("EDGE", 0)
         wanted.append(Move("graph", "states", run.graph.states, states))

@@ -27,7 +27,7 @@ def declaration_sha256(run: Run) -> str:
 
 
 def current_tools(tools: Toolchain) -> dict[str, Mapping[str, str | None]]:
-    """What the evidence of a run made now would say of its tools, but for the version that TLC prints."""
+    """What the evidence of a run made now would say of its tools, without the version that TLC prints."""
     own = evidence.own_tools()
     java = evidence.tool(tools.java_version, tools.java)
     return {**own, "java": java, "tlc": {"sha256": tools.jar_sha256}}

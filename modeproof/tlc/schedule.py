@@ -61,8 +61,8 @@ def fits(job: Job, running: Sequence[Job], core_limit: int, memory_limit: int) -
     """Whether `job` may start beside the running ones. Alone it always may, however big it is."""
     if not running:
         return True
-    used = sum(min(one.cores, core_limit) for one in running)
-    memory = sum(one.memory_mb for one in running)
+    used = sum(min(other.cores, core_limit) for other in running)
+    memory = sum(other.memory_mb for other in running)
     return used + min(job.cores, core_limit) <= core_limit and memory + job.memory_mb <= memory_limit
 
 

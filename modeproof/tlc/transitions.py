@@ -55,7 +55,7 @@ def rewrite(tree: ParseTree, cfg: Cfg, cfg_text: str, name: str) -> Rewritten:
     lines.append(f"{PREFIX}Step ==\n{step}")
     calls = [f"{PREFIX}{prop}" for prop in asserted]
     lines.append(f"{PREFIX}Next == " + " /\\ ".join([f"{PREFIX}Step", *calls]))
-    variable = next(names[0] for one in _visible(tree) if (names := tree.variables.get(one)))
+    variable = next(names[0] for visible in _visible(tree) if (names := tree.variables.get(visible)))
     lines.append(f"{PREFIX}Nothing == {variable} # {variable}")  # a plain FALSE is an error for TLC
     module = f"{PREFIX}{tree.root}"
     head = f"---- MODULE {module} ----\nEXTENDS {tree.root}\nLOCAL INSTANCE TLC\n"
@@ -129,7 +129,7 @@ def _instance(tree: ParseTree, operator: str, where: str) -> str:
             f"{where}: {operator} is not of the form Init /\\ [][Next]_vars; check it without --distributed"
         )
     step, variables = boxes[0].operands
-    if any(one.kind != "defined" or one.operands for one in (step, variables)):
+    if any(operand.kind != "defined" or operand.operands for operand in (step, variables)):
         raise Unjudged(f"{where}: {operator}: Next and vars must be names; check it without --distributed")
     return f"    [{instance}!{step.operator}]_({instance}!{variables.operator})"
 

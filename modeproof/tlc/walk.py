@@ -94,13 +94,13 @@ def spec_hashes(place: Path, document: str) -> dict[str, str]:
     return found | {f"modeproof/tlc/{path.name}": sha256(path) for path in own}
 
 
-def read_walk(place: Path, document: str, one: Recorded) -> dict[str, Any] | None:
+def read_walk(place: Path, document: str, trace: Recorded) -> dict[str, Any] | None:
     """The walk of a run if there is one of this very trace and specification, else None."""
     try:
-        walk = json.loads(walk_path(place, document, one.run).read_text(encoding="utf-8"))
+        walk = json.loads(walk_path(place, document, trace.run).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
-    current = isinstance(walk, dict) and walk.get("trace_sha256") == one.digest
+    current = isinstance(walk, dict) and walk.get("trace_sha256") == trace.digest
     return walk if current and walk.get("inputs") == spec_hashes(place, document) else None
 
 
@@ -112,14 +112,14 @@ def walk_all(
     Raises Unjudged when TLC cannot follow a trace (evidence of another specification), and then writes
     nothing.
     """
-    found = {one.run: read_walk(place, document, one) for one in traces}
+    found = {trace.run: read_walk(place, document, trace) for trace in traces}
     plan = load_replay(place, document)
     modules = read_modules(place, document)
     groups: dict[tuple[str, tuple[tuple[str, str], ...]], list[Recorded]] = {}
-    for one in traces:
-        if found[one.run] is None:
-            constants = constants_of(place, modules, one)
-            groups.setdefault((one.module, replaced(modules, one.module, constants)), []).append(one)
+    for trace in traces:
+        if found[trace.run] is None:
+            constants = constants_of(place, modules, trace)
+            groups.setdefault((trace.module, replaced(modules, trace.module, constants)), []).append(trace)
     for (module, definitions), missing in groups.items():
         found |= _walk(place, document, plan, module, definitions, missing, tools)
     return {run: walk for run, walk in found.items() if walk is not None}
@@ -140,12 +140,12 @@ def _walk(
             f"spec/{document}/replay.toml: tops: {module} is missing, which {missing[0].run} checks"
         )
     plan = Plan(document, module, top, traces, load_interface(place, document), read_modules(place, document))
-    given = [(one, constants_of(place, plan.modules, one)) for one in missing]
+    given = [(trace, constants_of(place, plan.modules, trace)) for trace in missing]
     folder = build(place) / "walk" / document / module
     shutil.rmtree(folder, ignore_errors=True)
     name = module_name(module)
     text, cfg = generate(plan, given, definitions), "INIT Begin\nNEXT Follow\nINVARIANT Shown\n"
-    every = [plan.copies(number, one) for number, one in enumerate(missing, 1)]
+    every = [plan.copies(number, trace) for number, trace in enumerate(missing, 1)]
     for old, _ in definitions:
         cfg += everywhere(every, old, plan.owner(old, module))
     for used in plan.reached(every):
@@ -185,10 +185,10 @@ def _walk(
     lines = [_line(line, module) for line in sorted(outcome.printed)]
     hashes = spec_hashes(place, document)
     walks = {}
-    for number, one in enumerate(missing, 1):
-        walk = _read(plan, number, one, lines)
-        walk |= {"run": one.run, "trace_sha256": one.digest, "inputs": hashes}
-        walks[one.run] = walk
+    for number, trace in enumerate(missing, 1):
+        walk = _read(plan, number, trace, lines)
+        walk |= {"run": trace.run, "trace_sha256": trace.digest, "inputs": hashes}
+        walks[trace.run] = walk
     for named, walk in walks.items():
         text = json.dumps(walk, indent=1, ensure_ascii=False, sort_keys=True) + "\n"
         write_whole(walk_path(place, document, named), text.encode("utf-8"))
@@ -218,30 +218,30 @@ def _line(line: bytes, module: str) -> tuple[Any, ...]:
 def _plain(value: Any) -> Any:
     """A TLA+ value as JSON: sets become ascending lists."""
     if isinstance(value, frozenset):
-        return sorted((_plain(one) for one in value), key=repr)
+        return sorted((_plain(member) for member in value), key=repr)
     if isinstance(value, tuple):
-        return [_plain(one) for one in value]
+        return [_plain(entry) for entry in value]
     if isinstance(value, dict):
-        return {key: _plain(one) for key, one in value.items()}
+        return {key: _plain(entry) for key, entry in value.items()}
     return value
 
 
-def _read(plan: Plan, number: int, one: Recorded, lines: Sequence[tuple[Any, ...]]) -> dict[str, Any]:
+def _read(plan: Plan, number: int, trace: Recorded, lines: Sequence[tuple[Any, ...]]) -> dict[str, Any]:
     wires = {line[2]: line[3] for line in lines if line[:2] == ("ROW", number)}
     steps: dict[int, str] = {}
     for line in lines:
         if line[:2] == ("STEP", number):
             steps.setdefault(line[2], line[3])
     rows = []
-    for at, state in enumerate(one.states, 1):
+    for at, state in enumerate(trace.states, 1):
         if at not in wires or (at > 1 and at not in steps):
             raise Unjudged(
-                f"{one.run}: the specification does not allow state {at} of its counterexample any more; "
-                f"run modeproof check {one.run}"
+                f"{trace.run}: the specification does not allow state {at} of its counterexample any more; "
+                f"run modeproof check {trace.run}"
             )
         variables = {name: _plain(parse(_spelled(state[name]))) for name in plan.variables}
         step = steps.get(at, "")
-        who = plan.who(one.states[at - 2], {**state, plan.traces.step: f'"{step}"'}) if at > 1 else ""
+        who = plan.who(trace.states[at - 2], {**state, plan.traces.step: f'"{step}"'}) if at > 1 else ""
         rows.append({"at": at, "step": step, "who": who, "wires": _plain(wires[at]), "variables": variables})
     decided, departures = {}, {}
     for device in plan.replayed:
@@ -274,7 +274,7 @@ def _path(
         options = [line for line in scans if line[4] == at and state in (None, line[5])]
         if not options:
             return
-        line = next((one for one in options if one[7] == rows[at - 1]["step"]), options[0])
+        line = next((option for option in options if option[7] == rows[at - 1]["step"]), options[0])
         state = line[6]
         yield {
             "at": at,
@@ -286,7 +286,7 @@ def _path(
 
 
 def _departs(plan: Plan, device: Device, scan: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> bool:
-    """Whether one scan of the decided device, from the recorded memory, is another than the recorded one."""
+    """Whether a scan of the decided device from the recorded memory differs from the recorded scan."""
     row = rows[scan["at"] - 1]
     own = [name for name in plan.shadows(device) if name != plan.traces.step]
     return (

@@ -46,17 +46,17 @@ def extended(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
     reached: dict[str, Module] = {}
     waiting = [name]
     while waiting:
-        one = waiting.pop()
-        if one in modules and one not in reached:
-            reached[one] = modules[one]
-            waiting += modules[one].extends
+        module = waiting.pop()
+        if module in modules and module not in reached:
+            reached[module] = modules[module]
+            waiting += modules[module].extends
     return tuple(reached.values())
 
 
-def constants_of(place: Path, modules: Mapping[str, Module], one: Recorded) -> Mapping[str, Constant]:
-    """What the cfg of a run gives, but for the operators of its readings."""
-    tried = {each.replaced for each in replacing(modules, one.module, one.readings, one.run)}
-    given = parse_cfg(read_text(place, place / one.cfg), one.cfg).constants
+def constants_of(place: Path, modules: Mapping[str, Module], trace: Recorded) -> Mapping[str, Constant]:
+    """The constants in the cfg of a run, without the operators of its readings."""
+    tried = {each.replaced for each in replacing(modules, trace.module, trace.readings, trace.run)}
+    given = parse_cfg(read_text(place, place / trace.cfg), trace.cfg).constants
     return {name: constant for name, constant in given.items() if name not in tried}
 
 
@@ -69,7 +69,7 @@ def replaced(
 ) -> tuple[tuple[str, str], ...]:
     """The definitions that a cfg replaces by others: what it gives to names that are no constants."""
     declared = _names(extended(modules, name), "constants")
-    return tuple(sorted((key, one.text) for key, one in constants.items() if key not in declared))
+    return tuple(sorted((key, constant.text) for key, constant in constants.items() if key not in declared))
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,9 @@ class Copies:
     names: Mapping[str, str]
     root: str
 
-    def operator(self, one: Replacement) -> str:
-        """The name in the generated module of what takes the place of an operator."""
-        return f"walk{self.number}_{one.replaced}"
+    def operator(self, replacing_operator: Replacement) -> str:
+        """The name, in the generated module, of the operator that replaces another."""
+        return f"walk{self.number}_{replacing_operator.replaced}"
 
     def texts(self, place: Path, modules: Mapping[str, Module]) -> Iterator[tuple[str, str]]:
         """The names and texts of the copied modules."""
@@ -115,17 +115,17 @@ class Plan:
         """The variables of the top module."""
         return _names(extended(self.modules, self.module), "variables")
 
-    def further(self, one: Recorded) -> tuple[str, ...]:
+    def further(self, trace: Recorded) -> tuple[str, ...]:
         """The variables that the modules of a run's readings have beside those of the top module."""
-        holding = {each.module for each in replacing(self.modules, self.module, one.readings, one.run)}
+        holding = {each.module for each in replacing(self.modules, self.module, trace.readings, trace.run)}
         found = {name for each in holding for name in _names(extended(self.modules, each), "variables")}
         return tuple(sorted(found - set(self.variables)))
 
-    def copies(self, number: int, one: Recorded) -> Copies:
+    def copies(self, number: int, trace: Recorded) -> Copies:
         """The modules of a run with readings, under names of their own."""
-        tried = replacing(self.modules, self.module, one.readings, one.run)
+        tried = replacing(self.modules, self.module, trace.readings, trace.run)
         holding = dict.fromkeys(each.module for each in tried)
-        whole = [one for each in (self.module, *holding) for one in extended(self.modules, each)]
+        whole = [module for each in (self.module, *holding) for module in extended(self.modules, each)]
         owners = {self.owner(each.replaced, each.module) for each in tried}
         names = {
             module.name: f"{module.name}__{number}"
@@ -139,12 +139,12 @@ class Plan:
     def owner(self, operator: str, module: str) -> str:
         """The module that defines an operator, among those that a module extends."""
         every = extended(self.modules, module)
-        return next((one.name for one in every if operator in one.defined), module)
+        return next((candidate.name for candidate in every if operator in candidate.defined), module)
 
     def reached(self, every: Sequence[Copies]) -> tuple[str, ...]:
         """The modules that the top module and the readings that are tried extend."""
         holding = [each.module for copies in every for each in copies.tried]
-        names = [one.name for each in (self.module, *holding) for one in extended(self.modules, each)]
+        names = [module.name for each in (self.module, *holding) for module in extended(self.modules, each)]
         return tuple(dict.fromkeys(names))
 
     @property
@@ -187,7 +187,7 @@ def generate(
     every cfg replaces, each with what takes its place.
     """
     name = module_name(plan.module)
-    shadows = [SHADOW + one for one in plan.all_shadows]
+    shadows = [SHADOW + shadow for shadow in plan.all_shadows]
     lines = [
         f"---- MODULE {name} ----",
         "EXTENDS Integers, Sequences, TLC",
@@ -195,19 +195,19 @@ def generate(
         "",
     ]
     firsts, nexts, tables = [], [], []
-    for number, (one, constants) in enumerate(traces, 1):
-        copies = plan.copies(number, one)
-        lines += _states(plan, number, one)
-        lines += _instances(plan, number, one, constants, named=bool(definitions) and number == 1)
+    for number, (trace, constants) in enumerate(traces, 1):
+        copies = plan.copies(number, trace)
+        lines += _states(plan, number, trace)
+        lines += _instances(plan, number, trace, constants, named=bool(definitions) and number == 1)
         for each in copies.tried:
             parameters = each.parameters
             lines.append(f"{copies.operator(each)}{parameters} == L{number}!{each.operator}{parameters}")
-        first, following = _behaviour(plan, number, one, constants)
+        first, following = _behaviour(plan, number, trace, constants)
         lines += following
         firsts.append(first)
         nexts.append(f"Follow{number}")
-        if one.stops:
-            lines += _after(plan, number, len(one.states))
+        if trace.stops:
+            lines += _after(plan, number, len(trace.states))
             nexts.append(f"After{number}")
     for words in plan.traces.words:
         table = f"L1!{words.table}"
@@ -218,9 +218,9 @@ def generate(
         *[f"{replacement(old)} == A1!{new}" for old, new in definitions],
         f"{replacement(AT_ONCE)}(value) == value",
         "Begin ==",
-        *[f"    \\/ {one}" for one in firsts],
+        *[f"    \\/ {first}" for first in firsts],
         "Follow ==",
-        *[f"    \\/ {one}" for one in nexts],
+        *[f"    \\/ {following}" for following in nexts],
         "Shown ==",
         '    walk_device = "" => PrintT(ToString(<<"ROW", walk_run, walk_at, CASE '
         + " [] ".join(f"walk_run = {n} -> L{n}!{plan.top.wires}" for n in range(1, len(traces) + 1))
@@ -243,7 +243,7 @@ def replacement(name: str) -> str:
 
 
 def _instances(
-    plan: Plan, number: int, one: Recorded, constants: Mapping[str, Constant], named: bool
+    plan: Plan, number: int, trace: Recorded, constants: Mapping[str, Constant], named: bool
 ) -> list[str]:
     """The top module with the constants of one run, and each device as it was decided.
 
@@ -269,13 +269,13 @@ def _instances(
 
     whole = extended(plan.modules, plan.module)
     instances = {"L": given(whole, last=True)}
-    if named or any(one.named for one in constants.values()):
+    if named or any(constant.named for constant in constants.values()):
         instances = {"A": given(whole, last=False), **instances}
-    if one.stops:
+    if trace.stops:
         instances["G"] = given(whole, last=True)
-    own = f"{module_name(plan.module)}__{number}" if one.readings else plan.module
-    at = f"T{number}[IF walk_at > {len(one.states)} THEN {len(one.states)} ELSE walk_at]"
-    instances["L"] += [f"{name} <- {at}.{name}" for name in plan.further(one)]
+    own = f"{module_name(plan.module)}__{number}" if trace.readings else plan.module
+    at = f"T{number}[IF walk_at > {len(trace.states)} THEN {len(trace.states)} ELSE walk_at]"
+    instances["L"] += [f"{name} <- {at}.{name}" for name in plan.further(trace)]
     lines = [
         f"{letter}{number} == INSTANCE {own if letter == 'L' else plan.module} WITH {', '.join(parts)}"
         for letter, parts in instances.items()
@@ -287,28 +287,28 @@ def _instances(
     return lines
 
 
-def _states(plan: Plan, number: int, one: Recorded) -> list[str]:
+def _states(plan: Plan, number: int, trace: Recorded) -> list[str]:
     rows = []
-    names = (*plan.variables, *plan.further(one))
-    for state in one.states:
+    names = (*plan.variables, *plan.further(trace))
+    for state in trace.states:
         missing = [name for name in names if name not in state]
         if missing:
             raise Unjudged(
-                f"{one.run}: its counterexample has no variable {missing[0]}, so it is of another "
+                f"{trace.run}: its counterexample has no variable {missing[0]}, so it is of another "
                 "specification; "
-                f"run modeproof check {one.run}"
+                f"run modeproof check {trace.run}"
             )
         rows.append("[" + ", ".join(f"{name} |-> {state[name]}" for name in names) + "]")
     return [f"T{number} == <<", ",\n".join(f"    {row}" for row in rows), ">>"]
 
 
 def _behaviour(
-    plan: Plan, number: int, one: Recorded, constants: Mapping[str, Constant]
+    plan: Plan, number: int, trace: Recorded, constants: Mapping[str, Constant]
 ) -> tuple[str, list[str]]:
     """The first states of a walk, and its steps."""
     turn = {
         device.id: [
-            n + 1 for n in range(1, len(one.states)) if plan.who(*one.states[n - 1 : n + 1]) == device.id
+            n + 1 for n in range(1, len(trace.states)) if plan.who(*trace.states[n - 1 : n + 1]) == device.id
         ]
         for device in plan.replayed
     }
@@ -325,12 +325,12 @@ def _behaviour(
     kept = [name for name in plan.variables if name not in computed]
     lines = [
         f"Follow{number} ==",
-        f"    /\\ walk_run = {number} /\\ walk_at < {len(one.states)}",
+        f"    /\\ walk_run = {number} /\\ walk_at < {len(trace.states)}",
         "    /\\ walk_at' = walk_at + 1 /\\ UNCHANGED <<walk_run, walk_device, walk_from>>",
         *[f"    /\\ {name}' = T{number}[walk_at + 1].{name}" for name in kept],
     ]
-    # The recorded states are steps of the specification still; where the step was not recorded, this
-    # finds it.
+    # The recorded states must still be steps of the specification. This also finds a step that was not
+    # recorded.
     allowed = f"L{number}!{plan.top.next}"
     lines.append(
         f"    /\\ {allowed}" if computed else f'    /\\ IF walk_device = "" THEN {allowed} ELSE TRUE'
@@ -378,4 +378,4 @@ def _after(plan: Plan, number: int, last: int) -> list[str]:
 def everywhere(every: Sequence[Copies], operator: str, owner: str) -> str:
     """The lines of a cfg that replace an operator in a module and in all its copies."""
     places = [owner, *(copies.names[owner] for copies in every if owner in copies.names)]
-    return "".join(f"CONSTANT {operator} <- [{one}]{replacement(operator)}\n" for one in places)
+    return "".join(f"CONSTANT {operator} <- [{module}]{replacement(operator)}\n" for module in places)

@@ -93,7 +93,7 @@ def _text(file: str, line: int, columns: tuple[int, int] | None = None) -> str:
 
 @dataclass(frozen=True)
 class Explained:
-    """What no path of a device passes, each with its reason; and what is wrong with the explanations."""
+    """The lines that no path of a device passes, with their reasons, and the faults in the explanations."""
 
     coverage: Coverage
     reasons: tuple[tuple[str, str], ...]
@@ -130,7 +130,7 @@ def _rows(register: File) -> list[dict[str, Any]]:
 
 def coverage_of(device: Device) -> Coverage:
     """Run a member of every path from every control state, and watch what runs."""
-    reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
+    reach = lint.reach_of(device.module.step, stand_ins=[stand_in.name for stand_in in device.stand_ins])
     reach.refuse_faults()
     explored = scans(device)
     watch = Watch({function.__code__ for function in reach.functions})
@@ -177,12 +177,12 @@ def _run_member(device: Device, scan: Scan, path: Path, watch: Watch) -> None:
 
 @contextmanager
 def answering(device: Device, model: z3.ModelRef) -> Iterator[None]:
-    """In place of what the device takes from outside, the answers of the example."""
-    before = [(one.module, one.name, getattr(one.module, one.name)) for one in device.stand_ins]
+    """Replace the stand-ins of the device by their answers in the example."""
+    before = [(each.module, each.name, getattr(each.module, each.name)) for each in device.stand_ins]
     try:
-        for one in device.stand_ins:
-            answer = plain(one.answer, model)
-            setattr(one.module, one.name, lambda *_, answer=answer: answer)
+        for stand_in in device.stand_ins:
+            answer = plain(stand_in.answer, model)
+            setattr(stand_in.module, stand_in.name, lambda *_, answer=answer: answer)
         yield
     finally:
         for module, name, function in before:

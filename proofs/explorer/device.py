@@ -68,21 +68,21 @@ class Device:
 
     def state(self, control: Enum, params: Any) -> Any:
         """A State record in this control state, with a symbol for every other field."""
-        signals = {one.python: one for one in self.register.memory.values()}
+        signals = {signal.python: signal for signal in self.register.memory.values()}
         values: dict[str, Any] = {}
-        for one in fields(self.module.State):
-            if one.name == "params":
-                values[one.name] = params
-            elif one.name == self.control:
-                values[one.name] = control
-            elif one.name in self.memory:
-                values[one.name] = self.memory[one.name]
+        for declared in fields(self.module.State):
+            if declared.name == "params":
+                values[declared.name] = params
+            elif declared.name == self.control:
+                values[declared.name] = control
+            elif declared.name in self.memory:
+                values[declared.name] = self.memory[declared.name]
             else:
-                values[one.name] = symbol_of(signals[one.name], f"before.{one.name}")
+                values[declared.name] = symbol_of(signals[declared.name], f"before.{declared.name}")
         return unvalidated(self.module.State, values)
 
     def _record(self, signals: Mapping[str, Signal], prefix: str) -> dict[str, Any]:
-        return {one.python: symbol_of(one, f"{prefix}.{one.python}") for one in signals.values()}
+        return {signal.python: symbol_of(signal, f"{prefix}.{signal.python}") for signal in signals.values()}
 
 
 def symbol_of(signal: Signal, name: str) -> Any:
@@ -144,7 +144,7 @@ def scans(device: Device) -> tuple[Scan, ...]:
     """
     if device.name in _JUDGED:
         return _JUDGED[device.name][1]
-    reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
+    reach = lint.reach_of(device.module.step, stand_ins=[stand_in.name for stand_in in device.stand_ins])
     reach.refuse_faults()
     key = (device.name, device.module.__name__, reach.fingerprint)
     if key not in _EXPLORED:
@@ -214,7 +214,7 @@ def no_two_paths(conditions: Sequence[z3.BoolRef]) -> z3.BoolRef:
 
 
 def _any_of(conditions: Sequence[z3.BoolRef], overlaps: list[z3.BoolRef]) -> z3.BoolRef:
-    """One of the conditions holds; what would be an overlap among them is added to the list."""
+    """A formula that one of the conditions holds. Overlaps among the conditions are added to the list."""
     if len(conditions) == 1:
         return conditions[0]
     half = len(conditions) // 2

@@ -89,7 +89,7 @@ def _visit(root: Tree, of_end: Callable[[End], object]) -> None:
         if isinstance(node, End):
             of_end(node)
         else:
-            stack += [one for one in (node.no, node.yes) if one is not None]
+            stack += [branch for branch in (node.no, node.yes) if branch is not None]
 
 
 def always(root: Tree, then: Leaf) -> z3.BoolRef:
@@ -105,9 +105,9 @@ def some(root: Tree, then: Leaf) -> z3.BoolRef:
     return _formula(root, then, True)
 
 
-def _formula(root: Tree, then: Leaf, one: bool) -> z3.BoolRef:
-    """one: some path (conditions and `then` as conjunctions), not all (as implications)."""
-    neutral = FALSE if one else TRUE
+def _formula(root: Tree, then: Leaf, any_path: bool) -> z3.BoolRef:
+    """any_path: some path (conditions and `then` as conjunctions), not all (as implications)."""
+    neutral = FALSE if any_path else TRUE
     known: dict[int, z3.BoolRef] = {}
 
     def of(node: Tree | None) -> z3.BoolRef:
@@ -128,10 +128,10 @@ def _formula(root: Tree, then: Leaf, one: bool) -> z3.BoolRef:
         ]
         if len(parts) == 1:
             return parts[0]
-        return z3.Or(*parts) if one else z3.And(*parts)
+        return z3.Or(*parts) if any_path else z3.And(*parts)
 
     def guarded(question: z3.BoolRef, rest: z3.BoolRef) -> z3.BoolRef:
-        if not one:
+        if not any_path:
             return z3.Implies(question, rest)
         return question if rest.eq(TRUE) else z3.And(question, rest)
 
@@ -154,7 +154,7 @@ def in_terms(record: Any, signals: Mapping[str, Signal]) -> Any:
     Other plain values, such as the control state, stay as they are; a record in a field that is a signal is
     taken by the names of its own fields.
     """
-    by_name = {one.python: one for one in signals.values()}
+    by_name = {signal.python: signal for signal in signals.values()}
     values = {
         name: _term(getattr(record, name), by_name.get(name), signals) for name in record.__dataclass_fields__
     }

@@ -110,7 +110,7 @@ class StandIn:
 
 
 def conjunction(literals: Sequence[z3.BoolRef]) -> z3.BoolRef:
-    """All the literals; SMT-LIB has no conjunction of none or of one."""
+    """The conjunction of the literals. In SMT-LIB a conjunction has at least two parts."""
     if not literals:
         return z3.BoolVal(True)
     return literals[0] if len(literals) == 1 else _joined(z3.Z3_mk_and, literals)
@@ -144,7 +144,9 @@ def explore(
     ends a path (`raised`). twice: run each path again, so that a function that keeps state is found out.
     Raises ExplorationError when the function cannot be followed.
     """
-    ranges = [one.premise for one in (*_distinct(arguments), *(stand_in.answer for stand_in in stand_ins))]
+    ranges = [
+        symbol.premise for symbol in (*_distinct(arguments), *(stand_in.answer for stand_in in stand_ins))
+    ]
     known = [term for term in (*ranges, premise) if term is not None and not z3.is_true(term)]
     return _Explorer(function, arguments, conjunction(known), stand_ins, max_paths).explore(twice)
 
@@ -152,10 +154,10 @@ def explore(
 def _distinct(arguments: Sequence[Any]) -> Iterator[Symbol]:
     seen: set[int] = set()
     for argument in arguments:
-        for one in symbols(argument):
-            if one.term.get_id() not in seen:
-                seen.add(one.term.get_id())
-                yield one
+        for symbol in symbols(argument):
+            if symbol.term.get_id() not in seen:
+                seen.add(symbol.term.get_id())
+                yield symbol
 
 
 @dataclass(frozen=True)
@@ -224,7 +226,7 @@ class _Explorer:
                 )
 
     def atom(self, question: z3.BoolRef) -> _Atom:
-        """The question in a simpler form, always the same one; kept, so that ids of terms stay theirs."""
+        """The question in a simpler form, always the same. It is kept, so that ids of terms stay valid."""
         known = self.atoms.get(question.get_id())
         if known is None:
             simple = z3.simplify(question)
@@ -245,7 +247,7 @@ class _Explorer:
         return self.solver.model() if answer == z3.sat else None
 
     def assume(self, answers: list[z3.BoolRef]) -> None:
-        """Make these answers, and no others, the ones on the solver's stack."""
+        """Put exactly these answers on the solver's stack."""
         common = 0
         while common < min(len(answers), len(self.stack)) and self.stack[common] is answers[common]:
             common += 1
@@ -260,11 +262,11 @@ class _Explorer:
     @contextmanager
     def standing_in(self, run: _Run) -> Iterator[None]:
         """Put the stand-ins in place for one run."""
-        before = [(one.module, one.name, getattr(one.module, one.name)) for one in self.stand_ins]
+        before = [(each.module, each.name, getattr(each.module, each.name)) for each in self.stand_ins]
         try:
-            for one in self.stand_ins:
-                proxy = one.answer.proxy(run)
-                setattr(one.module, one.name, lambda *_, answer=proxy: answer)
+            for stand_in in self.stand_ins:
+                proxy = stand_in.answer.proxy(run)
+                setattr(stand_in.module, stand_in.name, lambda *_, answer=proxy: answer)
             yield
         finally:
             for module, name, function in before:

@@ -28,5 +28,5 @@ def conjuncts(
 ) -> dict[str, z3.BoolRef]:
     """The conjuncts that say something of this state, by name. `state`: a State record of the device."""
     s, p, where = memory(device, state), parameters(device, state), control(device, state)
-    found = {one.name: one.formula(where, s, p, seen) for one in invariant}
+    found = {conjunct.name: conjunct.formula(where, s, p, seen) for conjunct in invariant}
     return {name: formula for name, formula in found.items() if not z3.is_true(formula)}

@@ -164,7 +164,7 @@ class _Reading:
             self.waiting.append(function)
 
     def follow_class(self, record: type) -> str:
-        """Follow what building a record runs; the empty text, or why it cannot be followed."""
+        """Follow the code that builds a record. Returns the empty text, or why it cannot be followed."""
         if issubclass(record, Enum):
             return "it looks the member up; write one comparison for each member"
         if type(record) is not type:
@@ -181,17 +181,19 @@ class _Reading:
                     self.follow(function)
                 elif name not in ("__repr__", "__str__"):
                     return f"it defines {name}, which cannot be followed; use a plain dataclass"
-        for one in dataclasses.fields(record):  # type: ignore[arg-type]
-            if one.default_factory is not dataclasses.MISSING:
-                return f"the default of {one.name} is made anew by a call; write a constant"
-            if one.default is not dataclasses.MISSING and _changeable(one.default):
-                return f"the default of {one.name} can change; write a constant"
+        for field in dataclasses.fields(record):  # type: ignore[arg-type]
+            if field.default_factory is not dataclasses.MISSING:
+                return f"the default of {field.name} is made anew by a call; write a constant"
+            if field.default is not dataclasses.MISSING and _changeable(field.default):
+                return f"the default of {field.name} can change; write a constant"
         return ""
 
     def methods(self, name: str) -> list[FunctionType]:
         """Every method and property of that name in all classes of the package that are loaded."""
         if name not in self.known_methods:
-            spaces = [vars(one) for key, one in sys.modules.items() if key.split(".")[0] == self.package]
+            spaces = [
+                vars(module) for key, module in sys.modules.items() if key.split(".")[0] == self.package
+            ]
             found: dict[FunctionType, None] = {}
             for value in [value for space in spaces for value in space.values()]:
                 if isinstance(value, type) and value.__module__.split(".")[0] == self.package:
@@ -214,14 +216,19 @@ class _Reading:
 
     def _fingerprint(self) -> str:
         text = [repr(sorted(self.constants.items()))]
-        for one in sorted(self.functions, key=lambda one: (one.__module__, one.__qualname__)):
-            text.append(f"{one.__module__}.{one.__qualname__} {one.__defaults__!r} {_code(one.__code__)}")
+        for function in sorted(
+            self.functions, key=lambda function: (function.__module__, function.__qualname__)
+        ):
+            name = f"{function.__module__}.{function.__qualname__}"
+            text.append(f"{name} {function.__defaults__!r} {_code(function.__code__)}")
         return hashlib.sha256("\n".join(text).encode()).hexdigest()
 
 
 def _code(code: Any) -> str:
     """What a code object does and where its lines are."""
-    constants = [_code(one) if hasattr(one, "co_code") else repr(one) for one in code.co_consts]
+    constants = [
+        _code(constant) if hasattr(constant, "co_code") else repr(constant) for constant in code.co_consts
+    ]
     return f"{code.co_code.hex()} {constants} {code.co_names} {code.co_varnames} {code.co_firstlineno}"
 
 
@@ -340,13 +347,15 @@ class _Function:
         if not (isinstance(known, type) and issubclass(known, Exception)):
             self.fault(node.lineno, "raise", "name the exception's class there, so that it can be followed")
         if isinstance(node.exc, ast.Call):
-            self.spoken([*node.exc.args, *[one.value for one in node.exc.keywords]])
+            self.spoken([*node.exc.args, *[keyword.value for keyword in node.exc.keywords]])
 
     def spoken(self, message: Iterable[ast.expr]) -> None:
-        """A message may show any value; what it calls or assigns would happen unseen."""
-        for one in [inner for part in message for inner in ast.walk(part)]:
-            if isinstance(one, (ast.Call, ast.NamedExpr, ast.Await, ast.Yield, ast.YieldFrom)):
-                self.fault(one.lineno, "a call in a message", "it cannot be followed; show the value itself")
+        """A message may show any value. It must not call or assign anything, because that would go unseen."""
+        for expression in [inner for part in message for inner in ast.walk(part)]:
+            if isinstance(expression, (ast.Call, ast.NamedExpr, ast.Await, ast.Yield, ast.YieldFrom)):
+                self.fault(
+                    expression.lineno, "a call in a message", "it cannot be followed; show the value itself"
+                )
 
     def name(self, node: ast.Name) -> None:
         if node.id not in self.locals:
@@ -393,7 +402,7 @@ class _Function:
     def call(self, node: ast.Call) -> None:
         called = self.resolve(node.func)
         line, name = node.lineno, ast.unparse(node.func)
-        generators = [one for one in node.args if isinstance(one, ast.GeneratorExp)]
+        generators = [argument for argument in node.args if isinstance(argument, ast.GeneratorExp)]
         if isinstance(node.func, ast.Name) and node.func.id in self.locals:
             self.fault(line, f"the call of {name}", "it cannot be followed; call a function of the module")
         elif isinstance(called, FunctionType) and called.__name__ in self.reading.stand_ins:
@@ -420,7 +429,7 @@ class _Function:
                 self.parts(ast.iter_child_nodes(generator))
             else:
                 self.visit(generator)
-        self.parts([*(one for one in node.args if one not in generators), *node.keywords])
+        self.parts([*(argument for argument in node.args if argument not in generators), *node.keywords])
 
     def replaced(self, node: ast.Call) -> None:
         """dataclasses.replace builds a record of a class that is not named: follow the checks of all."""
@@ -462,7 +471,7 @@ def _made_by_dataclass(function: object) -> bool:
 
 
 def _own_comparison(kind: type) -> str:
-    """What an Enum defines of that which comparing its members runs; the empty text for a plain one."""
+    """Names what an Enum redefines of the comparison of its members; the empty text for a plain Enum."""
     for base in kind.__mro__[: kind.__mro__.index(Enum)]:
         for name in ("__eq__", "__ne__", "__lt__", "__le__", "__gt__", "__ge__", "__bool__"):
             if name in vars(base):
@@ -479,4 +488,4 @@ def _changeable(value: object) -> bool:
     parameters = getattr(value, "__dataclass_params__", None)
     if parameters is None or not parameters.frozen or isinstance(value, type):
         return True
-    return any(_changeable(getattr(value, one.name)) for one in dataclasses.fields(value))  # type: ignore[arg-type]
+    return any(_changeable(getattr(value, field.name)) for field in dataclasses.fields(value))  # type: ignore[arg-type]

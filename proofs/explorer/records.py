@@ -152,14 +152,14 @@ def check_result(value: object) -> None:
             )
 
 
-def same(one: Any, other: Any) -> bool:
+def same(result: Any, other: Any) -> bool:
     """Whether two results are the same, terms and types included."""
-    if type(one) is not type(other):
+    if type(result) is not type(other):
         return False
-    if isinstance(one, Proxy):
-        return bool(one.term.eq(other.term))
-    if isinstance(one, tuple):
-        return len(one) == len(other) and all(map(same, one, other))
-    if _is_record(one):
-        return all(same(getattr(one, name), getattr(other, name)) for name in _fields_of(one) or ())
-    return bool(one == other)
+    if isinstance(result, Proxy):
+        return bool(result.term.eq(other.term))
+    if isinstance(result, tuple):
+        return len(result) == len(other) and all(map(same, result, other))
+    if _is_record(result):
+        return all(same(getattr(result, name), getattr(other, name)) for name in _fields_of(result) or ())
+    return bool(result == other)

@@ -89,8 +89,8 @@ def scanned(device: Device, state: Any, inputs: Any, result: Any, sent: Any) -> 
     )
 
 
-def _equal(one: Any, other: Any) -> bool:
-    pairs = zip(terms(one), terms(other), strict=True)
+def _equal(record: Any, other: Any) -> bool:
+    pairs = zip(terms(record), terms(other), strict=True)
     return all(
         first.eq(second) if isinstance(first, z3.ExprRef) else first == second
         for (_, first), (_, second) in pairs
@@ -163,7 +163,7 @@ def _joined(found: Exploration, rows: Mapping[int, Any], name: str) -> Any:
         return tuple(value(found, _part(rows, name, number)) for number in range(len(columns[0])))
     if isinstance(columns[0], z3.ExprRef):
         return value(found, _part(rows, name))
-    if any(one != columns[0] for one in columns):
+    if any(column != columns[0] for column in columns):
         raise ConcretizationError(f"the output {name} is a text and depends on memory: {columns}")
     return columns[0]
 

@@ -138,7 +138,7 @@ FAULTS: dict[str, Callable[[Path], Any]] = {
     "is no file of vectors (EOFError)": _cut,
     "is no file of vectors (BadGzipFile)": _plain,
     "is not there": _gone,
-    "is of another text: spec/box/Box.tla is another one now": _other_text,
+    "is of another text: spec/box/Box.tla has changed": _other_text,
     "is of another text: does not say which specification": lambda root: put_vectors(root, sources={}),
     "holds 2 cases and says 3": lambda root: put_vectors(root, cases=3),
     "holds other vectors: box box brief": lambda root: put_vectors(root, suite="brief"),

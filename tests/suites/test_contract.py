@@ -66,7 +66,7 @@ def test_a_contract_enters_the_header_with_clauses_and_rebuilds(toy: Path) -> No
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('id = "LightNeedsCode"', 'id = "LightNeedsCod"', "'LightNeedsCod' is none of properties.toml"),
+        ('id = "LightNeedsCode"', 'id = "LightNeedsCod"', "'LightNeedsCod' is not in properties.toml"),
         ("True in codes", "True in code", "unknown name 'code'"),
         ('kind = "recent"', 'kind = "rescent"', "one of the kinds"),
         ("CODE = 0x0FF0", "CODA = 0x0FF0", "unknown name 'CODE'"),

@@ -39,7 +39,7 @@ def test_what_was_built_is_published_unless_it_is_the_same(
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        ("register", "spec/toy/classes.toml is another one now; run modeproof vectors publish"),
+        ("register", "spec/toy/classes.toml has changed; run modeproof vectors publish"),
         ("cut", "is no file of vectors"),
         ("header", "is no file of vectors"),
         ("sources", "does not say which specification"),
