@@ -45,6 +45,7 @@ from modeproof.tlc.walk_module import (
     everywhere,
     generate,
     module_name,
+    present,
     replaced,
 )
 
@@ -146,11 +147,12 @@ def _walk(
     name = module_name(module)
     text, cfg = generate(plan, given, definitions), "INIT Begin\nNEXT Follow\nINVARIANT Shown\n"
     every = [plan.copies(number, trace) for number, trace in enumerate(missing, 1)]
+    there = present(plan, text)
     for old, _ in definitions:
-        cfg += everywhere(every, old, plan.owner(old, module))
+        cfg += everywhere(every, old, plan.owner(old, module), there)
     for used in plan.reached(every):
         if AT_ONCE in plan.modules[used].words:
-            cfg += everywhere(every, AT_ONCE, used)
+            cfg += everywhere(every, AT_ONCE, used, there)
     for copies in every:
         for each in copies.tried:
             owner = copies.names[plan.owner(each.replaced, each.module)]

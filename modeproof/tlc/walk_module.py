@@ -24,6 +24,7 @@ evaluates those of an instance whenever they are asked for: whole then costs mor
 SHADOW = "d_"
 """Before the name of a variable of the decided device."""
 _HEADS = re.compile(r"^-{4,}\s*MODULE\s+\w+|^EXTENDS\b(?:\s*\w+\s*,)*\s*\w+|\bINSTANCE\s+\w+", re.MULTILINE)
+_INSTANCE = re.compile(r"\bINSTANCE\s+(\w+)")
 """Where a module names itself and others."""
 
 
@@ -375,7 +376,14 @@ def _after(plan: Plan, number: int, last: int) -> list[str]:
     ]
 
 
-def everywhere(every: Sequence[Copies], operator: str, owner: str) -> str:
-    """The lines of a cfg that replace an operator in a module and in all its copies."""
-    places = [owner, *(copies.names[owner] for copies in every if owner in copies.names)]
+def present(plan: Plan, text: str) -> frozenset[str]:
+    """The modules of the specification that the generated text has under their own names."""
+    instances = [name for name in _INSTANCE.findall(text) if name in plan.modules]
+    return frozenset(module.name for name in instances for module in extended(plan.modules, name))
+
+
+def everywhere(every: Sequence[Copies], operator: str, owner: str, there: frozenset[str]) -> str:
+    """The lines of a cfg that replace an operator in the copies of a module, and in it if it is `there`."""
+    places = [owner] if owner in there else []
+    places += [copies.names[owner] for copies in every if owner in copies.names]
     return "".join(f"CONSTANT {operator} <- [{module}]{replacement(operator)}\n" for module in places)

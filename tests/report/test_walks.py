@@ -6,12 +6,17 @@ import json
 import re
 import shutil
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.places import root
+from modeproof.registers.tla import read_modules
 from modeproof.report.parts.traces import part
 from modeproof.report.sources import gather
+from modeproof.tlc.walk_module import Plan, everywhere, present
 from tests.report.paper import change
 
 
@@ -42,6 +47,15 @@ def test_a_walk_asks_only_for_what_it_needs(checked: Path) -> None:
     text = (folder / "Walk_BoxOpen.tla").read_text()
     assert re.findall(r"^(\w+) == INSTANCE", text, re.MULTILINE) == ["A1", "L1", "D1_box"]
     assert "CONSTANT TLCEval <- [Box]walk_TLCEval\n" in (folder / "Walk_BoxOpen.cfg").read_text()
+
+
+def test_a_module_with_copies_alone_is_not_named_in_the_cfg() -> None:
+    """TLC refuses a cfg that names a module which no instance has under its own name."""
+    plan = cast(Plan, SimpleNamespace(modules=read_modules(root(), "edm")))
+    there = present(plan, "L1 == INSTANCE Walk_EDMOpen__1\nD1_sf_edm == INSTANCE EDM WITH state <- d_state")
+    assert there == {"EDM", "CyclicBlock", "StepName"}
+    assert everywhere([], "TLCEval", "EDMOpen", there) == ""
+    assert everywhere([], "TLCEval", "EDM", there) == "CONSTANT TLCEval <- [EDM]walk_TLCEval\n"
 
 
 def test_a_module_that_the_register_does_not_declare_is_named(
