@@ -49,7 +49,7 @@ def test_a_walk_asks_only_for_what_it_needs(checked: Path) -> None:
     assert "CONSTANT TLCEval <- [Box]walk_TLCEval\n" in (folder / "Walk_BoxOpen.cfg").read_text()
 
 
-def test_a_module_with_copies_alone_is_not_named_in_the_cfg() -> None:
+def test_a_module_with_copies_alone_stays_out_of_the_cfg() -> None:
     """TLC refuses a cfg that names a module which no instance has under its own name."""
     plan = cast(Plan, SimpleNamespace(modules=read_modules(root(), "edm")))
     there = present(plan, "L1 == INSTANCE Walk_EDMOpen__1\nD1_sf_edm == INSTANCE EDM WITH state <- d_state")
