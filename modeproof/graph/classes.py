@@ -92,7 +92,7 @@ def load_copied(
 
     Raises Unjudged as `load_classes`, and where the alphabet lacks one of the words in one of the fields.
     """
-    found = [one for one in _rows(place, document, device, alphabet) if one[1]["rule"] == "copied"]
+    found = [row for row in _rows(place, document, device, alphabet) if row[1]["rule"] == "copied"]
     if not found:
         return None
     if len(found) > 1:

@@ -101,10 +101,10 @@ def _tables(document: Document) -> dict[str, str]:
     Raises Unjudged with the command that is needed where there is neither.
     """
     place, name = document.root, document.name
-    wanted = [one.run for one in tellings(document)]
+    wanted = [telling.run for telling in tellings(document)]
     if not wanted:
         return {}
-    declared = {one.id: one for one in load_runs(place, name)}
+    declared = {run.id: run for run in load_runs(place, name)}
     if unknown := [run for run in wanted if run not in declared]:
         raise Unjudged(f"{document.source('findings')}: telling: no run {unknown[0]!r} in runs.toml")
     reasons = {run: _unfit(place, declared[run]) for run in wanted}

@@ -64,7 +64,7 @@ class Cells:
         if column.of == "variable":
             return self.value("", variables.get(column.id, ""))
         if column.of == "vector":
-            vector = next(one for one in self.traces.vectors if one.id == column.id)
+            vector = next(vector for vector in self.traces.vectors if vector.id == column.id)
             if any(name not in wires for name in vector.signals):
                 return ""
             on = [label for name, label in zip(vector.signals, vector.labels, strict=True) if wires[name]]

@@ -47,12 +47,14 @@ class Alphabet:
                 odd -= class_.representative.keys()
         return not odd
 
-    def _is_member(self, one: InputClass, values: Mapping[str, Any]) -> bool:
-        seen = {name: values[name] for name in one.representative if name in values}
-        if len(one.representative) == 1:
+    def _is_member(self, input_class: InputClass, values: Mapping[str, Any]) -> bool:
+        seen = {name: values[name] for name in input_class.representative if name in values}
+        if len(input_class.representative) == 1:
             ((name, value),) = seen.items()
             return type(value) is int and value not in self._named[name]
-        return any(all(member[name] == value for name, value in seen.items()) for member in one.members)
+        return any(
+            all(member[name] == value for name, value in seen.items()) for member in input_class.members
+        )
 
     def nearest(self, values: Mapping[str, Any]) -> list[tuple[int, int]]:
         """All inputs of the graph with the number of signals in which they differ, the closest first."""

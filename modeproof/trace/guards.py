@@ -148,7 +148,7 @@ class Guards:
             yield from self._walk(other, scope, step, (*context, _Condition(condition, scope, denied=True)))
         elif node.operator == "$Case":
             guards = [arm.operands[0] for arm in node.operands]
-            named = tuple(_Condition(one, scope, denied=True) for one in guards if one.place.module)
+            named = tuple(_Condition(guard, scope, denied=True) for guard in guards if guard.place.module)
             for guard, arm in zip(guards, node.operands, strict=True):
                 own = (_Condition(guard, scope),) if guard.place.module else named
                 yield from self._walk(arm.operands[1], scope, step, (*context, *own))

@@ -125,7 +125,7 @@ class _Table:
             if name in (*_TIMES, "device", self.form.time) or name in self.form.ignore:
                 continue
             if not any(self._find(part.device, name) for part in self.builder.target.parts.values()):
-                known = [one for part in self.builder.target.parts.values() for one in _names(part.device)]
+                known = [name for part in self.builder.target.parts.values() for name in _names(part.device)]
                 text = f"{name!r} is no signal of {self.builder.target.id}"
                 mean = suggestion(name, dict.fromkeys(known))
                 raise self.builder.fail(number, f"{text}; {mean}; or --ignore it", column)

@@ -47,11 +47,11 @@ def _observed(target: Target, found: Judgement) -> list[str]:
     return lines or ["every signal was observed"]
 
 
-def _followed(one: Followed | NotFollowed, unit: str) -> str:
-    if isinstance(one, NotFollowed):
-        return f"not followed; {one.reason}"
-    how = f"; left open: {'; '.join(one.open)}" if one.open else ", exactly"
-    return f"{one.accepted:,} {unit} through {' '.join(one.runs)}{how}"
+def _followed(found: Followed | NotFollowed, unit: str) -> str:
+    if isinstance(found, NotFollowed):
+        return f"not followed; {found.reason}"
+    how = f"; left open: {'; '.join(found.open)}" if found.open else ", exactly"
+    return f"{found.accepted:,} {unit} through {' '.join(found.runs)}{how}"
 
 
 def _exactness(target: Target, found: Judgement, samples: bool) -> str:

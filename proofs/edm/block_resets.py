@@ -16,36 +16,36 @@ from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def asked(one: Scanned, error: bool) -> z3.BoolRef:
+def asked(scan: Scanned, error: bool) -> z3.BoolRef:
     """ResetRequest shows, with an error or for the inhibit."""
-    return z3.And(one.sent.ResetRequest, one.sent.Error if error else z3.Not(one.sent.Error))
+    return z3.And(scan.sent.ResetRequest, scan.sent.Error if error else z3.Not(scan.sent.Error))
 
 
-def ends_well(one: Scanned) -> z3.BoolRef:
+def ends_well(scan: Scanned) -> z3.BoolRef:
     """The block is active, and shows neither an error nor a request for a reset."""
-    o = one.sends
+    o = scan.sends
     return z3.And(o.Ready, z3.Not(o.ResetRequest), z3.Not(o.Error))
 
 
-def held(one: Scanned) -> z3.BoolRef:
+def held(scan: Scanned) -> z3.BoolRef:
     """Reset is TRUE, and was in the call before."""
-    return z3.And(one.inputs.Reset, SEEN.reset)
+    return z3.And(scan.inputs.Reset, SEEN.reset)
 
 
-def control_rises(one: Scanned) -> z3.BoolRef:
+def control_rises(scan: Scanned) -> z3.BoolRef:
     """S_OutControl rises on the wires."""
-    return z3.And(one.inputs.S_OutControl, z3.Not(SEEN.control))
+    return z3.And(scan.inputs.S_OutControl, z3.Not(SEEN.control))
 
 
-def reset_error(one: Scanned) -> z3.BoolRef:
+def reset_error(scan: Scanned) -> z3.BoolRef:
     """The call ends in an error about Reset."""
-    return z3.And(one.sends.Error, z3.Not(one.sends.ResetRequest))
+    return z3.And(scan.sends.Error, z3.Not(scan.sends.ResetRequest))
 
 
-def reset_needs_edge(one: Scanned) -> Obligation:
-    free = z3.And(z3.Not(one.sent.Error), one.inputs.S_StartReset)
-    gone = z3.And(one.sent.ResetRequest, ends_well(one))
-    return TRUE, z3.Implies(gone, z3.Or(reset_edge(one), free))
+def reset_needs_edge(scan: Scanned) -> Obligation:
+    free = z3.And(z3.Not(scan.sent.Error), scan.inputs.S_StartReset)
+    gone = z3.And(scan.sent.ResetRequest, ends_well(scan))
+    return TRUE, z3.Implies(gone, z3.Or(reset_edge(scan), free))
 
 
 @theorem(
@@ -69,8 +69,8 @@ def neither_inhibit_nor_error_goes_without_an_edge() -> Queries:
     yield JUDGE.without(reset_needs_edge, "EDMError22", "WiresAreRemembered")
 
 
-def cause_is_gone(one: Scanned) -> Obligation:
-    return TRUE, z3.Implies(z3.And(asked(one, True), ends_well(one)), both_are(one, True))
+def cause_is_gone(scan: Scanned) -> Obligation:
+    return TRUE, z3.Implies(z3.And(asked(scan, True), ends_well(scan)), both_are(scan, True))
 
 
 @theorem(
@@ -83,16 +83,16 @@ def no_error_is_reset_over_its_cause() -> Queries:
     """An error is reset only in a call with both feedbacks TRUE."""
     yield from JUDGE.in_every_scan(cause_is_gone)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(ends_well(one))
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(ends_well(scan))
 
     yield JUDGE.too_strong("never", never, "EDMError33")
 
 
-def errors_are_left(one: Scanned) -> Obligation:
-    left = z3.And(one.sent.Error, one.sends.Ready, z3.Not(one.sends.Error))
-    back = z3.And(one.sends.ResetRequest, z3.Not(one.inputs.Reset))
-    return TRUE, z3.Implies(left, z3.If(one.sent.ResetRequest, one.sends.SafetyDemand, back))
+def errors_are_left(scan: Scanned) -> Obligation:
+    left = z3.And(scan.sent.Error, scan.sends.Ready, z3.Not(scan.sends.Error))
+    back = z3.And(scan.sends.ResetRequest, z3.Not(scan.inputs.Reset))
+    return TRUE, z3.Implies(left, z3.If(scan.sent.ResetRequest, scan.sends.SafetyDemand, back))
 
 
 @theorem(
@@ -107,15 +107,15 @@ def an_error_has_one_way_out() -> Queries:
     """
     yield from JUDGE.in_every_scan(errors_are_left)
 
-    def stays(one: Scanned) -> Obligation:
-        return one.inputs.Activate, one.sends.Error
+    def stays(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, scan.sends.Error
 
     yield JUDGE.too_strong("no error is left", stays, "InitError")
 
 
-def held_reset(one: Scanned) -> Obligation:
-    waits = z3.And(one.sent.ResetRequest, z3.Or(one.sent.Error, z3.Not(one.inputs.S_StartReset)))
-    return TRUE, z3.Implies(z3.And(waits, one.inputs.Activate, held(one)), reset_error(one))
+def held_reset(scan: Scanned) -> Obligation:
+    waits = z3.And(scan.sent.ResetRequest, z3.Or(scan.sent.Error, z3.Not(scan.inputs.S_StartReset)))
+    return TRUE, z3.Implies(z3.And(waits, scan.inputs.Activate, held(scan)), reset_error(scan))
 
 
 @theorem(clauses=["EDM-IN-RESET-1"], findings=["EDMF-10"], properties=["HeldResetIsAnError"], slow=True)
@@ -125,9 +125,9 @@ def a_held_reset_is_an_error_where_its_edge_is_waited_for() -> Queries:
     yield JUDGE.without(held_reset, "Init", "WiresAreRemembered")
 
 
-def two_edges(one: Scanned) -> Obligation:
-    both = z3.And(reset_edge(one), control_rises(one), z3.Not(one.inputs.S_StartReset))
-    return TRUE, z3.Implies(z3.And(asked(one, False), one.inputs.Activate, both), reset_error(one))
+def two_edges(scan: Scanned) -> Obligation:
+    both = z3.And(reset_edge(scan), control_rises(scan), z3.Not(scan.inputs.S_StartReset))
+    return TRUE, z3.Implies(z3.And(asked(scan, False), scan.inputs.Activate, both), reset_error(scan))
 
 
 @theorem(
@@ -142,9 +142,9 @@ def reset_and_request_that_rise_together_are_an_error() -> Queries:
     yield JUDGE.without(two_edges, "Init", "WiresAreRemembered")
 
 
-def starts_by_itself(one: Scanned) -> Obligation:
-    free = z3.And(asked(one, False), one.inputs.Activate, one.inputs.S_StartReset)
-    return TRUE, z3.Implies(free, one.sends.SafetyDemand)
+def starts_by_itself(scan: Scanned) -> Obligation:
+    free = z3.And(asked(scan, False), scan.inputs.Activate, scan.inputs.S_StartReset)
+    return TRUE, z3.Implies(free, scan.sends.SafetyDemand)
 
 
 @theorem(
@@ -157,20 +157,20 @@ def without_inhibit_nothing_is_waited_for() -> Queries:
     """From Init an active call with S_StartReset TRUE ends in the state with the output off on request."""
     yield from JUDGE.in_every_scan(starts_by_itself)
 
-    def with_inhibit_too(one: Scanned) -> Obligation:
-        return one.inputs.Activate, one.sends.SafetyDemand
+    def with_inhibit_too(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, scan.sends.SafetyDemand
 
     yield JUDGE.too_strong("with inhibit too", with_inhibit_too, "Init")
 
 
-def removes_inhibit(one: Scanned) -> Obligation:
-    edge = z3.And(reset_edge(one), z3.Not(control_rises(one)))
-    return TRUE, z3.Implies(z3.And(asked(one, False), one.inputs.Activate, edge), one.sends.SafetyDemand)
+def removes_inhibit(scan: Scanned) -> Obligation:
+    edge = z3.And(reset_edge(scan), z3.Not(control_rises(scan)))
+    return TRUE, z3.Implies(z3.And(asked(scan, False), scan.inputs.Activate, edge), scan.sends.SafetyDemand)
 
 
-def resets_at_once(one: Scanned) -> Obligation:
-    edge = z3.And(reset_edge(one), both_are(one, True))
-    return TRUE, z3.Implies(z3.And(asked(one, True), one.inputs.Activate, edge), one.sends.SafetyDemand)
+def resets_at_once(scan: Scanned) -> Obligation:
+    edge = z3.And(reset_edge(scan), both_are(scan, True))
+    return TRUE, z3.Implies(z3.And(asked(scan, True), scan.inputs.Activate, edge), scan.sends.SafetyDemand)
 
 
 @theorem(
@@ -197,14 +197,14 @@ def the_edge_resets_an_error_whose_cause_is_gone_in_its_call() -> Queries:
     yield JUDGE.without(resets_at_once, "EDMError11", "WiresAreRemembered")
 
 
-def error_needs_cause(one: Scanned) -> Obligation:
-    found = z3.And(z3.Not(one.sent.Error), one.sends.Error)
-    on = z3.And(z3.Not(on_time(one)), z3.Not(both_are(one, False)))
-    requested = z3.And(one.inputs.S_OutControl, z3.Or(SEEN.released, one.before.stop_seen))
-    off = z3.And(z3.Not(both_are(one, True)), z3.Or(z3.Not(on_time(one)), requested))
-    together = z3.And(one.inputs.Reset, z3.Or(SEEN.reset, control_rises(one)))
-    inhibit = z3.And(z3.Not(one.inputs.S_StartReset), together)
-    cause = z3.If(one.sent.S_EDM_Out, on, z3.If(one.sent.SafetyDemand, off, inhibit))
+def error_needs_cause(scan: Scanned) -> Obligation:
+    found = z3.And(z3.Not(scan.sent.Error), scan.sends.Error)
+    on = z3.And(z3.Not(on_time(scan)), z3.Not(both_are(scan, False)))
+    requested = z3.And(scan.inputs.S_OutControl, z3.Or(SEEN.released, scan.before.stop_seen))
+    off = z3.And(z3.Not(both_are(scan, True)), z3.Or(z3.Not(on_time(scan)), requested))
+    together = z3.And(scan.inputs.Reset, z3.Or(SEEN.reset, control_rises(scan)))
+    inhibit = z3.And(z3.Not(scan.inputs.S_StartReset), together)
+    cause = z3.If(scan.sent.S_EDM_Out, on, z3.If(scan.sent.SafetyDemand, off, inhibit))
     return TRUE, z3.Implies(found, cause)
 
 
@@ -222,14 +222,14 @@ def no_error_comes_for_nothing() -> Queries:
     yield JUDGE.without(error_needs_cause, "OutputEnable", "TimeIsThatOnTheWires")
 
 
-def code_names_the_cause(one: Scanned) -> Obligation:
-    i, on = one.inputs, one.sent.S_EDM_Out
+def code_names_the_cause(scan: Scanned) -> Obligation:
+    i, on = scan.inputs, scan.sent.S_EDM_Out
     first, second = on == i.S_EDM1, on == i.S_EDM2  # wrong: TRUE with the output on, FALSE with it off
     which = z3.If(z3.Not(second), 1, z3.If(z3.Not(first), 2, 3))
-    group = z3.If(on, 6, z3.If(on_time(one), 0, 3))
-    found = z3.And(one.sends.Error, z3.Or(on, one.sent.SafetyDemand))
-    code = z3.BV2Int(one.sends.DiagCode)
-    about_reset = z3.And(one.sends.Error, asked(one, False))
+    group = z3.If(on, 6, z3.If(on_time(scan), 0, 3))
+    found = z3.And(scan.sends.Error, z3.Or(on, scan.sent.SafetyDemand))
+    code = z3.BV2Int(scan.sends.DiagCode)
+    about_reset = z3.And(scan.sends.Error, asked(scan, False))
     return TRUE, z3.And(
         z3.Implies(found, code == 0xC000 + 16 * (group + which)),
         z3.Implies(about_reset, code == z3.If(SEEN.reset, 0xC001, 0xC100)),
@@ -252,11 +252,11 @@ def the_code_names_the_cause() -> Queries:
     yield JUDGE.without(code_names_the_cause, "Init", "WiresAreRemembered")
 
 
-def keeps_the_code(one: Scanned) -> Obligation:
-    before, after = one.sent.DiagCode, one.sends.DiagCode
-    numbered = z3.And(one.sent.Error, before != 0xC001, before != 0xC100, one.sends.Error)
+def keeps_the_code(scan: Scanned) -> Obligation:
+    before, after = scan.sent.DiagCode, scan.sends.DiagCode
+    numbered = z3.And(scan.sent.Error, before != 0xC001, before != 0xC100, scan.sends.Error)
     same = (before & 0xFFF0) == (after & 0xFFF0)
-    digit = z3.And(one.inputs.Reset, z3.Or(SEEN.reset, z3.Not(one.sent.ResetRequest)))
+    digit = z3.And(scan.inputs.Reset, z3.Or(SEEN.reset, z3.Not(scan.sent.ResetRequest)))
     return TRUE, z3.Implies(numbered, z3.And(same, ((after & 0x000F) == 1) == digit))
 
 

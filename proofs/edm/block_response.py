@@ -18,9 +18,9 @@ from proofs.sentences import Obligation
 from proofs.theorem import Queries, claim, theorem
 
 
-def switches_on_at_once(one: Scanned) -> Obligation:
-    may = z3.And(one.sent.SafetyDemand, one.inputs.Activate, both_are(one, True), SEEN.released)
-    return TRUE, z3.Implies(z3.And(may, one.inputs.S_OutControl), one.sends.S_EDM_Out)
+def switches_on_at_once(scan: Scanned) -> Obligation:
+    may = z3.And(scan.sent.SafetyDemand, scan.inputs.Activate, both_are(scan, True), SEEN.released)
+    return TRUE, z3.Implies(z3.And(may, scan.inputs.S_OutControl), scan.sends.S_EDM_Out)
 
 
 @theorem(
@@ -41,9 +41,9 @@ ON: Final = "OutputEnable"
 OFF: Final = "OutputDisable"
 
 
-def calls_left(one: Scanned, before: bool) -> z3.ArithRef:
+def calls_left(scan: Scanned, before: bool) -> z3.ArithRef:
     """How many quiet calls lead to the output, from the memory before or after the call: four at most."""
-    memory = one.before if before else one.after
+    memory = scan.before if before else scan.after
     state = control(BLOCK, memory)
     if state == ON:
         return z3.IntVal(0)
@@ -54,22 +54,22 @@ def calls_left(one: Scanned, before: bool) -> z3.ArithRef:
     return z3.If(memory.reset_before, z3.IntVal(3), z3.IntVal(2))
 
 
-def quiet(one: Scanned) -> z3.BoolRef:
+def quiet(scan: Scanned) -> z3.BoolRef:
     """What everybody does once the causes are gone.
 
     Active; the contactors follow the output; Reset is not what it was in the call before; S_OutControl is
     TRUE with the output on, or off on request once it was FALSE, and else FALSE.
     """
-    i = one.inputs
-    follow = both_are(one, not one.was(ON))
-    wanted: z3.BoolRef = one.before.stop_seen if one.was(OFF) else TRUE if one.was(ON) else FALSE
-    return z3.And(i.Activate, follow, i.Reset != one.before.reset_before, i.S_OutControl == wanted)
+    i = scan.inputs
+    follow = both_are(scan, not scan.was(ON))
+    wanted: z3.BoolRef = scan.before.stop_seen if scan.was(OFF) else TRUE if scan.was(ON) else FALSE
+    return z3.And(i.Activate, follow, i.Reset != scan.before.reset_before, i.S_OutControl == wanted)
 
 
-def comes_closer(one: Scanned) -> Obligation:
-    if one.was(ON):
-        return quiet(one), TRUE if one.becomes(ON) else FALSE
-    return quiet(one), calls_left(one, before=False) < calls_left(one, before=True)
+def comes_closer(scan: Scanned) -> Obligation:
+    if scan.was(ON):
+        return quiet(scan), TRUE if scan.becomes(ON) else FALSE
+    return quiet(scan), calls_left(scan, before=False) < calls_left(scan, before=True)
 
 
 @theorem(
@@ -85,19 +85,19 @@ def the_output_is_on_again_within_four_calls() -> Queries:
     """
     yield from FROM_ANYWHERE.in_every_scan(comes_closer)
     for scans in FROM_ANYWHERE.scans():
-        one = next(iter(scans.read.values()))
-        left = calls_left(one, before=True)
+        scan = next(iter(scans.read.values()))
+        left = calls_left(scan, before=True)
         ends = left == 0 if scans.control == ON else z3.And(left >= 1, left <= 4)
         yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
 
-    def faster(one: Scanned) -> Obligation:
-        return quiet(one), TRUE if one.becomes(ON) else FALSE
+    def faster(scan: Scanned) -> Obligation:
+        return quiet(scan), TRUE if scan.becomes(ON) else FALSE
 
     yield FROM_ANYWHERE.too_strong("one call is enough", faster, "EDMError33")
 
-    def not_taken_back(one: Scanned) -> Obligation:
-        i = one.inputs
-        given = z3.And(i.Activate, both_are(one, True), i.Reset != one.before.reset_before, i.S_OutControl)
-        return given, TRUE if one.becomes(ON) else FALSE
+    def not_taken_back(scan: Scanned) -> Obligation:
+        i = scan.inputs
+        given = z3.And(i.Activate, both_are(scan, True), i.Reset != scan.before.reset_before, i.S_OutControl)
+        return given, TRUE if scan.becomes(ON) else FALSE
 
     yield FROM_ANYWHERE.too_strong("with a request that was never taken back", not_taken_back, OFF)

@@ -19,31 +19,31 @@ from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def both_are(one: Scanned, dropped: bool) -> z3.BoolRef:
+def both_are(scan: Scanned, dropped: bool) -> z3.BoolRef:
     """Both feedbacks show this: dropped out (TRUE), or picked up (FALSE)."""
-    i = one.inputs
+    i = scan.inputs
     return z3.And(i.S_EDM1, i.S_EDM2) if dropped else z3.And(z3.Not(i.S_EDM1), z3.Not(i.S_EDM2))
 
 
-def on_time(one: Scanned) -> z3.BoolRef:
+def on_time(scan: Scanned) -> z3.BoolRef:
     """MonitoringTime has not passed since the output last changed."""
-    term: z3.BoolRef = SEEN.unchanged + one.inputs.dt_ms < one.params.MonitoringTime_ms
+    term: z3.BoolRef = SEEN.unchanged + scan.inputs.dt_ms < scan.params.MonitoringTime_ms
     return term
 
 
-def switches_on(one: Scanned) -> z3.BoolRef:
+def switches_on(scan: Scanned) -> z3.BoolRef:
     """S_EDM_Out becomes TRUE."""
-    return z3.And(z3.Not(one.sent.S_EDM_Out), one.sends.S_EDM_Out)
+    return z3.And(z3.Not(scan.sent.S_EDM_Out), scan.sends.S_EDM_Out)
 
 
-def stays_on(one: Scanned) -> z3.BoolRef:
+def stays_on(scan: Scanned) -> z3.BoolRef:
     """S_EDM_Out stays TRUE."""
-    return z3.And(one.sent.S_EDM_Out, one.sends.S_EDM_Out)
+    return z3.And(scan.sent.S_EDM_Out, scan.sends.S_EDM_Out)
 
 
-def stop_at_once(one: Scanned) -> Obligation:
-    stopped = z3.Or(z3.Not(one.inputs.Activate), z3.Not(one.inputs.S_OutControl))
-    return stopped, z3.Not(one.sends.S_EDM_Out)
+def stop_at_once(scan: Scanned) -> Obligation:
+    stopped = z3.Or(z3.Not(scan.inputs.Activate), z3.Not(scan.inputs.S_OutControl))
+    return stopped, z3.Not(scan.sends.S_EDM_Out)
 
 
 @theorem(
@@ -56,14 +56,14 @@ def a_stop_request_switches_off_in_its_own_call() -> Queries:
     """In a call that is not active, or with S_OutControl FALSE, S_EDM_Out is FALSE."""
     yield from JUDGE.in_every_scan(stop_at_once)
 
-    def always_off(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.sends.S_EDM_Out)
+    def always_off(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.sends.S_EDM_Out)
 
     yield JUDGE.too_strong("also without a stop", always_off, "OutputEnable")
 
 
-def inactive_at_once(one: Scanned) -> Obligation:
-    return TRUE, one.sends.Ready == one.inputs.Activate
+def inactive_at_once(scan: Scanned) -> Obligation:
+    return TRUE, scan.sends.Ready == scan.inputs.Activate
 
 
 @theorem(
@@ -76,8 +76,8 @@ def ready_is_activate_of_the_same_call() -> Queries:
     """After every call Ready is what Activate was in it."""
     yield from JUDGE.in_every_scan(inactive_at_once)
 
-    def and_on(one: Scanned) -> Obligation:
-        return one.inputs.Activate, one.sends.S_EDM_Out
+    def and_on(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, scan.sends.S_EDM_Out
 
     yield JUDGE.too_strong("and the output with it", and_on, "Idle")
 
@@ -95,9 +95,9 @@ FOLLOWS: Final = {
 """Where one transition leads from each state, besides to Idle."""
 
 
-def one_transition(one: Scanned) -> Obligation:
-    state = control(BLOCK, one.before)
-    return TRUE, TRUE if one.becomes(state, "Idle", *FOLLOWS[state]) else FALSE
+def one_transition(scan: Scanned) -> Obligation:
+    state = control(BLOCK, scan.before)
+    return TRUE, TRUE if scan.becomes(state, "Idle", *FOLLOWS[state]) else FALSE
 
 
 @theorem(
@@ -110,16 +110,16 @@ def a_call_takes_one_transition_at_most() -> Queries:
     """From any memory a call stays in its state, ends in Idle, or takes one of its state's transitions."""
     yield from FROM_ANYWHERE.in_every_scan(one_transition)
 
-    def stays(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes(control(BLOCK, one.before), "Idle") else FALSE
+    def stays(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes(control(BLOCK, scan.before), "Idle") else FALSE
 
     yield FROM_ANYWHERE.too_strong("it takes none but to Idle", stays, "OutputDisable")
 
 
-def starts_with_inhibit(one: Scanned) -> Obligation:
-    if not one.was("Idle"):  # every_state_has_its_row: the one state without Ready
+def starts_with_inhibit(scan: Scanned) -> Obligation:
+    if not scan.was("Idle"):  # every_state_has_its_row: the one state without Ready
         return None
-    o = one.sends
+    o = scan.sends
     return o.Ready, z3.And(o.ResetRequest, z3.Not(o.Error), z3.Not(o.S_EDM_Out))
 
 
@@ -133,15 +133,15 @@ def activation_shows_the_inhibit_for_one_call_at_least() -> Queries:
     """A call that makes the block active shows the inhibit and no output, whatever else is TRUE."""
     yield from JUDGE.in_every_scan(starts_with_inhibit)
 
-    def and_goes_on(one: Scanned) -> Obligation:
-        return TRUE, one.sends.SafetyDemand
+    def and_goes_on(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.SafetyDemand
 
     yield JUDGE.too_strong("and goes on at once", and_goes_on, "Idle")
 
 
-def switch_on_needs_initial_state(one: Scanned) -> Obligation:
-    ready = z3.And(one.sent.SafetyDemand, both_are(one, True), one.inputs.S_OutControl)
-    return TRUE, z3.Implies(switches_on(one), ready)
+def switch_on_needs_initial_state(scan: Scanned) -> Obligation:
+    ready = z3.And(scan.sent.SafetyDemand, both_are(scan, True), scan.inputs.S_OutControl)
+    return TRUE, z3.Implies(switches_on(scan), ready)
 
 
 @theorem(
@@ -156,14 +156,14 @@ def both_contactors_are_dropped_out_at_switching_on() -> Queries:
     """
     yield from JUDGE.in_every_scan(switch_on_needs_initial_state)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(switches_on(one))
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(switches_on(scan))
 
     yield JUDGE.too_strong("never", never, "OutputDisable")
 
 
-def wrong_only_for_a_time(one: Scanned) -> Obligation:
-    return TRUE, z3.Implies(stays_on(one), z3.Or(on_time(one), both_are(one, False)))
+def wrong_only_for_a_time(scan: Scanned) -> Obligation:
+    return TRUE, z3.Implies(stays_on(scan), z3.Or(on_time(scan), both_are(scan, False)))
 
 
 @theorem(
@@ -180,16 +180,18 @@ def the_output_stays_over_a_wrong_feedback_less_than_monitoring_time() -> Querie
     yield JUDGE.without(wrong_only_for_a_time, "OutputEnable", "TimeIsThatOnTheWires")
 
 
-def missed_pick_up(one: Scanned) -> Obligation:
-    late = z3.And(one.sent.S_EDM_Out, one.inputs.Activate, z3.Not(on_time(one)), z3.Not(both_are(one, False)))
-    return TRUE, z3.Implies(late, one.sends.Error)
-
-
-def missed_drop_out(one: Scanned) -> Obligation:
+def missed_pick_up(scan: Scanned) -> Obligation:
     late = z3.And(
-        one.sent.SafetyDemand, one.inputs.Activate, z3.Not(on_time(one)), z3.Not(both_are(one, True))
+        scan.sent.S_EDM_Out, scan.inputs.Activate, z3.Not(on_time(scan)), z3.Not(both_are(scan, False))
     )
-    return TRUE, z3.Implies(late, one.sends.Error)
+    return TRUE, z3.Implies(late, scan.sends.Error)
+
+
+def missed_drop_out(scan: Scanned) -> Obligation:
+    late = z3.And(
+        scan.sent.SafetyDemand, scan.inputs.Activate, z3.Not(on_time(scan)), z3.Not(both_are(scan, True))
+    )
+    return TRUE, z3.Implies(late, scan.sends.Error)
 
 
 @theorem(
@@ -220,8 +222,8 @@ def a_missed_drop_out_is_an_error_whatever_else_the_call_asks() -> Queries:
     yield JUDGE.without(missed_drop_out, "OutputDisable", "TimeIsThatOnTheWires")
 
 
-def reset_never_starts(one: Scanned) -> Obligation:
-    return TRUE, z3.Implies(z3.And(stop_first(one.params), switches_on(one)), SEEN.released)
+def reset_never_starts(scan: Scanned) -> Obligation:
+    return TRUE, z3.Implies(z3.And(stop_first(scan.params), switches_on(scan)), SEEN.released)
 
 
 @theorem(
@@ -237,7 +239,7 @@ def with_stop_first_the_reset_button_never_starts() -> Queries:
     yield from JUDGE.in_every_scan(reset_never_starts)
     yield JUDGE.without(reset_never_starts, "OutputDisable", "StopWasSeen")
 
-    def with_at_once_too(one: Scanned) -> Obligation:
-        return TRUE, z3.Implies(switches_on(one), SEEN.released)
+    def with_at_once_too(scan: Scanned) -> Obligation:
+        return TRUE, z3.Implies(switches_on(scan), SEEN.released)
 
     yield JUDGE.too_strong("with at_once too", with_at_once_too, "OutputDisable")

@@ -39,25 +39,25 @@ NOTHING: Final = Seen(FALSE, FALSE, z3.IntVal(0), FALSE)
 """At power-up nothing was seen."""
 
 
-def reset_edge(one: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
+def reset_edge(scan: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
     """Reset rises on the wires."""
-    return z3.And(one.inputs.Reset, z3.Not(seen.reset))
+    return z3.And(scan.inputs.Reset, z3.Not(seen.reset))
 
 
-def by_hand(one: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
+def by_hand(scan: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
     """An edge of Reset takes the request for it away, and was needed."""
-    needed = z3.Or(one.sent.Error, z3.Not(one.inputs.S_StartReset))
-    return z3.And(one.sent.ResetRequest, one.sends.SafetyDemand, reset_edge(one, seen), needed)
+    needed = z3.Or(scan.sent.Error, z3.Not(scan.inputs.S_StartReset))
+    return z3.And(scan.sent.ResetRequest, scan.sends.SafetyDemand, reset_edge(scan, seen), needed)
 
 
 @cache
-def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
+def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a call."""
-    i, sent, sends = one.inputs, one.sent, one.sends
+    i, sent, sends = scan.inputs, scan.sent, scan.sends
     on = z3.And(sent.S_EDM_Out, sends.S_EDM_Out)
     off = z3.And(sent.SafetyDemand, sends.SafetyDemand)
     since = z3.Or(z3.Not(sent.SafetyDemand), seen.released, z3.Not(i.S_OutControl))
-    free = z3.If(by_hand(one, seen), z3.Not(i.S_OutControl), since)
+    free = z3.If(by_hand(scan, seen), z3.Not(i.S_OutControl), since)
     return Seen(
         reset=i.Reset,
         control=i.S_OutControl,

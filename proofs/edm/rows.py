@@ -32,10 +32,12 @@ TRUE_IN: Final = {
 """The code of each state, and which of its outputs are TRUE."""
 
 
-def row_of_the_state(one: Scanned, seen: Any) -> z3.BoolRef:
-    code, true = TRUE_IN[control(BLOCK, one.after)]
-    said = [getattr(one.sends, name) if name in true else z3.Not(getattr(one.sends, name)) for name in NAMES]
-    return z3.And(one.sends.DiagCode == code, *said)
+def row_of_the_state(scan: Scanned, seen: Any) -> z3.BoolRef:
+    code, true = TRUE_IN[control(BLOCK, scan.after)]
+    said = [
+        getattr(scan.sends, name) if name in true else z3.Not(getattr(scan.sends, name)) for name in NAMES
+    ]
+    return z3.And(scan.sends.DiagCode == code, *said)
 
 
 @theorem(
@@ -58,14 +60,14 @@ def every_state_has_its_row() -> Queries:
     """
     yield from FROM_ANYWHERE.after_every_scan(row_of_the_state)
 
-    def never_on(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.sends.S_EDM_Out)
+    def never_on(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.sends.S_EDM_Out)
 
     yield FROM_ANYWHERE.too_strong("the output is never on", never_on, "OutputDisable")
 
 
-def nothing_is_on(one: Scanned, seen: Any) -> z3.BoolRef:
-    return z3.And(one.sends.DiagCode == 0, *(z3.Not(getattr(one.sends, name)) for name in NAMES))
+def nothing_is_on(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return z3.And(scan.sends.DiagCode == 0, *(z3.Not(getattr(scan.sends, name)) for name in NAMES))
 
 
 @theorem(clauses=["EDM-OUT-READY-1", "EDM-SEQ-0"], findings=[], properties=["PowerUpIsSafe"])
@@ -76,8 +78,8 @@ def before_the_first_call_nothing_is_on() -> Queries:
     yield FROM_ANYWHERE.too_strong("nothing is on after any call", always, "Idle")
 
 
-def code_tells_the_row(one: Scanned, seen: Any) -> z3.BoolRef:
-    o, code = one.sends, one.sends.DiagCode
+def code_tells_the_row(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o, code = scan.sends, scan.sends.DiagCode
     active, error = code & 0x8000 != 0, code & 0xC000 == 0xC000
     same = [active == o.Ready, error == o.Error, (code & 0x0800 != 0) == o.SafetyDemand]
     asks = z3.If(o.Error, z3.And(code & 0x000F == 0, code != 0xC100), code & 0x0400 != 0)
@@ -95,8 +97,8 @@ def the_code_tells_the_row() -> Queries:
     """
     yield from FROM_ANYWHERE.after_every_scan(code_tells_the_row)
 
-    def by_the_bit_everywhere(one: Scanned) -> Obligation:
-        return TRUE, one.sends.ResetRequest == (one.sends.DiagCode & 0x0400 != 0)
+    def by_the_bit_everywhere(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.ResetRequest == (scan.sends.DiagCode & 0x0400 != 0)
 
     yield FROM_ANYWHERE.too_strong(
         "ResetRequest is its bit in errors too", by_the_bit_everywhere, "EDMError11"

@@ -13,8 +13,8 @@ from proofs.theorem import Theorem
 
 def _theorems(*modules: ModuleType) -> tuple[Theorem, ...]:
     """The theorems of these modules in the order of the text, the invariant last."""
-    found = [one for module in modules for one in vars(module).values() if isinstance(one, Theorem)]
-    found.sort(key=lambda one: "invariant" in one.name)
+    found = [var for module in modules for var in vars(module).values() if isinstance(var, Theorem)]
+    found.sort(key=lambda scan: "invariant" in scan.name)
     return tuple(found)
 
 

@@ -42,23 +42,23 @@ NOTHING: Final = Seen(z3.IntVal(NONE), z3.IntVal(NONE), z3.IntVal(NONE), z3.Bool
 
 
 @cache
-def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
+def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a call."""
-    i = one.inputs
-    watched = FALSE if one.was("Idle", "BasicMode") else in_the_mode(one)
+    i = scan.inputs
+    watched = FALSE if scan.was("Idle", "BasicMode") else in_the_mode(scan)
     stage = stage_of(i)
     unequal = z3.And(watched, i.S_EnableSwitchCh1 != i.S_EnableSwitchCh3)
     all_true = z3.And(watched, i.S_EnableSwitchCh1, i.S_EnableSwitchCh2, i.S_EnableSwitchCh3)
     return Seen(
         last_stage=z3.If(
-            z3.Or(z3.Not(watched), one.sends.Error), NONE, z3.If(stage == NONE, seen.last_stage, stage)
+            z3.Or(z3.Not(watched), scan.sends.Error), NONE, z3.If(stage == NONE, seen.last_stage, stage)
         ),
-        apart=_lasted(one, unequal, seen.apart),
-        contrary=_lasted(one, all_true, seen.contrary),
+        apart=_lasted(scan, unequal, seen.apart),
+        contrary=_lasted(scan, all_true, seen.contrary),
         last_reset=i.Reset,
     )
 
 
-def _lasted(one: Scanned, lasts: z3.BoolRef, was: z3.ArithRef) -> z3.ArithRef:
+def _lasted(scan: Scanned, lasts: z3.BoolRef, was: z3.ArithRef) -> z3.ArithRef:
     """The time of what lasts; it begins with 0."""
-    return z3.If(lasts, z3.If(was == NONE, 0, was + one.inputs.dt_ms), NONE)
+    return z3.If(lasts, z3.If(was == NONE, 0, was + scan.inputs.dt_ms), NONE)

@@ -61,24 +61,24 @@ def _table() -> Mapping[str, Mapping[Pattern, str]]:
 TABLE: Final = _table()
 
 
-def in_time(one: Scanned) -> z3.BoolRef:
+def in_time(scan: Scanned) -> z3.BoolRef:
     """No change is too late in this call."""
-    if not one.was(*TIMED):
+    if not scan.was(*TIMED):
         return TRUE
-    spent: z3.ArithRef = one.before.elapsed_ms + one.inputs.dt_ms
-    return spent < one.params.DiscrepancyTimeCh1_Ch3_ms
+    spent: z3.ArithRef = scan.before.elapsed_ms + scan.inputs.dt_ms
+    return spent < scan.params.DiscrepancyTimeCh1_Ch3_ms
 
 
-def _plain(one: Scanned) -> z3.BoolRef:
-    i = one.inputs
-    return z3.And(in_the_mode(one), in_time(one), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
+def _plain(scan: Scanned) -> z3.BoolRef:
+    i = scan.inputs
+    return z3.And(in_the_mode(scan), in_time(scan), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
 
 
-def patterns_decide(one: Scanned) -> Obligation:
-    row, after = TABLE[control(one.device, one.before)], control(one.device, one.after)
+def patterns_decide(scan: Scanned) -> Obligation:
+    row, after = TABLE[control(scan.device, scan.before)], control(scan.device, scan.after)
     if after not in row.values():
-        return TRUE, z3.Not(_plain(one))
-    return _plain(one), z3.Or(*[shows(one.inputs, one_of) for one_of in PATTERNS if row[one_of] == after])
+        return TRUE, z3.Not(_plain(scan))
+    return _plain(scan), z3.Or(*[shows(scan.inputs, one_of) for one_of in PATTERNS if row[one_of] == after])
 
 
 @theorem(
@@ -94,8 +94,8 @@ def each_pattern_in_each_state_has_its_answer() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(patterns_decide)
 
-    def whatever_the_time(one: Scanned) -> Obligation:
-        return in_the_mode(one), TRUE if one.becomes(*TABLE["ChangeToStage1"].values()) else FALSE
+    def whatever_the_time(scan: Scanned) -> Obligation:
+        return in_the_mode(scan), TRUE if scan.becomes(*TABLE["ChangeToStage1"].values()) else FALSE
 
     yield ANYWHERE.too_strong("whatever the time is", whatever_the_time, "ChangeToStage1")
 
@@ -111,9 +111,9 @@ def ways_out(before: str, ends_errors: bool) -> set[str]:
     return rows | ({"BasicMode"} if in_operation or (ends_errors and before in ERRORS) else set())
 
 
-def one_transition(one: Scanned) -> Obligation:
-    before, after = control(one.device, one.before), control(one.device, one.after)
-    ends_errors = one.params.MODE_ENDS_ERROR
+def one_transition(scan: Scanned) -> Obligation:
+    before, after = control(scan.device, scan.before), control(scan.device, scan.after)
+    ends_errors = scan.params.MODE_ENDS_ERROR
     ways = [
         ends_errors if chosen else z3.Not(ends_errors)
         for chosen in (False, True)
@@ -135,27 +135,27 @@ def a_call_leads_to_a_neighbour_or_stays() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(one_transition)
 
-    def never_to_basic_mode(one: Scanned) -> Obligation:
-        return TRUE, FALSE if one.becomes("BasicMode") else TRUE
+    def never_to_basic_mode(scan: Scanned) -> Obligation:
+        return TRUE, FALSE if scan.becomes("BasicMode") else TRUE
 
     yield ANYWHERE.too_strong("an error is never left that way", never_to_basic_mode, "ResetError1")
 
 
-def resets_lead_back(one: Scanned) -> Obligation:
+def resets_lead_back(scan: Scanned) -> Obligation:
     """What a reset leads to, by state."""
-    i = one.inputs
-    held = z3.And(i.Reset, one.before.reset_before)
-    edge = z3.And(i.Reset, z3.Not(one.before.reset_before))
+    i = scan.inputs
+    held = z3.And(i.Reset, scan.before.reset_before)
+    edge = z3.And(i.Reset, z3.Not(scan.before.reset_before))
     resets = z3.And(i.Activate, shows(i, STAGE_0), z3.Or(edge, i.S_AutoReset))
-    kept = z3.And(resets, z3.Implies(one.params.MODE_ENDS_ERROR, i.S_SafetyActive))
-    if not one.was(*RELEASED):
+    kept = z3.And(resets, z3.Implies(scan.params.MODE_ENDS_ERROR, i.S_SafetyActive))
+    if not scan.was(*RELEASED):
         return None
-    if one.becomes("Stage0"):
+    if scan.becomes("Stage0"):
         return TRUE, z3.And(resets, i.S_SafetyActive)
-    if one.becomes("BasicMode"):
+    if scan.becomes("BasicMode"):
         return kept, z3.Not(i.S_SafetyActive)
-    static = RESET_ERRORS[RELEASED.index(control(one.device, one.before))]
-    if one.becomes(static):
+    static = RESET_ERRORS[RELEASED.index(control(scan.device, scan.before))]
+    if scan.becomes(static):
         return TRUE, z3.And(held, z3.Not(i.S_AutoReset), shows(i, STAGE_0))
     return i.Activate, z3.Not(z3.And(kept))
 
@@ -173,8 +173,8 @@ def a_reset_at_stage_0_ends_the_error_in_that_call() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(resets_lead_back)
 
-    def without_stage_0(one: Scanned) -> Obligation:
-        return z3.And(in_the_mode(one), one.inputs.S_AutoReset), TRUE if one.becomes("Stage0") else FALSE
+    def without_stage_0(scan: Scanned) -> Obligation:
+        return z3.And(in_the_mode(scan), scan.inputs.S_AutoReset), TRUE if scan.becomes("Stage0") else FALSE
 
     yield ANYWHERE.too_strong("at any stage", without_stage_0, "PlausibilityErrorAtStage0")
 
@@ -190,31 +190,31 @@ def rank(c: str) -> int:
     return 0 if c in RELEASED else RANK.get(c, 2 if c in TIMED else 1)
 
 
-def released(one: Scanned) -> z3.BoolRef:
+def released(scan: Scanned) -> z3.BoolRef:
     """The block is active in the mode, the switch is released and Reset is FALSE."""
-    i = one.inputs
-    return z3.And(in_the_mode(one), shows(i, STAGE_0), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
+    i = scan.inputs
+    return z3.And(in_the_mode(scan), shows(i, STAGE_0), z3.Not(i.Reset), z3.Not(i.S_AutoReset))
 
 
-def comes_closer(one: Scanned) -> Obligation:
-    before, after = rank(control(one.device, one.before)), rank(control(one.device, one.after))
-    remembered = z3.Not(one.after.reset_before)
-    return released(one), z3.And(remembered, TRUE if after < before or after == before == 0 else FALSE)
+def comes_closer(scan: Scanned) -> Obligation:
+    before, after = rank(control(scan.device, scan.before)), rank(control(scan.device, scan.after))
+    remembered = z3.Not(scan.after.reset_before)
+    return released(scan), z3.And(remembered, TRUE if after < before or after == before == 0 else FALSE)
 
 
-def the_edge_resets(one: Scanned) -> Obligation:
-    if not one.was(*RELEASED):
+def the_edge_resets(scan: Scanned) -> Obligation:
+    if not scan.was(*RELEASED):
         return None
-    i = one.inputs
-    given = z3.And(in_the_mode(one), shows(i, STAGE_0), i.Reset, z3.Not(one.before.reset_before))
-    return given, TRUE if one.becomes("Stage0") else FALSE
+    i = scan.inputs
+    given = z3.And(in_the_mode(scan), shows(i, STAGE_0), i.Reset, z3.Not(scan.before.reset_before))
+    return given, TRUE if scan.becomes("Stage0") else FALSE
 
 
-def stage_1_enables(one: Scanned) -> Obligation:
-    if not one.was("Stage0", "ChangeToStage1"):
+def stage_1_enables(scan: Scanned) -> Obligation:
+    if not scan.was("Stage0", "ChangeToStage1"):
         return None
-    given = z3.And(in_the_mode(one), in_time(one), shows(one.inputs, STAGE_1))
-    return given, one.sends.S_EnableSwitchOut
+    given = z3.And(in_the_mode(scan), in_time(scan), shows(scan.inputs, STAGE_1))
+    return given, scan.sends.S_EnableSwitchOut
 
 
 @theorem(clauses=["ES-SEQ-2", "ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-10"], slow=True)
@@ -224,8 +224,8 @@ def a_released_switch_leads_to_stage_0_or_to_the_wait_for_a_reset() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(comes_closer)
 
-    def one_call(one: Scanned) -> Obligation:
-        return released(one), TRUE if rank(control(one.device, one.after)) == 0 else FALSE
+    def one_call(scan: Scanned) -> Obligation:
+        return released(scan), TRUE if rank(control(scan.device, scan.after)) == 0 else FALSE
 
     yield ANYWHERE.too_strong("one call is enough", one_call, "ChangeToStage0")
 
@@ -237,9 +237,9 @@ def then_the_edge_of_reset_leads_to_stage_0() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(the_edge_resets)
 
-    def any_reset(one: Scanned) -> Obligation:
-        said = the_edge_resets(one)
-        return None if said is None else (z3.And(in_the_mode(one), one.inputs.Reset), said[1])
+    def any_reset(scan: Scanned) -> Obligation:
+        said = the_edge_resets(scan)
+        return None if said is None else (z3.And(in_the_mode(scan), scan.inputs.Reset), said[1])
 
     yield ANYWHERE.too_strong("any Reset", any_reset, "OperationErrorAtStage0")
 
@@ -259,22 +259,22 @@ def then_stage_1_enables() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(stage_1_enables)
 
-    def too_late_as_well(one: Scanned) -> Obligation:
-        return z3.And(in_the_mode(one), shows(one.inputs, STAGE_1)), one.sends.S_EnableSwitchOut
+    def too_late_as_well(scan: Scanned) -> Obligation:
+        return z3.And(in_the_mode(scan), shows(scan.inputs, STAGE_1)), scan.sends.S_EnableSwitchOut
 
     yield ANYWHERE.too_strong("too late as well", too_late_as_well, "ChangeToStage1")
 
 
-def kept_in_error(one: Scanned) -> Obligation:
+def kept_in_error(scan: Scanned) -> Obligation:
     """An error without its parameter keeps to its own states."""
-    if not one.was(*ERRORS):
+    if not scan.was(*ERRORS):
         return None
     number = {name: n for group in (FAULTY, RELEASED, RESET_ERRORS) for n, name in enumerate(group)}
-    before, after = control(one.device, one.before), control(one.device, one.after)
+    before, after = control(scan.device, scan.before), control(scan.device, scan.after)
     if after in number:
         return TRUE, TRUE if number[before] == number[after] else FALSE
-    kept = z3.And(one.inputs.Activate, z3.Not(one.params.MODE_ENDS_ERROR))
-    return kept, TRUE if before in RELEASED and one.becomes("Stage0", "BasicMode") else FALSE
+    kept = z3.And(scan.inputs.Activate, z3.Not(scan.params.MODE_ENDS_ERROR))
+    return kept, TRUE if before in RELEASED and scan.becomes("Stage0", "BasicMode") else FALSE
 
 
 @theorem(clauses=["ES-SEQ-4", "ES-SEQ-5"], findings=["ESF-06", "ESF-08"], slow=True)
@@ -284,17 +284,17 @@ def an_error_stays_the_error_that_it_is() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(kept_in_error)
 
-    def whatever_the_parameter(one: Scanned) -> Obligation:
-        return one.inputs.Activate, TRUE if one.becomes(*ERRORS, "Stage0") else FALSE
+    def whatever_the_parameter(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, TRUE if scan.becomes(*ERRORS, "Stage0") else FALSE
 
     yield ANYWHERE.too_strong("whatever the parameter is", whatever_the_parameter, "ResetError3")
 
 
-def parameter_ends_errors(one: Scanned) -> Obligation:
-    if not one.was(*ERRORS):
+def parameter_ends_errors(scan: Scanned) -> Obligation:
+    if not scan.was(*ERRORS):
         return None
-    off = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive), one.params.MODE_ENDS_ERROR)
-    return off, TRUE if one.becomes("BasicMode") else FALSE
+    off = z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_SafetyActive), scan.params.MODE_ENDS_ERROR)
+    return off, TRUE if scan.becomes("BasicMode") else FALSE
 
 
 @theorem(clauses=["ES-RESTART"], findings=["ESF-08"], properties=["EndOfModeEndsErrors"], slow=True)
@@ -304,8 +304,8 @@ def the_parameter_lets_the_end_of_the_mode_end_every_error() -> Queries:
     """
     yield from ANYWHERE.in_every_scan(parameter_ends_errors)
 
-    def without_it(one: Scanned) -> Obligation:
-        off = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive))
-        return off, TRUE if one.becomes("BasicMode") else FALSE
+    def without_it(scan: Scanned) -> Obligation:
+        off = z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_SafetyActive))
+        return off, TRUE if scan.becomes("BasicMode") else FALSE
 
     yield ANYWHERE.too_strong("also where it is not set", without_it, "ResetError1")

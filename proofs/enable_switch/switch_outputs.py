@@ -41,10 +41,10 @@ ROWS: Final = MappingProxyType(
 FLAGS: Final = ("Ready", "S_EnableSwitchOut", "SafetyDemand", "ResetRequest", "Error")
 
 
-def row_of_the_state(one: Scanned, seen: Any) -> z3.BoolRef:
-    code, on = ROWS[control(one.device, one.after)]
-    flags = [getattr(one.sends, name) == z3.BoolVal(name in on.split()) for name in FLAGS]
-    return z3.And(one.sends.DiagCode == code, *flags)
+def row_of_the_state(scan: Scanned, seen: Any) -> z3.BoolRef:
+    code, on = ROWS[control(scan.device, scan.after)]
+    flags = [getattr(scan.sends, name) == z3.BoolVal(name in on.split()) for name in FLAGS]
+    return z3.And(scan.sends.DiagCode == code, *flags)
 
 
 @theorem(
@@ -57,11 +57,11 @@ def every_state_has_its_row_of_outputs() -> Queries:
     17 states, 17 codes.
     """
     yield from JUDGE.after_every_scan(row_of_the_state)
-    yield JUDGE.too_strong("no row has a code", lambda one: (TRUE, one.sends.DiagCode == 0), "Stage0")
+    yield JUDGE.too_strong("no row has a code", lambda scan: (TRUE, scan.sends.DiagCode == 0), "Stage0")
 
 
-def outputs_follow_the_code(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def outputs_follow_the_code(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
 
     def bit(number: int) -> z3.BoolRef:
         return z3.Extract(number, number, o.DiagCode) == 1
@@ -81,12 +81,12 @@ def the_code_says_what_the_flags_say() -> Queries:
     Error, SafetyDemand and ResetRequest, and S_EnableSwitchOut is TRUE exactly with 8000.
     """
     yield from JUDGE.after_every_scan(outputs_follow_the_code)
-    never: Sentence = lambda one: (TRUE, z3.Not(one.sends.S_EnableSwitchOut))  # noqa: E731
+    never: Sentence = lambda scan: (TRUE, z3.Not(scan.sends.S_EnableSwitchOut))  # noqa: E731
     yield JUDGE.too_strong("8000 never comes", never, "Stage0")
 
 
-def enable_stands_alone(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def enable_stands_alone(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     alone = z3.And(o.Ready, z3.Not(o.Error), z3.Not(o.ResetRequest), z3.Not(o.SafetyDemand))
     return z3.Implies(o.S_EnableSwitchOut, alone)
 
@@ -97,14 +97,14 @@ def the_switch_never_enables_beside_an_error_or_a_pending_reset() -> Queries:
     ResetRequest and SafetyDemand are FALSE.
     """
     yield from JUDGE.after_every_scan(enable_stands_alone)
-    demand: Sentence = lambda one: (TRUE, z3.Not(one.sends.SafetyDemand))  # noqa: E731
+    demand: Sentence = lambda scan: (TRUE, z3.Not(scan.sends.SafetyDemand))  # noqa: E731
     yield JUDGE.too_strong("SafetyDemand never comes", demand, "Stage1")
 
 
-def idle_is_silent(one: Scanned, seen: Any) -> z3.BoolRef:
-    if not one.becomes("Idle"):
+def idle_is_silent(scan: Scanned, seen: Any) -> z3.BoolRef:
+    if not scan.becomes("Idle"):
         return TRUE
-    return z3.And(one.sends.DiagCode == 0, *[z3.Not(getattr(one.sends, name)) for name in FLAGS])
+    return z3.And(scan.sends.DiagCode == 0, *[z3.Not(getattr(scan.sends, name)) for name in FLAGS])
 
 
 @theorem(clauses=["ES-SEQ-0"], findings=[], properties=["IdleIsSilent"], slow=True)
@@ -113,13 +113,13 @@ def the_switch_that_is_not_active_sends_nothing() -> Queries:
     0000.
     """
     yield from JUDGE.after_every_scan(idle_is_silent)
-    silent: Sentence = lambda one: (TRUE, z3.Not(one.sends.Ready))  # noqa: E731
+    silent: Sentence = lambda scan: (TRUE, z3.Not(scan.sends.Ready))  # noqa: E731
     yield JUDGE.too_strong("and after any other", silent, "Idle")
 
 
-def in_idle(one: Scanned, seen: Any) -> z3.BoolRef:
-    nothing = z3.And(one.after.elapsed_ms == 0, z3.Not(one.after.reset_before), z3.Not(one.sends.Ready))
-    return nothing if one.becomes("Idle") else FALSE
+def in_idle(scan: Scanned, seen: Any) -> z3.BoolRef:
+    nothing = z3.And(scan.after.elapsed_ms == 0, z3.Not(scan.after.reset_before), z3.Not(scan.sends.Ready))
+    return nothing if scan.becomes("Idle") else FALSE
 
 
 @theorem(clauses=["ES-SEQ-0"], findings=[], properties=["PowerUpIsSilent"], slow=True)

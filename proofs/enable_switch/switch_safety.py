@@ -39,10 +39,10 @@ def every_call_of_the_switch_keeps_its_invariant() -> Queries:
 # ---------------------------------------------------------------- the enable
 
 
-def enable_needs_its_conditions(one: Scanned) -> Obligation:
-    if not one.becomes("Stage1"):
-        return TRUE, z3.Not(one.sends.S_EnableSwitchOut)
-    return one.sends.S_EnableSwitchOut, z3.And(in_the_mode(one), shows(one.inputs, STAGE_1))
+def enable_needs_its_conditions(scan: Scanned) -> Obligation:
+    if not scan.becomes("Stage1"):
+        return TRUE, z3.Not(scan.sends.S_EnableSwitchOut)
+    return scan.sends.S_EnableSwitchOut, z3.And(in_the_mode(scan), shows(scan.inputs, STAGE_1))
 
 
 @theorem(
@@ -59,15 +59,15 @@ def the_switch_enables_only_in_a_call_that_sees_stage_1_in_the_mode() -> Queries
     """
     yield from JUDGE.in_every_scan(enable_needs_its_conditions)
 
-    def whenever_it_sees_that(one: Scanned) -> Obligation:
-        return z3.And(in_the_mode(one), shows(one.inputs, STAGE_1)), one.sends.S_EnableSwitchOut
+    def whenever_it_sees_that(scan: Scanned) -> Obligation:
+        return z3.And(in_the_mode(scan), shows(scan.inputs, STAGE_1)), scan.sends.S_EnableSwitchOut
 
     yield JUDGE.too_strong("and whenever it sees that", whenever_it_sees_that, "Stage2")
 
 
-def enable_needs_stage_0(one: Scanned) -> Obligation:
-    rises = z3.And(one.sends.S_EnableSwitchOut, z3.Not(one.sent.S_EnableSwitchOut))
-    if one.becomes("Stage1") and not one.was("Stage1"):
+def enable_needs_stage_0(scan: Scanned) -> Obligation:
+    rises = z3.And(scan.sends.S_EnableSwitchOut, z3.Not(scan.sent.S_EnableSwitchOut))
+    if scan.becomes("Stage1") and not scan.was("Stage1"):
         return rises, SEEN.last_stage == 0
     return TRUE, z3.Not(rises)
 
@@ -89,8 +89,8 @@ def the_enable_comes_out_of_stage_0_alone() -> Queries:
 # ---------------------------------------------------------------- Activate and the mode
 
 
-def activate_goes_first(one: Scanned) -> Obligation:
-    return TRUE, one.sends.Ready == one.inputs.Activate
+def activate_goes_first(scan: Scanned) -> Obligation:
+    return TRUE, scan.sends.Ready == scan.inputs.Activate
 
 
 @theorem(clauses=["ES-SEQ-0"], findings=[], properties=["ActivateGoesFirst"], slow=True)
@@ -98,17 +98,17 @@ def the_end_of_activate_goes_before_everything() -> Queries:
     """After every call Ready is what Activate was in it, whatever the state and the other inputs are."""
     yield from JUDGE.in_every_scan(activate_goes_first)
 
-    def always_ready(one: Scanned) -> Obligation:
-        return TRUE, one.sends.Ready
+    def always_ready(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.Ready
 
     yield JUDGE.too_strong("and Ready stays", always_ready, "EquivalenceError")
 
 
-def mode_ends_operation(one: Scanned) -> Obligation:
-    off = z3.Not(one.inputs.S_SafetyActive)
-    quiet = z3.And(z3.Not(one.sends.S_EnableSwitchOut), z3.Not(one.sends.SafetyDemand))
-    basic = one.sends.DiagCode == 0x8002
-    kept = z3.Implies(z3.And(z3.Not(one.sent.Error), one.inputs.Activate), basic)
+def mode_ends_operation(scan: Scanned) -> Obligation:
+    off = z3.Not(scan.inputs.S_SafetyActive)
+    quiet = z3.And(z3.Not(scan.sends.S_EnableSwitchOut), z3.Not(scan.sends.SafetyDemand))
+    basic = scan.sends.DiagCode == 0x8002
+    kept = z3.Implies(z3.And(z3.Not(scan.sent.Error), scan.inputs.Activate), basic)
     return off, z3.And(quiet, kept)
 
 
@@ -119,8 +119,8 @@ def without_the_mode_the_switch_demands_and_enables_nothing() -> Queries:
     """
     yield from JUDGE.in_every_scan(mode_ends_operation)
 
-    def errors_too(one: Scanned) -> Obligation:
-        return z3.And(one.inputs.Activate, z3.Not(one.inputs.S_SafetyActive)), one.sends.DiagCode == 0x8002
+    def errors_too(scan: Scanned) -> Obligation:
+        return z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_SafetyActive)), scan.sends.DiagCode == 0x8002
 
     yield JUDGE.too_strong("and errors end as well", errors_too, "EquivalenceError")
 
@@ -128,20 +128,20 @@ def without_the_mode_the_switch_demands_and_enables_nothing() -> Queries:
 # ---------------------------------------------------------------- errors and Reset
 
 
-def _ends(one: Scanned) -> z3.BoolRef:
-    return z3.And(one.sent.Error, z3.Not(one.sends.Error), one.inputs.Activate)
+def _ends(scan: Scanned) -> z3.BoolRef:
+    return z3.And(scan.sent.Error, z3.Not(scan.sends.Error), scan.inputs.Activate)
 
 
-def _by_a_reset(one: Scanned) -> z3.BoolRef:
-    edge = z3.And(one.inputs.Reset, z3.Not(one.before.reset_before))
-    return z3.And(shows(one.inputs, STAGE_0), one.sent.ResetRequest, z3.Or(one.inputs.S_AutoReset, edge))
+def _by_a_reset(scan: Scanned) -> z3.BoolRef:
+    edge = z3.And(scan.inputs.Reset, z3.Not(scan.before.reset_before))
+    return z3.And(shows(scan.inputs, STAGE_0), scan.sent.ResetRequest, z3.Or(scan.inputs.S_AutoReset, edge))
 
 
-def error_needs_reset(one: Scanned) -> Obligation:
-    kept = z3.Not(one.params.MODE_ENDS_ERROR)
-    if one.was(*RELEASED) and not one.becomes("Idle", *ERRORS):
-        return z3.And(kept, _ends(one)), _by_a_reset(one)
-    return kept, z3.Not(_ends(one))
+def error_needs_reset(scan: Scanned) -> Obligation:
+    kept = z3.Not(scan.params.MODE_ENDS_ERROR)
+    if scan.was(*RELEASED) and not scan.becomes("Idle", *ERRORS):
+        return z3.And(kept, _ends(scan)), _by_a_reset(scan)
+    return kept, z3.Not(_ends(scan))
 
 
 @theorem(
@@ -156,21 +156,21 @@ def an_error_ends_at_stage_0_and_by_a_reset() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_reset)
 
-    def in_the_mode_alone(one: Scanned) -> Obligation:
-        return _ends(one), one.inputs.S_SafetyActive
+    def in_the_mode_alone(scan: Scanned) -> Obligation:
+        return _ends(scan), scan.inputs.S_SafetyActive
 
     yield JUDGE.too_strong("and in the mode alone", in_the_mode_alone, "EquivalenceErrorAtStage0")
 
-    def never_by_the_mode(one: Scanned) -> Obligation:
-        return _ends(one), _by_a_reset(one)
+    def never_by_the_mode(scan: Scanned) -> Obligation:
+        return _ends(scan), _by_a_reset(scan)
 
     yield JUDGE.too_strong("also with the parameter", never_by_the_mode, "EquivalenceError")
 
 
-def error_needs_reset_in_the_mode(one: Scanned) -> Obligation:
-    ends = z3.And(_ends(one), one.inputs.S_SafetyActive)
-    if one.was(*RELEASED) and one.becomes("Stage0"):
-        return ends, _by_a_reset(one)
+def error_needs_reset_in_the_mode(scan: Scanned) -> Obligation:
+    ends = z3.And(_ends(scan), scan.inputs.S_SafetyActive)
+    if scan.was(*RELEASED) and scan.becomes("Stage0"):
+        return ends, _by_a_reset(scan)
     return TRUE, z3.Not(ends)
 
 
@@ -186,17 +186,17 @@ def in_the_mode_an_error_ends_by_a_reset_whatever_the_parameter_is() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_reset_in_the_mode)
 
-    def without_stage_0(one: Scanned) -> Obligation:
-        return z3.And(_ends(one), one.inputs.S_SafetyActive), one.inputs.Reset
+    def without_stage_0(scan: Scanned) -> Obligation:
+        return z3.And(_ends(scan), scan.inputs.S_SafetyActive), scan.inputs.Reset
 
     yield JUDGE.too_strong("and never without Reset", without_stage_0, "OperationErrorAtStage0")
 
 
-def held_reset_never_resets(one: Scanned) -> Obligation:
-    counts = z3.Implies(one.params.MODE_ENDS_ERROR, one.inputs.S_SafetyActive)
-    ends = z3.And(_ends(one), z3.Not(one.inputs.S_AutoReset), counts)
-    if one.was(*RELEASED) and one.becomes("Stage0", "BasicMode"):
-        return ends, z3.And(one.inputs.Reset, z3.Not(SEEN.last_reset))
+def held_reset_never_resets(scan: Scanned) -> Obligation:
+    counts = z3.Implies(scan.params.MODE_ENDS_ERROR, scan.inputs.S_SafetyActive)
+    ends = z3.And(_ends(scan), z3.Not(scan.inputs.S_AutoReset), counts)
+    if scan.was(*RELEASED) and scan.becomes("Stage0", "BasicMode"):
+        return ends, z3.And(scan.inputs.Reset, z3.Not(SEEN.last_reset))
     return TRUE, z3.Not(ends)
 
 
@@ -212,14 +212,14 @@ def a_reset_that_is_held_never_resets() -> Queries:
     yield JUDGE.without(held_reset_never_resets, "PlausibilityErrorAtStage0", "ResetIsRemembered")
 
 
-def held_reset_is_an_error(one: Scanned) -> Obligation:
-    i = one.inputs
-    kept = z3.And(i.Activate, z3.Implies(one.params.MODE_ENDS_ERROR, i.S_SafetyActive))
-    stays = TRUE if one.becomes(*RESET_ERRORS) else FALSE
-    if one.was(*RELEASED):
-        held = z3.And(shows(i, STAGE_0), i.Reset, one.before.reset_before, z3.Not(i.S_AutoReset))
+def held_reset_is_an_error(scan: Scanned) -> Obligation:
+    i = scan.inputs
+    kept = z3.And(i.Activate, z3.Implies(scan.params.MODE_ENDS_ERROR, i.S_SafetyActive))
+    stays = TRUE if scan.becomes(*RESET_ERRORS) else FALSE
+    if scan.was(*RELEASED):
+        held = z3.And(shows(i, STAGE_0), i.Reset, scan.before.reset_before, z3.Not(i.S_AutoReset))
         return z3.And(kept, held), stays
-    if one.was(*RESET_ERRORS):
+    if scan.was(*RESET_ERRORS):
         return z3.And(kept, i.Reset), stays
     return None
 
@@ -233,9 +233,9 @@ def a_reset_that_is_held_is_reported_until_it_is_released() -> Queries:
     """
     yield from JUDGE.in_every_scan(held_reset_is_an_error)
 
-    def reset_alone(one: Scanned) -> Obligation:
-        said = held_reset_is_an_error(one)
-        return None if said is None else (z3.And(one.inputs.Activate, one.inputs.Reset), said[1])
+    def reset_alone(scan: Scanned) -> Obligation:
+        said = held_reset_is_an_error(scan)
+        return None if said is None else (z3.And(scan.inputs.Activate, scan.inputs.Reset), said[1])
 
     yield JUDGE.too_strong("whenever Reset is TRUE", reset_alone, "EquivalenceErrorAtStage0")
 
@@ -243,15 +243,15 @@ def a_reset_that_is_held_is_reported_until_it_is_released() -> Queries:
 # ---------------------------------------------------------------- the time of a change
 
 
-def _over(one: Scanned, lasted: z3.ArithRef) -> z3.BoolRef:
+def _over(scan: Scanned, lasted: z3.ArithRef) -> z3.BoolRef:
     """It lasted before this call, and by now for the discrepancy time."""
-    over: z3.BoolRef = lasted + one.inputs.dt_ms >= one.params.DiscrepancyTimeCh1_Ch3_ms
+    over: z3.BoolRef = lasted + scan.inputs.dt_ms >= scan.params.DiscrepancyTimeCh1_Ch3_ms
     return z3.And(lasted != NONE, over)
 
 
-def disagreement_ends_in_error(one: Scanned) -> Obligation:
-    late = z3.And(_over(one, SEEN.apart), sees(one).apart != NONE)
-    return (late, one.sends.Error) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
+def disagreement_ends_in_error(scan: Scanned) -> Obligation:
+    late = z3.And(_over(scan, SEEN.apart), sees(scan).apart != NONE)
+    return (late, scan.sends.Error) if scan.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
 
 @theorem(
@@ -267,15 +267,15 @@ def channels_that_differ_for_the_discrepancy_time_end_in_an_error() -> Queries:
     yield from JUDGE.in_every_scan(disagreement_ends_in_error)
     yield JUDGE.without(disagreement_ends_in_error, "ChangeToStage0", "DisagreementIsTimed")
 
-    def at_once(one: Scanned) -> Obligation:
-        return sees(one).apart != NONE, one.sends.Error
+    def at_once(scan: Scanned) -> Obligation:
+        return sees(scan).apart != NONE, scan.sends.Error
 
     yield JUDGE.too_strong("any difference at once", at_once, "Stage1")
 
 
-def contradiction_ends_in_error(one: Scanned) -> Obligation:
-    late = z3.And(_over(one, SEEN.contrary), sees(one).contrary != NONE)
-    return (late, one.sends.Error) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
+def contradiction_ends_in_error(scan: Scanned) -> Obligation:
+    late = z3.And(_over(scan, SEEN.contrary), sees(scan).contrary != NONE)
+    return (late, scan.sends.Error) if scan.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
 
 @theorem(clauses=["ES-STAGE-1"], findings=["ESF-05"], properties=["ContradictionEndsInError"], slow=True)
@@ -287,9 +287,9 @@ def three_channels_true_for_the_discrepancy_time_end_in_an_error() -> Queries:
     yield JUDGE.without(contradiction_ends_in_error, "ChangeToStage1", "ContradictionIsTimed")
 
 
-def enable_comes_in_time(one: Scanned) -> Obligation:
-    late = _over(one, SEEN.apart)
-    return (late, z3.Not(one.sends.S_EnableSwitchOut)) if one.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
+def enable_comes_in_time(scan: Scanned) -> Obligation:
+    late = _over(scan, SEEN.apart)
+    return (late, z3.Not(scan.sends.S_EnableSwitchOut)) if scan.was(*TIMED, *ERRORS) else (TRUE, z3.Not(late))
 
 
 @theorem(clauses=["ES-SEQ-3", "ES-SEQ-6"], findings=["ESF-07"], properties=["EnableComesInTime"], slow=True)
@@ -300,21 +300,21 @@ def channels_that_come_together_too_late_do_not_enable() -> Queries:
     yield from JUDGE.in_every_scan(enable_comes_in_time)
     yield JUDGE.without(enable_comes_in_time, "ChangeToStage1", "DisagreementIsTimed")
 
-    def one_ms_before(one: Scanned) -> Obligation:
-        early = SEEN.apart + one.inputs.dt_ms + 1 >= one.params.DiscrepancyTimeCh1_Ch3_ms
-        return z3.And(SEEN.apart != NONE, early), z3.Not(one.sends.S_EnableSwitchOut)
+    def one_ms_before(scan: Scanned) -> Obligation:
+        early = SEEN.apart + scan.inputs.dt_ms + 1 >= scan.params.DiscrepancyTimeCh1_Ch3_ms
+        return z3.And(SEEN.apart != NONE, early), z3.Not(scan.sends.S_EnableSwitchOut)
 
     yield JUDGE.too_strong("a millisecond before it is over", one_ms_before, "ChangeToStage1")
 
 
-def timer_counts(one: Scanned) -> Obligation:
+def timer_counts(scan: Scanned) -> Obligation:
     """The timer starts in the call that sees the change begin, adds up, and ends with the change."""
-    if not one.becomes(*TIMED):
-        return TRUE, one.after.elapsed_ms == 0
-    if one.was(*TIMED):
-        same = TRUE if one.was("ChangeToStage1") == one.becomes("ChangeToStage1") else FALSE
-        return TRUE, z3.And(same, one.after.elapsed_ms == one.before.elapsed_ms + one.inputs.dt_ms)
-    return TRUE, one.after.elapsed_ms == 0
+    if not scan.becomes(*TIMED):
+        return TRUE, scan.after.elapsed_ms == 0
+    if scan.was(*TIMED):
+        same = TRUE if scan.was("ChangeToStage1") == scan.becomes("ChangeToStage1") else FALSE
+        return TRUE, z3.And(same, scan.after.elapsed_ms == scan.before.elapsed_ms + scan.inputs.dt_ms)
+    return TRUE, scan.after.elapsed_ms == 0
 
 
 @theorem(clauses=["ES-SEQ-3", "ES-SEQ-8"], findings=["ESF-04", "ESF-07"], slow=True)
@@ -323,20 +323,20 @@ def the_time_of_a_change_starts_with_it_and_adds_up() -> Queries:
     the call before, and a call that ends it leaves 0; one change never turns into the other.
     """
     yield from JUDGE.in_every_scan(timer_counts)
-    yield JUDGE.too_strong("it never runs", lambda one: (TRUE, one.after.elapsed_ms == 0), "ChangeToStage1")
+    yield JUDGE.too_strong("it never runs", lambda scan: (TRUE, scan.after.elapsed_ms == 0), "ChangeToStage1")
 
 
-def ends_by_its_cause(one: Scanned) -> Obligation:
+def ends_by_its_cause(scan: Scanned) -> Obligation:
     """Which error a change that is too late ends in."""
-    late = one.before.elapsed_ms + one.inputs.dt_ms >= one.params.DiscrepancyTimeCh1_Ch3_ms
-    if not one.was(*TIMED):
+    late = scan.before.elapsed_ms + scan.inputs.dt_ms >= scan.params.DiscrepancyTimeCh1_Ch3_ms
+    if not scan.was(*TIMED):
         return None
-    all_true = shows(one.inputs, (True, True, True))
-    if one.becomes("PlausibilityError"):
-        return z3.And(in_the_mode(one), late), all_true
-    if one.becomes("EquivalenceError"):
-        return TRUE, z3.And(in_the_mode(one), late, z3.Not(all_true))
-    return in_the_mode(one), z3.Not(late)
+    all_true = shows(scan.inputs, (True, True, True))
+    if scan.becomes("PlausibilityError"):
+        return z3.And(in_the_mode(scan), late), all_true
+    if scan.becomes("EquivalenceError"):
+        return TRUE, z3.And(in_the_mode(scan), late, z3.Not(all_true))
+    return in_the_mode(scan), z3.Not(late)
 
 
 @theorem(clauses=["ES-SEQ-3"], findings=["ESF-05", "ESF-07"], properties=["LateChangeHasItsError"], slow=True)
@@ -346,8 +346,8 @@ def a_change_that_is_too_late_ends_in_the_error_of_its_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(ends_by_its_cause)
 
-    def equal_channels(one: Scanned) -> Obligation:
-        unequal = one.inputs.S_EnableSwitchCh1 != one.inputs.S_EnableSwitchCh3
-        return (TRUE, unequal) if one.becomes("EquivalenceError") else None
+    def equal_channels(scan: Scanned) -> Obligation:
+        unequal = scan.inputs.S_EnableSwitchCh1 != scan.inputs.S_EnableSwitchCh3
+        return (TRUE, unequal) if scan.becomes("EquivalenceError") else None
 
     yield JUDGE.too_strong("only while the two differ", equal_channels, "ChangeToStage1")

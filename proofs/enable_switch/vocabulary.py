@@ -12,7 +12,7 @@ NONE: Final = -1
 """No stage was seen; no time is running."""
 TIMED: Final = ("ChangeToStage1", "ChangeToStage0")
 FAULTY: Final = ("OperationError", "PlausibilityError", "EquivalenceError")
-RELEASED: Final = tuple(f"{one}AtStage0" for one in FAULTY)
+RELEASED: Final = tuple(f"{step}AtStage0" for step in FAULTY)
 RESET_ERRORS: Final = ("ResetError1", "ResetError2", "ResetError3")
 ERRORS: Final = FAULTY + RELEASED + RESET_ERRORS
 
@@ -29,7 +29,9 @@ PATTERNS: Final[tuple[Pattern, ...]] = tuple(
 def shows(inputs: Any, pattern: Pattern) -> z3.BoolRef:
     """The channels show this pattern."""
     found = (inputs.S_EnableSwitchCh1, inputs.S_EnableSwitchCh2, inputs.S_EnableSwitchCh3)
-    return z3.And(*[one if wanted else z3.Not(one) for one, wanted in zip(found, pattern, strict=True)])
+    return z3.And(
+        *[channel if wanted else z3.Not(channel) for channel, wanted in zip(found, pattern, strict=True)]
+    )
 
 
 def stage_of(inputs: Any) -> z3.ArithRef:
@@ -39,6 +41,6 @@ def stage_of(inputs: Any) -> z3.ArithRef:
     )
 
 
-def in_the_mode(one: Scanned) -> z3.BoolRef:
+def in_the_mode(scan: Scanned) -> z3.BoolRef:
     """The call finds the block activated and the mode active."""
-    return z3.And(one.inputs.Activate, one.inputs.S_SafetyActive)
+    return z3.And(scan.inputs.Activate, scan.inputs.S_SafetyActive)

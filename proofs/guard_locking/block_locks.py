@@ -19,15 +19,15 @@ from proofs.theorem import Queries, theorem
 UNLOCKED = ("GuardOpenAndUnlocked", "GuardClosedButUnlocked")
 
 
-def unlocks(one: Scanned) -> z3.BoolRef:
+def unlocks(scan: Scanned) -> z3.BoolRef:
     """S_UnlockGuard rises."""
-    return z3.And(z3.Not(one.sent.S_UnlockGuard), one.sends.S_UnlockGuard)
+    return z3.And(z3.Not(scan.sent.S_UnlockGuard), scan.sends.S_UnlockGuard)
 
 
-def unlock_needs_safe_zone(one: Scanned) -> Obligation:
-    if not one.becomes(*UNLOCKED):
-        return TRUE, z3.Not(one.sends.S_UnlockGuard)
-    return TRUE, z3.Implies(unlocks(one), one.inputs.S_SafetyActive)
+def unlock_needs_safe_zone(scan: Scanned) -> Obligation:
+    if not scan.becomes(*UNLOCKED):
+        return TRUE, z3.Not(scan.sends.S_UnlockGuard)
+    return TRUE, z3.Implies(unlocks(scan), scan.inputs.S_SafetyActive)
 
 
 @theorem(
@@ -41,13 +41,13 @@ def a_guard_is_unlocked_only_with_the_zone_safe() -> Queries:
     which allows an open guard besides, is met without that.)
     """
     yield from JUDGE.in_every_scan(unlock_needs_safe_zone)
-    asked: Sentence = lambda one: (unlocks(one), one.inputs.UnlockRequest)  # noqa: E731
+    asked: Sentence = lambda scan: (unlocks(scan), scan.inputs.UnlockRequest)  # noqa: E731
     yield JUDGE.too_strong("and with a request", asked, "WaitForOperator")
 
 
-def unlocked_only_while_safe(one: Scanned) -> Obligation:
-    strict = chosen(one.params, "ZONE_LOST", "error")
-    return TRUE, z3.Implies(z3.And(strict, one.sends.S_UnlockGuard), one.inputs.S_SafetyActive)
+def unlocked_only_while_safe(scan: Scanned) -> Obligation:
+    strict = chosen(scan.params, "ZONE_LOST", "error")
+    return TRUE, z3.Implies(z3.And(strict, scan.sends.S_UnlockGuard), scan.inputs.S_SafetyActive)
 
 
 @theorem(
@@ -62,17 +62,17 @@ def the_guard_is_unlocked_no_longer_than_the_zone_is_safe() -> Queries:
     """
     yield from JUDGE.in_every_scan(unlocked_only_while_safe)
 
-    def anyway(one: Scanned) -> Obligation:
-        return one.sends.S_UnlockGuard, one.inputs.S_SafetyActive
+    def anyway(scan: Scanned) -> Obligation:
+        return scan.sends.S_UnlockGuard, scan.inputs.S_SafetyActive
 
     yield JUDGE.too_strong("with tolerated too", anyway, "GuardClosedButUnlocked")
 
 
-def no_error_locks_safe_zone(one: Scanned) -> Obligation:
-    if not one.was(*UNLOCKED):
+def no_error_locks_safe_zone(scan: Scanned) -> Obligation:
+    if not scan.was(*UNLOCKED):
         return None
     return TRUE, z3.Implies(
-        z3.And(one.sent.S_UnlockGuard, one.sends.Error), z3.Not(one.inputs.S_SafetyActive)
+        z3.And(scan.sent.S_UnlockGuard, scan.sends.Error), z3.Not(scan.inputs.S_SafetyActive)
     )
 
 
@@ -86,16 +86,16 @@ def no_error_takes_the_unlock_signal_away_from_a_safe_zone() -> Queries:
     """Under all parameters a call that ends the unlock signal with an error found S_SafetyActive FALSE."""
     yield from JUDGE.in_every_scan(no_error_locks_safe_zone)
 
-    def nor_ends_it(one: Scanned) -> Obligation:
-        ends = z3.And(one.sent.S_UnlockGuard, z3.Not(one.sends.S_UnlockGuard))
-        return ends, z3.Not(one.inputs.S_SafetyActive)
+    def nor_ends_it(scan: Scanned) -> Obligation:
+        ends = z3.And(scan.sent.S_UnlockGuard, z3.Not(scan.sends.S_UnlockGuard))
+        return ends, z3.Not(scan.inputs.S_SafetyActive)
 
     yield JUDGE.too_strong("nor does anything else", nor_ends_it, "GuardClosedButUnlocked")
 
 
-def unlock_needs_request(one: Scanned) -> Obligation:
-    asked = z3.Or(one.inputs.UnlockRequest, z3.Not(one.inputs.S_GuardMonitoring))
-    return TRUE, z3.Implies(unlocks(one), asked)
+def unlock_needs_request(scan: Scanned) -> Obligation:
+    asked = z3.Or(scan.inputs.UnlockRequest, z3.Not(scan.inputs.S_GuardMonitoring))
+    return TRUE, z3.Implies(unlocks(scan), asked)
 
 
 @theorem(
@@ -107,16 +107,16 @@ def unlock_needs_request(one: Scanned) -> Obligation:
 def a_closed_guard_is_unlocked_only_on_request() -> Queries:
     """A call in which S_UnlockGuard rises found UnlockRequest TRUE, or the guard open."""
     yield from JUDGE.in_every_scan(unlock_needs_request)
-    anew: Sentence = lambda one: (unlocks(one), request_edge(one))  # noqa: E731
+    anew: Sentence = lambda scan: (unlocks(scan), request_edge(scan))  # noqa: E731
     yield JUDGE.too_strong("by an edge", anew, "WaitForOperator")
 
 
-def request_while_locked(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def request_while_locked(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    not_level = z3.Not(chosen(one.params, "UNLOCK_ON", "level"))
-    given = z3.And(not_level, one.sends.S_UnlockGuard)
-    return TRUE, z3.Implies(given, z3.Or(request_edge(one), SEEN.asked))
+    not_level = z3.Not(chosen(scan.params, "UNLOCK_ON", "level"))
+    given = z3.And(not_level, scan.sends.S_UnlockGuard)
+    return TRUE, z3.Implies(given, z3.Or(request_edge(scan), SEEN.asked))
 
 
 @theorem(
@@ -133,11 +133,11 @@ def a_locked_guard_is_unlocked_by_a_request_that_rose_while_it_is_locked() -> Qu
     yield JUDGE.without(request_while_locked, LOCKED, "PendingWasAsked")
 
 
-def request_now(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def request_now(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    given = z3.And(chosen(one.params, "UNLOCK_ON", "edge"), one.sends.S_UnlockGuard)
-    return TRUE, z3.Implies(given, request_edge(one))
+    given = z3.And(chosen(scan.params, "UNLOCK_ON", "edge"), scan.sends.S_UnlockGuard)
+    return TRUE, z3.Implies(given, request_edge(scan))
 
 
 @theorem(
@@ -146,23 +146,23 @@ def request_now(one: Scanned) -> Obligation:
 def with_the_edge_the_request_comes_in_the_call_that_unlocks() -> Queries:
     """With UNLOCK_ON = edge, a call that unlocks an enabled guard is the one in which it rises."""
     yield from JUDGE.in_every_scan(request_now)
-    anyway: Sentence = lambda one: (one.sends.S_UnlockGuard, request_edge(one))  # noqa: E731
+    anyway: Sentence = lambda scan: (scan.sends.S_UnlockGuard, request_edge(scan))  # noqa: E731
     yield JUDGE.too_strong("whatever unlocks", anyway, LOCKED)
 
 
-def _asked_safely(one: Scanned) -> z3.BoolRef:
-    i = one.inputs
-    return z3.And(i.Activate, secure(one), i.UnlockRequest, i.S_SafetyActive)
+def _asked_safely(scan: Scanned) -> z3.BoolRef:
+    i = scan.inputs
+    return z3.And(i.Activate, secure(scan), i.UnlockRequest, i.S_SafetyActive)
 
 
-def _unlocked(one: Scanned) -> z3.BoolRef:
-    return z3.And(one.sends.S_UnlockGuard, z3.Not(one.sends.S_GuardLocked))
+def _unlocked(scan: Scanned) -> z3.BoolRef:
+    return z3.And(scan.sends.S_UnlockGuard, z3.Not(scan.sends.S_GuardLocked))
 
 
-def held_request_unlocks(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def held_request_unlocks(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    return z3.And(chosen(one.params, "UNLOCK_ON", "level"), _asked_safely(one)), _unlocked(one)
+    return z3.And(chosen(scan.params, "UNLOCK_ON", "level"), _asked_safely(scan)), _unlocked(scan)
 
 
 @theorem(
@@ -176,14 +176,14 @@ def with_the_level_a_request_that_stands_unlocks() -> Queries:
     UnlockRequest TRUE unlocks it.
     """
     yield from JUDGE.in_every_scan(held_request_unlocks)
-    anyway: Sentence = lambda one: (_asked_safely(one), _unlocked(one))  # noqa: E731
+    anyway: Sentence = lambda scan: (_asked_safely(scan), _unlocked(scan))  # noqa: E731
     yield JUDGE.too_strong("with the edge too", anyway, LOCKED)
 
 
-def request_unlocks_at_once(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def request_unlocks_at_once(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    return z3.And(_asked_safely(one), request_edge(one)), _unlocked(one)
+    return z3.And(_asked_safely(scan), request_edge(scan)), _unlocked(scan)
 
 
 @theorem(
@@ -195,17 +195,17 @@ def a_request_that_rises_with_the_zone_safe_unlocks_in_that_call() -> Queries:
     """
     yield from JUDGE.in_every_scan(request_unlocks_at_once)
 
-    def unsafe(one: Scanned) -> Obligation:
-        return z3.And(one.inputs.Activate, secure(one), request_edge(one)), one.sends.S_UnlockGuard
+    def unsafe(scan: Scanned) -> Obligation:
+        return z3.And(scan.inputs.Activate, secure(scan), request_edge(scan)), scan.sends.S_UnlockGuard
 
     yield JUDGE.too_strong("whatever the zone does", unsafe, LOCKED)
 
 
-def latched_request_unlocks(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def latched_request_unlocks(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    waits = z3.And(chosen(one.params, "UNLOCK_ON", "latched"), one.before.request_pending)
-    return z3.And(waits, _asked_safely(one)), _unlocked(one)
+    waits = z3.And(chosen(scan.params, "UNLOCK_ON", "latched"), scan.before.request_pending)
+    return z3.And(waits, _asked_safely(scan)), _unlocked(scan)
 
 
 @theorem(
@@ -219,15 +219,15 @@ def with_a_latched_request_the_zone_being_safe_unlocks() -> Queries:
     active call that finds the guard closed and locked and the zone safe.
     """
     yield from JUDGE.in_every_scan(latched_request_unlocks)
-    anyway: Sentence = lambda one: (_asked_safely(one), _unlocked(one))  # noqa: E731
+    anyway: Sentence = lambda scan: (_asked_safely(scan), _unlocked(scan))  # noqa: E731
     yield JUDGE.too_strong("one that rose before", anyway, LOCKED)
 
 
-def stays_unlocked_while_requested(one: Scanned) -> Obligation:
-    i = one.inputs
-    if not one.was(*UNLOCKED):
+def stays_unlocked_while_requested(scan: Scanned) -> Obligation:
+    i = scan.inputs
+    if not scan.was(*UNLOCKED):
         return None
-    return z3.And(i.Activate, i.UnlockRequest, i.S_SafetyActive), one.sends.S_UnlockGuard
+    return z3.And(i.Activate, i.UnlockRequest, i.S_SafetyActive), scan.sends.S_UnlockGuard
 
 
 @theorem(
@@ -239,16 +239,16 @@ def stays_unlocked_while_requested(one: Scanned) -> Obligation:
 def as_long_as_it_is_requested_the_guard_stays_unlocked() -> Queries:
     """An active call with the guard unlocked before it, a request and the zone safe leaves it so."""
     yield from JUDGE.in_every_scan(stays_unlocked_while_requested)
-    active: Sentence = lambda one: (one.inputs.Activate, one.sends.S_UnlockGuard)  # noqa: E731
+    active: Sentence = lambda scan: (scan.inputs.Activate, scan.sends.S_UnlockGuard)  # noqa: E731
     yield JUDGE.too_strong("as long as it is active", active, "GuardClosedButUnlocked")
 
 
-def stays_unlocked_while_open(one: Scanned) -> Obligation:
-    i = one.inputs
-    if not one.was(*UNLOCKED):
+def stays_unlocked_while_open(scan: Scanned) -> Obligation:
+    i = scan.inputs
+    if not scan.was(*UNLOCKED):
         return None
     open_and_safe = z3.And(i.Activate, z3.Not(i.S_GuardMonitoring), i.S_SafetyActive)
-    return open_and_safe, one.sends.S_UnlockGuard
+    return open_and_safe, scan.sends.S_UnlockGuard
 
 
 @theorem(
@@ -260,17 +260,17 @@ def the_bolt_is_not_thrown_while_the_guard_is_open() -> Queries:
     """
     yield from JUDGE.in_every_scan(stays_unlocked_while_open)
 
-    def unsafe(one: Scanned) -> Obligation:
-        return z3.And(one.inputs.Activate, z3.Not(one.inputs.S_GuardMonitoring)), one.sends.S_UnlockGuard
+    def unsafe(scan: Scanned) -> Obligation:
+        return z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_GuardMonitoring)), scan.sends.S_UnlockGuard
 
     yield JUDGE.too_strong("whatever the zone does", unsafe, "GuardOpenAndUnlocked")
 
 
-def locks_without_request(one: Scanned) -> Obligation:
-    if not one.was("GuardClosedButUnlocked"):
+def locks_without_request(scan: Scanned) -> Obligation:
+    if not scan.was("GuardClosedButUnlocked"):
         return None
-    i = one.inputs
-    return z3.And(i.S_GuardMonitoring, z3.Not(i.UnlockRequest)), z3.Not(one.sends.S_UnlockGuard)
+    i = scan.inputs
+    return z3.And(i.S_GuardMonitoring, z3.Not(i.UnlockRequest)), z3.Not(scan.sends.S_UnlockGuard)
 
 
 @theorem(
@@ -285,17 +285,17 @@ def without_a_request_a_closed_guard_is_asked_to_lock() -> Queries:
     """
     yield from JUDGE.in_every_scan(locks_without_request)
 
-    def when_open(one: Scanned) -> Obligation:
-        return z3.Not(one.inputs.UnlockRequest), z3.Not(one.sends.S_UnlockGuard)
+    def when_open(scan: Scanned) -> Obligation:
+        return z3.Not(scan.inputs.UnlockRequest), z3.Not(scan.sends.S_UnlockGuard)
 
     yield JUDGE.too_strong("an open one too", when_open, "GuardClosedButUnlocked")
 
 
-def locked_whatever_the_zone(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def locked_whatever_the_zone(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    unsafe = z3.Not(one.inputs.S_SafetyActive)
-    return z3.And(one.inputs.Activate, secure(one), unsafe), one.sends.S_GuardLocked
+    unsafe = z3.Not(scan.inputs.S_SafetyActive)
+    return z3.And(scan.inputs.Activate, secure(scan), unsafe), scan.sends.S_GuardLocked
 
 
 @theorem(
@@ -310,17 +310,17 @@ def a_locked_guard_stays_enabled_whatever_the_zone_does() -> Queries:
     """
     yield from JUDGE.in_every_scan(locked_whatever_the_zone)
 
-    def safe(one: Scanned) -> Obligation:
-        return z3.And(one.inputs.Activate, secure(one)), one.sends.S_GuardLocked
+    def safe(scan: Scanned) -> Obligation:
+        return z3.And(scan.inputs.Activate, secure(scan)), scan.sends.S_GuardLocked
 
     yield JUDGE.too_strong("and safe", safe, LOCKED)
 
 
-def stays_locked(one: Scanned) -> Obligation:
-    if not one.was(LOCKED):
+def stays_locked(scan: Scanned) -> Obligation:
+    if not scan.was(LOCKED):
         return None
-    unasked = z3.Not(one.inputs.UnlockRequest)
-    return z3.And(one.inputs.Activate, secure(one), unasked), one.sends.S_GuardLocked
+    unasked = z3.Not(scan.inputs.UnlockRequest)
+    return z3.And(scan.inputs.Activate, secure(scan), unasked), scan.sends.S_GuardLocked
 
 
 @theorem(clauses=["GL-OUT-GUARDLOCKED", "GL-SEQ-2"], findings=[], properties=["StaysLocked"], slow=True)
@@ -328,8 +328,8 @@ def without_a_request_a_locked_guard_stays_enabled() -> Queries:
     """An active call that finds an enabled guard closed and locked, and no request, leaves it enabled."""
     yield from JUDGE.in_every_scan(stays_locked)
 
-    def bolt(one: Scanned) -> Obligation:
-        unasked = z3.Not(one.inputs.UnlockRequest)
-        return z3.And(one.inputs.Activate, unasked), one.sends.S_GuardLocked
+    def bolt(scan: Scanned) -> Obligation:
+        unasked = z3.Not(scan.inputs.UnlockRequest)
+        return z3.And(scan.inputs.Activate, unasked), scan.sends.S_GuardLocked
 
     yield JUDGE.too_strong("without its lock", bolt, LOCKED)

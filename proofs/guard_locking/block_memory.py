@@ -13,8 +13,8 @@ from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def remembers_the_wires(one: Scanned) -> Obligation:
-    i, after = one.inputs, one.after
+def remembers_the_wires(scan: Scanned) -> Obligation:
+    i, after = scan.inputs, scan.after
     return TRUE, z3.And(after.reset_before == i.Reset, after.unlock_request_before == i.UnlockRequest)
 
 
@@ -23,17 +23,17 @@ def every_call_remembers_reset_and_request() -> Queries:
     """Every call, active or not, leaves Reset and UnlockRequest as it read them."""
     yield from JUDGE.in_every_scan(remembers_the_wires)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.after.reset_before)
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.after.reset_before)
 
     yield JUDGE.too_strong("nothing is remembered", never, "Idle")
 
 
-def pending(one: Scanned) -> Obligation:
-    latched = chosen(one.params, "UNLOCK_ON", "latched")
-    stands = z3.And(one.inputs.UnlockRequest, z3.Or(request_edge(one), one.before.request_pending))
-    there = TRUE if one.becomes(LOCKED) else FALSE
-    return TRUE, one.after.request_pending == z3.And(latched, there, stands)
+def pending(scan: Scanned) -> Obligation:
+    latched = chosen(scan.params, "UNLOCK_ON", "latched")
+    stands = z3.And(scan.inputs.UnlockRequest, z3.Or(request_edge(scan), scan.before.request_pending))
+    there = TRUE if scan.becomes(LOCKED) else FALSE
+    return TRUE, scan.after.request_pending == z3.And(latched, there, stands)
 
 
 @theorem(clauses=["GL-IN-UNLOCKREQUEST"], findings=["GLF-02"], slow=True)
@@ -43,21 +43,21 @@ def a_request_is_pending_only_where_it_is_latched() -> Queries:
     """
     yield from JUDGE.in_every_scan(pending)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.after.request_pending)
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.after.request_pending)
 
     yield JUDGE.too_strong("never", never, LOCKED)
 
 
-def inhibit(one: Scanned) -> Obligation:
-    wanted = chosen(one.params, "START_UP_INHIBIT", "until_reset")
-    if one.was("Init") and one.becomes("WaitForOperator"):
-        carried = z3.And(wanted, z3.Not(one.inputs.S_StartReset))
-    elif one.becomes("Idle", LOCKED):
+def inhibit(scan: Scanned) -> Obligation:
+    wanted = chosen(scan.params, "START_UP_INHIBIT", "until_reset")
+    if scan.was("Init") and scan.becomes("WaitForOperator"):
+        carried = z3.And(wanted, z3.Not(scan.inputs.S_StartReset))
+    elif scan.becomes("Idle", LOCKED):
         carried = FALSE
     else:
-        carried = one.before.start_up_inhibit
-    return TRUE, one.after.start_up_inhibit == carried
+        carried = scan.before.start_up_inhibit
+    return TRUE, scan.after.start_up_inhibit == carried
 
 
 @theorem(clauses=["GL-IN-STARTRESET"], findings=["GLF-08", "GLF-21"], slow=True)
@@ -67,7 +67,7 @@ def a_start_up_inhibit_is_carried_to_the_first_enable() -> Queries:
     """
     yield from JUDGE.in_every_scan(inhibit)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.after.start_up_inhibit)
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.after.start_up_inhibit)
 
     yield JUDGE.too_strong("never", never, "Init")

@@ -36,28 +36,28 @@ CALLS: Final = {
 """How many quiet calls lead to the enable, when Reset was FALSE and when it was TRUE in the call before."""
 
 
-def answers_at_once(one: Scanned) -> Obligation:
+def answers_at_once(scan: Scanned) -> Obligation:
     """A call that stays has not seen what its state waits for."""
-    i = one.inputs
+    i = scan.inputs
     guard, zone, request, reset = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest, i.Reset
-    guard_too = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
-    due = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(one)))
+    guard_too = chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    due = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(scan)))
     waits = {
-        "Init": z3.And(secure(one), z3.Not(i.S_StartReset), z3.Not(reset)),
-        LOCKED: z3.And(secure(one), z3.Not(z3.And(request_edge(one), zone))),
+        "Init": z3.And(secure(scan), z3.Not(i.S_StartReset), z3.Not(reset)),
+        LOCKED: z3.And(secure(scan), z3.Not(z3.And(request_edge(scan), zone))),
         "GuardClosedButUnlocked": z3.And(guard, request),
         "GuardOpenAndUnlocked": z3.And(z3.Not(guard), zone),
         "WaitForOperator": z3.And(guard, z3.Not(i.S_GuardLock), zone, z3.Not(request)),
-        "WaitForReset": z3.And(secure(one), z3.Not(reset), z3.Not(due)),
-        "SafetyReturn": z3.And(zone, z3.Or(z3.Not(reset), z3.And(guard_too, z3.Not(secure(one))))),
+        "WaitForReset": z3.And(secure(scan), z3.Not(reset), z3.Not(due)),
+        "SafetyReturn": z3.And(zone, z3.Or(z3.Not(reset), z3.And(guard_too, z3.Not(secure(scan))))),
         "SafetyLost": z3.Not(zone),
         "ResetError1": reset,
         "ResetError2": reset,
         "ResetError3": reset,
         "Idle": FALSE,
     }
-    state = control(BLOCK, one.before)
-    return i.Activate, waits[state] if one.becomes(state) else TRUE
+    state = control(BLOCK, scan.before)
+    return i.Activate, waits[state] if scan.becomes(state) else TRUE
 
 
 @theorem(
@@ -72,8 +72,8 @@ def a_call_that_stays_has_not_seen_what_it_waits_for() -> Queries:
     """
     yield from JUDGE.in_every_scan(answers_at_once)
 
-    def leaves(one: Scanned) -> Obligation:
-        return one.inputs.Activate, FALSE if one.becomes("WaitForReset") else TRUE
+    def leaves(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, FALSE if scan.becomes("WaitForReset") else TRUE
 
     yield JUDGE.too_strong("it never stays", leaves, "WaitForReset")
 
@@ -82,18 +82,18 @@ ERRORS: Final = ("SafetyLost", "ResetError1", "ResetError2", "ResetError3")
 """Why a call ends in one of them, `an_error_has_a_cause_in_that_call` says."""
 
 
-def leaves_for_a_cause(one: Scanned) -> Obligation:
+def leaves_for_a_cause(scan: Scanned) -> Obligation:
     """A call that leaves its state without an error has seen why."""
-    state = control(BLOCK, one.before)
-    if one.becomes(state, *ERRORS):
+    state = control(BLOCK, scan.before)
+    if scan.becomes(state, *ERRORS):
         return None
-    i, edge, secured = one.inputs, reset_edge(one), secure(one)
+    i, edge, secured = scan.inputs, reset_edge(scan), secure(scan)
     guard, zone, request = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest
     opened = z3.Not(guard)
-    kept = z3.Or(zone, chosen(one.params, "ZONE_LOST", "tolerated"))
-    guard_too = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
-    alone = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(one)))
-    locked, unlocked = one.sends.S_GuardLocked, one.sends.S_UnlockGuard
+    kept = z3.Or(zone, chosen(scan.params, "ZONE_LOST", "tolerated"))
+    guard_too = chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    alone = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(scan)))
+    locked, unlocked = scan.sends.S_GuardLocked, scan.sends.S_UnlockGuard
     causes = {
         "Init": z3.If(locked, z3.And(secured, z3.Or(i.S_StartReset, edge)), z3.Not(secured)),
         LOCKED: z3.And(secured, request, zone),
@@ -136,31 +136,31 @@ def a_call_that_leaves_its_state_has_seen_why() -> Queries:
     """
     yield from JUDGE.in_every_scan(leaves_for_a_cause)
 
-    def by_edge(one: Scanned) -> Obligation:
-        said = leaves_for_a_cause(one)
-        return None if said is None else (said[0], reset_edge(one))
+    def by_edge(scan: Scanned) -> Obligation:
+        said = leaves_for_a_cause(scan)
+        return None if said is None else (said[0], reset_edge(scan))
 
     yield JUDGE.too_strong("only by an edge of Reset", by_edge, "WaitForReset")
 
 
-def calls_left(one: Scanned, before: bool) -> z3.ArithRef:
+def calls_left(scan: Scanned, before: bool) -> z3.ArithRef:
     """The number of CALLS for the memory before or after the call."""
-    memory = one.before if before else one.after
+    memory = scan.before if before else scan.after
     released, pressed = CALLS[control(BLOCK, memory)]
     return z3.If(memory.reset_before, z3.IntVal(pressed), z3.IntVal(released))
 
 
-def quiet(one: Scanned) -> z3.BoolRef:
+def quiet(scan: Scanned) -> z3.BoolRef:
     """Active, closed, locked, safe, no request; and Reset is not what it was in the call before."""
-    i = one.inputs
-    calm = z3.And(i.Activate, secure(one), i.S_SafetyActive, z3.Not(i.UnlockRequest))
-    return z3.And(calm, i.Reset != one.before.reset_before)
+    i = scan.inputs
+    calm = z3.And(i.Activate, secure(scan), i.S_SafetyActive, z3.Not(i.UnlockRequest))
+    return z3.And(calm, i.Reset != scan.before.reset_before)
 
 
-def comes_closer(one: Scanned) -> Obligation:
-    if one.was(LOCKED):
-        return quiet(one), TRUE if one.becomes(LOCKED) else FALSE
-    return quiet(one), calls_left(one, before=False) < calls_left(one, before=True)
+def comes_closer(scan: Scanned) -> Obligation:
+    if scan.was(LOCKED):
+        return quiet(scan), TRUE if scan.becomes(LOCKED) else FALSE
+    return quiet(scan), calls_left(scan, before=False) < calls_left(scan, before=True)
 
 
 @theorem(
@@ -176,30 +176,30 @@ def the_block_enables_again_within_five_calls() -> Queries:
     """
     yield from FROM_ANYWHERE.in_every_scan(comes_closer)
     for scans in FROM_ANYWHERE.scans():
-        one = next(iter(scans.read.values()))
-        left = calls_left(one, before=True)
+        scan = next(iter(scans.read.values()))
+        left = calls_left(scan, before=True)
         ends = left == 0 if scans.control == LOCKED else z3.And(left >= 1, left <= 5)
         yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
 
-    def faster(one: Scanned) -> Obligation:
-        return quiet(one), TRUE if one.becomes(LOCKED) else FALSE
+    def faster(scan: Scanned) -> Obligation:
+        return quiet(scan), TRUE if scan.becomes(LOCKED) else FALSE
 
     yield FROM_ANYWHERE.too_strong("one call is enough", faster, "SafetyReturn")
 
-    def held(one: Scanned) -> Obligation:
-        said = comes_closer(one)
-        i = one.inputs
-        calm = z3.And(i.Activate, secure(one), i.S_SafetyActive, z3.Not(i.UnlockRequest))
+    def held(scan: Scanned) -> Obligation:
+        said = comes_closer(scan)
+        i = scan.inputs
+        calm = z3.And(i.Activate, secure(scan), i.S_SafetyActive, z3.Not(i.UnlockRequest))
         return None if said is None else (calm, said[1])
 
     yield FROM_ANYWHERE.too_strong("with a Reset that is held", held, "SafetyReturn")
 
 
-def lets_in(one: Scanned) -> Obligation:
-    if not one.was("WaitForOperator"):
+def lets_in(scan: Scanned) -> Obligation:
+    if not scan.was("WaitForOperator"):
         return None
-    i = one.inputs
-    return z3.And(i.Activate, i.S_SafetyActive, i.UnlockRequest), one.sends.S_UnlockGuard
+    i = scan.inputs
+    return z3.And(i.Activate, i.S_SafetyActive, i.UnlockRequest), scan.sends.S_UnlockGuard
 
 
 @theorem(
@@ -215,7 +215,7 @@ def who_asks_where_nothing_is_enabled_gets_in_at_once() -> Queries:
     """
     yield from JUDGE.in_every_scan(lets_in)
 
-    def unasked(one: Scanned) -> Obligation:
-        return z3.And(one.inputs.Activate, one.inputs.S_SafetyActive), one.sends.S_UnlockGuard
+    def unasked(scan: Scanned) -> Obligation:
+        return z3.And(scan.inputs.Activate, scan.inputs.S_SafetyActive), scan.sends.S_UnlockGuard
 
     yield JUDGE.too_strong("without a request", unasked, "WaitForOperator")

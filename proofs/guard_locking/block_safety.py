@@ -35,37 +35,37 @@ ROWS: Final = {
 """Ready, S_GuardLocked, S_UnlockGuard, Error and DiagCode of each state."""
 
 
-def secure(one: Scanned) -> z3.BoolRef:
+def secure(scan: Scanned) -> z3.BoolRef:
     """The guard is closed and locked in this call."""
-    return z3.And(one.inputs.S_GuardMonitoring, one.inputs.S_GuardLock)
+    return z3.And(scan.inputs.S_GuardMonitoring, scan.inputs.S_GuardLock)
 
 
-def enables(one: Scanned) -> z3.BoolRef:
+def enables(scan: Scanned) -> z3.BoolRef:
     """S_GuardLocked rises."""
-    return z3.And(z3.Not(one.sent.S_GuardLocked), one.sends.S_GuardLocked)
+    return z3.And(z3.Not(scan.sent.S_GuardLocked), scan.sends.S_GuardLocked)
 
 
-def static(one: Scanned) -> z3.BoolRef:
+def static(scan: Scanned) -> z3.BoolRef:
     """Reset is TRUE, and was in the call before."""
-    return z3.And(one.inputs.Reset, SEEN.reset)
+    return z3.And(scan.inputs.Reset, SEEN.reset)
 
 
-def allowed(one: Scanned) -> z3.BoolRef:
+def allowed(scan: Scanned) -> z3.BoolRef:
     """The input of the inhibit that is due says that there is none."""
-    at_start_up = one.sent.DiagCode == 0x8001
-    return z3.If(at_start_up, one.inputs.S_StartReset, one.inputs.S_AutoReset)
+    at_start_up = scan.sent.DiagCode == 0x8001
+    return z3.If(at_start_up, scan.inputs.S_StartReset, scan.inputs.S_AutoReset)
 
 
 def nothing(outputs: Any) -> z3.BoolRef:
     """Every output is FALSE, and the code zero."""
     flags = (outputs.Ready, outputs.S_GuardLocked, outputs.S_UnlockGuard, outputs.Error)
-    return z3.And(*[z3.Not(one) for one in flags], outputs.DiagCode == 0)
+    return z3.And(*[z3.Not(flag) for flag in flags], outputs.DiagCode == 0)
 
 
-def row(one: Scanned, seen: Any) -> z3.BoolRef:
-    state = next(name for name in ROWS if one.becomes(name))
+def row(scan: Scanned, seen: Any) -> z3.BoolRef:
+    state = next(name for name in ROWS if scan.becomes(name))
     ready, locked, unlock, error, code = ROWS[state]
-    o = one.sends
+    o = scan.sends
     flags = ((o.Ready, ready), (o.S_GuardLocked, locked), (o.S_UnlockGuard, unlock), (o.Error, error))
     return z3.And(*[flag == z3.BoolVal(value) for flag, value in flags], o.DiagCode == code)
 
@@ -80,15 +80,15 @@ def every_state_has_its_row_of_outputs() -> Queries:
     have the same code.
     """
     yield from JUDGE.after_every_scan(row)
-    codes = [one[4] for one in ROWS.values()]
+    codes = [outputs[4] for outputs in ROWS.values()]
     if len(set(codes)) != len(codes):
         raise ValueError("two states have the same code")
-    never: Sentence = lambda one: (TRUE, z3.Not(one.sends.S_GuardLocked))  # noqa: E731
+    never: Sentence = lambda scan: (TRUE, z3.Not(scan.sends.S_GuardLocked))  # noqa: E731
     yield JUDGE.too_strong("no row enables", never, "WaitForReset")
 
 
-def nothing_while_inactive(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def nothing_while_inactive(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     off = z3.Or(z3.Not(o.Ready), o.Error)
     quiet = z3.And(z3.Not(o.S_GuardLocked), z3.Not(o.S_UnlockGuard))
     return z3.And(z3.Implies(off, quiet), z3.Implies(z3.Not(o.Ready), nothing(o)))
@@ -105,12 +105,12 @@ def nothing_is_enabled_or_unlocked_while_inactive_or_in_error() -> Queries:
     unlocks; and while it is not ready it shows no error and no code.
     """
     yield from JUDGE.after_every_scan(nothing_while_inactive)
-    calm: Sentence = lambda one: (TRUE, z3.Not(one.sends.Error))  # noqa: E731
+    calm: Sentence = lambda scan: (TRUE, z3.Not(scan.sends.Error))  # noqa: E731
     yield JUDGE.too_strong("there is no error", calm, "GuardOpenAndUnlocked")
 
 
-def never_both(one: Scanned, seen: Any) -> z3.BoolRef:
-    return z3.Not(z3.And(one.sends.S_GuardLocked, one.sends.S_UnlockGuard))
+def never_both(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return z3.Not(z3.And(scan.sends.S_GuardLocked, scan.sends.S_UnlockGuard))
 
 
 @theorem(
@@ -122,12 +122,12 @@ def never_both(one: Scanned, seen: Any) -> z3.BoolRef:
 def the_block_never_enables_and_unlocks_together() -> Queries:
     """At power-up and after every call S_GuardLocked and S_UnlockGuard are not both TRUE."""
     yield from JUDGE.after_every_scan(never_both)
-    neither: Sentence = lambda one: (TRUE, z3.Not(one.sends.S_UnlockGuard))  # noqa: E731
+    neither: Sentence = lambda scan: (TRUE, z3.Not(scan.sends.S_UnlockGuard))  # noqa: E731
     yield JUDGE.too_strong("it never unlocks", neither, "GuardClosedAndLocked")
 
 
-def safe_at_power_up(one: Scanned, seen: Any) -> z3.BoolRef:
-    return nothing(one.sends) if one.becomes("Idle") else FALSE
+def safe_at_power_up(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return nothing(scan.sends) if scan.becomes("Idle") else FALSE
 
 
 @theorem(
@@ -145,9 +145,11 @@ def before_the_first_call_every_output_is_false() -> Queries:
     yield JUDGE.too_strong("and after every call", always, "Idle")
 
 
-def inactive_at_once(one: Scanned) -> Obligation:
-    idle = z3.And(nothing(one.sends), TRUE if one.becomes("Idle") else FALSE)
-    return TRUE, z3.And(one.sends.Ready == one.inputs.Activate, z3.Implies(z3.Not(one.inputs.Activate), idle))
+def inactive_at_once(scan: Scanned) -> Obligation:
+    idle = z3.And(nothing(scan.sends), TRUE if scan.becomes("Idle") else FALSE)
+    return TRUE, z3.And(
+        scan.sends.Ready == scan.inputs.Activate, z3.Implies(z3.Not(scan.inputs.Activate), idle)
+    )
 
 
 @theorem(
@@ -161,14 +163,14 @@ def without_activate_every_output_is_false_in_that_call() -> Queries:
     and the block is ready after every call with Activate.
     """
     yield from JUDGE.in_every_scan(inactive_at_once)
-    idle: Sentence = lambda one: (TRUE, nothing(one.sends))  # noqa: E731
+    idle: Sentence = lambda scan: (TRUE, nothing(scan.sends))  # noqa: E731
     yield JUDGE.too_strong("in every call", idle, "SafetyLost")
 
 
-def enable_needs_secured_guard(one: Scanned) -> Obligation:
-    if not one.becomes("GuardClosedAndLocked"):
-        return TRUE, z3.Not(one.sends.S_GuardLocked)
-    return TRUE, z3.And(one.sends.S_GuardLocked, one.inputs.Activate, secure(one))
+def enable_needs_secured_guard(scan: Scanned) -> Obligation:
+    if not scan.becomes("GuardClosedAndLocked"):
+        return TRUE, z3.Not(scan.sends.S_GuardLocked)
+    return TRUE, z3.And(scan.sends.S_GuardLocked, scan.inputs.Activate, secure(scan))
 
 
 @theorem(
@@ -182,15 +184,15 @@ def no_enable_without_a_closed_and_locked_guard_in_that_call() -> Queries:
     S_GuardLock TRUE.
     """
     yield from JUDGE.in_every_scan(enable_needs_secured_guard)
-    safe: Sentence = lambda one: (one.sends.S_GuardLocked, one.inputs.S_SafetyActive)  # noqa: E731
+    safe: Sentence = lambda scan: (scan.sends.S_GuardLocked, scan.inputs.S_SafetyActive)  # noqa: E731
     yield JUDGE.too_strong("and the zone is safe", safe, "WaitForReset")
 
 
 # ---------------------------------------------------------------- inhibits and Reset
 
 
-def no_automatic_restart(one: Scanned) -> Obligation:
-    return TRUE, z3.Implies(enables(one), z3.Or(reset_edge(one), allowed(one)))
+def no_automatic_restart(scan: Scanned) -> Obligation:
+    return TRUE, z3.Implies(enables(scan), z3.Or(reset_edge(scan), allowed(scan)))
 
 
 @theorem(
@@ -204,20 +206,20 @@ def nothing_is_enabled_without_an_edge_of_reset_unless_an_input_allows_it() -> Q
     S_AutoReset TRUE after the guard was closed and locked again.
     """
     yield from JUDGE.in_every_scan(no_automatic_restart)
-    edge: Sentence = lambda one: (enables(one), reset_edge(one))  # noqa: E731
+    edge: Sentence = lambda scan: (enables(scan), reset_edge(scan))  # noqa: E731
     yield JUDGE.too_strong("always by an edge", edge, "WaitForReset")
     yield JUDGE.without(no_automatic_restart, "Init", "WiresAreRemembered")
 
 
-def start_up_inhibited(one: Scanned) -> z3.BoolRef:
+def start_up_inhibited(scan: Scanned) -> z3.BoolRef:
     """The start-up inhibit is still to be removed."""
-    return z3.And(SEEN.starting, chosen(one.params, "START_UP_INHIBIT", "until_reset"))
+    return z3.And(SEEN.starting, chosen(scan.params, "START_UP_INHIBIT", "until_reset"))
 
 
-def start_up_inhibit_needs_reset(one: Scanned) -> Obligation:
-    free = z3.And(one.sent.DiagCode == 0x8001, one.inputs.S_StartReset)
-    given = z3.And(enables(one), start_up_inhibited(one))
-    return TRUE, z3.Implies(given, z3.Or(reset_edge(one), free))
+def start_up_inhibit_needs_reset(scan: Scanned) -> Obligation:
+    free = z3.And(scan.sent.DiagCode == 0x8001, scan.inputs.S_StartReset)
+    given = z3.And(enables(scan), start_up_inhibited(scan))
+    return TRUE, z3.Implies(given, z3.Or(reset_edge(scan), free))
 
 
 @theorem(
@@ -230,14 +232,14 @@ def a_start_up_inhibit_ends_by_an_edge_of_reset() -> Queries:
     yield from JUDGE.in_every_scan(start_up_inhibit_needs_reset)
     yield JUDGE.without(start_up_inhibit_needs_reset, "WaitForReset", "InhibitIsCarried")
 
-    def anyway(one: Scanned) -> Obligation:
-        return z3.And(enables(one), SEEN.starting), reset_edge(one)
+    def anyway(scan: Scanned) -> Obligation:
+        return z3.And(enables(scan), SEEN.starting), reset_edge(scan)
 
     yield JUDGE.too_strong("with until_opened too", anyway, "WaitForReset")
 
 
-def loss_needs_reset(one: Scanned) -> Obligation:
-    return TRUE, z3.Implies(one.sends.S_GuardLocked, z3.Not(sees(one).lost))
+def loss_needs_reset(scan: Scanned) -> Obligation:
+    return TRUE, z3.Implies(scan.sends.S_GuardLocked, z3.Not(sees(scan).lost))
 
 
 @theorem(
@@ -251,9 +253,9 @@ def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
     yield JUDGE.without(loss_needs_reset, "WaitForReset", "LossIsWaitedOut")
 
 
-def loss_needs_guard_back(one: Scanned) -> Obligation:
-    strict = chosen(one.params, "CAUSE_OF_LOSS", "guard_and_zone")
-    return TRUE, z3.Implies(z3.And(strict, one.sends.S_GuardLocked), z3.Not(sees(one).unguarded))
+def loss_needs_guard_back(scan: Scanned) -> Obligation:
+    strict = chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    return TRUE, z3.Implies(z3.And(strict, scan.sends.S_GuardLocked), z3.Not(sees(scan).unguarded))
 
 
 @theorem(
@@ -267,14 +269,14 @@ def after_a_loss_nothing_is_enabled_before_an_edge_of_reset_behind_the_guard() -
     yield JUDGE.without(loss_needs_guard_back, "WaitForReset", "GuardComesBack")
 
 
-def static_reset_resets_nothing(one: Scanned) -> Obligation:
-    waits = z3.Or(*[one.sent.DiagCode == code for code in (0x8014, 0xC001, 0xC002, 0xC003)])
+def static_reset_resets_nothing(scan: Scanned) -> Obligation:
+    waits = z3.Or(*[scan.sent.DiagCode == code for code in (0x8014, 0xC001, 0xC002, 0xC003)])
     there = z3.Or(
-        one.sends.DiagCode == one.sent.DiagCode,
-        *[one.sends.DiagCode == code for code in (0xC002, 0xC004, 0x0000)],
+        scan.sends.DiagCode == scan.sent.DiagCode,
+        *[scan.sends.DiagCode == code for code in (0xC002, 0xC004, 0x0000)],
     )
-    kept = z3.And(z3.Implies(enables(one), allowed(one)), z3.Implies(waits, there))
-    return static(one), kept
+    kept = z3.And(z3.Implies(enables(scan), allowed(scan)), z3.Implies(waits, there))
+    return static(scan), kept
 
 
 @theorem(
@@ -290,23 +292,23 @@ def a_reset_that_does_not_move_resets_nothing() -> Queries:
     yield from JUDGE.in_every_scan(static_reset_resets_nothing)
     yield JUDGE.without(static_reset_resets_nothing, "SafetyReturn", "WiresAreRemembered")
 
-    def pressed(one: Scanned) -> Obligation:
-        return one.inputs.Reset, z3.Not(enables(one))
+    def pressed(scan: Scanned) -> Obligation:
+        return scan.inputs.Reset, z3.Not(enables(scan))
 
     yield JUDGE.too_strong("nor does one that is pressed", pressed, "WaitForReset")
 
 
-def static_reset_is_found(one: Scanned) -> Obligation:
-    found = one.sends.DiagCode
+def static_reset_is_found(scan: Scanned) -> Obligation:
+    found = scan.sends.DiagCode
     wanted = {
-        "Init": z3.Implies(edge_awaited(one), found == 0xC001),
+        "Init": z3.Implies(edge_awaited(scan), found == 0xC001),
         "SafetyReturn": found == 0xC002,
-        "WaitForReset": z3.Implies(edge_awaited(one), found == 0xC003),
+        "WaitForReset": z3.Implies(edge_awaited(scan), found == 0xC003),
     }
-    where = [one_state for one_state in wanted if one.was(one_state)]
+    where = [one_state for one_state in wanted if scan.was(one_state)]
     if not where:
         return None
-    return z3.And(one.inputs.Activate, static(one)), wanted[where[0]]
+    return z3.And(scan.inputs.Activate, static(scan)), wanted[where[0]]
 
 
 @theorem(clauses=["GL-IN-RESET"], findings=["GLF-07"], properties=["StaticResetIsFound"], slow=True)
@@ -316,9 +318,9 @@ def a_reset_that_does_not_move_is_found() -> Queries:
     """
     yield from JUDGE.in_every_scan(static_reset_is_found)
 
-    def pressed(one: Scanned) -> Obligation:
-        said = static_reset_is_found(one)
-        return None if said is None else (z3.And(one.inputs.Activate, one.inputs.Reset), said[1])
+    def pressed(scan: Scanned) -> Obligation:
+        said = static_reset_is_found(scan)
+        return None if said is None else (z3.And(scan.inputs.Activate, scan.inputs.Reset), said[1])
 
     yield JUDGE.too_strong("every Reset is an error", pressed, "SafetyReturn")
 
@@ -326,12 +328,12 @@ def a_reset_that_does_not_move_is_found() -> Queries:
 # ---------------------------------------------------------------- losses and errors
 
 
-def loss_is_an_error(one: Scanned) -> Obligation:
-    if not one.was("GuardClosedAndLocked"):
+def loss_is_an_error(scan: Scanned) -> Obligation:
+    if not scan.was("GuardClosedAndLocked"):
         return None
-    o = one.sends
+    o = scan.sends
     error = z3.And(o.Error, z3.Not(o.S_GuardLocked), z3.Not(o.S_UnlockGuard), o.DiagCode == 0xC004)
-    return z3.And(one.inputs.Activate, z3.Not(secure(one))), error
+    return z3.And(scan.inputs.Activate, z3.Not(secure(scan))), error
 
 
 @theorem(
@@ -346,39 +348,39 @@ def the_loss_of_a_locked_guard_is_an_error_in_that_call() -> Queries:
     """
     yield from JUDGE.in_every_scan(loss_is_an_error)
 
-    def any_call(one: Scanned) -> Obligation:
-        return one.inputs.Activate, one.sends.Error
+    def any_call(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, scan.sends.Error
 
     yield JUDGE.too_strong("every call", any_call, "GuardClosedAndLocked")
 
 
-def loss_seen(one: Scanned) -> z3.BoolRef:
+def loss_seen(scan: Scanned) -> z3.BoolRef:
     """What is a loss in each state."""
-    i, unsafe = one.inputs, z3.Not(one.inputs.S_SafetyActive)
-    strict = chosen(one.params, "ZONE_LOST", "error")
+    i, unsafe = scan.inputs, z3.Not(scan.inputs.S_SafetyActive)
+    strict = chosen(scan.params, "ZONE_LOST", "error")
     found = {
-        "GuardClosedAndLocked": z3.Not(secure(one)),
+        "GuardClosedAndLocked": z3.Not(secure(scan)),
         "GuardClosedButUnlocked": z3.And(unsafe, strict),
         "GuardOpenAndUnlocked": z3.And(unsafe, z3.Or(strict, z3.Not(i.S_GuardMonitoring))),
-        "WaitForOperator": z3.And(unsafe, z3.Not(secure(one))),
+        "WaitForOperator": z3.And(unsafe, z3.Not(secure(scan))),
         "SafetyReturn": unsafe,
     }
-    return next((cause for state, cause in found.items() if one.was(state)), FALSE)
+    return next((cause for state, cause in found.items() if scan.was(state)), FALSE)
 
 
-def edge_awaited(one: Scanned) -> z3.BoolRef:
+def edge_awaited(scan: Scanned) -> z3.BoolRef:
     """An edge of Reset is waited for."""
-    if one.was("Init"):
-        return z3.Not(one.inputs.S_StartReset)
-    if one.was("WaitForReset"):
-        return z3.Or(z3.Not(one.inputs.S_AutoReset), start_up_inhibited(one))
-    return TRUE if one.was("SafetyReturn") else FALSE
+    if scan.was("Init"):
+        return z3.Not(scan.inputs.S_StartReset)
+    if scan.was("WaitForReset"):
+        return z3.Or(z3.Not(scan.inputs.S_AutoReset), start_up_inhibited(scan))
+    return TRUE if scan.was("SafetyReturn") else FALSE
 
 
-def error_needs_cause(one: Scanned) -> Obligation:
-    found = z3.And(static(one), edge_awaited(one))
-    cause = z3.If(one.sends.DiagCode == 0xC004, loss_seen(one), found)
-    return TRUE, z3.Implies(z3.And(z3.Not(one.sent.Error), one.sends.Error), cause)
+def error_needs_cause(scan: Scanned) -> Obligation:
+    found = z3.And(static(scan), edge_awaited(scan))
+    cause = z3.If(scan.sends.DiagCode == 0xC004, loss_seen(scan), found)
+    return TRUE, z3.Implies(z3.And(z3.Not(scan.sent.Error), scan.sends.Error), cause)
 
 
 @theorem(
@@ -394,8 +396,8 @@ def an_error_has_a_cause_in_that_call() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_cause)
 
-    def zone(one: Scanned) -> Obligation:
-        return one.sends.Error, z3.Not(one.inputs.S_SafetyActive)
+    def zone(scan: Scanned) -> Obligation:
+        return scan.sends.Error, z3.Not(scan.inputs.S_SafetyActive)
 
     yield JUDGE.too_strong("always the zone", zone, "GuardClosedAndLocked")
 
@@ -404,16 +406,16 @@ RETURNS: Final = {"ResetError1": "Init", "ResetError2": "SafetyReturn", "ResetEr
 """Where a reset error was found, and leads back to."""
 
 
-def error_ends_with_cause(one: Scanned) -> Obligation:
-    if not one.was("SafetyLost", *RETURNS):
+def error_ends_with_cause(scan: Scanned) -> Obligation:
+    if not scan.was("SafetyLost", *RETURNS):
         return None
-    i = one.inputs
-    if one.was("SafetyLost"):
-        ends = z3.And(i.S_SafetyActive, TRUE if one.becomes("SafetyReturn") else FALSE)
+    i = scan.inputs
+    if scan.was("SafetyLost"):
+        ends = z3.And(i.S_SafetyActive, TRUE if scan.becomes("SafetyReturn") else FALSE)
     else:
-        back = any(one.was(error) and one.becomes(state) for error, state in RETURNS.items())
+        back = any(scan.was(error) and scan.becomes(state) for error, state in RETURNS.items())
         ends = z3.And(z3.Not(i.Reset), TRUE if back else FALSE)
-    gone = z3.And(i.Activate, z3.Not(one.sends.Error))
+    gone = z3.And(i.Activate, z3.Not(scan.sends.Error))
     return TRUE, z3.Implies(gone, ends)
 
 
@@ -429,8 +431,8 @@ def an_error_ends_with_its_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_ends_with_cause)
 
-    def for_ever(one: Scanned) -> Obligation:
-        return one.inputs.Activate, one.sends.Error
+    def for_ever(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, scan.sends.Error
 
     yield JUDGE.too_strong("it never ends", for_ever, "ResetError2")
 
@@ -452,9 +454,9 @@ TRANSITIONS: Final = {
 """The table of transitions; besides, every state stays, or goes to Idle without Activate."""
 
 
-def in_the_table(one: Scanned) -> Obligation:
-    before = next(name for name in TRANSITIONS if one.was(name))
-    return TRUE, TRUE if one.becomes("Idle", before, *TRANSITIONS[before]) else FALSE
+def in_the_table(scan: Scanned) -> Obligation:
+    before = next(name for name in TRANSITIONS if scan.was(name))
+    return TRUE, TRUE if scan.becomes("Idle", before, *TRANSITIONS[before]) else FALSE
 
 
 @theorem(clauses=["GL-SEQ-NOTE"], findings=["GLF-01"], properties=["OneTransitionACall"], slow=True)
@@ -462,18 +464,18 @@ def a_call_takes_one_transition_of_the_table() -> Queries:
     """Every call stays in its state, ends in Idle, or takes one transition of the table."""
     yield from JUDGE.in_every_scan(in_the_table)
 
-    def stays(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes("Idle", "Init") else FALSE
+    def stays(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes("Idle", "Init") else FALSE
 
     yield JUDGE.too_strong("it always stays", stays, "Init")
 
 
-def code_tells_the_guard(one: Scanned) -> Obligation:
-    closed = one.inputs.S_GuardMonitoring
-    by_request = TRUE if one.was("WaitForOperator") else FALSE
+def code_tells_the_guard(scan: Scanned) -> Obligation:
+    closed = scan.inputs.S_GuardMonitoring
+    by_request = TRUE if scan.was("WaitForOperator") else FALSE
     return TRUE, z3.And(
-        z3.Implies(one.sends.DiagCode == 0x8013, closed),
-        z3.Implies(one.sends.DiagCode == 0x8012, z3.Or(z3.Not(closed), by_request)),
+        z3.Implies(scan.sends.DiagCode == 0x8013, closed),
+        z3.Implies(scan.sends.DiagCode == 0x8012, z3.Or(z3.Not(closed), by_request)),
     )
 
 
@@ -489,7 +491,7 @@ def the_code_of_an_unlocked_guard_tells_whether_it_is_open() -> Queries:
     """
     yield from JUDGE.in_every_scan(code_tells_the_guard)
 
-    def open_is_open(one: Scanned) -> Obligation:
-        return one.sends.DiagCode == 0x8012, z3.Not(one.inputs.S_GuardMonitoring)
+    def open_is_open(scan: Scanned) -> Obligation:
+        return scan.sends.DiagCode == 0x8012, z3.Not(scan.inputs.S_GuardMonitoring)
 
     yield JUDGE.too_strong("also on the way from a request", open_is_open, "WaitForOperator")

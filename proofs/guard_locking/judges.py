@@ -17,10 +17,10 @@ _MODULES: Final = (block_safety, block_locks, block_memory, block_response, inva
 JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
     {
         BLOCK.name: tuple(
-            one
+            var
             for module in _MODULES
-            for one in vars(module).values()
-            if isinstance(one, Theorem) and one.build.__module__ == module.__name__
+            for var in vars(module).values()
+            if isinstance(var, Theorem) and var.build.__module__ == module.__name__
         )
     }
 )

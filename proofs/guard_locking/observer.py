@@ -41,27 +41,27 @@ NOTHING: Final = Seen(*[z3.BoolVal(False)] * 6)
 """At power-up nothing was seen."""
 
 
-def reset_edge(one: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
+def reset_edge(scan: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
     """Reset rises on the wires."""
-    return z3.And(one.inputs.Reset, z3.Not(seen.reset))
+    return z3.And(scan.inputs.Reset, z3.Not(seen.reset))
 
 
-def request_edge(one: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
+def request_edge(scan: Scanned, seen: Seen = SEEN) -> z3.BoolRef:
     """UnlockRequest rises on the wires."""
-    return z3.And(one.inputs.UnlockRequest, z3.Not(seen.request))
+    return z3.And(scan.inputs.UnlockRequest, z3.Not(seen.request))
 
 
 @cache
-def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
+def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a call."""
-    i, sent, sends = one.inputs, one.sent, one.sends
+    i, sent, sends = scan.inputs, scan.sent, scan.sends
     free = z3.And(sent.DiagCode == 0x8001, i.S_StartReset)
-    behind = z3.And(i.S_GuardMonitoring, i.S_GuardLock, reset_edge(one, seen))
-    acknowledged = z3.And(sent.DiagCode == 0x8014, i.S_SafetyActive, reset_edge(one, seen))
+    behind = z3.And(i.S_GuardMonitoring, i.S_GuardLock, reset_edge(scan, seen))
+    acknowledged = z3.And(sent.DiagCode == 0x8014, i.S_SafetyActive, reset_edge(scan, seen))
     return Seen(
         reset=i.Reset,
         request=i.UnlockRequest,
-        asked=z3.And(sends.S_GuardLocked, i.UnlockRequest, z3.Or(request_edge(one, seen), seen.asked)),
+        asked=z3.And(sends.S_GuardLocked, i.UnlockRequest, z3.Or(request_edge(scan, seen), seen.asked)),
         starting=z3.And(
             sends.Ready,
             z3.Not(sends.S_GuardLocked),

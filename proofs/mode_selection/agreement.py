@@ -127,7 +127,7 @@ def rows(document: Document | None = None, argument: Argument = ARGUMENT) -> tup
     Raises TheoremError for a property that has neither a formula nor a reason.
     """
     known = document or load_document(ROOT, "mode_selection")
-    ids = [one.id for one in known.properties]
+    ids = [known_property.id for known_property in known.properties]
     judged: dict[tuple[str, str], list[Run]] = {}
     for run in known.runs:
         if run.module.startswith("KeyFlows") and run.kind in MUST_HOLD and not run.readings:
@@ -140,7 +140,7 @@ def rows(document: Document | None = None, argument: Argument = ARGUMENT) -> tup
 
 def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Row:
     tlc = MUST_HOLD[runs[0].kind]
-    names = tuple(one.id for one in runs)
+    names = tuple(run.id for run in runs)
     if name in OF_A_DEVICE:
         return Row(name, environment, names, tlc, OF_A_DEVICE[name], (POWER_UP,), "")
     reason = NOT_PROVED.get(name, "") or NOT_PROVED_IN.get((name, environment), "")
@@ -151,7 +151,7 @@ def _row(name: str, environment: str, runs: list[Run], argument: Argument) -> Ro
         return Row(name, environment, names, tlc, "", (), reason)
     if environment not in environments(formula, argument):
         raise TheoremError(f"{name}: {formula!r} rests on what environment {environment} does not keep")
-    theorem = next(one.theorem for one in argument.proved if one.name == formula)
+    theorem = next(invariant.theorem for invariant in argument.proved if invariant.name == formula)
     return Row(name, environment, names, tlc, theorem, register_of(formula, argument), "", note)
 
 
@@ -170,22 +170,22 @@ def register_of(formula: str, argument: Argument = ARGUMENT) -> tuple[str, ...]:
     """The assumptions and findings of the registers that a proved formula rests on."""
     found: set[str] = set()
     for name in (formula, *argument.rests_on(formula)):
-        one = argument.premises[name]
-        if isinstance(one, system.Assumption):
-            found.update(one.register)
-        elif isinstance(one, Guarantee):
-            found.update((*SOUND[one.device.name], POWER_UP))
+        premise = argument.premises[name]
+        if isinstance(premise, system.Assumption):
+            found.update(premise.register)
+        elif isinstance(premise, Guarantee):
+            found.update((*SOUND[premise.device.name], POWER_UP))
     return tuple(sorted(found))
 
 
 def broken(document: Document | None = None) -> tuple[tuple[str, Run], ...]:
     """Where TLC finds that a property falls when an assumption breaks: the assumption, and the run."""
     known = document or load_document(ROOT, "mode_selection")
-    runs = {one.id: one for one in known.runs}
+    runs = {run.id: run for run in known.runs}
     return tuple(
-        (one.id, runs[name])
-        for one in known.assumptions
-        for name in one.breaks
+        (assumption.id, runs[name])
+        for assumption in known.assumptions
+        for name in assumption.breaks
         if runs[name].module.startswith("KeyFlows") and runs[name].property in FORMULA
     )
 
@@ -195,7 +195,7 @@ def disagreements(document: Document | None = None, argument: Argument = ARGUMEN
 
     A theorem that says something else than TLC in this environment is left out: its note says what.
     """
-    proved = {(one.id, one.environment): one for one in rows(document, argument) if one.theorem}
+    proved = {(row.id, row.environment): row for row in rows(document, argument) if row.theorem}
     found = []
     for assumption, run in broken(document):
         row = proved.get((run.property, run.environment))

@@ -27,7 +27,7 @@ SHIFT: Final = {
 
 def _pairs(first: z3.BitVecRef, second: z3.BitVecRef, listed: tuple[tuple[int, int], ...]) -> z3.BoolRef:
     """The two modes are one of the listed pairs."""
-    return z3.Or(*[z3.And(first == one, second == two) for one, two in listed])
+    return z3.Or(*[z3.And(first == word, second == two) for word, two in listed])
 
 
 @theorem(clauses=["EKS-T2", "EKS-T2-1", "EKS-SD-17"], findings=["E-18"])

@@ -36,7 +36,7 @@ SUMS: Final = ((0x0F0F, 0x3333, 0x3C3C), (0x0FF0, 0x33CC, 0x3C3C))
 
 def _any_of(rows: tuple[tuple[int, int], ...], first: z3.BitVecRef, second: z3.BitVecRef) -> z3.BoolRef:
     """The two terms are one of the listed pairs."""
-    return z3.Or(*[z3.And(first == one, second == two) for one, two in rows])
+    return z3.Or(*[z3.And(first == word, second == two) for word, two in rows])
 
 
 @theorem(clauses=["EKS-T2", "EKS-T2-1"], findings=["E-18"])

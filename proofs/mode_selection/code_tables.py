@@ -161,9 +161,9 @@ def four_disjoint_ranges_at_the_same_distance_would_have_been_possible() -> Quer
     )
     of_table_1 = {"the word is in Table 1": one_of(first, code_tables.SET_OF_VALUES)}
     yield from claim("the first five are Table 1", of_table_1, one_of(first, FOUR_DISJOINT_RANGES[0]))
-    for one, two in combinations(range(len(FOUR_DISJOINT_RANGES)), 2):
+    for first_row, second_row in combinations(range(len(FOUR_DISJOINT_RANGES)), 2):
         rows = {
-            f"first is in row {one + 1}": one_of(first, FOUR_DISJOINT_RANGES[one]),
-            f"second is in row {two + 1}": one_of(second, FOUR_DISJOINT_RANGES[two]),
+            f"first is in row {first_row + 1}": one_of(first, FOUR_DISJOINT_RANGES[first_row]),
+            f"second is in row {second_row + 1}": one_of(second, FOUR_DISJOINT_RANGES[second_row]),
         }
-        yield from claim(f"rows {one + 1} and {two + 1} share no word", rows, first != second)
+        yield from claim(f"rows {first_row + 1} and {second_row + 1} share no word", rows, first != second)

@@ -368,13 +368,13 @@ ARGUMENT: Final = Argument(
 
 def _proofs_of(name: str) -> Iterator[Query]:
     """The queries of all formulas that this theorem proves."""
-    for one in proved_by(name):
-        yield from ARGUMENT.queries(one.name)
+    for formula in proved_by(name):
+        yield from ARGUMENT.queries(formula.name)
 
 
 def proved_by(name: str) -> tuple[Proved, ...]:
     """The formulas that the theorem of this name proves."""
-    return tuple(one for one in ARGUMENT.proved if one.theorem == name)
+    return tuple(formula for formula in ARGUMENT.proved if formula.theorem == name)
 
 
 @theorem(

@@ -75,41 +75,41 @@ class Argument:
         every: list[Premise] = list(guarantees)
         every += assumptions
         every += proved
-        for one in every:
-            if one.name in self.premises:
-                raise TheoremError(f"two formulas are called {one.name!r}")
-            self.premises[one.name] = one
+        for formula in every:
+            if formula.name in self.premises:
+                raise TheoremError(f"two formulas are called {formula.name!r}")
+            self.premises[formula.name] = formula
         self.proved = tuple(proved)
-        self.order = tuple(one.name for one in proved)
-        given = [one.name for one in every if not isinstance(one, Invariant | Consequence)]
+        self.order = tuple(formula.name for formula in proved)
+        given = [formula.name for formula in every if not isinstance(formula, Invariant | Consequence)]
         self._check_order(set(given))
         unused = [name for name in given if name not in self._assumed()]
         if unused:
             raise TheoremError(f"no proof uses {', '.join(map(repr, unused))}")
 
     def _check_order(self, discharged: set[str]) -> None:
-        for one in self.proved:
-            for name in one.assumes:
+        for formula in self.proved:
+            for name in formula.assumes:
                 if name not in self.premises:
-                    raise TheoremError(f"{one.name!r} assumes {name!r}, which nothing discharges")
+                    raise TheoremError(f"{formula.name!r} assumes {name!r}, which nothing discharges")
                 if name not in discharged:
                     raise TheoremError(
-                        f"{one.name!r} assumes {name!r}, which is only proved later or from it"
+                        f"{formula.name!r} assumes {name!r}, which is only proved later or from it"
                     )
-            discharged.add(one.name)
+            discharged.add(formula.name)
 
     def _assumed(self) -> set[str]:
-        return {name for one in self.proved for name in one.assumes}
+        return {name for formula in self.proved for name in formula.assumes}
 
     def rests_on(self, name: str) -> tuple[str, ...]:
         """All that a proved formula rests on, directly or not, in the order of the argument."""
         found: set[str] = set()
         waiting = [name]
         while waiting:
-            one = self.premises[waiting.pop()]
-            if isinstance(one, Invariant | Consequence):
-                waiting += [other for other in one.assumes if other not in found]
-                found.update(one.assumes)
+            formula = self.premises[waiting.pop()]
+            if isinstance(formula, Invariant | Consequence):
+                waiting += [other for other in formula.assumes if other not in found]
+                found.update(formula.assumes)
         return tuple(other for other in self.premises if other in found)
 
     # ---- queries
@@ -119,55 +119,57 @@ class Argument:
 
         A step that touches nothing that an invariant speaks of needs no claim.
         """
-        one = self.premises[name]
-        if isinstance(one, Guarantee | Assumption):
+        formula = self.premises[name]
+        if isinstance(formula, Guarantee | Assumption):
             raise TheoremError(f"{name!r} is not proved here")
-        if isinstance(one, Invariant):
-            given = {"power-up": power_up(), **self._at_power_up(one)}
-            yield from claim(f"{name}: at power-up", given, one.of(NOW), LOGIC)
-        for actor in self._actors(one):
-            yield from claim(f"{name}: {actor}", self._given(one, actor), self._then(one, actor), LOGIC)
-        if isinstance(one, Consequence) and "fplc" in one.actors:
-            switches = {**self._given(one, "fplc"), "a mode is switched": STEP["fplc"].fplc.switches}
+        if isinstance(formula, Invariant):
+            given = {"power-up": power_up(), **self._at_power_up(formula)}
+            yield from claim(f"{name}: at power-up", given, formula.of(NOW), LOGIC)
+        for actor in self._actors(formula):
+            yield from claim(
+                f"{name}: {actor}", self._given(formula, actor), self._then(formula, actor), LOGIC
+            )
+        if isinstance(formula, Consequence) and "fplc" in formula.actors:
+            switches = {**self._given(formula, "fplc"), "a mode is switched": STEP["fplc"].fplc.switches}
             yield control(f"{name}: a mode can be switched at all", switches, LOGIC)
-        for left_out in one.assumes:
+        for left_out in formula.assumes:
             yield self.without(name, left_out)
 
     def without(self, name: str, left_out: str) -> Query:
         """The query that must find a step against the formula when one of its premises is left out."""
-        one = self.premises[name]
-        if isinstance(one, Guarantee | Assumption):
+        formula = self.premises[name]
+        if isinstance(formula, Guarantee | Assumption):
             raise TheoremError(f"{name!r} is not proved here")
         found: list[z3.BoolRef] = []
-        for actor in self._actors(one):
-            given = self._given(one, actor)
-            fewer = self._given(one, actor, left_out)
+        for actor in self._actors(formula):
+            given = self._given(formula, actor)
+            fewer = self._given(formula, actor, left_out)
             if len(fewer) < len(given):
-                found.append(z3.And(*fewer.values(), z3.Not(self._then(one, actor))))
+                found.append(z3.And(*fewer.values(), z3.Not(self._then(formula, actor))))
         return control(f"{name}: without {left_out}", {"some step": disjunction(found)}, LOGIC)
 
-    def _actors(self, one: Proved) -> tuple[str, ...]:
-        if isinstance(one, Consequence):
-            return one.actors
+    def _actors(self, proved: Proved) -> tuple[str, ...]:
+        if isinstance(proved, Consequence):
+            return proved.actors
         return tuple(
-            actor for actor in STEPS if not self._then(one, actor).eq(self._formula(one, actor, False))
+            actor for actor in STEPS if not self._then(proved, actor).eq(self._formula(proved, actor, False))
         )
 
-    def _then(self, one: Proved, actor: str) -> z3.BoolRef:
-        return self._formula(one, actor, True)
+    def _then(self, proved: Proved, actor: str) -> z3.BoolRef:
+        return self._formula(proved, actor, True)
 
-    def _formula(self, one: Premise, actor: str, after: bool) -> z3.BoolRef:
+    def _formula(self, premise: Premise, actor: str, after: bool) -> z3.BoolRef:
         """The formula of a premise about a step; of an invariant, before or after it."""
-        key = (one.name, actor, after)
+        key = (premise.name, actor, after)
         if key not in self.formulas:
             step = STEP[actor]
-            if isinstance(one, Invariant):
-                self.formulas[key] = one.of(step.after if after else step.before)
+            if isinstance(premise, Invariant):
+                self.formulas[key] = premise.of(step.after if after else step.before)
             else:
-                self.formulas[key] = one.of(step.scan if isinstance(one, Guarantee) else step)
+                self.formulas[key] = premise.of(step.scan if isinstance(premise, Guarantee) else step)
         return self.formulas[key]
 
-    def _given(self, one: Proved, actor: str, left_out: str = "") -> dict[str, z3.BoolRef]:
+    def _given(self, proved: Proved, actor: str, left_out: str = "") -> dict[str, z3.BoolRef]:
         step = STEP[actor]
         given = {
             "each device is in one of its states": z3.And(
@@ -175,27 +177,27 @@ class Argument:
             ),
             "what the user did and saw": history_kept(step),
         }
-        if isinstance(one, Invariant):
-            given[f"{one.name}, before"] = self._formula(one, actor, False)
-        for name in one.assumes:
+        if isinstance(proved, Invariant):
+            given[f"{proved.name}, before"] = self._formula(proved, actor, False)
+        for name in proved.assumes:
             if name != left_out:
                 given |= self._premise(self.premises[name], actor)
         return given
 
-    def _premise(self, one: Premise, actor: str) -> dict[str, z3.BoolRef]:
+    def _premise(self, premise: Premise, actor: str) -> dict[str, z3.BoolRef]:
         """What a premise says of a step of the actor, by name; nothing where it is about others."""
-        if isinstance(one, Invariant):
-            before, after = (self._formula(one, actor, when) for when in (False, True))
-            return {f"{one.name}, before": before} | (
-                {} if after.eq(before) else {f"{one.name}, after": after}
+        if isinstance(premise, Invariant):
+            before, after = (self._formula(premise, actor, when) for when in (False, True))
+            return {f"{premise.name}, before": before} | (
+                {} if after.eq(before) else {f"{premise.name}, after": after}
             )
-        if isinstance(one, Guarantee):
-            return {one.name: self._formula(one, actor, True)} if one.device.name == actor else {}
-        if actor not in one.actors:
+        if isinstance(premise, Guarantee):
+            return {premise.name: self._formula(premise, actor, True)} if premise.device.name == actor else {}
+        if actor not in premise.actors:
             return {}
-        return {one.name: self._formula(one, actor, True)}
+        return {premise.name: self._formula(premise, actor, True)}
 
-    def _at_power_up(self, one: Invariant) -> dict[str, z3.BoolRef]:
+    def _at_power_up(self, invariant: Invariant) -> dict[str, z3.BoolRef]:
         """The invariants that it assumes, at power-up."""
-        found = [self.premises[name] for name in one.assumes]
+        found = [self.premises[name] for name in invariant.assumes]
         return {other.name: other.of(NOW) for other in found if isinstance(other, Invariant)}

@@ -35,8 +35,8 @@ def hmi_writes_its_row(s: System) -> z3.BoolRef:
 
 
 def one_mode_output(s: System) -> z3.BoolRef:
-    pairs = [(one, two) for one in LEVELS for two in LEVELS if one < two]
-    return z3.And(*[z3.Not(z3.And(s.fplc.MSO[one], s.fplc.MSO[two])) for one, two in pairs])
+    pairs = [(level, two) for level in LEVELS for two in LEVELS if level < two]
+    return z3.And(*[z3.Not(z3.And(s.fplc.MSO[first], s.fplc.MSO[two])) for first, two in pairs])
 
 
 def level_and_selection(s: System) -> z3.BoolRef:
@@ -54,7 +54,7 @@ def idle_means_zeros(s: System) -> z3.BoolRef:
     """EKS-8-6 to EKS-8-18, E-17, E-27"""
     words = (s.plc.ReadAuthorization, s.plc.CheckMSO, s.plc.MW03, s.plc.MW07)
     sent = (s.fplc.MW01, s.fplc.MW05, s.hmi.SelectMSO, s.hmi.SwitchMSO)
-    zeros = z3.And(*[one == 0 for one in (*words, *sent)], s.hmi.at("Inhibited"))
+    zeros = z3.And(*[word == 0 for word in (*words, *sent)], s.hmi.at("Inhibited"))
     return z3.Implies(s.fplc.at(*QUIET), zeros)
 
 
@@ -156,7 +156,7 @@ def asked_before_confirmed(s: System) -> z3.BoolRef:
     user = s.history
     return z3.And(
         z3.Implies(s.hmi.at("AwaitEcho", "Confirm"), user.confirmed == -1),
-        z3.And(*[z3.And(one >= -1, one <= 4) for one in (user.touched, user.seen, user.confirmed)]),
+        z3.And(*[z3.And(mode >= -1, mode <= 4) for mode in (user.touched, user.seen, user.confirmed)]),
     )
 
 
@@ -171,14 +171,14 @@ def displays_the_mode(s: System) -> z3.BoolRef:
 
 def signals_the_key(s: System) -> z3.BoolRef:
     """EKS-2-7, EKS-KS-5: with LA, one output alone is that of the level on the key that was read"""
-    pairs = [(signals(s.eks.outputs, one), s.eks.level == code("RE", one)) for one in LEVELS]
-    return z3.Implies(s.eks.LA, z3.And(*[z3.Implies(one, level) for one, level in pairs]))
+    pairs = [(signals(s.eks.outputs, level), s.eks.level == code("RE", level)) for level in LEVELS]
+    return z3.Implies(s.eks.LA, z3.And(*[z3.Implies(permission, level) for permission, level in pairs]))
 
 
 def one_output_outside_the_pulse(s: System) -> z3.BoolRef:
     """EKS-KS-5, EKS-2-10"""
-    one = z3.Or(*[signals(s.eks.outputs, level) for level in (-1, *LEVELS)])
-    return z3.Or(s.eks.at("TestOnes"), one)
+    some_output = z3.Or(*[signals(s.eks.outputs, level) for level in (-1, *LEVELS)])
+    return z3.Or(s.eks.at("TestOnes"), some_output)
 
 
 def no_output_without_la(s: System) -> z3.BoolRef:
@@ -267,14 +267,16 @@ def pair(step: Step) -> z3.BoolRef:
 def within_level(step: Step) -> z3.BoolRef:
     """The mode is permitted by the one output that the F-PLC sees."""
     mode = step.after.fplc.mode
-    seen = [z3.And(signals(step.fplc.outputs, one), permits(ROWS, one, mode)) for one in LEVELS]
+    seen = [z3.And(signals(step.fplc.outputs, level), permits(ROWS, level, mode)) for level in LEVELS]
     return z3.Implies(step.fplc.switches, z3.Or(*seen))
 
 
 def within_key(step: Step) -> z3.BoolRef:
     """The mode is permitted by the level on the key that the EKS has read."""
     mode, level = step.after.fplc.mode, step.before.eks.level
-    permitted = [z3.And(level == code("RE", one), permits(ROWS, one, mode), mode <= one) for one in LEVELS]
+    permitted = [
+        z3.And(level == code("RE", number), permits(ROWS, number, mode), mode <= number) for number in LEVELS
+    ]
     return z3.Implies(step.fplc.switches, z3.Or(*permitted))
 
 
@@ -314,8 +316,8 @@ def no_word_is_refused(step: Step) -> z3.BoolRef:
 def signalled(s: System) -> z3.BitVecRef:
     """The level that the EKS signals now, or none: LA and one output alone."""
     level = z3.BitVecVal(-1, 8)
-    for one in LEVELS:
-        level = z3.If(z3.And(s.eks.LA, signals(s.eks.outputs, one)), z3.BitVecVal(one, 8), level)
+    for number in LEVELS:
+        level = z3.If(z3.And(s.eks.LA, signals(s.eks.outputs, number)), z3.BitVecVal(number, 8), level)
     return level
 
 

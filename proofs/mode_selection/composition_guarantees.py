@@ -89,8 +89,8 @@ def _offer_after_key_or_zeros(s: FplcScan) -> z3.BoolRef:
 
 def _accepts_one_output(s: FplcScan) -> z3.BoolRef:
     """EKS-2-11, EKS-4-5, EKS-4-7, EKS-KS-5"""
-    one = z3.And(s.LA, is_mode(s.after.accepted), signals(s.outputs, s.after.accepted))
-    return z3.Implies(s.after.at("Authorize"), z3.And(s.before.at("OneOutput"), one))
+    signalled = z3.And(s.LA, is_mode(s.after.accepted), signals(s.outputs, s.after.accepted))
+    return z3.Implies(s.after.at("Authorize"), z3.And(s.before.at("OneOutput"), signalled))
 
 
 def _one_authority(s: FplcScan) -> z3.BoolRef:
@@ -161,7 +161,9 @@ def _refuses_only_wrong_words(s: FplcScan) -> z3.BoolRef:
     """EKS-2-19, EKS-2-27, E-15, E-54, E-65: which words lead to Error while the accepted output stands"""
     early = z3.And(s.before.at("Authorize"), z3.Or(s.MW03 != 0, s.MW07 != 0))
     unasked = z3.And(s.before.at(*OFFERING), s.MW07 != 0)
-    within = [z3.And(code("SE", one) == s.MW03, permits(s.rows, s.before.authority, one)) for one in LEVELS]
+    within = [
+        z3.And(code("SE", level) == s.MW03, permits(s.rows, s.before.authority, level)) for level in LEVELS
+    ]
     not_permitted = z3.And(s.before.at("CheckSelection"), s.MW03 != 0, z3.Not(z3.Or(*within)))
     unmatched = z3.And(
         s.before.at("CheckAcknowledgment", "Match", "Switch"),
@@ -280,16 +282,16 @@ def _copies_or_keeps(s: PlcScan) -> z3.BoolRef:
 
 def _signals_the_level_read(s: EksScan) -> z3.BoolRef:
     """EKS-2-7, EKS-2-10, EKS-KS-5, EKS-T2: with LA, one output alone is that of the level on the key"""
-    one = [
+    signalled = [
         z3.Implies(signals(s.after.outputs, level), s.after.level == code("RE", level)) for level in LEVELS
     ]
-    return z3.Implies(s.after.LA, z3.And(*one))
+    return z3.Implies(s.after.LA, z3.And(*signalled))
 
 
 def _several_outputs_in_the_pulse(s: EksScan) -> z3.BoolRef:
     """EKS-KS-5, EKS-2-10"""
-    one = z3.Or(*[signals(s.after.outputs, level) for level in range(-1, 5)])
-    return z3.Or(s.after.at("TestOnes"), one)
+    signalled = z3.Or(*[signals(s.after.outputs, level) for level in range(-1, 5)])
+    return z3.Or(s.after.at("TestOnes"), signalled)
 
 
 def _no_output_without_la(s: EksScan) -> z3.BoolRef:
@@ -345,17 +347,19 @@ def _keeps_its_guarantees(device: Device) -> Queries:
 
     What is true as soon as the ends of the paths are put in is not asked, unless nothing else is to be asked.
     """
-    pairs = [(ends, one) for ends in ends_of(device) for one in guarantees_of(device)]
-    asked = [(ends, one, ends.always(one.of)) for ends, one in pairs]
-    asked = [(ends, one, then) for ends, one, then in asked if not z3.is_true(then)]
-    for ends, one, then in asked or [(ends, one, ends.always(one.of, whole=True)) for ends, one in pairs]:
+    pairs = [(ends, guarantee) for ends in ends_of(device) for guarantee in guarantees_of(device)]
+    asked = [(ends, guarantee, ends.always(guarantee.of)) for ends, guarantee in pairs]
+    asked = [(ends, guarantee, then) for ends, guarantee, then in asked if not z3.is_true(then)]
+    for ends, guarantee, then in asked or [
+        (ends, guarantee, ends.always(guarantee.of, whole=True)) for ends, guarantee in pairs
+    ]:
         given = {"all in their ranges": ends.scan.premise}
-        yield from claim(f"{ends.scan.control.value}: {one.name}", given, then, LOGIC)
+        yield from claim(f"{ends.scan.control.value}: {guarantee.name}", given, then, LOGIC)
 
 
 def guarantees_of(device: Device) -> tuple[Guarantee, ...]:
     """The guarantees of one device."""
-    return tuple(one for one in GUARANTEES if one.device is device)
+    return tuple(guarantee for guarantee in GUARANTEES if guarantee.device is device)
 
 
 @theorem(

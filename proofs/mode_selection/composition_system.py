@@ -79,7 +79,9 @@ class Step:
 
 
 def _system(when: str) -> System:
-    touched, seen, confirmed = (views.small(f"user.{one}{when}") for one in ("touched", "seen", "confirmed"))
+    touched, seen, confirmed = (
+        views.small(f"user.{name}{when}") for name in ("touched", "seen", "confirmed")
+    )
     unseen, low = z3.Bool(f"user.unseen{when}"), z3.Bool(f"fplc.low{when}")
     history = History(touched, seen, confirmed, unseen, low)
     return System(
@@ -100,7 +102,7 @@ HOLDS: Final = z3.Bool("fplc.holds_mode_on_error")
 
 def _after(actor: str) -> System:
     """Who does not act keeps memory and words; the history changes with user, panel and F-PLC."""
-    parts = {one: getattr(NEXT if one == actor else NOW, one) for one in ("fplc", "hmi", "plc", "eks")}
+    parts = {name: getattr(NEXT if name == actor else NOW, name) for name in ("fplc", "hmi", "plc", "eks")}
     return System(**parts, history=NOW.history if actor == "plc" else NEXT.history)
 
 
@@ -127,7 +129,7 @@ def _step(actor: str) -> Step:
         views.small("hmi touch"),
         ROWS,
     )
-    words = [views.word(f"plc reads {one}") for one in ("MW01", "MW05", "SelectMSO", "SwitchMSO")]
+    words = [views.word(f"plc reads {name}") for name in ("MW01", "MW05", "SelectMSO", "SwitchMSO")]
     plc = PlcScan(NOW.plc, after.plc, *words)
     return Step(actor, NOW, after, fplc, hmi, plc, EksScan(NOW.eks, after.eks))
 
@@ -137,11 +139,11 @@ STEP: Final[Mapping[str, Step]] = {actor: _step(actor) for actor in STEPS}
 # ---------------------------------------------------------------- what a step leaves alone, and the user
 
 
-def same(one: Any, other: Any) -> z3.BoolRef:
+def same(first: Any, second: Any) -> z3.BoolRef:
     """Two records of terms are equal, field by field; the second may come from the code, with integers."""
     equal: list[z3.BoolRef] = []
-    for field in fields(one):
-        left, right = getattr(one, field.name), getattr(other, field.name)
+    for field in fields(first):
+        left, right = getattr(first, field.name), getattr(second, field.name)
         pairs = zip(left, right, strict=True) if isinstance(left, tuple) else [(left, right)]
         equal += [a == (b.as_long() if z3.is_int_value(b) else b) for a, b in pairs]
     return z3.And(*equal)
@@ -150,7 +152,7 @@ def same(one: Any, other: Any) -> z3.BoolRef:
 def states_are_states(system: System) -> z3.BoolRef:
     """Each control state is one of its module's Step; that is how the records are made."""
     counted: list[tuple[Any, Device]] = [(system.fplc, FPLC), (system.hmi, HMI), (system.eks, EKS)]
-    return z3.And(*[z3.And(one.state >= 0, one.state < len(by.module.Step)) for one, by in counted])
+    return z3.And(*[z3.And(seen.state >= 0, seen.state < len(by.module.Step)) for seen, by in counted])
 
 
 def history_kept(step: Step) -> z3.BoolRef:
@@ -159,11 +161,11 @@ def history_kept(step: Step) -> z3.BoolRef:
     EKS-2-1, EKS-2-14, EKS-2-22, EKS-2-23
     """
     old, new, now = step.before.history, step.after.history, step.before
-    kept = z3.And(*[getattr(new, one) == getattr(old, one) for one in ("touched", "seen", "confirmed")])
+    kept = z3.And(*[getattr(new, name) == getattr(old, name) for name in ("touched", "seen", "confirmed")])
     if step.actor == "plc":
         return z3.BoolVal(True)
     if step.actor == "insert":
-        none = [one == -1 for one in (new.touched, new.seen, new.confirmed)]
+        none = [mode == -1 for mode in (new.touched, new.seen, new.confirmed)]
         going_on = now.fplc.at(*OFFERING, *ECHOING)
         return z3.And(*none, new.unseen == z3.Or(old.unseen, going_on), new.low == old.low)
     if step.actor == "eks":
@@ -190,7 +192,7 @@ def history_kept(step: Step) -> z3.BoolRef:
 
 def power_up() -> z3.BoolRef:
     """All devices just switched on, nothing touched: `power_up` and `outputs` of the shipped code. A-19"""
-    history = [one == -1 for one in (NOW.history.touched, NOW.history.seen, NOW.history.confirmed)]
+    history = [mode == -1 for mode in (NOW.history.touched, NOW.history.seen, NOW.history.confirmed)]
     return z3.And(
         same(NOW.fplc, views.first_view(FPLC)),
         same(NOW.hmi, views.first_view(HMI)),
@@ -241,7 +243,7 @@ def _outputs_are_wired(step: Step) -> z3.BoolRef:
     """A-20: LA and the five outputs, none crossed, none broken."""
     seen, sent = step.fplc, step.before.eks
     pairs = zip(seen.outputs, sent.outputs, strict=True)
-    return z3.And(seen.LA == sent.LA, *[one == other for one, other in pairs])
+    return z3.And(seen.LA == sent.LA, *[left == other for left, other in pairs])
 
 
 def _words_arrive(step: Step) -> z3.BoolRef:
@@ -268,7 +270,7 @@ def _one_wire_is_broken(step: Step) -> z3.BoolRef:
     maybe in the next; or the pulse is missing. None are crossed (A-20).
     """
     seen, sent = step.fplc, step.before.eks
-    equal = [one == other for one, other in zip(seen.outputs, sent.outputs, strict=True)]
+    equal = [left == other for left, other in zip(seen.outputs, sent.outputs, strict=True)]
     but_one = [z3.And(*equal[:left_out], *equal[left_out + 1 :]) for left_out in views.LEVELS]
     no_pulse = z3.And(sent.at("TestOnes"), views.none_of(seen.outputs))
     return z3.Or(z3.And(*equal), z3.And(seen.LA == sent.LA, z3.Or(*but_one, no_pulse)))

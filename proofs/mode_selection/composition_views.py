@@ -58,7 +58,7 @@ def is_mode(term: Mode) -> z3.BoolRef:
 
 
 def _position(module: ModuleType, name: str) -> int:
-    return [one.value for one in module.Step].index(name)
+    return [member.value for member in module.Step].index(name)
 
 
 def _among(module: ModuleType, state: Mode, names: Sequence[str]) -> z3.BoolRef:
@@ -78,8 +78,10 @@ def none_of(flags: Flags) -> z3.BoolRef:
 def permits(rows: tuple[Flags, ...], level: Mode, mode: Mode | int) -> z3.BoolRef:
     """The level permits the mode on this machine; no level permits nothing. E-47"""
     if isinstance(mode, int):
-        return z3.Or(*[z3.And(level == one, rows[one][mode]) for one in LEVELS])
-    return z3.Or(*[z3.And(level == one, mode == two, rows[one][two]) for one in LEVELS for two in LEVELS])
+        return z3.Or(*[z3.And(level == number, rows[number][mode]) for number in LEVELS])
+    return z3.Or(
+        *[z3.And(level == number, mode == two, rows[number][two]) for number in LEVELS for two in LEVELS]
+    )
 
 
 def permissions_fit(rows: tuple[Flags, ...]) -> z3.BoolRef:
@@ -268,7 +270,7 @@ def hmi_symbols(when: str) -> Hmi:
 
 def plc_symbols(when: str) -> Plc:
     """A PLC of free symbols."""
-    return Plc(*[word(f"plc.{one}{when}") for one in ("ReadAuthorization", "MW03", "CheckMSO", "MW07")])
+    return Plc(*[word(f"plc.{name}{when}") for name in ("ReadAuthorization", "MW03", "CheckMSO", "MW07")])
 
 
 def eks_symbols(when: str) -> Eks:
@@ -298,7 +300,7 @@ def _word(value: Any) -> z3.BitVecRef:
 
 
 def _rows(params: Any) -> tuple[Flags, ...]:
-    return tuple(tuple(one.term for one in getattr(params, f"PERMITS_{level}")) for level in LEVELS)
+    return tuple(tuple(mode.term for mode in getattr(params, f"PERMITS_{level}")) for level in LEVELS)
 
 
 def _fplc(state: Any, out: Any) -> Fplc:
@@ -325,7 +327,7 @@ def _fplc_scan(scan: Scan, result: Any) -> FplcScan:
         _fplc(before, None),
         _fplc(after, out),
         seen.LA.term,
-        tuple(getattr(seen, one).term for one in EKS_OUTPUTS),
+        tuple(getattr(seen, eks_output).term for eks_output in EKS_OUTPUTS),
         seen.MW03.term,
         seen.MW07.term,
         before.elapsed_ms.term + seen.dt_ms.term >= params.T_DWELL_ms.term,
@@ -343,7 +345,7 @@ def _hmi(state: Any, out: Any) -> Hmi:
         selection=_term(state.selection),
         SelectMSO=_word(out.SelectMSO) if out else free.SelectMSO,
         SwitchMSO=_word(out.SwitchMSO) if out else free.SwitchMSO,
-        enabled=tuple(_term(one) for one in out.enabled) if out else free.enabled,
+        enabled=tuple(_term(flag) for flag in out.enabled) if out else free.enabled,
         shown=_term(out.shown) if out else free.shown,
         active=_term(out.active) if out else free.active,
     )
@@ -364,12 +366,12 @@ def _hmi_scan(scan: Scan, result: Any) -> HmiScan:
 
 def _plc(record: Any) -> Plc:
     names = ("ReadAuthorization", "MW03", "CheckMSO", "MW07")
-    return Plc(*[_word(getattr(record, one)) for one in names])
+    return Plc(*[_word(getattr(record, name)) for name in names])
 
 
 def _plc_scan(scan: Scan, result: Any) -> PlcScan:
     seen = scan.inputs
-    words = [getattr(seen, one).term for one in ("MW01", "MW05", "SelectMSO", "SwitchMSO")]
+    words = [getattr(seen, name).term for name in ("MW01", "MW05", "SelectMSO", "SwitchMSO")]
     return PlcScan(_plc(scan.state), _plc(result[1]), *words)
 
 
@@ -378,7 +380,9 @@ def _eks(state: Any, out: Any) -> Eks:
     if out is None:
         free = eks_symbols(" before")
         return Eks(where, level, free.LA, free.outputs)
-    return Eks(where, level, _term(out.LA), tuple(_term(getattr(out, one)) for one in EKS_OUTPUTS))
+    return Eks(
+        where, level, _term(out.LA), tuple(_term(getattr(out, eks_output)) for eks_output in EKS_OUTPUTS)
+    )
 
 
 def _eks_scan(scan: Scan, result: Any) -> EksScan:
@@ -403,7 +407,7 @@ class Ends:
         """
         found = {number: formula(view) for number, view in self.views.items()}
         if not whole:
-            found = {number: one if _is_open(one) else TRUE for number, one in found.items()}
+            found = {number: formula if _is_open(formula) else TRUE for number, formula in found.items()}
         return always(self.root, lambda end: found[id(end)])
 
 

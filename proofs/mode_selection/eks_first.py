@@ -17,8 +17,8 @@ from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def begins_empty(one: Scanned, seen: Any) -> z3.BoolRef:
-    return TRUE if one.becomes("Empty") else FALSE
+def begins_empty(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return TRUE if scan.becomes("Empty") else FALSE
 
 
 @theorem(clauses=["EKS-2-1", "EKS-8-1"], findings=[])
@@ -27,10 +27,10 @@ def the_eks_begins_without_a_key() -> Queries:
     yield from JUDGE.at_power_up(begins_empty)
 
 
-def output_outlasts_la(one: Scanned) -> Obligation:
-    if not (one.was("Signal") and one.becomes("ClearOutputs")):
+def output_outlasts_la(scan: Scanned) -> Obligation:
+    if not (scan.was("Signal") and scan.becomes("ClearOutputs")):
         return None
-    return TRUE, same_vector(one)
+    return TRUE, same_vector(scan)
 
 
 @theorem(clauses=["EKS-8-2", "EKS-8-5"], findings=[])

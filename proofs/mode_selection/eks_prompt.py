@@ -23,21 +23,21 @@ IN_ORDER: Final = frozenset(
     {
         *pairwise(("Empty", "Read", "CheckChecksum", "CheckLevel", "SetLA", "StartTest", "TestOnes")),
         *pairwise(("TestOnes", "TestZeros", "Signal", "ClearOutputs", "CheckRegisters", "Empty")),
-        *((one, "Rejected") for one in ("CheckChecksum", "CheckLevel")),
+        *((step, "Rejected") for step in ("CheckChecksum", "CheckLevel")),
         ("CheckRegisters", "Fault"),
-        *((one, one) for one in ("Empty", "TestOnes", "TestZeros", "Signal", "Rejected", "Fault")),
+        *((step, step) for step in ("Empty", "TestOnes", "TestZeros", "Signal", "Rejected", "Fault")),
     }
 )
 """One step after another, and waiting."""
-REMOVALS: Final = frozenset({(one, "CheckRegisters") for one in WORKING - {"Signal"}})
+REMOVALS: Final = frozenset({(step, "CheckRegisters") for step in WORKING - {"Signal"}})
 
 
-def _pair(one: Scanned) -> tuple[str, str]:
-    return control(one.device, one.before), control(one.device, one.after)
+def _pair(scan: Scanned) -> tuple[str, str]:
+    return control(scan.device, scan.before), control(scan.device, scan.after)
 
 
-def reader_steps_in_order(one: Scanned) -> Obligation:
-    return TRUE, TRUE if _pair(one) in IN_ORDER | REMOVALS else FALSE
+def reader_steps_in_order(scan: Scanned) -> Obligation:
+    return TRUE, TRUE if _pair(scan) in IN_ORDER | REMOVALS else FALSE
 
 
 @theorem(
@@ -60,17 +60,17 @@ def the_eks_leaves_no_step_out() -> Queries:
     """Every scan goes on to the next step of the EKS or waits; only the removal is reached from the side."""
     yield from JUDGE.in_every_scan(reader_steps_in_order)
 
-    def never_aside(one: Scanned) -> Obligation:
-        return TRUE, TRUE if _pair(one) in IN_ORDER else FALSE
+    def never_aside(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if _pair(scan) in IN_ORDER else FALSE
 
     yield JUDGE.too_strong("nor that", never_aside, "TestOnes")
 
 
-def la_before_outputs(one: Scanned) -> Obligation:
-    begins = z3.And(none_set(vector(one.sent)), z3.Not(none_set(vector(one.sends))))
-    if one.was("StartTest", "TestZeros"):
-        return begins, one.sent.LA
-    return TRUE, z3.Implies(begins, one.sent.LA)
+def la_before_outputs(scan: Scanned) -> Obligation:
+    begins = z3.And(none_set(vector(scan.sent)), z3.Not(none_set(vector(scan.sends))))
+    if scan.was("StartTest", "TestZeros"):
+        return begins, scan.sent.LA
+    return TRUE, z3.Implies(begins, scan.sent.LA)
 
 
 @theorem(clauses=["EKS-2-5", "EKS-2-10"], findings=["E-40"], properties=["LABeforeOutputs"])
@@ -78,17 +78,17 @@ def the_eks_sets_la_a_scan_before_its_outputs() -> Queries:
     """A scan that sets an output where none was set begins with LA on."""
     yield from JUDGE.in_every_scan(la_before_outputs)
 
-    def never(one: Scanned) -> Obligation:
-        begins = z3.And(none_set(vector(one.sent)), z3.Not(none_set(vector(one.sends))))
+    def never(scan: Scanned) -> Obligation:
+        begins = z3.And(none_set(vector(scan.sent)), z3.Not(none_set(vector(scan.sends))))
         return TRUE, z3.Not(begins)
 
     yield JUDGE.too_strong("and sets none at all", never, "TestZeros")
 
 
-def right_keys_pass(one: Scanned) -> Obligation:
-    if one.was("Rejected") or not one.becomes("Rejected"):
+def right_keys_pass(scan: Scanned) -> Obligation:
+    if scan.was("Rejected") or not scan.becomes("Rejected"):
         return None
-    return TRUE, z3.Not(z3.And(SEEN.agrees, key_accepted(one.params, one.before.key)))
+    return TRUE, z3.Not(z3.And(SEEN.agrees, key_accepted(scan.params, scan.before.key)))
 
 
 @theorem(
@@ -100,16 +100,16 @@ def the_eks_rejects_no_right_key() -> Queries:
     """A scan that rejects a key has found its checksum, operating state, access code or level wrong."""
     yield from JUDGE.in_every_scan(right_keys_pass)
 
-    def by_the_checksum(one: Scanned) -> Obligation:
-        return None if right_keys_pass(one) is None else (TRUE, z3.Not(SEEN.agrees))
+    def by_the_checksum(scan: Scanned) -> Obligation:
+        return None if right_keys_pass(scan) is None else (TRUE, z3.Not(SEEN.agrees))
 
     yield JUDGE.too_strong("always the checksum", by_the_checksum, "CheckLevel")
 
 
-def fault_needs_cause(one: Scanned) -> Obligation:
-    if one.was("Fault") or not one.becomes("Fault"):
+def fault_needs_cause(scan: Scanned) -> Obligation:
+    if scan.was("Fault") or not scan.becomes("Fault"):
         return None
-    return TRUE, z3.Not(one.inputs.registers_zero) if one.was("CheckRegisters") else FALSE
+    return TRUE, z3.Not(scan.inputs.registers_zero) if scan.was("CheckRegisters") else FALSE
 
 
 @theorem(clauses=["EKS-8-4"], findings=["E-22", "E-26"], properties=["FaultNeedsCause"])
@@ -117,17 +117,17 @@ def the_eks_latches_a_fault_only_over_registers_that_are_not_zero() -> Queries:
     """A scan that leads to Fault is the register check after a removal, and finds the registers not zero."""
     yield from JUDGE.in_every_scan(fault_needs_cause)
 
-    def without_a_key(one: Scanned) -> Obligation:
-        return None if fault_needs_cause(one) is None else (TRUE, z3.Not(one.inputs.inserted))
+    def without_a_key(scan: Scanned) -> Obligation:
+        return None if fault_needs_cause(scan) is None else (TRUE, z3.Not(scan.inputs.inserted))
 
     yield JUDGE.too_strong("and no key", without_a_key, "CheckRegisters")
 
 
-def key_is_forgotten(one: Scanned, seen: Any) -> z3.BoolRef:
-    c, key = control(one.device, one.after), one.after.key
-    timeless = TRUE if c in ("TestOnes", "TestZeros") else one.after.elapsed_ms == 0
+def key_is_forgotten(scan: Scanned, seen: Any) -> z3.BoolRef:
+    c, key = control(scan.device, scan.after), scan.after.key
+    timeless = TRUE if c in ("TestOnes", "TestZeros") else scan.after.elapsed_ms == 0
     if c in WORKING:
-        return z3.And(timeless, read_is(one, key))
+        return z3.And(timeless, read_is(scan, key))
     return timeless if c in REMEMBERING else z3.And(timeless, no_key(key))
 
 
@@ -142,18 +142,18 @@ def the_eks_remembers_a_key_only_while_it_is_in() -> Queries:
     yield JUDGE.without(sentence, "Signal", "PulseAloneTakesTime")
 
 
-def reader_answers_at_once(one: Scanned) -> Obligation:
-    before, after = _pair(one)
+def reader_answers_at_once(scan: Scanned) -> Obligation:
+    before, after = _pair(scan)
     if before != after:
         return None
-    same = z3.And(same_key(one.before.key, one.after.key), one.before.elapsed_ms == one.after.elapsed_ms)
-    own = read_is(one, one.before.key)
+    same = z3.And(same_key(scan.before.key, scan.after.key), scan.before.elapsed_ms == scan.after.elapsed_ms)
+    own = read_is(scan, scan.before.key)
     absent = {
-        "Empty": z3.Not(one.inputs.inserted),
+        "Empty": z3.Not(scan.inputs.inserted),
         "Signal": own,
         "Rejected": own,
-        "TestOnes": z3.And(own, one.inputs.dt_ms == 0),
-        "TestZeros": z3.And(own, one.inputs.dt_ms == 0),
+        "TestOnes": z3.And(own, scan.inputs.dt_ms == 0),
+        "TestZeros": z3.And(own, scan.inputs.dt_ms == 0),
         "Fault": TRUE,
     }
     return same, absent.get(before, FALSE)
@@ -170,7 +170,7 @@ def the_eks_waits_only_for_what_is_not_there() -> Queries:
     """
     yield from JUDGE.in_every_scan(reader_answers_at_once)
 
-    def never(one: Scanned) -> Obligation:
-        return None if reader_answers_at_once(one) is None else (TRUE, FALSE)
+    def never(scan: Scanned) -> Obligation:
+        return None if reader_answers_at_once(scan) is None else (TRUE, FALSE)
 
     yield JUDGE.too_strong("and there is always something", never, "Rejected")

@@ -39,15 +39,15 @@ SEEN: Final = Seen(CHECKSUM_AGREES.term, z3.Int("seen.lasted"))
 NOTHING: Final = Seen(ANY_ANSWER, z3.IntVal(0))
 
 
-def same_key(one: Any, other: Any) -> z3.BoolRef:
+def same_key(left: Any, other: Any) -> z3.BoolRef:
     """Two records have the same content of key memory; also a record of inputs has one."""
     names = ("operating_state", "authorization_level", "access_code", "KEYCRC", "KeyID")
-    return z3.And(*[getattr(one, name) == getattr(other, name) for name in names])
+    return z3.And(*[getattr(left, name) == getattr(other, name) for name in names])
 
 
-def read_is(one: Scanned, key: Any) -> z3.BoolRef:
+def read_is(scan: Scanned, key: Any) -> z3.BoolRef:
     """The key in the reader is in, and is this one."""
-    return z3.And(one.inputs.inserted, same_key(one.inputs, key))
+    return z3.And(scan.inputs.inserted, same_key(scan.inputs, key))
 
 
 def in_half(where: bool, outputs: Any) -> z3.BoolRef:
@@ -55,25 +55,25 @@ def in_half(where: bool, outputs: Any) -> z3.BoolRef:
     return z3.And(outputs.LA, z3.BoolVal(True) if where else all_set(vector(outputs)))
 
 
-def same_vector(one: Scanned) -> z3.BoolRef:
+def same_vector(scan: Scanned) -> z3.BoolRef:
     """The scan changes none of the five outputs."""
-    pairs = zip(vector(one.sent), vector(one.sends), strict=True)
+    pairs = zip(vector(scan.sent), vector(scan.sends), strict=True)
     return z3.And(*[before == after for before, after in pairs])
 
 
-def goes_on(one: Scanned) -> z3.BoolRef:
+def goes_on(scan: Scanned) -> z3.BoolRef:
     """A half of the pulse runs before and after the scan, with the same outputs."""
-    before, after = in_half(one.was("TestZeros"), one.sent), in_half(one.becomes("TestZeros"), one.sends)
-    return z3.And(before, after, same_vector(one))
+    before, after = in_half(scan.was("TestZeros"), scan.sent), in_half(scan.becomes("TestZeros"), scan.sends)
+    return z3.And(before, after, same_vector(scan))
 
 
 @cache
-def sees(one: Scanned) -> Seen:
+def sees(scan: Scanned) -> Seen:
     """What is known after a scan."""
-    kept = same_key(one.before.key, one.after.key)
+    kept = same_key(scan.before.key, scan.after.key)
     return Seen(
         z3.If(kept, CHECKSUM_AGREES.term, ANY_ANSWER),
-        z3.If(goes_on(one), SEEN.lasted + one.inputs.dt_ms, z3.IntVal(0)),
+        z3.If(goes_on(scan), SEEN.lasted + scan.inputs.dt_ms, z3.IntVal(0)),
     )
 
 
@@ -89,22 +89,22 @@ def every_scan_of_the_eks_keeps_its_invariant() -> Queries:
     yield from JUDGE.consecution()
 
 
-def one_output_outside_the_pulse(one: Scanned, seen: Any) -> z3.BoolRef:
-    return TRUE if one.becomes("TestOnes") else z3.Not(several_set(vector(one.sends)))
+def one_output_outside_the_pulse(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return TRUE if scan.becomes("TestOnes") else z3.Not(several_set(vector(scan.sends)))
 
 
 @theorem(clauses=["EKS-KS-5", "EKS-2-10"], findings=[], properties=["OneOutputOutsideThePulse"])
 def the_eks_sets_several_outputs_only_in_its_test_pulse() -> Queries:
     """At power-up and after every scan that does not end in TestOnes at most one output of the EKS is set."""
     yield from JUDGE.after_every_scan(one_output_outside_the_pulse)
-    always: Sentence = lambda one: (TRUE, z3.Not(several_set(vector(one.sends))))  # noqa: E731
+    always: Sentence = lambda scan: (TRUE, z3.Not(several_set(vector(scan.sends))))  # noqa: E731
     yield JUDGE.too_strong("nor in the pulse", always, "StartTest")
 
 
-def no_output_without_la(one: Scanned, seen: Any) -> z3.BoolRef:
-    if one.becomes("ClearOutputs"):
+def no_output_without_la(scan: Scanned, seen: Any) -> z3.BoolRef:
+    if scan.becomes("ClearOutputs"):
         return TRUE
-    return z3.Implies(z3.Not(one.sends.LA), none_set(vector(one.sends)))
+    return z3.Implies(z3.Not(scan.sends.LA), none_set(vector(scan.sends)))
 
 
 @theorem(
@@ -118,19 +118,19 @@ def the_eks_sets_no_output_without_la() -> Queries:
     """
     yield from JUDGE.after_every_scan(no_output_without_la)
 
-    def at_once(one: Scanned) -> Obligation:
-        return z3.Not(one.sends.LA), none_set(vector(one.sends))
+    def at_once(scan: Scanned) -> Obligation:
+        return z3.Not(scan.sends.LA), none_set(vector(scan.sends))
 
     yield JUDGE.too_strong("nor in that scan", at_once, "Signal")
 
 
-def la_only_for_accepted_keys(one: Scanned, seen: Any) -> z3.BoolRef:
-    accepted = z3.Implies(one.sends.LA, z3.And(seen.agrees, key_accepted(one.params, one.after.key)))
-    if not one.becomes("Signal"):
+def la_only_for_accepted_keys(scan: Scanned, seen: Any) -> z3.BoolRef:
+    accepted = z3.Implies(scan.sends.LA, z3.And(seen.agrees, key_accepted(scan.params, scan.after.key)))
+    if not scan.becomes("Signal"):
         return accepted
-    level = one.after.key.authorization_level
+    level = scan.after.key.authorization_level
     by_level = [
-        flag == (level == constant(codes("RE")[number])) for number, flag in enumerate(vector(one.sends))
+        flag == (level == constant(codes("RE")[number])) for number, flag in enumerate(vector(scan.sends))
     ]
     return z3.And(accepted, *by_level)
 
@@ -150,15 +150,15 @@ def the_eks_sets_la_only_for_an_accepted_key() -> Queries:
     yield JUDGE.without(sentence, "Signal", "KeyWasAccepted")
 
 
-def la_drops_at_once(one: Scanned) -> Obligation:
-    agrees = sees(one).agrees
-    right = z3.And(key_accepted(one.params, one.inputs), agrees, read_is(one, one.after.key))
-    gone = z3.And(one.sent.LA, z3.Not(read_is(one, one.before.key)))
-    leftover = z3.And(z3.Not(one.sent.LA), z3.Not(none_set(vector(one.sent))))
+def la_drops_at_once(scan: Scanned) -> Obligation:
+    agrees = sees(scan).agrees
+    right = z3.And(key_accepted(scan.params, scan.inputs), agrees, read_is(scan, scan.after.key))
+    gone = z3.And(scan.sent.LA, z3.Not(read_is(scan, scan.before.key)))
+    leftover = z3.And(z3.Not(scan.sent.LA), z3.Not(none_set(vector(scan.sent))))
     return TRUE, z3.And(
-        z3.Implies(one.sends.LA, right),
-        z3.Implies(gone, z3.Not(one.sends.LA)),
-        z3.Implies(leftover, none_set(vector(one.sends))),
+        z3.Implies(scan.sends.LA, right),
+        z3.Implies(gone, z3.Not(scan.sends.LA)),
+        z3.Implies(leftover, none_set(vector(scan.sends))),
     )
 
 
@@ -171,12 +171,12 @@ def the_eks_drops_la_in_the_scan_without_its_key() -> Queries:
     yield JUDGE.without(la_drops_at_once, "SetLA", "KeyWasAccepted")
 
 
-def pulse_before_output(one: Scanned) -> Obligation:
-    appears = z3.And(one_set(vector(one.sends)), z3.Not(same_vector(one)))
-    after_zeros = z3.And(none_set(vector(one.sent)), one.sent.LA, one.sends.LA)
-    if one.was("TestZeros"):
+def pulse_before_output(scan: Scanned) -> Obligation:
+    appears = z3.And(one_set(vector(scan.sends)), z3.Not(same_vector(scan)))
+    after_zeros = z3.And(none_set(vector(scan.sent)), scan.sent.LA, scan.sends.LA)
+    if scan.was("TestZeros"):
         return appears, after_zeros
-    begins = all_set(vector(one.sent)) if one.becomes("TestZeros") else TRUE
+    begins = all_set(vector(scan.sent)) if scan.becomes("TestZeros") else TRUE
     return TRUE, z3.And(z3.Not(appears), begins)
 
 
@@ -187,18 +187,18 @@ def the_eks_sets_its_output_only_after_all_and_none() -> Queries:
     """
     yield from JUDGE.in_every_scan(pulse_before_output)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(z3.And(one_set(vector(one.sends)), z3.Not(same_vector(one))))
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(z3.And(one_set(vector(scan.sends)), z3.Not(same_vector(scan))))
 
     yield JUDGE.too_strong("never", never, "TestZeros")
 
 
-def pulse_halves_last(one: Scanned) -> Obligation:
-    running = in_half(one.was("TestZeros"), one.sent)
-    given = z3.And(running, read_is(one, one.before.key))
-    stands = z3.And(same_vector(one), in_half(one.becomes("TestZeros"), one.sends))
-    then = stands == (SEEN.lasted + one.inputs.dt_ms < one.params.T_PULSE_ms)
-    return (given, then) if one.was("TestOnes", "TestZeros") else (TRUE, z3.Implies(given, then))
+def pulse_halves_last(scan: Scanned) -> Obligation:
+    running = in_half(scan.was("TestZeros"), scan.sent)
+    given = z3.And(running, read_is(scan, scan.before.key))
+    stands = z3.And(same_vector(scan), in_half(scan.becomes("TestZeros"), scan.sends))
+    then = stands == (SEEN.lasted + scan.inputs.dt_ms < scan.params.T_PULSE_ms)
+    return (given, then) if scan.was("TestOnes", "TestZeros") else (TRUE, z3.Implies(given, then))
 
 
 @theorem(clauses=["EKS-4-2", "EKS-4-3"], findings=["E-39"], properties=["PulseHalvesLast"])
@@ -211,11 +211,11 @@ def each_half_of_the_test_pulse_lasts_as_long_as_it_is_set() -> Queries:
         yield JUDGE.without(pulse_halves_last, start, "TimerIsTheTimeOfThisHalf")
 
 
-def fault_is_latched(one: Scanned) -> Obligation:
-    stays = TRUE if one.becomes("Fault") else FALSE
-    if one.was("Fault"):
+def fault_is_latched(scan: Scanned) -> Obligation:
+    stays = TRUE if scan.becomes("Fault") else FALSE
+    if scan.was("Fault"):
         return TRUE, stays
-    return (z3.Not(one.inputs.registers_zero), stays) if one.was("CheckRegisters") else None
+    return (z3.Not(scan.inputs.registers_zero), stays) if scan.was("CheckRegisters") else None
 
 
 @theorem(clauses=["EKS-8-4"], findings=["E-22", "E-26"], properties=["FaultIsLatched"])
@@ -223,7 +223,7 @@ def the_eks_keeps_a_fault_of_its_registers() -> Queries:
     """Registers that are not zero after a removal lead to Fault in that scan, and no scan leaves Fault."""
     yield from JUDGE.in_every_scan(fault_is_latched)
 
-    def always(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes("Fault") else FALSE
+    def always(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes("Fault") else FALSE
 
     yield JUDGE.too_strong("whatever the registers are", always, "CheckRegisters")

@@ -15,27 +15,27 @@ from proofs.sentences import Always, Judge
 from proofs.theorem import Queries, theorem
 
 
-def _fplc(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def _fplc(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     modes = none_set((o.MSO_0, o.MSO_1, o.MSO_2, o.MSO_3, o.MSO_4))
-    nothing = z3.And(one.after.mode == NONE, modes, o.MW01 == 0, o.MW05 == 0, z3.Not(o.ERROR))
-    return nothing if one.becomes("Start") else z3.BoolVal(False)
+    nothing = z3.And(scan.after.mode == NONE, modes, o.MW01 == 0, o.MW05 == 0, z3.Not(o.ERROR))
+    return nothing if scan.becomes("Start") else z3.BoolVal(False)
 
 
-def _panel(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def _panel(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     return z3.And(
-        o.SelectMSO == 0, o.SwitchMSO == 0, none_set(o.enabled), z3.BoolVal(one.becomes("Inhibited"))
+        o.SelectMSO == 0, o.SwitchMSO == 0, none_set(o.enabled), z3.BoolVal(scan.becomes("Inhibited"))
     )
 
 
-def _plc(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def _plc(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     return z3.And(o.ReadAuthorization == 0, o.MW03 == 0, o.CheckMSO == 0, o.MW07 == 0)
 
 
-def _eks(one: Scanned, seen: Any) -> z3.BoolRef:
-    return z3.And(z3.Not(one.sends.LA), none_set(vector(one.sends)))
+def _eks(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return z3.And(z3.Not(scan.sends.LA), none_set(vector(scan.sends)))
 
 
 SAFE: Final[Mapping[Any, Always]] = MappingProxyType(

@@ -29,15 +29,15 @@ GOING_ON: Final = (("PulseOnes", "PulseZeros"), ("PulseZeros", "OneOutput"), ("C
 """From one step to the next the time of the insertion, or of the removal, goes on."""
 
 
-def selection_is_answered(one: Scanned) -> Obligation:
-    if not one.was("CheckSelection"):
+def selection_is_answered(scan: Scanned) -> Obligation:
+    if not scan.was("CheckSelection"):
         return None
-    i, chosen = one.inputs, mode("SE", one.inputs.MW03)
-    good = permits(one.params, one.before.authority, chosen)
-    latched = one.after.selection == chosen if one.becomes("EchoSelection") else FALSE
-    back = TRUE if one.becomes("Settle") else FALSE
-    judged = z3.If(i.MW03 == 0, back, z3.If(good, latched, one.sends.ERROR))
-    return z3.And(signalled(one), i.MW07 == 0), judged
+    i, chosen = scan.inputs, mode("SE", scan.inputs.MW03)
+    good = permits(scan.params, scan.before.authority, chosen)
+    latched = scan.after.selection == chosen if scan.becomes("EchoSelection") else FALSE
+    back = TRUE if scan.becomes("Settle") else FALSE
+    judged = z3.If(i.MW03 == 0, back, z3.If(good, latched, scan.sends.ERROR))
+    return z3.And(signalled(scan), i.MW07 == 0), judged
 
 
 @theorem(clauses=["EKS-2-18", "EKS-2-19", "EKS-T2-2"], findings=["E-14", "E-16", "E-21", "E-47"], slow=True)
@@ -48,17 +48,17 @@ def each_selection_has_one_answer() -> Queries:
     """
     yield from JUDGE.in_every_scan(selection_is_answered)
 
-    def never(one: Scanned) -> Obligation:
-        return None if selection_is_answered(one) is None else (TRUE, one.sends.ERROR)
+    def never(scan: Scanned) -> Obligation:
+        return None if selection_is_answered(scan) is None else (TRUE, scan.sends.ERROR)
 
     yield JUDGE.too_strong("always the error mode", never, "CheckSelection")
 
 
-def level_is_published(one: Scanned) -> Obligation:
-    if not one.was("Authorize"):
+def level_is_published(scan: Scanned) -> Obligation:
+    if not scan.was("Authorize"):
         return None
-    shown = one.sends.MW01 == code("RE", one.before.accepted)
-    return signalled(one), z3.If(no_word(one), shown, one.sends.ERROR)
+    shown = scan.sends.MW01 == code("RE", scan.before.accepted)
+    return signalled(scan), z3.If(no_word(scan), shown, scan.sends.ERROR)
 
 
 @theorem(clauses=["EKS-2-12"], findings=["E-05", "E-54"], slow=True)
@@ -69,10 +69,10 @@ def the_fplc_publishes_the_level_or_refuses_an_early_word() -> Queries:
     yield from JUDGE.in_every_scan(level_is_published)
 
 
-def pulse_is_seen_in_its_scan(one: Scanned) -> Obligation:
-    if not one.was("Idle"):
+def pulse_is_seen_in_its_scan(scan: Scanned) -> Obligation:
+    if not scan.was("Idle"):
         return None
-    return one.inputs.LA, TRUE if one.becomes("PulseOnes") else FALSE
+    return scan.inputs.LA, TRUE if scan.becomes("PulseOnes") else FALSE
 
 
 @theorem(clauses=["EKS-2-6", "EKS-9-4-FPLC"], findings=["E-73"], slow=True)
@@ -84,14 +84,14 @@ def la_begins_the_insertion_whatever_the_outputs_show() -> Queries:
 # ---------------------------------------------------------------- times
 
 
-def begins_at_zero(one: Scanned) -> Obligation:
-    before, after = control(FPLC, one.before), control(FPLC, one.after)
+def begins_at_zero(scan: Scanned) -> Obligation:
+    before, after = control(FPLC, scan.before), control(FPLC, scan.after)
     if before == after or after not in CLOCKED:
         return None
-    zero = one.after.elapsed_ms == 0
+    zero = scan.after.elapsed_ms == 0
     if (before, after) not in GOING_ON:
         return TRUE, zero
-    return TRUE, z3.Or(zero, one.after.elapsed_ms == now(one))
+    return TRUE, z3.Or(zero, scan.after.elapsed_ms == now(scan))
 
 
 @theorem(clauses=["EKS-2-6", "EKS-4-2", "EKS-8-3"], findings=["E-38", "E-52"], slow=True)
@@ -101,14 +101,14 @@ def every_time_of_the_fplc_begins_at_zero() -> Queries:
     """
     yield from JUDGE.in_every_scan(begins_at_zero)
 
-    def always(one: Scanned) -> Obligation:
-        return None if begins_at_zero(one) is None else (TRUE, one.after.elapsed_ms == 0)
+    def always(scan: Scanned) -> Obligation:
+        return None if begins_at_zero(scan) is None else (TRUE, scan.after.elapsed_ms == 0)
 
     yield JUDGE.too_strong("never goes on", always, "Clear")
 
 
-def dwell_in_range(one: Scanned, seen: Seen) -> z3.BoolRef:
-    return one.after.elapsed_ms <= one.params.T_DWELL_ms if one.becomes(*DWELLING) else TRUE
+def dwell_in_range(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    return scan.after.elapsed_ms <= scan.params.T_DWELL_ms if scan.becomes(*DWELLING) else TRUE
 
 
 @theorem(clauses=["EKS-GP-3", "EKS-8-18"], findings=["E-52"], slow=True)
@@ -118,7 +118,7 @@ def no_dwell_time_of_the_fplc_counts_beyond_its_end() -> Queries:
     """
     yield from JUDGE.after_every_scan(dwell_in_range)
 
-    def less(one: Scanned) -> Obligation:
-        return TRUE, one.after.elapsed_ms < one.params.T_DWELL_ms
+    def less(scan: Scanned) -> Obligation:
+        return TRUE, scan.after.elapsed_ms < scan.params.T_DWELL_ms
 
     yield JUDGE.too_strong("and never reaches it", less, "Error")

@@ -21,12 +21,12 @@ from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
 
-def outputs_may_switch_one_by_one(one: Scanned) -> Obligation:
-    if not one.was("PulseOnes", "PulseZeros"):
+def outputs_may_switch_one_by_one(scan: Scanned) -> Obligation:
+    if not scan.was("PulseOnes", "PulseZeros"):
         return None
-    limit = one.params.T_ON_ms if one.was("PulseOnes") else one.params.T_SEQ_ms
-    within = z3.And(one.inputs.LA, now(one) < limit)
-    return within, TRUE if one.becomes("PulseOnes", "PulseZeros", "OneOutput") else FALSE
+    limit = scan.params.T_ON_ms if scan.was("PulseOnes") else scan.params.T_SEQ_ms
+    within = z3.And(scan.inputs.LA, now(scan) < limit)
+    return within, TRUE if scan.becomes("PulseOnes", "PulseZeros", "OneOutput") else FALSE
 
 
 @theorem(clauses=["EKS-2-10", "EKS-4-1", "EKS-4-3"], findings=["E-09", "E-10"], slow=True)
@@ -36,25 +36,25 @@ def in_the_test_pulse_outputs_may_switch_one_by_one() -> Queries:
     """
     yield from JUDGE.in_every_scan(outputs_may_switch_one_by_one)
 
-    def at_any_time(one: Scanned) -> Obligation:
-        said = outputs_may_switch_one_by_one(one)
-        return None if said is None else (one.inputs.LA, said[1])
+    def at_any_time(scan: Scanned) -> Obligation:
+        said = outputs_may_switch_one_by_one(scan)
+        return None if said is None else (scan.inputs.LA, said[1])
 
     yield JUDGE.too_strong("at any time", at_any_time, "PulseZeros")
 
 
-def settle_needs_cause(one: Scanned) -> Obligation:
-    if one.was("Settle") or not one.becomes("Settle"):
+def settle_needs_cause(scan: Scanned) -> Obligation:
+    if scan.was("Settle") or not scan.becomes("Settle"):
         return None
-    if one.was("CheckSelection"):
-        return TRUE, one.inputs.MW03 == 0
-    changed = one.inputs.MW03 != code("SE", one.before.selection)
-    if one.was("CheckAcknowledgment", "Match"):
-        return TRUE, z3.Or(changed, one.inputs.MW07 == 0)
-    if one.was("Switch"):
-        judged = z3.Or(one.inputs.MW07 == 0, one.inputs.MW07 == code("SW", one.before.selection))
+    if scan.was("CheckSelection"):
+        return TRUE, scan.inputs.MW03 == 0
+    changed = scan.inputs.MW03 != code("SE", scan.before.selection)
+    if scan.was("CheckAcknowledgment", "Match"):
+        return TRUE, z3.Or(changed, scan.inputs.MW07 == 0)
+    if scan.was("Switch"):
+        judged = z3.Or(scan.inputs.MW07 == 0, scan.inputs.MW07 == code("SW", scan.before.selection))
         return TRUE, z3.Or(changed, judged)
-    return TRUE, changed if one.was(*TRANSACTION) else FALSE
+    return TRUE, changed if scan.was(*TRANSACTION) else FALSE
 
 
 @theorem(
@@ -66,19 +66,19 @@ def the_fplc_gives_up_a_selection_only_for_a_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(settle_needs_cause)
 
-    def by_mw03_alone(one: Scanned) -> Obligation:
-        if settle_needs_cause(one) is None:
+    def by_mw03_alone(scan: Scanned) -> Obligation:
+        if settle_needs_cause(scan) is None:
             return None
-        return TRUE, one.inputs.MW03 != code("SE", one.before.selection)
+        return TRUE, scan.inputs.MW03 != code("SE", scan.before.selection)
 
     yield JUDGE.too_strong("by MW03 alone", by_mw03_alone, "Match")
 
 
-def checks_what_is_there(one: Scanned) -> Obligation:
-    if one.was("AwaitSelection") and one.becomes("CheckSelection"):
-        return TRUE, one.inputs.MW03 != 0
-    if one.was("AwaitAcknowledgment") and one.becomes("CheckAcknowledgment"):
-        return TRUE, one.inputs.MW07 != 0
+def checks_what_is_there(scan: Scanned) -> Obligation:
+    if scan.was("AwaitSelection") and scan.becomes("CheckSelection"):
+        return TRUE, scan.inputs.MW03 != 0
+    if scan.was("AwaitAcknowledgment") and scan.becomes("CheckAcknowledgment"):
+        return TRUE, scan.inputs.MW07 != 0
     return None
 
 
@@ -90,12 +90,12 @@ def the_fplc_checks_only_a_word_that_is_there() -> Queries:
     yield from JUDGE.in_every_scan(checks_what_is_there)
 
 
-def switches_when_all_stands(one: Scanned) -> Obligation:
-    if not one.was("Switch"):
+def switches_when_all_stands(scan: Scanned) -> Obligation:
+    if not scan.was("Switch"):
         return None
-    acknowledged = one.inputs.MW07 == code("SW", one.before.selection)
-    switched = one.after.mode == one.before.selection if one.becomes("Settle") else FALSE
-    return z3.And(signalled(one), selection_stands(one), acknowledged), switched
+    acknowledged = scan.inputs.MW07 == code("SW", scan.before.selection)
+    switched = scan.after.mode == scan.before.selection if scan.becomes("Settle") else FALSE
+    return z3.And(signalled(scan), selection_stands(scan), acknowledged), switched
 
 
 @theorem(clauses=["EKS-2-29"], findings=["E-01", "E-42"], slow=True)
@@ -105,8 +105,8 @@ def the_fplc_switches_when_all_words_stand() -> Queries:
     """
     yield from JUDGE.in_every_scan(switches_when_all_stands)
 
-    def by_the_key_alone(one: Scanned) -> Obligation:
-        said = switches_when_all_stands(one)
-        return None if said is None else (signalled(one), said[1])
+    def by_the_key_alone(scan: Scanned) -> Obligation:
+        said = switches_when_all_stands(scan)
+        return None if said is None else (signalled(scan), said[1])
 
     yield JUDGE.too_strong("by the key alone", by_the_key_alone, "Switch")

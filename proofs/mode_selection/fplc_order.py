@@ -36,25 +36,25 @@ IN_ORDER: Final = frozenset(
         *pairwise(("Clear", "AwaitZeros", "Idle")),
         ("Start", "Idle"),
         ("Error", "Idle"),
-        *((one, one) for one in WAITING),
+        *((step, step) for step in WAITING),
     }
 )
 """The numbered steps one after another, and waiting."""
 FROM_THE_SIDE: Final = frozenset(
     {
-        *((one, "Settle") for one in TRANSACTION | {"CheckSelection"}),
-        *((one, "Clear") for one in INSERTION | HOLDING),
-        *((one, "Error") for one in FPLC.register.states),
+        *((step, "Settle") for step in TRANSACTION | {"CheckSelection"}),
+        *((step, "Clear") for step in INSERTION | HOLDING),
+        *((state, "Error") for state in FPLC.register.states),
     }
 )
 
 
-def _pair(one: Scanned) -> tuple[str, str]:
-    return control(one.device, one.before), control(one.device, one.after)
+def _pair(scan: Scanned) -> tuple[str, str]:
+    return control(scan.device, scan.before), control(scan.device, scan.after)
 
 
-def steps_in_order(one: Scanned) -> Obligation:
-    return TRUE, TRUE if _pair(one) in IN_ORDER | FROM_THE_SIDE else FALSE
+def steps_in_order(scan: Scanned) -> Obligation:
+    return TRUE, TRUE if _pair(scan) in IN_ORDER | FROM_THE_SIDE else FALSE
 
 
 @theorem(
@@ -84,18 +84,18 @@ def the_fplc_leaves_no_step_out() -> Queries:
     """
     yield from JUDGE.in_every_scan(steps_in_order)
 
-    def never_aside(one: Scanned) -> Obligation:
-        return TRUE, TRUE if _pair(one) in IN_ORDER else FALSE
+    def never_aside(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if _pair(scan) in IN_ORDER else FALSE
 
     yield JUDGE.too_strong("nor those", never_aside, "Match")
 
 
-def time_goes_on(one: Scanned) -> Obligation:
-    before, after = _pair(one)
+def time_goes_on(scan: Scanned) -> Obligation:
+    before, after = _pair(scan)
     if before != after or before not in CLOCKED:
         return None
-    limit = deadline(before, one.params) if before in TIMED else one.params.T_DWELL_ms
-    return TRUE, one.after.elapsed_ms >= z3.If(now(one) < limit, now(one), limit)
+    limit = deadline(before, scan.params) if before in TIMED else scan.params.T_DWELL_ms
+    return TRUE, scan.after.elapsed_ms >= z3.If(now(scan) < limit, now(scan), limit)
 
 
 @theorem(clauses=["EKS-GP-3", "EKS-8-3"], findings=["E-36", "E-52"], properties=["TimeGoesOn"], slow=True)
@@ -105,25 +105,25 @@ def the_fplc_counts_the_time_of_every_scan_that_waits() -> Queries:
     """
     yield from JUDGE.in_every_scan(time_goes_on)
 
-    def faster(one: Scanned) -> Obligation:
-        return None if time_goes_on(one) is None else (TRUE, one.after.elapsed_ms > now(one))
+    def faster(scan: Scanned) -> Obligation:
+        return None if time_goes_on(scan) is None else (TRUE, scan.after.elapsed_ms > now(scan))
 
     yield JUDGE.too_strong("and runs ahead", faster, "Settle")
 
 
-def selection_stands(one: Scanned) -> z3.BoolRef:
+def selection_stands(scan: Scanned) -> z3.BoolRef:
     """MW03 carries the word of the latched selection."""
-    stands: z3.BoolRef = one.inputs.MW03 == code("SE", one.before.selection)
+    stands: z3.BoolRef = scan.inputs.MW03 == code("SE", scan.before.selection)
     return stands
 
 
-def acknowledgment_needs_echo(one: Scanned) -> Obligation:
-    if not one.was("AwaitSelection", "CheckSelection", "EchoSelection"):
+def acknowledgment_needs_echo(scan: Scanned) -> Obligation:
+    if not scan.was("AwaitSelection", "CheckSelection", "EchoSelection"):
         return None
-    early = z3.And(signalled(one), one.inputs.MW07 != 0)
-    if one.was("EchoSelection"):
-        early = z3.And(early, selection_stands(one))
-    return early, TRUE if one.becomes("Error") else FALSE
+    early = z3.And(signalled(scan), scan.inputs.MW07 != 0)
+    if scan.was("EchoSelection"):
+        early = z3.And(early, selection_stands(scan))
+    return early, TRUE if scan.becomes("Error") else FALSE
 
 
 @theorem(
@@ -138,18 +138,18 @@ def the_fplc_refuses_an_acknowledgment_before_the_echo() -> Queries:
     """
     yield from JUDGE.in_every_scan(acknowledgment_needs_echo)
 
-    def any_time(one: Scanned) -> Obligation:
-        obligation = z3.And(signalled(one), one.inputs.MW07 != 0)
-        return obligation, TRUE if one.becomes("Error") else FALSE
+    def any_time(scan: Scanned) -> Obligation:
+        obligation = z3.And(signalled(scan), scan.inputs.MW07 != 0)
+        return obligation, TRUE if scan.becomes("Error") else FALSE
 
     yield JUDGE.too_strong("and after it too", any_time, "AwaitAcknowledgment")
 
 
-def changed_selection_is_withdrawn(one: Scanned) -> Obligation:
-    if not one.was(*TRANSACTION):
+def changed_selection_is_withdrawn(scan: Scanned) -> Obligation:
+    if not scan.was(*TRANSACTION):
         return None
-    changed = z3.And(signalled(one), z3.Not(selection_stands(one)))
-    return changed, one.after.mode == one.before.mode if one.becomes("Settle") else FALSE
+    changed = z3.And(signalled(scan), z3.Not(selection_stands(scan)))
+    return changed, scan.after.mode == scan.before.mode if scan.becomes("Settle") else FALSE
 
 
 @theorem(
@@ -164,27 +164,27 @@ def the_fplc_takes_back_a_selection_that_no_longer_stands() -> Queries:
     """
     yield from JUDGE.in_every_scan(changed_selection_is_withdrawn)
 
-    def a_code_is_an_error(one: Scanned) -> Obligation:
-        obligation = changed_selection_is_withdrawn(one)
-        refused = z3.And(one.inputs.MW07 != 0, TRUE if one.becomes("Settle") else FALSE)
+    def a_code_is_an_error(scan: Scanned) -> Obligation:
+        obligation = changed_selection_is_withdrawn(scan)
+        refused = z3.And(scan.inputs.MW07 != 0, TRUE if scan.becomes("Settle") else FALSE)
         return None if obligation is None else (obligation[0], z3.Not(refused))
 
     yield JUDGE.too_strong("but not beside a word in MW07", a_code_is_an_error, "Switch")
 
 
-def acknowledgment_is_judged(one: Scanned) -> Obligation:
-    if not one.was("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"):
+def acknowledgment_is_judged(scan: Scanned) -> Obligation:
+    if not scan.was("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"):
         return None
-    stands = z3.And(signalled(one), selection_stands(one))
-    if one.was("AwaitAcknowledgment"):
-        return stands, z3.BoolVal(not one.becomes("Error"))
-    MW07 = one.inputs.MW07
-    settles = one.after.mode == one.before.mode if one.becomes("Settle") else FALSE
-    refused, matched = z3.BoolVal(one.becomes("Error")), z3.BoolVal(one.becomes("Match"))
+    stands = z3.And(signalled(scan), selection_stands(scan))
+    if scan.was("AwaitAcknowledgment"):
+        return stands, z3.BoolVal(not scan.becomes("Error"))
+    MW07 = scan.inputs.MW07
+    settles = scan.after.mode == scan.before.mode if scan.becomes("Settle") else FALSE
+    refused, matched = z3.BoolVal(scan.becomes("Error")), z3.BoolVal(scan.becomes("Match"))
     other = refused
-    if one.was("CheckAcknowledgment"):
+    if scan.was("CheckAcknowledgment"):
         other = z3.If(mode("SW", MW07) != NONE, matched, refused)
-    own = MW07 == code("SW", one.before.selection)
+    own = MW07 == code("SW", scan.before.selection)
     answer = z3.If(MW07 == 0, settles, z3.If(own, z3.Not(refused), other))
     return stands, answer
 
@@ -202,8 +202,8 @@ def the_fplc_has_one_answer_to_each_acknowledgment() -> Queries:
     """
     yield from JUDGE.in_every_scan(acknowledgment_is_judged)
 
-    def never_refused(one: Scanned) -> Obligation:
-        obligation = acknowledgment_is_judged(one)
-        return None if obligation is None else (obligation[0], z3.BoolVal(not one.becomes("Error")))
+    def never_refused(scan: Scanned) -> Obligation:
+        obligation = acknowledgment_is_judged(scan)
+        return None if obligation is None else (obligation[0], z3.BoolVal(not scan.becomes("Error")))
 
     yield JUDGE.too_strong("and is never refused", never_refused, "Match")

@@ -22,31 +22,31 @@ from proofs.theorem import Queries, theorem
 ZEROS_AWAITED: Final = ("Start", "AwaitZeros", "Error")
 
 
-def no_word(one: Scanned) -> z3.BoolRef:
+def no_word(scan: Scanned) -> z3.BoolRef:
     """MW03 and MW07 are zero."""
-    return z3.And(one.inputs.MW03 == 0, one.inputs.MW07 == 0)
+    return z3.And(scan.inputs.MW03 == 0, scan.inputs.MW07 == 0)
 
 
-def signalled(one: Scanned) -> z3.BoolRef:
+def signalled(scan: Scanned) -> z3.BoolRef:
     """LA is on, and the accepted output is set and no other."""
-    return z3.And(one.inputs.LA, only_of(vector(one.inputs), one.before.accepted))
+    return z3.And(scan.inputs.LA, only_of(vector(scan.inputs), scan.before.accepted))
 
 
-def no_needless_wait(one: Scanned) -> Obligation:
-    c, flags = control(one.device, one.before), vector(one.inputs)
-    if not one.becomes(c):
+def no_needless_wait(scan: Scanned) -> Obligation:
+    c, flags = control(scan.device, scan.before), vector(scan.inputs)
+    if not scan.becomes(c):
         return None
     if c in ZEROS_AWAITED:
-        return TRUE, z3.Not(zeros_everywhere(one))
+        return TRUE, z3.Not(zeros_everywhere(scan))
     if c == "Settle":
-        return TRUE, z3.Not(z3.And(no_word(one), now(one) >= one.params.T_DWELL_ms))
+        return TRUE, z3.Not(z3.And(no_word(scan), now(scan) >= scan.params.T_DWELL_ms))
     absent = {
-        "Idle": z3.Not(one.inputs.LA),
+        "Idle": z3.Not(scan.inputs.LA),
         "PulseOnes": z3.Not(all_set(flags)),
         "PulseZeros": z3.Not(none_set(flags)),
         "OneOutput": none_set(flags),
-        "AwaitSelection": no_word(one),
-        "AwaitAcknowledgment": one.inputs.MW07 == 0,
+        "AwaitSelection": no_word(scan),
+        "AwaitAcknowledgment": scan.inputs.MW07 == 0,
     }
     return TRUE, absent.get(c, FALSE)
 
@@ -72,22 +72,22 @@ def the_fplc_waits_only_for_what_is_not_there() -> Queries:
     """
     yield from JUDGE.in_every_scan(no_needless_wait)
 
-    def never(one: Scanned) -> Obligation:
-        return None if no_needless_wait(one) is None else (TRUE, FALSE)
+    def never(scan: Scanned) -> Obligation:
+        return None if no_needless_wait(scan) is None else (TRUE, FALSE)
 
     yield JUDGE.too_strong("nor for anything else", never, "OneOutput")
 
 
-def error_needs_cause(one: Scanned) -> Obligation:
-    c = control(one.device, one.before)
-    if c == "Error" or not one.becomes("Error"):
+def error_needs_cause(scan: Scanned) -> Obligation:
+    c = control(scan.device, scan.before)
+    if c == "Error" or not scan.becomes("Error"):
         return None
-    causes = [] if one.was("PulseOnes", "PulseZeros") else [several_set(vector(one.inputs))]
+    causes = [] if scan.was("PulseOnes", "PulseZeros") else [several_set(vector(scan.inputs))]
     if c in TIMED:
-        late = now(one) >= deadline(c, one.params)
-        causes.append(late if c in REMOVAL else z3.And(late, one.inputs.LA))
+        late = now(scan) >= deadline(c, scan.params)
+        causes.append(late if c in REMOVAL else z3.And(late, scan.inputs.LA))
     if c in HOLDING:
-        causes.append(z3.And(signalled(one), z3.Not(no_word(one))))
+        causes.append(z3.And(signalled(scan), z3.Not(no_word(scan))))
     return TRUE, z3.Or(*causes)
 
 
@@ -103,18 +103,18 @@ def the_fplc_enters_the_error_mode_only_for_a_cause() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_needs_cause)
 
-    def outputs_alone(one: Scanned) -> Obligation:
-        return None if error_needs_cause(one) is None else (TRUE, several_set(vector(one.inputs)))
+    def outputs_alone(scan: Scanned) -> Obligation:
+        return None if error_needs_cause(scan) is None else (TRUE, several_set(vector(scan.inputs)))
 
     yield JUDGE.too_strong("two outputs alone", outputs_alone, "AwaitSelection")
 
 
-def removal_needs_cause(one: Scanned) -> Obligation:
-    if one.was(*REMOVAL) or not one.becomes(*REMOVAL):
+def removal_needs_cause(scan: Scanned) -> Obligation:
+    if scan.was(*REMOVAL) or not scan.becomes(*REMOVAL):
         return None
-    if one.was(*HOLDING):
-        return TRUE, z3.Not(signalled(one))
-    return TRUE, z3.Not(one.inputs.LA) if one.was(*INSERTION) else FALSE
+    if scan.was(*HOLDING):
+        return TRUE, z3.Not(signalled(scan))
+    return TRUE, z3.Not(scan.inputs.LA) if scan.was(*INSERTION) else FALSE
 
 
 @theorem(
@@ -127,16 +127,16 @@ def the_fplc_begins_a_removal_only_when_la_or_its_output_is_gone() -> Queries:
     """A scan that begins the removal finds LA off, or, once an output was accepted, another vector."""
     yield from JUDGE.in_every_scan(removal_needs_cause)
 
-    def la_alone(one: Scanned) -> Obligation:
-        return None if removal_needs_cause(one) is None else (TRUE, z3.Not(one.inputs.LA))
+    def la_alone(scan: Scanned) -> Obligation:
+        return None if removal_needs_cause(scan) is None else (TRUE, z3.Not(scan.inputs.LA))
 
     yield JUDGE.too_strong("by LA alone", la_alone, "Settle")
 
 
-def insertion_needs_key(one: Scanned) -> Obligation:
-    if one.was(*INSERTION) or not one.becomes(*INSERTION):
+def insertion_needs_key(scan: Scanned) -> Obligation:
+    if scan.was(*INSERTION) or not scan.becomes(*INSERTION):
         return None
-    return TRUE, one.inputs.LA if one.was("Idle") else FALSE
+    return TRUE, scan.inputs.LA if scan.was("Idle") else FALSE
 
 
 @theorem(
@@ -148,20 +148,20 @@ def insertion_needs_key(one: Scanned) -> Obligation:
 def the_fplc_begins_an_insertion_only_in_idle_with_la() -> Queries:
     """A scan that begins to wait for the test pulse comes from Idle and finds LA on."""
     yield from JUDGE.in_every_scan(insertion_needs_key)
-    no_output: Sentence = lambda one: (  # noqa: E731
-        None if insertion_needs_key(one) is None else (TRUE, none_set(vector(one.inputs)))
+    no_output: Sentence = lambda scan: (  # noqa: E731
+        None if insertion_needs_key(scan) is None else (TRUE, none_set(vector(scan.inputs)))
     )
     yield JUDGE.too_strong("and no output", no_output, "Idle")
 
 
-def nothing_is_kept(one: Scanned, seen: Seen) -> z3.BoolRef:
-    c, s = control(one.device, one.after), one.after
+def nothing_is_kept(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    c, s = control(scan.device, scan.after), scan.after
     kept = [TRUE]
     if c not in HOLDING:
         kept += [s.accepted == NONE, s.authority == NONE]
     if c not in TRANSACTION:
         kept.append(s.selection == NONE)
-    if c not in CLOCKED or one.inputs is None:
+    if c not in CLOCKED or scan.inputs is None:
         kept.append(s.elapsed_ms == 0)
     return z3.And(*kept)
 

@@ -38,9 +38,9 @@ OnTheWay = Callable[[str, Any, Any, z3.ArithRef], z3.BoolRef]
 """What is known of a state after quiet scans: control state, memory, parameters, time since the first."""
 
 
-def quiet(one: Scanned) -> z3.BoolRef:
+def quiet(scan: Scanned) -> z3.BoolRef:
     """LA, the outputs of the EKS and both words are zero in this scan."""
-    i = one.inputs
+    i = scan.inputs
     return z3.And(z3.Not(i.LA), none_set(vector(i)), i.MW03 == 0, i.MW07 == 0)
 
 
@@ -49,15 +49,15 @@ def rank(c: str) -> int:
     return RANK.get(c, 4)
 
 
-def comes_closer(one: Scanned) -> Obligation:
+def comes_closer(scan: Scanned) -> Obligation:
     """A quiet scan goes on to a later state, or adds the time passed to a dwell time that is not over."""
-    before, after = control(FPLC, one.before), control(FPLC, one.after)
+    before, after = control(FPLC, scan.before), control(FPLC, scan.after)
     if rank(after) < rank(before) or (before, after) == ("Idle", "Idle"):
-        return quiet(one), TRUE
+        return quiet(scan), TRUE
     if before == after and before in DWELLING:
-        grows = one.after.elapsed_ms == now(one)
-        return quiet(one), z3.And(grows, one.after.elapsed_ms < one.params.T_DWELL_ms)
-    return quiet(one), FALSE
+        grows = scan.after.elapsed_ms == now(scan)
+        return quiet(scan), z3.And(grows, scan.after.elapsed_ms < scan.params.T_DWELL_ms)
+    return quiet(scan), FALSE
 
 
 @theorem(
@@ -71,14 +71,16 @@ def quiet_scans_lead_the_fplc_to_idle() -> Queries:
     """
     yield from JUDGE.in_every_scan(comes_closer)
 
-    def always_closer(one: Scanned) -> Obligation:
-        return quiet(one), TRUE if rank(control(FPLC, one.after)) < rank(control(FPLC, one.before)) else FALSE
+    def always_closer(scan: Scanned) -> Obligation:
+        return quiet(scan), TRUE if rank(control(FPLC, scan.after)) < rank(
+            control(FPLC, scan.before)
+        ) else FALSE
 
     yield JUDGE.too_strong("always a state closer", always_closer, "AwaitZeros")
 
-    def not_quiet(one: Scanned) -> Obligation:
-        said = comes_closer(one)
-        return None if said is None else (z3.Not(one.inputs.LA), said[1])
+    def not_quiet(scan: Scanned) -> Obligation:
+        said = comes_closer(scan)
+        return None if said is None else (z3.Not(scan.inputs.LA), said[1])
 
     yield JUDGE.too_strong("whatever stands in the words", not_quiet, "Error")
 
@@ -99,12 +101,12 @@ def way_left(c: str, s: Any, p: Any) -> z3.ArithRef:
     return ahead + z3.If(s.elapsed_ms < p.T_DWELL_ms, p.T_DWELL_ms - s.elapsed_ms, 0)
 
 
-def shrinks(one: Scanned) -> Obligation:
+def shrinks(scan: Scanned) -> Obligation:
     """The time left shrinks by BETWEEN, or the F-PLC is in Idle."""
-    given = z3.And(quiet(one), BETWEEN >= 1, one.inputs.dt_ms >= BETWEEN)
-    if one.was("Idle"):
-        return given, TRUE if one.becomes("Idle") else FALSE
-    left = [way_left(control(FPLC, state), state, one.params) for state in (one.before, one.after)]
+    given = z3.And(quiet(scan), BETWEEN >= 1, scan.inputs.dt_ms >= BETWEEN)
+    if scan.was("Idle"):
+        return given, TRUE if scan.becomes("Idle") else FALSE
+    left = [way_left(control(FPLC, state), state, scan.params) for state in (scan.before, scan.after)]
     return given, left[1] + BETWEEN <= left[0]
 
 
@@ -125,9 +127,9 @@ def the_fplc_is_idle_again_within_a_stated_number_of_scans() -> Queries:
         most = z3.And(idle, left <= 4 * BETWEEN + 2 * params.T_DWELL_ms)
         yield from claim(f"the number in {scans.control}", given, most, LOGIC)
 
-    def faster(one: Scanned) -> Obligation:
-        said = shrinks(one)
-        return None if said is None else (said[0], TRUE if one.becomes("Idle") else FALSE)
+    def faster(scan: Scanned) -> Obligation:
+        said = shrinks(scan)
+        return None if said is None else (said[0], TRUE if scan.becomes("Idle") else FALSE)
 
     yield JUDGE.too_strong("one scan is enough", faster, "AwaitZeros")
 
@@ -193,7 +195,7 @@ def _leads(
 ) -> Queries:
     given = {**given, "quiet": scans.some(quiet), "not longer between two scans": within}
     then = scans.always(
-        lambda one: z3.Implies(quiet(one), way(control(FPLC, one.after), one.after, one.params, passed))
+        lambda scan: z3.Implies(quiet(scan), way(control(FPLC, scan.after), scan.after, scan.params, passed))
     )
     yield from claim(name, given, then, LOGIC)
 
@@ -266,8 +268,8 @@ def a_removal_over_zeros_ends_without_the_error_mode() -> Queries:
 
     yield from _bound(without_error, bound, times_of_a_good_removal)
 
-    def no_error(one: Scanned) -> Obligation:
-        zero_waited = z3.And(quiet(one), one.before.elapsed_ms < one.params.T_DWELL_ms)
-        return zero_waited, FALSE if one.becomes("Error") else TRUE
+    def no_error(scan: Scanned) -> Obligation:
+        zero_waited = z3.And(quiet(scan), scan.before.elapsed_ms < scan.params.T_DWELL_ms)
+        return zero_waited, FALSE if scan.becomes("Error") else TRUE
 
     yield JUDGE.too_strong("whatever the times", no_error, "AwaitZeros")

@@ -38,9 +38,9 @@ TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL))
 # ---------------------------------------------------------------- what sentences have in common
 
 
-def switched(one: Scanned) -> bool:
+def switched(scan: Scanned) -> bool:
     """The scan writes the active mode, and not none: also a switchover to the mode that is active. E-71"""
-    return not one.kept("mode") and not one.after.mode.eq(z3.IntVal(NONE))
+    return not scan.kept("mode") and not scan.after.mode.eq(z3.IntVal(NONE))
 
 
 def mode_outputs(sends: Any) -> tuple[z3.BoolRef, ...]:
@@ -48,22 +48,22 @@ def mode_outputs(sends: Any) -> tuple[z3.BoolRef, ...]:
     return sends.MSO_0, sends.MSO_1, sends.MSO_2, sends.MSO_3, sends.MSO_4
 
 
-def now(one: Scanned) -> z3.ArithRef:
+def now(scan: Scanned) -> z3.ArithRef:
     """The timer of the state as this scan reads it."""
-    return one.before.elapsed_ms + one.inputs.dt_ms
+    return scan.before.elapsed_ms + scan.inputs.dt_ms
 
 
-def zeros_everywhere(one: Scanned) -> z3.BoolRef:
+def zeros_everywhere(scan: Scanned) -> z3.BoolRef:
     """LA, all outputs of the EKS and both words are zero, and the dwell time is over. E-52"""
-    i = one.inputs
+    i = scan.inputs
     zeros = z3.And(z3.Not(i.LA), none_set(vector(i)), i.MW03 == 0, i.MW07 == 0)
-    return z3.And(zeros, now(one) >= one.params.T_DWELL_ms)
+    return z3.And(zeros, now(scan) >= scan.params.T_DWELL_ms)
 
 
-def mode_is_held(one: Scanned) -> z3.BoolRef:
+def mode_is_held(scan: Scanned) -> z3.BoolRef:
     """The active mode is what it was, or is dropped because the parameter says so."""
-    dropped = z3.And(one.params.ON_ERROR == ON_ERROR_NONE, one.after.mode == NONE)
-    return z3.Or(one.after.mode == one.before.mode, dropped)
+    dropped = z3.And(scan.params.ON_ERROR == ON_ERROR_NONE, scan.after.mode == NONE)
+    return z3.Or(scan.after.mode == scan.before.mode, dropped)
 
 
 def deadline(c: str, params: Any) -> z3.ArithRef:
@@ -76,9 +76,9 @@ def deadline(c: str, params: Any) -> z3.ArithRef:
 # ---------------------------------------------------------------- outputs and memory
 
 
-def at_most_one_mode_output(one: Scanned, seen: Seen) -> z3.BoolRef:
-    same = [flag == (one.after.mode == number) for number, flag in enumerate(mode_outputs(one.sends))]
-    return z3.And(z3.Not(several_set(mode_outputs(one.sends))), *same)
+def at_most_one_mode_output(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    same = [flag == (scan.after.mode == number) for number, flag in enumerate(mode_outputs(scan.sends))]
+    return z3.And(z3.Not(several_set(mode_outputs(scan.sends))), *same)
 
 
 @theorem(
@@ -87,16 +87,16 @@ def at_most_one_mode_output(one: Scanned, seen: Seen) -> z3.BoolRef:
 def the_fplc_never_sets_two_mode_outputs() -> Queries:
     """At power-up and after every scan the F-PLC sets at most one mode output, that of the active mode."""
     yield from JUDGE.after_every_scan(at_most_one_mode_output)
-    none: Sentence = lambda one: (TRUE, none_set(mode_outputs(one.sends)))  # noqa: E731
+    none: Sentence = lambda scan: (TRUE, none_set(mode_outputs(scan.sends)))  # noqa: E731
     yield JUDGE.too_strong("no mode output is ever set", none, "Switch")
 
 
-def echo_is_the_selection(one: Scanned, seen: Seen) -> z3.BoolRef:
-    s, o = one.after, one.sends
+def echo_is_the_selection(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    s, o = scan.after, scan.sends
     shown = z3.And(
         s.selection != NONE,
         o.MW05 == code("CH", s.selection),
-        permits(one.params, s.authority, s.selection),
+        permits(scan.params, s.authority, s.selection),
         o.MW01 == code("RE", s.authority),
     )
     return z3.Implies(o.MW05 != 0, shown)
@@ -112,9 +112,9 @@ def the_fplc_echoes_only_its_latched_selection() -> Queries:
     yield JUDGE.without(sentence, "EchoSelection", "SelectionIsPermitted")
 
 
-def words_zero_without_key(one: Scanned, seen: Seen) -> z3.BoolRef:
-    zero = z3.And(one.sends.MW01 == 0, one.sends.MW05 == 0)
-    return z3.Implies(one.after.accepted == NONE, zero)
+def words_zero_without_key(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    zero = z3.And(scan.sends.MW01 == 0, scan.sends.MW05 == 0)
+    return z3.Implies(scan.after.accepted == NONE, zero)
 
 
 @theorem(clauses=["EKS-8-6", "EKS-8-8"], findings=["E-27"], properties=["WordsZeroWithoutKey"], slow=True)
@@ -125,10 +125,10 @@ def the_fplc_sends_zeros_without_an_accepted_key() -> Queries:
     yield JUDGE.without(sentence, "AwaitSelection", "OneOutputAccepted", "AuthorityIsTheAcceptedLevel")
 
 
-def selection_within_authority(one: Scanned, seen: Seen) -> z3.BoolRef:
-    s = one.after
+def selection_within_authority(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    s = scan.after
     return z3.And(
-        z3.Implies(s.selection != NONE, permits(one.params, s.authority, s.selection)),
+        z3.Implies(s.selection != NONE, permits(scan.params, s.authority, s.selection)),
         z3.Implies(s.authority != NONE, s.authority == s.accepted),
     )
 
@@ -150,10 +150,10 @@ def the_fplc_keeps_no_selection_beyond_the_accepted_level() -> Queries:
     yield JUDGE.without(sentence, "AwaitSelection", "SelectionOnlyInATransaction")
 
 
-def error_drops_mode(one: Scanned, seen: Seen) -> z3.BoolRef:
-    if not one.becomes("Error"):
+def error_drops_mode(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    if not scan.becomes("Error"):
         return TRUE
-    return z3.Implies(one.params.ON_ERROR == ON_ERROR_NONE, one.after.mode == NONE)
+    return z3.Implies(scan.params.ON_ERROR == ON_ERROR_NONE, scan.after.mode == NONE)
 
 
 @theorem(clauses=["EKS-KS-6"], findings=["E-24"], properties=["ErrorDropsMode"], slow=True)
@@ -166,10 +166,10 @@ def the_fplc_drops_the_mode_in_error_where_it_is_so_set() -> Queries:
 # ---------------------------------------------------------------- the switchover
 
 
-def switch_needs_matching_pair(one: Scanned) -> Obligation:
-    if not switched(one):
+def switch_needs_matching_pair(scan: Scanned) -> Obligation:
+    if not switched(scan):
         return None
-    m, i = one.after.mode, one.inputs
+    m, i = scan.after.mode, scan.inputs
     pair = z3.And(is_mode(m), i.MW03 == code("SE", m), i.MW07 == code("SW", m))
     return TRUE, z3.And(pair, SEEN.cleared, SEEN.selected == m, SEEN.echoed)
 
@@ -189,11 +189,11 @@ def the_fplc_switches_only_on_the_pair_of_this_insertion() -> Queries:
         yield JUDGE.without(switch_needs_matching_pair, "Switch", conjunct)
 
 
-def authorization_respected(one: Scanned) -> Obligation:
-    if not switched(one):
+def authorization_respected(scan: Scanned) -> Obligation:
+    if not switched(scan):
         return None
     signalled = [
-        z3.And(only(vector(one.inputs), level), permits(one.params, z3.IntVal(level), one.after.mode))
+        z3.And(only(vector(scan.inputs), level), permits(scan.params, z3.IntVal(level), scan.after.mode))
         for level in LEVELS
     ]
     return TRUE, z3.Or(*signalled)
@@ -215,10 +215,10 @@ def the_fplc_never_switches_beyond_the_signalled_level() -> Queries:
     yield JUDGE.without(authorization_respected, "Switch", "SelectionIsPermitted")
 
 
-def authorization_by_the_text(one: Scanned) -> Obligation:
-    if not switched(one):
+def authorization_by_the_text(scan: Scanned) -> Obligation:
+    if not switched(scan):
         return None
-    flags, m = vector(one.inputs), one.after.mode
+    flags, m = vector(scan.inputs), scan.after.mode
     own = [z3.And(only(flags, level), m == level) for level in LEVELS]
     return TRUE, z3.Or(*own, z3.And(only(flags, 3), z3.Or(m == 1, m == 2)))
 
@@ -241,22 +241,22 @@ def the_fplc_switches_by_the_text_alone_where_it_is_so_set() -> Queries:
     yield JUDGE.too_strong("by any table of permissions", authorization_by_the_text, "Switch")
 
 
-def no_change_without_la(one: Scanned) -> Obligation:
-    return (TRUE, one.inputs.LA) if switched(one) else None
+def no_change_without_la(scan: Scanned) -> Obligation:
+    return (TRUE, scan.inputs.LA) if switched(scan) else None
 
 
 @theorem(clauses=["EKS-SD-2"], findings=["E-42"], properties=["NoChangeWithoutLA"], slow=True)
 def the_fplc_switches_nothing_without_la() -> Queries:
     """No mode is written in a scan in which LA is off."""
     yield from JUDGE.in_every_scan(no_change_without_la)
-    str_too: Sentence = lambda one: (TRUE, one.inputs.STR) if switched(one) else None  # noqa: E731
+    str_too: Sentence = lambda scan: (TRUE, scan.inputs.STR) if switched(scan) else None  # noqa: E731
     yield JUDGE.too_strong("nor without STR", str_too, "Switch")
 
 
-def no_change_beside_switchover(one: Scanned) -> Obligation:
-    if one.was("Switch") and one.becomes("Settle"):
-        return TRUE, z3.Or(one.after.mode == one.before.mode, is_mode(one.after.mode))
-    return TRUE, one.after.mode == one.before.mode if not one.becomes("Error") else mode_is_held(one)
+def no_change_beside_switchover(scan: Scanned) -> Obligation:
+    if scan.was("Switch") and scan.becomes("Settle"):
+        return TRUE, z3.Or(scan.after.mode == scan.before.mode, is_mode(scan.after.mode))
+    return TRUE, scan.after.mode == scan.before.mode if not scan.becomes("Error") else mode_is_held(scan)
 
 
 @theorem(
@@ -270,7 +270,7 @@ def nothing_but_the_switchover_changes_the_mode() -> Queries:
     ON_ERROR = none, one that ends in the error mode without a mode.
     """
     yield from JUDGE.in_every_scan(no_change_beside_switchover)
-    held: Sentence = lambda one: (TRUE, one.after.mode == one.before.mode)  # noqa: E731
+    held: Sentence = lambda scan: (TRUE, scan.after.mode == scan.before.mode)  # noqa: E731
     yield JUDGE.too_strong("the mode never changes", held, "Switch")
     yield JUDGE.too_strong("an error never drops it", held, "Idle")
 
@@ -278,14 +278,14 @@ def nothing_but_the_switchover_changes_the_mode() -> Queries:
 # ---------------------------------------------------------------- faults of the EKS, removal
 
 
-def two_outputs_lead_to_error(one: Scanned) -> Obligation:
-    if one.was("PulseOnes", "PulseZeros"):
+def two_outputs_lead_to_error(scan: Scanned) -> Obligation:
+    if scan.was("PulseOnes", "PulseZeros"):
         return None
-    several = several_set(vector(one.inputs))
-    given = z3.And(several, z3.Not(one.inputs.LA)) if one.was("Idle") else several
-    if not one.becomes("Error"):
+    several = several_set(vector(scan.inputs))
+    given = z3.And(several, z3.Not(scan.inputs.LA)) if scan.was("Idle") else several
+    if not scan.becomes("Error"):
         return given, z3.BoolVal(False)
-    return given, z3.And(one.sends.ERROR, mode_is_held(one))
+    return given, z3.And(scan.sends.ERROR, mode_is_held(scan))
 
 
 @theorem(
@@ -300,18 +300,18 @@ def two_outputs_lead_the_fplc_to_error_in_that_scan() -> Queries:
     """
     yield from JUDGE.in_every_scan(two_outputs_lead_to_error)
 
-    def without_window(one: Scanned) -> Obligation:
-        return several_set(vector(one.inputs)), TRUE if one.becomes("Error") else z3.BoolVal(False)
+    def without_window(scan: Scanned) -> Obligation:
+        return several_set(vector(scan.inputs)), TRUE if scan.becomes("Error") else z3.BoolVal(False)
 
     yield JUDGE.too_strong("in the pulse window too", without_window, "PulseOnes")
 
 
-def removal_seen_at_once(one: Scanned) -> Obligation:
-    if not one.was(*HOLDING):
+def removal_seen_at_once(scan: Scanned) -> Obligation:
+    if not scan.was(*HOLDING):
         return None
-    gone = z3.Not(z3.And(one.inputs.LA, only_of(vector(one.inputs), one.before.accepted)))
-    zero = z3.And(one.sends.MW01 == 0, one.sends.MW05 == 0)
-    return gone, zero if one.becomes("Clear", "Error") else z3.BoolVal(False)
+    gone = z3.Not(z3.And(scan.inputs.LA, only_of(vector(scan.inputs), scan.before.accepted)))
+    zero = z3.And(scan.sends.MW01 == 0, scan.sends.MW05 == 0)
+    return gone, zero if scan.becomes("Clear", "Error") else z3.BoolVal(False)
 
 
 @theorem(
@@ -328,8 +328,8 @@ def the_fplc_ends_a_transaction_in_the_scan_without_its_key() -> Queries:
     yield JUDGE.without(removal_seen_at_once, "AwaitSelection", "OneOutputAccepted")
 
 
-def idle_only_over_zeros(one: Scanned) -> Obligation:
-    return (TRUE, zeros_everywhere(one)) if one.becomes("Idle") and not one.was("Idle") else None
+def idle_only_over_zeros(scan: Scanned) -> Obligation:
+    return (TRUE, zeros_everywhere(scan)) if scan.becomes("Idle") and not scan.was("Idle") else None
 
 
 @theorem(
@@ -342,17 +342,17 @@ def the_fplc_comes_to_idle_only_over_zeros() -> Queries:
     """A scan that leads to Idle finds LA, all five outputs, MW03 and MW07 zero, and the dwell time over."""
     yield from JUDGE.in_every_scan(idle_only_over_zeros)
 
-    def later(one: Scanned) -> Obligation:
-        return (TRUE, now(one) > one.params.T_DWELL_ms) if idle_only_over_zeros(one) else None
+    def later(scan: Scanned) -> Obligation:
+        return (TRUE, now(scan) > scan.params.T_DWELL_ms) if idle_only_over_zeros(scan) else None
 
     yield JUDGE.too_strong("and a millisecond more", later, "AwaitZeros")
 
 
-def error_only_over_zeros(one: Scanned) -> Obligation:
-    goes_off = z3.And(one.sent.ERROR, z3.Not(one.sends.ERROR))
-    if one.was("Error"):
-        return goes_off, zeros_everywhere(one)
-    return TRUE, z3.Implies(goes_off, zeros_everywhere(one))
+def error_only_over_zeros(scan: Scanned) -> Obligation:
+    goes_off = z3.And(scan.sent.ERROR, z3.Not(scan.sends.ERROR))
+    if scan.was("Error"):
+        return goes_off, zeros_everywhere(scan)
+    return TRUE, z3.Implies(goes_off, zeros_everywhere(scan))
 
 
 @theorem(
@@ -367,8 +367,8 @@ def the_error_mode_ends_only_over_zeros() -> Queries:
     """
     yield from JUDGE.in_every_scan(error_only_over_zeros)
 
-    def later(one: Scanned) -> Obligation:
-        return z3.Not(one.sends.ERROR), now(one) > one.params.T_DWELL_ms
+    def later(scan: Scanned) -> Obligation:
+        return z3.Not(scan.sends.ERROR), now(scan) > scan.params.T_DWELL_ms
 
     yield JUDGE.too_strong("and a millisecond more", later, "Error")
 
@@ -376,10 +376,10 @@ def the_error_mode_ends_only_over_zeros() -> Queries:
 # ---------------------------------------------------------------- what the words rest on
 
 
-def selection_needs_level(one: Scanned) -> Obligation:
-    if not (one.was("CheckSelection") and one.becomes("EchoSelection")):
+def selection_needs_level(scan: Scanned) -> Obligation:
+    if not (scan.was("CheckSelection") and scan.becomes("EchoSelection")):
         return None
-    return TRUE, permits(one.params, mode("RE", one.sent.MW01), mode("SE", one.inputs.MW03))
+    return TRUE, permits(scan.params, mode("RE", scan.sent.MW01), mode("SE", scan.inputs.MW03))
 
 
 @theorem(
@@ -394,20 +394,24 @@ def the_fplc_accepts_a_selection_only_under_the_level_that_it_shows() -> Queries
     """
     yield from JUDGE.in_every_scan(selection_needs_level)
 
-    def own_mode(one: Scanned) -> Obligation:
+    def own_mode(scan: Scanned) -> Obligation:
         return (
-            None if selection_needs_level(one) is None else (TRUE, one.after.selection == one.after.authority)
+            None
+            if selection_needs_level(scan) is None
+            else (TRUE, scan.after.selection == scan.after.authority)
         )
 
     yield JUDGE.too_strong("only its own mode", own_mode, "CheckSelection")
 
 
-def echo_needs_selection(one: Scanned) -> Obligation:
-    if z3.is_bv_value(one.sends.MW05) and one.sends.MW05.as_long() == 0:
+def echo_needs_selection(scan: Scanned) -> Obligation:
+    if z3.is_bv_value(scan.sends.MW05) and scan.sends.MW05.as_long() == 0:
         return None
-    shown, flags = mode("CH", one.sends.MW05), vector(one.inputs)
-    permitted = [z3.And(only(flags, level), permits(one.params, z3.IntVal(level), shown)) for level in LEVELS]
-    return one.sends.MW05 != 0, z3.And(one.inputs.MW03 == code("SE", shown), z3.Or(*permitted))
+    shown, flags = mode("CH", scan.sends.MW05), vector(scan.inputs)
+    permitted = [
+        z3.And(only(flags, level), permits(scan.params, z3.IntVal(level), shown)) for level in LEVELS
+    ]
+    return scan.sends.MW05 != 0, z3.And(scan.inputs.MW03 == code("SE", shown), z3.Or(*permitted))
 
 
 @theorem(clauses=["EKS-2-20", "EKS-6-12"], findings=["E-16"], properties=["EchoNeedsSelection"], slow=True)
@@ -419,9 +423,9 @@ def the_fplc_echoes_only_what_stands_in_mw03() -> Queries:
     yield JUDGE.without(echo_needs_selection, "EchoSelection", "SelectionIsPermitted")
 
 
-def level_needs_pulse(one: Scanned) -> Obligation:
-    appears = z3.And(one.sent.MW01 == 0, one.sends.MW01 != 0)
-    if one.was("Authorize", "Settle") and one.becomes("AwaitSelection"):
+def level_needs_pulse(scan: Scanned) -> Obligation:
+    appears = z3.And(scan.sent.MW01 == 0, scan.sends.MW01 != 0)
+    if scan.was("Authorize", "Settle") and scan.becomes("AwaitSelection"):
         return appears, SEEN.pulse == 2
     return TRUE, z3.Implies(appears, SEEN.pulse == 2)
 
@@ -440,10 +444,10 @@ def the_fplc_shows_a_level_only_after_the_test_pulse() -> Queries:
 # ---------------------------------------------------------------- times
 
 
-def no_wait_beyond_deadline(one: Scanned, seen: Seen) -> z3.BoolRef:
+def no_wait_beyond_deadline(scan: Scanned, seen: Seen) -> z3.BoolRef:
     for c in TIMED:
-        if one.becomes(c):
-            return one.after.elapsed_ms < deadline(c, one.params)
+        if scan.becomes(c):
+            return scan.after.elapsed_ms < deadline(c, scan.params)
     return TRUE
 
 
@@ -457,17 +461,17 @@ def no_wait_of_the_fplc_outlasts_its_deadline() -> Queries:
     """After every scan the timer of a state that has a deadline is below it."""
     yield from JUDGE.after_every_scan(no_wait_beyond_deadline)
 
-    def sooner(one: Scanned) -> Obligation:
-        return (TRUE, now(one) + 1 < one.params.T_REM_ms) if one.becomes("AwaitZeros") else None
+    def sooner(scan: Scanned) -> Obligation:
+        return (TRUE, now(scan) + 1 < scan.params.T_REM_ms) if scan.becomes("AwaitZeros") else None
 
     yield JUDGE.too_strong("nor comes within a millisecond of it", sooner, "AwaitZeros")
 
 
-def expiry_ends_the_wait(one: Scanned) -> Obligation:
+def expiry_ends_the_wait(scan: Scanned) -> Obligation:
     for c in TIMED:
-        if one.was(c):
-            ends = one.becomes("Error") or (c in INSERTION and one.becomes("Clear"))
-            return now(one) >= deadline(c, one.params), TRUE if ends else z3.BoolVal(False)
+        if scan.was(c):
+            ends = scan.becomes("Error") or (c in INSERTION and scan.becomes("Clear"))
+            return now(scan) >= deadline(c, scan.params), TRUE if ends else z3.BoolVal(False)
     return None
 
 
@@ -483,21 +487,21 @@ def every_wait_with_a_deadline_ends_in_the_scan_that_reaches_it() -> Queries:
     """
     yield from JUDGE.in_every_scan(expiry_ends_the_wait)
 
-    def success_counts(one: Scanned) -> Obligation:
-        said = expiry_ends_the_wait(one)
-        return None if said is None else (said[0], TRUE if one.becomes("Error") else z3.BoolVal(False))
+    def success_counts(scan: Scanned) -> Obligation:
+        said = expiry_ends_the_wait(scan)
+        return None if said is None else (said[0], TRUE if scan.becomes("Error") else z3.BoolVal(False))
 
     yield JUDGE.too_strong("always in the error mode", success_counts, "PulseOnes")
 
 
-def shared_deadline_holds(one: Scanned, seen: Seen) -> z3.BoolRef:
-    p = one.params
-    if one.becomes("PulseOnes"):
+def shared_deadline_holds(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    p = scan.params
+    if scan.becomes("PulseOnes"):
         whole = z3.Or(p.T_SEQ_FROM == FROM_ONES, seen.waited < p.T_SEQ_ms)
         return z3.And(seen.waited < p.T_ON_ms, whole)
-    if one.becomes(*INSERTION):
+    if scan.becomes(*INSERTION):
         return seen.waited < p.T_SEQ_ms
-    return seen.waited < p.T_REM_ms if one.becomes(*REMOVAL) else TRUE
+    return seen.waited < p.T_REM_ms if scan.becomes(*REMOVAL) else TRUE
 
 
 @theorem(
@@ -515,10 +519,10 @@ def all_waits_of_the_fplc_together_stay_within_their_deadline() -> Queries:
         yield JUDGE.without(JUDGE.after_a_scan(shared_deadline_holds), start, "TimerIsTheTimeWaited")
 
 
-def removal_timer_goes_on(one: Scanned) -> Obligation:
-    if not (one.was(*REMOVAL) and one.becomes(*REMOVAL)):
+def removal_timer_goes_on(scan: Scanned) -> Obligation:
+    if not (scan.was(*REMOVAL) and scan.becomes(*REMOVAL)):
         return None
-    return TRUE, one.after.elapsed_ms >= now(one)
+    return TRUE, scan.after.elapsed_ms >= now(scan)
 
 
 @theorem(clauses=["EKS-8-3", "EKS-8-11"], findings=["E-36"], properties=["RemovalTimerGoesOn"], slow=True)
@@ -528,8 +532,8 @@ def nothing_restarts_the_timer_of_a_removal() -> Queries:
     """
     yield from JUDGE.in_every_scan(removal_timer_goes_on)
 
-    def faster(one: Scanned) -> Obligation:
-        said = removal_timer_goes_on(one)
-        return None if said is None else (TRUE, one.after.elapsed_ms > now(one))
+    def faster(scan: Scanned) -> Obligation:
+        said = removal_timer_goes_on(scan)
+        return None if said is None else (TRUE, scan.after.elapsed_ms > now(scan))
 
     yield JUDGE.too_strong("and runs ahead", faster, "AwaitZeros")

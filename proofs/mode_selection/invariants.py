@@ -44,7 +44,7 @@ ON_ERROR_NONE: Final = 1
 
 def _values_in_range(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     modes = (s.accepted, s.authority, s.selection, s.mode)
-    return z3.And(s.elapsed_ms >= 0, *[z3.And(one >= NONE, one <= 4) for one in modes])
+    return z3.And(s.elapsed_ms >= 0, *[z3.And(mode >= NONE, mode <= 4) for mode in modes])
 
 
 def _nothing_without_key(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
@@ -167,7 +167,7 @@ PENDING: Final = frozenset({"AwaitEcho", "Confirm", "AwaitSwitch"})
 
 
 def _panel_values_in_range(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
-    return z3.And(*[z3.And(one >= NONE, one <= 4) for one in (s.offered, s.selection)])
+    return z3.And(*[z3.And(mode >= NONE, mode <= 4) for mode in (s.offered, s.selection)])
 
 
 def _selection_is_offered(c: str, s: Any, p: Any, seen: Any) -> z3.BoolRef:
@@ -206,7 +206,7 @@ REMEMBERING: Final = WORKING | {"ClearOutputs"}
 def no_key(key: Any) -> z3.BoolRef:
     """The memory (in terms) is that of no key: zeros everywhere."""
     words = (key.operating_state, key.authorization_level, key.access_code, key.KEYCRC, key.KeyID)
-    return z3.And(*[one == 0 for one in words])
+    return z3.And(*[word == 0 for word in words])
 
 
 def key_accepted(p: Any, key: Any) -> z3.BoolRef:

@@ -35,15 +35,15 @@ from proofs.theorem import Theorem
 def _theorems(device: Device, *modules: ModuleType) -> tuple[Theorem, ...]:
     """The theorems of these modules in the order of the text, invariants last; of guarantees the device's."""
     found = [
-        one
+        var
         for module in modules
-        for one in vars(module).values()
-        if isinstance(one, Theorem) and one.build.__module__ == module.__name__
+        for var in vars(module).values()
+        if isinstance(var, Theorem) and var.build.__module__ == module.__name__
     ]
-    own = {one.theorem for one in guarantees.GUARANTEES if one.device is device}
-    others = {one.theorem for one in guarantees.GUARANTEES} - own
-    found.sort(key=lambda one: "invariant" in one.name)
-    return tuple(one for one in found if one.name not in others)
+    own = {guarantee.theorem for guarantee in guarantees.GUARANTEES if guarantee.device is device}
+    others = {guarantee.theorem for guarantee in guarantees.GUARANTEES} - own
+    found.sort(key=lambda scan: "invariant" in scan.name)
+    return tuple(judge for judge in found if judge.name not in others)
 
 
 JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(

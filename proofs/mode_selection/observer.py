@@ -51,12 +51,12 @@ NOTHING: Final = Seen(z3.BoolVal(False), z3.IntVal(0), z3.IntVal(NONE), z3.BoolV
 
 
 @cache
-def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
+def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a scan of the F-PLC."""
-    i, flags = one.inputs, vector(one.inputs)
+    i, flags = scan.inputs, vector(scan.inputs)
     present = z3.And(i.LA, one_set(flags))
     zeros = z3.And(present, i.MW03 == 0, i.MW07 == 0)
-    ended = z3.And(one.sent.MW05 != 0, one.sends.MW05 == 0)
+    ended = z3.And(scan.sent.MW05 != 0, scan.sends.MW05 == 0)
     standing = z3.And(present, seen.selected != NONE, i.MW03 == code("SE", seen.selected))
     chosen = z3.If(z3.And(seen.cleared, present, i.MW07 == 0), mode("SE", i.MW03), z3.IntVal(NONE))
     return Seen(
@@ -68,20 +68,20 @@ def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
         ),
         selected=z3.If(ended, NONE, z3.If(standing, seen.selected, chosen)),
         echoed=z3.And(
-            z3.Not(ended), standing, z3.Or(seen.echoed, one.sent.MW05 == code("CH", seen.selected))
+            z3.Not(ended), standing, z3.Or(seen.echoed, scan.sent.MW05 == code("CH", seen.selected))
         ),
-        waited=_waited(one, seen),
+        waited=_waited(scan, seen),
     )
 
 
-def _waited(one: Scanned, seen: Seen) -> z3.ArithRef:
+def _waited(scan: Scanned, seen: Seen) -> z3.ArithRef:
     """Time goes on within the insertion and within the removal, and starts anew where the next one begins."""
-    within = any(one.was(*stretch) and one.becomes(*stretch) for stretch in (INSERTION, REMOVAL))
+    within = any(scan.was(*stretch) and scan.becomes(*stretch) for stretch in (INSERTION, REMOVAL))
     if not within:
         return z3.IntVal(0)
-    if one.was("PulseOnes") and not one.becomes("PulseOnes"):
-        return z3.If(one.params.T_SEQ_FROM == FROM_ONES, 0, seen.waited + one.inputs.dt_ms)
-    return seen.waited + one.inputs.dt_ms
+    if scan.was("PulseOnes") and not scan.becomes("PulseOnes"):
+        return z3.If(scan.params.T_SEQ_FROM == FROM_ONES, 0, seen.waited + scan.inputs.dt_ms)
+    return seen.waited + scan.inputs.dt_ms
 
 
 FROM_LA: Final = 0

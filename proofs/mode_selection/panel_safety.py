@@ -21,9 +21,9 @@ JUDGE: Final = Judge(HMI, HMI_INVARIANT)
 TOUCHES: Final = HMI.register.inputs["touch"].values
 
 
-def touched(one: Scanned, field: str) -> z3.BoolRef:
+def touched(scan: Scanned, field: str) -> z3.BoolRef:
     """This field was touched in the scan."""
-    return one.inputs.touch == TOUCHES.index(field)
+    return scan.inputs.touch == TOUCHES.index(field)
 
 
 @theorem(clauses=["EKS-GP-3", "EKS-GP-5", "EKS-8-8"], findings=["E-47"])
@@ -35,10 +35,10 @@ def every_scan_of_the_panel_keeps_its_invariant() -> Queries:
     yield from JUDGE.consecution()
 
 
-def selection_within_offer(one: Scanned, seen: Any) -> z3.BoolRef:
-    s, sent = one.after, mode("SE", one.sends.SelectMSO)
-    kept = z3.Implies(s.selection != NONE, permits(one.params, s.offered, s.selection))
-    return z3.And(kept, z3.Implies(one.sends.SelectMSO != 0, permits(one.params, s.offered, sent)))
+def selection_within_offer(scan: Scanned, seen: Any) -> z3.BoolRef:
+    s, sent = scan.after, mode("SE", scan.sends.SelectMSO)
+    kept = z3.Implies(s.selection != NONE, permits(scan.params, s.offered, s.selection))
+    return z3.And(kept, z3.Implies(scan.sends.SelectMSO != 0, permits(scan.params, s.offered, sent)))
 
 
 @theorem(clauses=["EKS-2-14", "EKS-SD-4"], findings=[], properties=["SelectionWithinOffer"])
@@ -51,24 +51,26 @@ def the_panel_sends_no_selection_beyond_its_offer() -> Queries:
     yield JUDGE.without(sentence, "AwaitEcho", "SelectionIsOffered")
 
 
-def inhibited_sends_zeros(one: Scanned, seen: Any) -> z3.BoolRef:
-    zero = z3.And(one.sends.SelectMSO == 0, one.sends.SwitchMSO == 0)
-    return zero if one.becomes("Inhibited") else TRUE
+def inhibited_sends_zeros(scan: Scanned, seen: Any) -> z3.BoolRef:
+    zero = z3.And(scan.sends.SelectMSO == 0, scan.sends.SwitchMSO == 0)
+    return zero if scan.becomes("Inhibited") else TRUE
 
 
 @theorem(clauses=["EKS-8-8", "EKS-8-9", "EKS-8-16"], findings=[], properties=["InhibitedSendsZeros"])
 def the_inhibited_panel_sends_zeros() -> Queries:
     """At power-up and after every scan after which the panel is inhibited, both of its words are zero."""
     yield from JUDGE.after_every_scan(inhibited_sends_zeros)
-    zero: Sentence = lambda one: (TRUE, one.sends.SelectMSO == 0)  # noqa: E731
+    zero: Sentence = lambda scan: (TRUE, scan.sends.SelectMSO == 0)  # noqa: E731
     yield JUDGE.too_strong("and so does the open one", zero, "AwaitEcho")
 
 
-def selection_needs_enable(one: Scanned) -> Obligation:
-    level = mode("RE", one.inputs.ReadAuthorization)
-    sends = z3.Implies(one.sends.SelectMSO != 0, permits(one.params, level, mode("SE", one.sends.SelectMSO)))
-    if one.was("Inhibited") and not one.becomes("Inhibited"):
-        return TRUE, z3.And(sends, one.inputs.CheckMSO == 0)
+def selection_needs_enable(scan: Scanned) -> Obligation:
+    level = mode("RE", scan.inputs.ReadAuthorization)
+    sends = z3.Implies(
+        scan.sends.SelectMSO != 0, permits(scan.params, level, mode("SE", scan.sends.SelectMSO))
+    )
+    if scan.was("Inhibited") and not scan.becomes("Inhibited"):
+        return TRUE, z3.And(sends, scan.inputs.CheckMSO == 0)
     return TRUE, sends
 
 
@@ -85,17 +87,17 @@ def the_panel_selects_only_under_a_level_and_opens_without_an_echo() -> Queries:
     yield JUDGE.without(selection_needs_enable, "Confirm", "SelectionIsOffered")
 
 
-def selection_needs_touch(one: Scanned) -> Obligation:
-    begins = z3.And(one.sends.SelectMSO != 0, one.sends.SelectMSO != one.sent.SelectMSO)
+def selection_needs_touch(scan: Scanned) -> Obligation:
+    begins = z3.And(scan.sends.SelectMSO != 0, scan.sends.SelectMSO != scan.sent.SelectMSO)
     ways = [
         z3.And(
-            one.sent.enabled[m],
-            one.sends.SelectMSO == code("SE", z3.IntVal(m)),
-            touched(one, f"select:{m}"),
+            scan.sent.enabled[m],
+            scan.sends.SelectMSO == code("SE", z3.IntVal(m)),
+            touched(scan, f"select:{m}"),
         )
         for m in LEVELS
     ]
-    if one.was("Select") and one.becomes("AwaitEcho"):
+    if scan.was("Select") and scan.becomes("AwaitEcho"):
         return begins, z3.Or(*ways)
     return TRUE, z3.Implies(begins, z3.Or(*ways))
 
@@ -109,20 +111,20 @@ def the_panel_sends_only_a_selection_that_was_touched() -> Queries:
     """In a scan that begins to send a selection the field of that mode was touched, and it was enabled."""
     yield from JUDGE.in_every_scan(selection_needs_touch)
 
-    def first_field(one: Scanned) -> Obligation:
-        said = selection_needs_touch(one)
-        return None if said is None else (said[0], touched(one, "select:0"))
+    def first_field(scan: Scanned) -> Obligation:
+        said = selection_needs_touch(scan)
+        return None if said is None else (said[0], touched(scan, "select:0"))
 
     yield JUDGE.too_strong("always the first field", first_field, "Select")
 
 
-def acknowledgment_needs_confirm(one: Scanned) -> Obligation:
-    begins = z3.And(one.sends.SwitchMSO != 0, one.sends.SwitchMSO != one.sent.SwitchMSO)
-    acknowledged = mode("SW", one.sends.SwitchMSO)
-    if not (one.was("Confirm") and one.becomes("AwaitSwitch")):
+def acknowledgment_needs_confirm(scan: Scanned) -> Obligation:
+    begins = z3.And(scan.sends.SwitchMSO != 0, scan.sends.SwitchMSO != scan.sent.SwitchMSO)
+    acknowledged = mode("SW", scan.sends.SwitchMSO)
+    if not (scan.was("Confirm") and scan.becomes("AwaitSwitch")):
         return TRUE, z3.Not(begins)
-    echoed = mode("CH", one.inputs.CheckMSO)
-    return begins, z3.And(touched(one, "confirm"), echoed == acknowledged, one.sent.shown == acknowledged)
+    echoed = mode("CH", scan.inputs.CheckMSO)
+    return begins, z3.And(touched(scan, "confirm"), echoed == acknowledged, scan.sent.shown == acknowledged)
 
 
 @theorem(
@@ -136,17 +138,17 @@ def the_panel_acknowledges_only_what_the_user_confirmed() -> Queries:
     """
     yield from JUDGE.in_every_scan(acknowledgment_needs_confirm)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, one.sends.SwitchMSO == 0
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.SwitchMSO == 0
 
     yield JUDGE.too_strong("never", never, "Confirm")
 
 
-def inhibit_at_once(one: Scanned) -> Obligation:
-    o = one.sends
+def inhibit_at_once(scan: Scanned) -> Obligation:
+    o = scan.sends
     closed = z3.And(o.SelectMSO == 0, o.SwitchMSO == 0, none_set(o.enabled))
-    gone = mode("RE", one.inputs.ReadAuthorization) == NONE
-    return gone, closed if one.becomes("Inhibited") else FALSE
+    gone = mode("RE", scan.inputs.ReadAuthorization) == NONE
+    return gone, closed if scan.becomes("Inhibited") else FALSE
 
 
 @theorem(
@@ -160,7 +162,7 @@ def the_panel_closes_in_the_scan_without_a_level() -> Queries:
     """
     yield from JUDGE.in_every_scan(inhibit_at_once)
 
-    def at_any_word(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes("Inhibited") else FALSE
+    def at_any_word(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes("Inhibited") else FALSE
 
     yield JUDGE.too_strong("at any word", at_any_word, "Select")

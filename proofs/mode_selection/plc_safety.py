@@ -24,19 +24,19 @@ SOURCE: Final = MappingProxyType(
 ORDER: Final = ("CopyReadAuthorization", "CopyMW03", "CopyCheckMSO", "CopyMW07")
 
 
-def copies_unchanged(one: Scanned) -> Obligation:
+def copies_unchanged(scan: Scanned) -> Obligation:
     words = [
         z3.And(
-            z3.Or(getattr(one.after, to) == getattr(one.before, to), _copied(one, to)),
-            getattr(one.sends, to) == getattr(one.after, to),
+            z3.Or(getattr(scan.after, to) == getattr(scan.before, to), _copied(scan, to)),
+            getattr(scan.sends, to) == getattr(scan.after, to),
         )
         for to in SOURCE
     ]
     return TRUE, z3.And(*words)
 
 
-def _copied(one: Scanned, to: str) -> z3.BoolRef:
-    copied: z3.BoolRef = getattr(one.after, to) == getattr(one.inputs, SOURCE[to])
+def _copied(scan: Scanned, to: str) -> z3.BoolRef:
+    copied: z3.BoolRef = getattr(scan.after, to) == getattr(scan.inputs, SOURCE[to])
     return copied
 
 
@@ -49,19 +49,19 @@ def the_plc_sends_each_word_unchanged() -> Queries:
     """After every scan each word that the PLC sends is what it was, or what its source shows in this scan."""
     yield from JUDGE.in_every_scan(copies_unchanged)
 
-    def nothing_new(one: Scanned) -> Obligation:
-        return TRUE, one.after.MW03 == one.before.MW03
+    def nothing_new(scan: Scanned) -> Obligation:
+        return TRUE, scan.after.MW03 == scan.before.MW03
 
     yield JUDGE.too_strong("no word ever changes", nothing_new, "CopyMW03")
 
 
-def copies_take_turns(one: Scanned) -> Obligation:
-    due = next(name for name in ORDER if one.was(name))
-    if not one.becomes(ORDER[(ORDER.index(due) + 1) % len(ORDER)]):
+def copies_take_turns(scan: Scanned) -> Obligation:
+    due = next(name for name in ORDER if scan.was(name))
+    if not scan.becomes(ORDER[(ORDER.index(due) + 1) % len(ORDER)]):
         return TRUE, FALSE
     word = due.removeprefix("Copy")
-    others = [getattr(one.after, to) == getattr(one.before, to) for to in SOURCE if to != word]
-    return TRUE, z3.And(_copied(one, word), *others)
+    others = [getattr(scan.after, to) == getattr(scan.before, to) for to in SOURCE if to != word]
+    return TRUE, z3.And(_copied(scan, word), *others)
 
 
 @theorem(
@@ -75,7 +75,7 @@ def the_plc_leaves_no_copy_out() -> Queries:
     """
     yield from JUDGE.in_every_scan(copies_take_turns)
 
-    def keeps_the_turn(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes("CopyMW07") else FALSE
+    def keeps_the_turn(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes("CopyMW07") else FALSE
 
     yield JUDGE.too_strong("the turn stays", keeps_the_turn, "CopyMW07")

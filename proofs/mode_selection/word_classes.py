@@ -55,8 +55,8 @@ def classes(device: Device) -> list[dict[str, Any]]:
 
 def _same_end(scan: Scan, changed: Sequence[tuple[z3.ExprRef, z3.ExprRef]]) -> z3.BoolRef:
     """Wherever the first values lead, the second ones do too."""
-    pairs = [(one, z3.substitute(one, *changed)) for one in _results(scan).reached]
-    moved = [z3.Implies(one, other) for one, other in pairs if not one.eq(other)]
+    pairs = [(result, z3.substitute(result, *changed)) for result in _results(scan).reached]
+    moved = [z3.Implies(left, other) for left, other in pairs if not left.eq(other)]
     return conjunction(moved)
 
 
@@ -125,7 +125,7 @@ def _counts(row: dict[str, Any]) -> Iterator[tuple[str, Any, Any, z3.BoolRef]]:
 
 
 def _counted(flags: Sequence[z3.BoolRef], low: int, high: int) -> z3.BoolRef:
-    total = z3.Sum(*[z3.If(one, 1, 0) for one in flags])
+    total = z3.Sum(*[z3.If(flag, 1, 0) for flag in flags])
     return z3.And(total >= low, total <= high)
 
 
@@ -190,10 +190,10 @@ def the_plc_passes_words_on_and_decides_nothing_by_them() -> Queries:
         path = scan.paths[0]
         if path.decisions:
             raise TheoremError(f"from {scan.control.value} the PLC decides by its inputs")
-        known = [one.term for one in symbols((scan.state, scan.inputs)) if isinstance(one, Word)]
+        known = [symbol.term for symbol in symbols((scan.state, scan.inputs)) if isinstance(symbol, Word)]
         given = {"all in their ranges": scan.premise}
         written = [leaf for _, leaf in terms(path.result) if isinstance(leaf, z3.ExprRef)]
-        then = z3.And(*[z3.Or(*[leaf == one for one in known]) for leaf in written])
+        then = z3.And(*[z3.Or(*[leaf == value for value in known]) for leaf in written])
         yield from claim(f"{scan.control.value}: {len(written)} words", given, then, LOGIC)
 
 

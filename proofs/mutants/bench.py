@@ -26,7 +26,7 @@ def bench_of(document: str) -> Bench:
     """
     return Bench(
         f"refimpl.{document}",
-        {one.device.name: shipped(one) for one in _subjects(document)},
+        {subject.device.name: shipped(subject) for subject in _subjects(document)},
         _judges(document),
     )
 
@@ -50,22 +50,22 @@ def judged(bench: Bench, change: Mapping[str, Any], complete: bool) -> dict[str,
         "killers": list(found.killers),
         "reason": found.reason,
         "witness": found.witness,
-        "answers": [asdict(one) for one in found.asked],
+        "answers": [asdict(answer) for answer in found.asked],
     }
 
 
 def theorems(document: str) -> dict[str, str]:
     """Every theorem that judges, in order, and the module in which it is written."""
-    asked = {one.name: one.build.__module__ for found in _judges(document).values() for one in found}
-    answered = {one.answered: "proofs.mutants.judge" for one in _subjects(document)}
+    asked = {query.name: query.build.__module__ for found in _judges(document).values() for query in found}
+    answered = {subject.answered: "proofs.mutants.judge" for subject in _subjects(document)}
     return {**asked, **answered}
 
 
 def texts(document: str) -> list[tuple[str, ...]]:
     """The lists of texts that the interface of the devices declares."""
     found: dict[tuple[str, ...], Any] = {}
-    for one in _subjects(document):
-        register = one.device.register
+    for subject in _subjects(document):
+        register = subject.device.register
         for group in (register.inputs, register.outputs, register.parameters):
             found.update({tuple(signal.values): None for signal in group.values() if signal.type == "text"})
     return list(found)
@@ -74,8 +74,8 @@ def texts(document: str) -> list[tuple[str, ...]]:
 def reached(document: str) -> dict[str, tuple[Path, frozenset[str]]]:
     """The modules that some step or power-up of the document reaches: files, and functions reached."""
     found: dict[str, set[str]] = {}
-    for one in _subjects(document):
-        for module, function in functions_of(one.device):
+    for subject in _subjects(document):
+        for module, function in functions_of(subject.device):
             found.setdefault(module, set()).add(function)
     return {
         name: (Path(inspect.getfile(importlib.import_module(name))), frozenset(functions))

@@ -44,7 +44,8 @@ class Copy:
     def of(self, device: Device) -> Device:
         """The device with the copied code, its stand-ins put into the copy."""
         stand_ins = tuple(
-            replace(one, module=self.modules.get(one.module.__name__, one.module)) for one in device.stand_ins
+            replace(stand_in, module=self.modules.get(stand_in.module.__name__, stand_in.module))
+            for stand_in in device.stand_ins
         )
         return replace(device, module=self.modules[device.module.__name__], stand_ins=stand_ins)
 
@@ -66,20 +67,24 @@ def copied(package: str, change: Change | None = None) -> Copy:
     code = None if change is None else _code(change)
     functions: dict[int, FunctionType] = {}
 
-    def function(one: FunctionType) -> FunctionType:
-        if id(one) not in functions:
-            own = change is not None and one.__module__ == change.module and one.__name__ == change.definition
-            made = FunctionType(
-                code if own and code is not None else one.__code__,
-                vars(copies[one.__module__]),
-                one.__name__,
-                one.__defaults__,
-                one.__closure__,
+    def function(function_type: FunctionType) -> FunctionType:
+        if id(function_type) not in functions:
+            own = (
+                change is not None
+                and function_type.__module__ == change.module
+                and function_type.__name__ == change.definition
             )
-            made.__kwdefaults__, made.__module__ = one.__kwdefaults__, one.__module__
-            made.__qualname__ = one.__qualname__
-            functions[id(one)] = made
-        return functions[id(one)]
+            made = FunctionType(
+                code if own and code is not None else function_type.__code__,
+                vars(copies[function_type.__module__]),
+                function_type.__name__,
+                function_type.__defaults__,
+                function_type.__closure__,
+            )
+            made.__kwdefaults__, made.__module__ = function_type.__kwdefaults__, function_type.__module__
+            made.__qualname__ = function_type.__qualname__
+            functions[id(function_type)] = made
+        return functions[id(function_type)]
 
     for name, module in shipped.items():
         for key, value in vars(module).items():
@@ -100,9 +105,11 @@ def _code(change: Change) -> CodeType | None:
     except (SyntaxError, ValueError) as error:
         raise CopyError(f"{change.module}: {error}") from None
     found = [
-        one
-        for one in whole.co_consts
-        if isinstance(one, CodeType) and one.co_name == change.definition and not one.co_name.startswith("<")
+        co_const
+        for co_const in whole.co_consts
+        if isinstance(co_const, CodeType)
+        and co_const.co_name == change.definition
+        and not co_const.co_name.startswith("<")
     ]
     return found[-1] if found else None
 

@@ -54,7 +54,7 @@ def difference(device: Device, shipped: Device, way: Way) -> Difference | None:
     for path in found.paths:
         model = _apart(found.premise, path, way.path)
         if model is not None:
-            member = tuple(plain(one, model) for one in way.arguments)
+            member = tuple(plain(argument, model) for argument in way.arguments)
             return Difference(way, found, member, run(shipped, way, model), run(device, way, model))
     return None
 
@@ -67,12 +67,12 @@ def _apart(premise: z3.BoolRef, path: Path, shipped: Path) -> z3.ModelRef | None
     if [place for place, _ in ours] != [place for place, _ in others]:
         return path.example
     unlike: list[z3.BoolRef] = []
-    for (place, one), (_, other) in zip(ours, others, strict=True):
-        if not isinstance(one, z3.ExprRef) and not isinstance(other, z3.ExprRef):
-            if type(one) is not type(other) or one != other:
+    for (place, left), (_, other) in zip(ours, others, strict=True):
+        if not isinstance(left, z3.ExprRef) and not isinstance(other, z3.ExprRef):
+            if type(left) is not type(other) or left != other:
                 return path.example
             continue
-        first, second = _term(one, other, place), _term(other, one, place)
+        first, second = _term(left, other, place), _term(other, left, place)
         if not first.eq(second):
             unlike.append(first != second)
     if not unlike:
@@ -86,17 +86,17 @@ def _apart(premise: z3.BoolRef, path: Path, shipped: Path) -> z3.ModelRef | None
     return solver.model() if answer == z3.sat else None
 
 
-def _term(one: Any, beside: Any, place: str) -> z3.ExprRef:
+def _term(value: Any, beside: Any, place: str) -> z3.ExprRef:
     """A leaf as a term of the same kind as the one beside it. Raises NoAnswer when it is of no such kind."""
-    if isinstance(one, z3.ExprRef):
-        return one
-    if type(one) is bool and z3.is_bool(beside):
-        return z3.BoolVal(one)
-    if type(one) is int and z3.is_bv(beside):
-        return z3.BitVecVal(one, beside.size())
-    if type(one) is int and z3.is_int(beside):
-        return z3.IntVal(one)
-    raise NoAnswer(f"{place}: {one!r} cannot be compared with {beside}")
+    if isinstance(value, z3.ExprRef):
+        return value
+    if type(value) is bool and z3.is_bool(beside):
+        return z3.BoolVal(value)
+    if type(value) is int and z3.is_bv(beside):
+        return z3.BitVecVal(value, beside.size())
+    if type(value) is int and z3.is_int(beside):
+        return z3.IntVal(value)
+    raise NoAnswer(f"{place}: {value!r} cannot be compared with {beside}")
 
 
 # ---------------------------------------------------------------- as scans that theorems can judge
@@ -109,28 +109,28 @@ def as_scans(differences: list[Difference]) -> tuple[Scan, ...]:
     are again the leaves of one tree of questions.
     """
     by_control: dict[str, list[Difference]] = {}
-    for one in differences:
-        if one.way.scan is not None:
-            by_control.setdefault(one.way.control, []).append(one)
-    return tuple(_scan(found, lambda one: one.found.paths) for found in by_control.values())
+    for difference in differences:
+        if difference.way.scan is not None:
+            by_control.setdefault(difference.way.control, []).append(difference)
+    return tuple(_scan(found, lambda scan: scan.found.paths) for found in by_control.values())
 
 
 def as_shipped_scans(differences: list[Difference]) -> tuple[Scan, ...]:
     """The same control states with the shipped paths."""
     by_control: dict[str, list[Difference]] = {}
-    for one in differences:
-        if one.way.scan is not None:
-            by_control.setdefault(one.way.control, []).append(one)
-    return tuple(_scan(found, lambda one: (one.way.path,)) for found in by_control.values())
+    for difference in differences:
+        if difference.way.scan is not None:
+            by_control.setdefault(difference.way.control, []).append(difference)
+    return tuple(_scan(found, lambda scan: (scan.way.path,)) for found in by_control.values())
 
 
 def _scan(found: list[Difference], paths: Callable[[Difference], tuple[Path, ...]]) -> Scan:
     way = found[0].way
     assert way.scan is not None
     made = []
-    for one in found:
-        for path in paths(one):
-            below = () if path is one.way.path else one.way.path.decisions
+    for place in found:
+        for path in paths(place):
+            below = () if path is place.way.path else place.way.path.decisions
             made.append(Path((*below, *path.decisions), path.result, path.raised, path.example, path.asked))
     exploration = Exploration(way.premise, tuple(made), 0, 0)
     return Scan(way.scan.control, way.scan.state, way.scan.inputs, exploration)

@@ -72,8 +72,10 @@ class Bench:
         except CopyError as error:
             return Found("INVALID", reason=str(error))
         trials = [
-            _Trial(self, one, copy.of(one.subject.device), one.passing(file, change.lines), complete)
-            for one in self.shipped.values()
+            _Trial(
+                self, shipped, copy.of(shipped.subject.device), shipped.passing(file, change.lines), complete
+            )
+            for shipped in self.shipped.values()
         ]
         if not any(trial.ways for trial in trials):
             return Found("EQUIVALENT", reason="no path of the shipped code passes it")
@@ -89,7 +91,7 @@ class Bench:
         except ExplorationError as error:
             return Found("INVALID", reason=" ".join(str(error).split()), asked=tuple(asked))
         different = [trial for trial in trials if trial.differences]
-        unknown = [one for one in asked if one.result == "unknown"]
+        unknown = [answer for answer in asked if answer.result == "unknown"]
         if not different:
             return Found("EQUIVALENT", asked=tuple(asked))
         if unknown:
@@ -98,7 +100,7 @@ class Bench:
 
 
 def _killers(asked: Iterable[Asked]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(one.theorem for one in asked if one.result == "refuted"))
+    return tuple(dict.fromkeys(answer.theorem for answer in asked if answer.result == "refuted"))
 
 
 @dataclass
@@ -121,8 +123,9 @@ class _Trial:
         """Where the copy first ended otherwise."""
         if not self.differences:
             return ""
-        one = self.differences[0]
-        return f"{self.device.name}, {one.way.control}: {one.member!r}: {one.shipped!r}; now {one.other!r}"
+        first = self.differences[0]
+        where = f"{self.device.name}, {first.way.control}: {first.member!r}"
+        return f"{where}: {first.shipped!r}; now {first.other!r}"
 
     def quickly(self) -> list[Asked]:
         """One path of each kind whose member ends otherwise, before all others are looked at; first what
@@ -131,7 +134,7 @@ class _Trial:
         asked: list[Asked] = []
         results = [(way, run(self.device, way)) for way in self.ways]
         results = [(way, result) for way, result in results if result != way.result]
-        results.sort(key=lambda one: not isinstance(one[1], Exception))
+        results.sort(key=lambda found: not isinstance(found[1], Exception))
         for way, result in results:
             if self._kind(way.control, way.result, result) not in self.tried:
                 found = self._difference(way)
@@ -144,7 +147,7 @@ class _Trial:
     def thoroughly(self) -> list[Asked]:
         """Every path; first what is new, one of each kind, then all of them together."""
         asked: list[Asked] = []
-        known = {id(one.way) for one in self.differences}
+        known = {id(difference.way) for difference in self.differences}
         for way in self.ways:
             if id(way) not in known:
                 found = self._difference(way)
@@ -161,8 +164,8 @@ class _Trial:
 
     def _kind(self, control: str, *results: Any) -> tuple[str, ...]:
         ends = [
-            "" if isinstance(one, Exception) else getattr(one[0], self.device.control).value
-            for one in results
+            "" if isinstance(result, Exception) else getattr(result[0], self.device.control).value
+            for result in results
         ]
         return (control, *ends)
 
@@ -177,7 +180,7 @@ class _Trial:
         return self._ask([found])
 
     def _ask(self, differences: list[Difference]) -> list[Asked]:
-        raising = [one for one in differences if one.raises is not None]
+        raising = [difference for difference in differences if difference.raises is not None]
         if raising:
             return [_raised(self.device, self.shipped.subject.answered, raising[0])]
         asked: list[Asked] = []
@@ -237,14 +240,14 @@ def _answer(query: Query) -> tuple[z3.CheckSatResult, Any]:
 
 def _replay(device: Device, differences: list[Difference], model: z3.ModelRef) -> None:
     """The counterexample, run on the copy, ends as the explorer says. Raises NoAnswer when it does not."""
-    for one in differences:
-        for path in one.found.paths:
-            if _true(model, one.way.path.condition) and _true(model, path.condition):
-                got = run(device, one.way, model)
+    for found in differences:
+        for path in found.found.paths:
+            if _true(model, found.way.path.condition) and _true(model, path.condition):
+                got = run(device, found.way, model)
                 if got != evaluated_plain(path.result, model):
-                    raise NoAnswer(f"the counterexample, run in {one.way.control}, ends otherwise: {got!r}")
+                    raise NoAnswer(f"the counterexample, run in {found.way.control}, ends otherwise: {got!r}")
                 return
-    if not any(one.way.control == POWER_UP for one in differences):
+    if not any(found.way.control == POWER_UP for found in differences):
         raise NoAnswer("the counterexample lies on no path of the copy")
 
 

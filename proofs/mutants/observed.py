@@ -43,7 +43,7 @@ class Sight:
 
     def hidden(self, control: str) -> tuple[str, ...]:
         """The fields that are not seen there."""
-        names = (one.name for one in fields(self.device.module.State))
+        names = (field.name for field in fields(self.device.module.State))
         return tuple(
             name
             for name in names
@@ -67,10 +67,10 @@ def sight_of(device: Device) -> Sight:
             twice=False,
         )
         owner = {
-            str(symbol.term.decl().name()): one.name
-            for one in fields(type(state))
-            if one.name != PARAMS
-            for symbol in symbols(getattr(state, one.name))
+            str(symbol.term.decl().name()): field.name
+            for field in fields(type(state))
+            if field.name != PARAMS
+            for symbol in symbols(getattr(state, field.name))
         }
 
         def fields_in(values: Iterable[object], owner: Mapping[str, str] = owner) -> set[str]:
@@ -79,16 +79,16 @@ def sight_of(device: Device) -> Sight:
         asked = direct.setdefault(control.value, set(_always(device)))
         rows = handed.setdefault(control.value, [])
         for path in found.paths:
-            asked |= fields_in(one.question for one in path.decisions if not one.forced)
+            asked |= fields_in(decision.question for decision in path.decisions if not decision.forced)
             if path.raised is not None:
                 continue
             after, outputs = path.result
             asked |= fields_in(leaf for _, leaf in terms(outputs))
             then = getattr(after, device.control).value
-            for one in fields(type(after)):
-                if one.name not in (PARAMS, device.control):
-                    read = fields_in(leaf for _, leaf in terms(getattr(after, one.name)))
-                    rows.append((then, one.name, frozenset(read)))
+            for field in fields(type(after)):
+                if field.name not in (PARAMS, device.control):
+                    read = fields_in(leaf for _, leaf in terms(getattr(after, field.name)))
+                    rows.append((then, field.name, frozenset(read)))
     while True:
         before = {control: frozenset(found) for control, found in direct.items()}
         for control, rows in handed.items():
@@ -101,8 +101,8 @@ def sight_of(device: Device) -> Sight:
 
 def _always(device: Device) -> frozenset[str]:
     """Fields that count as seen wherever they are: those that no single symbol can stand for."""
-    declared = {one.python for one in device.register.memory.values()}
-    names = {one.name for one in fields(device.module.State)}
+    declared = {signal.python for signal in device.register.memory.values()}
+    names = {field.name for field in fields(device.module.State)}
     return frozenset(name for name in names if name in device.memory or name not in declared)
 
 
@@ -137,7 +137,7 @@ class Bench:
 def bench_of(document: str) -> Bench:
     """Explore every device of a document. Raises ExplorationError."""
     subjects: Sequence[Subject] = importlib.import_module(f"proofs.{document}.subjects").SUBJECTS
-    return Bench(f"refimpl.{document}", {one.device.name: explored(one) for one in subjects})
+    return Bench(f"refimpl.{document}", {subject.device.name: explored(subject) for subject in subjects})
 
 
 def explored(subject: Subject) -> tuple[Sight, Shipped]:
@@ -153,9 +153,9 @@ def explored(subject: Subject) -> tuple[Sight, Shipped]:
 def _right(sight: Sight, state: Any) -> Any:
     """The memory with other symbols for what is not seen: its right values."""
     device = sight.device
-    signals = {one.python: one for one in device.register.memory.values()}
+    signals = {signal.python: signal for signal in device.register.memory.values()}
     hidden = sight.hidden(getattr(state, device.control).value)
-    values = {one.name: getattr(state, one.name) for one in fields(type(state))}
+    values = {field.name: getattr(state, field.name) for field in fields(type(state))}
     for name in hidden:
         values[name] = symbol_of(signals[name], f"right.{name}")
     return unvalidated(type(state), values)
@@ -192,7 +192,7 @@ def _told(sight: Sight, device: Device, way: Way) -> str:
     for path in found.paths:
         model = _apart(sight, found.premise, path, way.path)
         if model is not None:
-            member = tuple(plain(one, model) for one in way.arguments)
+            member = tuple(plain(argument, model) for argument in way.arguments)
             right, other = run(sight.device, way, model), run(device, way, model)
             return f"{device.name}, {way.control}: {member!r}: {right!r}; now {other!r}"
     return ""
@@ -202,7 +202,7 @@ def _apart(sight: Sight, premise: z3.BoolRef, path: Path, ours: Path) -> z3.Mode
     if path.raised is not None or ours.raised is not None:
         return None if type(path.raised) is type(ours.raised) else path.example
     control = sight.device.control
-    then, now = (getattr(one.result[0], control) for one in (ours, path))
+    then, now = (getattr(scan.result[0], control) for scan in (ours, path))
     if then is not now:
         return path.example
     hidden = {f"[0].{name}" for name in sight.hidden(then.value)}
@@ -210,18 +210,18 @@ def _apart(sight: Sight, premise: z3.BoolRef, path: Path, ours: Path) -> z3.Mode
     left, right = list(terms(ours.result)), list(terms(path.result))
     if [place for place, _ in left] != [place for place, _ in right]:
         return path.example
-    for (place, one), (_, other) in zip(left, right, strict=True):
+    for (place, our), (_, other) in zip(left, right, strict=True):
         is_hidden = any(place == name or place.startswith((f"{name}.", f"{name}[")) for name in hidden)
-        if not isinstance(one, z3.ExprRef) and not isinstance(other, z3.ExprRef):
+        if not isinstance(our, z3.ExprRef) and not isinstance(other, z3.ExprRef):
             if is_hidden:
-                if type(one) is not type(other):
+                if type(our) is not type(other):
                     return path.example
-            elif type(one) is not type(other) or one != other:
+            elif type(our) is not type(other) or our != other:
                 return path.example
             continue
         if is_hidden:
             continue
-        first, second = as_term(one, other, place), as_term(other, one, place)
+        first, second = as_term(our, other, place), as_term(other, our, place)
         if not first.eq(second):
             wrong.append(first != second)
     wrong += _out_of_range(sight, hidden, path.result[0])
@@ -239,10 +239,10 @@ def _apart(sight: Sight, premise: z3.BoolRef, path: Path, ours: Path) -> z3.Mode
 def _out_of_range(sight: Sight, hidden: Iterable[str], after: Any) -> Iterator[z3.BoolRef]:
     """For each field that is not seen, that it leaves the range in which the shipped code was explored."""
     device = sight.device
-    signals = {one.python: one for one in device.register.memory.values()}
-    for name in (one.rpartition(".")[2] for one in hidden):
+    signals = {signal.python: signal for signal in device.register.memory.values()}
+    for name in (place.rpartition(".")[2] for place in hidden):
         allowed = symbol_of(signals[name], "any")
-        for one, (place, leaf) in zip(symbols(allowed), terms(getattr(after, name), name), strict=True):
-            if not z3.is_true(one.premise):
-                term = as_term(leaf, one.term, place)
-                yield z3.Not(z3.substitute(one.premise, (one.term, term)))
+        for value, (place, leaf) in zip(symbols(allowed), terms(getattr(after, name), name), strict=True):
+            if not z3.is_true(value.premise):
+                term = as_term(leaf, value.term, place)
+                yield z3.Not(z3.substitute(value.premise, (value.term, term)))

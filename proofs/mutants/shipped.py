@@ -71,13 +71,13 @@ class Shipped:
 
 def functions_of(device: Device) -> frozenset[tuple[str, str]]:
     """Module and name of every function that step or power-up reach, but what something stands in for."""
-    skipped = [one.name for one in device.stand_ins]
+    skipped = [stand_in.name for stand_in in device.stand_ins]
     reached = [
-        one
+        function
         for start in (device.module.step, device.module.power_up)
-        for one in lint.reach_of(start, stand_ins=skipped).functions
+        for function in lint.reach_of(start, stand_ins=skipped).functions
     ]
-    return frozenset((one.__module__, one.__qualname__) for one in reached)
+    return frozenset((function.__module__, function.__qualname__) for function in reached)
 
 
 def starts(device: Device) -> Any:
@@ -103,7 +103,7 @@ def run(device: Device, way: Way, model: z3.ModelRef | None = None) -> Any:
     model, arguments = (
         (way.path.example, way.member)
         if model is None
-        else (model, tuple(plain(one, model) for one in way.arguments))
+        else (model, tuple(plain(argument, model) for argument in way.arguments))
     )
     with answering(device, model):
         try:
@@ -115,10 +115,10 @@ def run(device: Device, way: Way, model: z3.ModelRef | None = None) -> Any:
 def shipped(subject: Subject) -> Shipped:
     """Explore the shipped code of a device from every state of its invariant. Raises ExplorationError."""
     device = subject.device
-    reach = lint.reach_of(device.module.step, stand_ins=[one.name for one in device.stand_ins])
+    reach = lint.reach_of(device.module.step, stand_ins=[stand_in.name for stand_in in device.stand_ins])
     reach.refuse_faults()
     start = lint.reach_of(device.module.power_up)
-    codes = {one.__code__ for one in (*reach.functions, *start.functions)}
+    codes = {function.__code__ for function in (*reach.functions, *start.functions)}
     params = device.params()
     ways: list[Way] = []
 
@@ -148,7 +148,7 @@ def _way(
     codes: Any,
 ) -> Way:
     watch = Watch(codes)
-    member = tuple(plain(one, path.example) for one in arguments)
+    member = tuple(plain(argument, path.example) for argument in arguments)
     with answering(device, path.example), watch:
         result = entry(device, control)(*member)
     return Way(control, scan, arguments, found.premise, path, member, result, frozenset(watch.lines))

@@ -66,39 +66,39 @@ NOTHING: Final = Seen(FALSE, FALSE, FALSE, z3.IntVal(-1), z3.IntVal(-1), z3.IntV
 
 
 @cache
-def sees(one: Scanned, seen: Seen = SEEN) -> Seen:
+def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a call."""
-    i, dt = one.inputs, one.inputs.dt_ms
-    masked = z3.And(one.sends.S_OSSD_Out, z3.Not(i.S_OSSD_In))
+    i, dt = scan.inputs, scan.inputs.dt_ms
+    masked = z3.And(scan.sends.S_OSSD_Out, z3.Not(i.S_OSSD_In))
     return Seen(
         reset=i.Reset,
         start_test=i.StartTest,
         sensor=i.S_OSSD_In,
         dark=z3.If(masked, z3.If(seen.dark < 0, 0, seen.dark + dt), -1),
-        tested=z3.If(seen.tested < 0, 0, seen.tested + dt) if one.becomes(*TESTING) else z3.IntVal(-1),
-        phase=seen.phase + dt if _same_phase(one) else z3.IntVal(0),
-        starting=_starting(one, seen),
-        cycle=_cycle(one, seen),
+        tested=z3.If(seen.tested < 0, 0, seen.tested + dt) if scan.becomes(*TESTING) else z3.IntVal(-1),
+        phase=seen.phase + dt if _same_phase(scan) else z3.IntVal(0),
+        starting=_starting(scan, seen),
+        cycle=_cycle(scan, seen),
     )
 
 
-def _same_phase(one: Scanned) -> bool:
-    return any(one.was(phase) and one.becomes(phase) for phase in TESTING)
+def _same_phase(scan: Scanned) -> bool:
+    return any(scan.was(phase) and scan.becomes(phase) for phase in TESTING)
 
 
-def _starting(one: Scanned, seen: Seen) -> z3.BoolRef:
-    i = one.inputs
-    if one.was("Idle"):
+def _starting(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    i = scan.inputs
+    if scan.was("Idle"):
         return z3.And(i.Activate, TRUE)
-    kept = z3.And(seen.starting, i.Activate, z3.Not(one.sends.S_OSSD_Out))
-    return z3.And(kept, z3.Not(i.S_StartReset)) if one.was("Init") else kept
+    kept = z3.And(seen.starting, i.Activate, z3.Not(scan.sends.S_OSSD_Out))
+    return z3.And(kept, z3.Not(i.S_StartReset)) if scan.was("Init") else kept
 
 
-def _cycle(one: Scanned, seen: Seen) -> z3.ArithRef:
-    free = one.inputs.S_OSSD_In
-    if not one.becomes(*MANUAL):
+def _cycle(scan: Scanned, seen: Seen) -> z3.ArithRef:
+    free = scan.inputs.S_OSSD_In
+    if not scan.becomes(*MANUAL):
         return z3.IntVal(0)
-    if not one.was(*MANUAL):
+    if not scan.was(*MANUAL):
         return z3.If(free, z3.IntVal(1), z3.IntVal(0))
     goes_on = z3.Or(seen.cycle == 0, seen.cycle == 2) == free
     return z3.If(z3.And(seen.cycle < 3, goes_on), seen.cycle + 1, seen.cycle)

@@ -19,12 +19,12 @@ from proofs.theorem import Theorem
 
 def _theorems(*modules: ModuleType) -> tuple[Theorem, ...]:
     found = [
-        one
+        var
         for module in modules
-        for one in vars(module).values()
-        if isinstance(one, Theorem) and one.build.__module__ == module.__name__
+        for var in vars(module).values()
+        if isinstance(var, Theorem) and var.build.__module__ == module.__name__
     ]
-    return tuple(sorted(found, key=lambda one: "invariant" in one.name))
+    return tuple(sorted(found, key=lambda scan: "invariant" in scan.name))
 
 
 JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(

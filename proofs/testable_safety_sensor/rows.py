@@ -46,9 +46,9 @@ a transcription of the table.
 """
 
 
-def row_of_the_state(one: Scanned, seen: Any) -> z3.BoolRef:
-    code, true = TRUE_IN[control(one.device, one.after)]
-    sends = one.sends
+def row_of_the_state(scan: Scanned, seen: Any) -> z3.BoolRef:
+    code, true = TRUE_IN[control(scan.device, scan.after)]
+    sends = scan.sends
     said = [getattr(sends, name) if name in true else z3.Not(getattr(sends, name)) for name in OUTPUTS]
     return z3.And(sends.DiagCode == code, *said)
 
@@ -86,14 +86,14 @@ def every_state_has_its_row_of_the_table() -> Queries:
     """
     yield from JUDGE.after_every_scan(row_of_the_state)
 
-    def row_of_idle(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.sends.Ready)
+    def row_of_idle(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.sends.Ready)
 
     yield JUDGE.too_strong("the row of Idle", row_of_idle, "ESPEFreeNoTest")
 
 
-def code_tells_its_outputs(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def code_tells_its_outputs(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     active, error, demand, request = (o.DiagCode & mask != 0 for mask in (0x8000, 0x4000, 0x0800, 0x0400))
     same = [active == o.Ready, demand == o.SafetyDemand, request == o.ResetRequest]
     return z3.And(z3.And(active, error) == o.Error, *same)
@@ -111,14 +111,14 @@ def the_code_tells_its_outputs() -> Queries:
     """
     yield from JUDGE.after_every_scan(code_tells_its_outputs)
 
-    def and_the_enable_output(one: Scanned) -> Obligation:
-        return TRUE, one.sends.S_OSSD_Out == (one.sends.DiagCode & 0x0010 != 0)
+    def and_the_enable_output(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.S_OSSD_Out == (scan.sends.DiagCode & 0x0010 != 0)
 
     yield JUDGE.too_strong("and a fifth the enable output", and_the_enable_output, "TestActive")
 
 
-def enable_means_nothing_pending(one: Scanned, seen: Any) -> z3.BoolRef:
-    o = one.sends
+def enable_means_nothing_pending(scan: Scanned, seen: Any) -> z3.BoolRef:
+    o = scan.sends
     pending = z3.Or(z3.Not(o.Ready), o.Error, o.SafetyDemand, o.ResetRequest)
     return z3.Implies(o.S_OSSD_Out, z3.Not(pending))
 
@@ -135,15 +135,15 @@ def nothing_is_pending_while_the_block_enables() -> Queries:
     """
     yield from JUDGE.after_every_scan(enable_means_nothing_pending)
 
-    def and_tested(one: Scanned) -> Obligation:
-        return TRUE, z3.Implies(one.sends.S_OSSD_Out, one.sends.TestExecuted)
+    def and_tested(scan: Scanned) -> Obligation:
+        return TRUE, z3.Implies(scan.sends.S_OSSD_Out, scan.sends.TestExecuted)
 
     yield JUDGE.too_strong("and the sensor was tested", and_tested, "Init")
 
 
-def test_out_only_in_test_request(one: Scanned, seen: Any) -> z3.BoolRef:
-    off = z3.Not(one.sends.S_TestOut)
-    return off if one.becomes("TestRequest") else z3.Not(off)
+def test_out_only_in_test_request(scan: Scanned, seen: Any) -> z3.BoolRef:
+    off = z3.Not(scan.sends.S_TestOut)
+    return off if scan.becomes("TestRequest") else z3.Not(off)
 
 
 @theorem(
@@ -156,17 +156,17 @@ def the_sender_is_off_in_the_first_phase_only() -> Queries:
     """At power-up and after every call S_TestOut is FALSE exactly in the first phase of a test."""
     yield from JUDGE.after_every_scan(test_out_only_in_test_request)
 
-    def in_both(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.sends.S_TestOut) if one.becomes("TestActive") else TRUE
+    def in_both(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.sends.S_TestOut) if scan.becomes("TestActive") else TRUE
 
     yield JUDGE.too_strong("in both phases", in_both, "TestActive")
 
 
-def power_up_is_safe(one: Scanned) -> z3.BoolRef:
-    return z3.And(row_of_the_state(one, None), z3.Not(one.sends.S_OSSD_Out), z3.Not(one.sends.Ready))
+def power_up_is_safe(scan: Scanned) -> z3.BoolRef:
+    return z3.And(row_of_the_state(scan, None), z3.Not(scan.sends.S_OSSD_Out), z3.Not(scan.sends.Ready))
 
 
 @theorem(clauses=["TSS-0000", "TSS-FN-3"], findings=[], properties=["PowerUpIsSafe"], slow=True)
 def at_power_up_nothing_is_enabled() -> Queries:
     """At power-up the block is inactive and enables nothing, whatever TestTime is."""
-    yield from JUDGE.at_power_up(lambda one, seen: power_up_is_safe(one))
+    yield from JUDGE.at_power_up(lambda scan, seen: power_up_is_safe(scan))

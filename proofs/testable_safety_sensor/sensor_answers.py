@@ -23,8 +23,8 @@ OF_A_STATE: Final = ("ResetError1", "ResetError3", "ResetError4")
 """The reset errors whose inhibit or error is judged in the call that finds them; the others: TSSF-20."""
 
 
-def code_is_the_printed_one(one: Scanned, seen: Any) -> z3.BoolRef:
-    return z3.And(one.sends.DiagCode == TRUE_IN[control(one.device, one.after)][0], TRUE)
+def code_is_the_printed_one(scan: Scanned, seen: Any) -> z3.BoolRef:
+    return z3.And(scan.sends.DiagCode == TRUE_IN[control(scan.device, scan.after)][0], TRUE)
 
 
 @theorem(
@@ -61,14 +61,14 @@ def every_state_shows_its_printed_code() -> Queries:
     """At power-up and after every call DiagCode is the number that the document prints for the state."""
     yield from JUDGE.after_every_scan(code_is_the_printed_one)
 
-    def as_before(one: Scanned) -> Obligation:
-        return TRUE, one.sends.DiagCode == one.sent.DiagCode
+    def as_before(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.DiagCode == scan.sent.DiagCode
 
     yield JUDGE.too_strong("it stays as it was", as_before, "Init")
 
 
-def demand_needs_dark_sensor(one: Scanned) -> Obligation:
-    return TRUE, z3.Implies(one.sends.SafetyDemand, z3.Not(one.inputs.S_OSSD_In))
+def demand_needs_dark_sensor(scan: Scanned) -> Obligation:
+    return TRUE, z3.Implies(scan.sends.SafetyDemand, z3.Not(scan.inputs.S_OSSD_In))
 
 
 @theorem(
@@ -81,22 +81,22 @@ def a_demand_is_shown_only_over_a_dark_sensor() -> Queries:
     """Every call that finds the sensor free leaves SafetyDemand FALSE."""
     yield from JUDGE.in_every_scan(demand_needs_dark_sensor)
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(one.sends.SafetyDemand)
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.sends.SafetyDemand)
 
     yield JUDGE.too_strong("never", never, "ESPEFreeTestOk")
 
 
-def reset_ends_at_once(one: Scanned) -> Obligation:
-    i = one.inputs
-    asked = z3.And(one.sent.ResetRequest, i.S_OSSD_In, valid(one.params))
-    if one.was("TestError1C410"):
+def reset_ends_at_once(scan: Scanned) -> Obligation:
+    i = scan.inputs
+    asked = z3.And(scan.sent.ResetRequest, i.S_OSSD_In, valid(scan.params))
+    if scan.was("TestError1C410"):
         asked = z3.And(asked, i.NoExternalTest)
-    acts = z3.Implies(asked, one.sends.S_OSSD_Out)
-    if one.was(*TEST_ERRORS):
-        begins = TRUE if one.becomes("ExternalFunctionTest") else FALSE
+    acts = z3.Implies(asked, scan.sends.S_OSSD_Out)
+    if scan.was(*TEST_ERRORS):
+        begins = TRUE if scan.becomes("ExternalFunctionTest") else FALSE
         acts = z3.And(acts, z3.Implies(z3.Not(i.NoExternalTest), begins))
-    return z3.And(i.Activate, edge(one)), acts
+    return z3.And(i.Activate, edge(scan)), acts
 
 
 @theorem(
@@ -113,19 +113,19 @@ def a_reset_that_is_asked_for_acts_in_its_call() -> Queries:
     yield from JUDGE.in_every_scan(reset_ends_at_once)
     yield JUDGE.without(reset_ends_at_once, "WaitForReset2", "EdgesAreRemembered")
 
-    def whatever_the_sensor(one: Scanned) -> Obligation:
-        given = z3.And(one.inputs.Activate, edge(one), one.sent.ResetRequest)
-        return given, z3.And(one.sends.S_OSSD_Out, TRUE)
+    def whatever_the_sensor(scan: Scanned) -> Obligation:
+        given = z3.And(scan.inputs.Activate, edge(scan), scan.sent.ResetRequest)
+        return given, z3.And(scan.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("whatever the sensor is", whatever_the_sensor, "WaitForReset1")
 
 
-def reset_error_needs_held_reset(one: Scanned) -> Obligation:
-    after = control(SENSOR, one.after)
+def reset_error_needs_held_reset(scan: Scanned) -> Obligation:
+    after = control(SENSOR, scan.after)
     if after not in RESET_ERRORS:
         return None
-    i, p = one.inputs, one.params
-    if one.was(after):
+    i, p = scan.inputs, scan.params
+    if scan.was(after):
         return TRUE, z3.And(i.Reset, TRUE)
     held = z3.And(i.Reset, SEEN.reset)
     if after not in OF_A_STATE:
@@ -148,18 +148,18 @@ def a_reset_error_is_about_a_reset_that_is_held() -> Queries:
     yield from JUDGE.in_every_scan(reset_error_needs_held_reset)
     yield JUDGE.without(reset_error_needs_held_reset, "EndExternalTest", "EdgesAreRemembered")
 
-    def without_auto_reset(one: Scanned) -> Obligation:
-        said = reset_error_needs_held_reset(one)
-        return None if said is None else (TRUE, z3.Not(one.inputs.S_AutoReset))
+    def without_auto_reset(scan: Scanned) -> Obligation:
+        said = reset_error_needs_held_reset(scan)
+        return None if said is None else (TRUE, z3.Not(scan.inputs.S_AutoReset))
 
     yield JUDGE.too_strong("and S_AutoReset is FALSE", without_auto_reset, "WaitForReset1")
 
 
-def manual_test_is_seen(one: Scanned) -> Obligation:
-    if not one.was("ExternalFunctionTest"):
+def manual_test_is_seen(scan: Scanned) -> Obligation:
+    if not scan.was("ExternalFunctionTest"):
         return None
-    falls = z3.And(one.inputs.Activate, SEEN.sensor, z3.Not(one.inputs.S_OSSD_In))
-    return falls, TRUE if one.becomes("ESPEInterruptedExternalTest") else FALSE
+    falls = z3.And(scan.inputs.Activate, SEEN.sensor, z3.Not(scan.inputs.S_OSSD_In))
+    return falls, TRUE if scan.becomes("ESPEInterruptedExternalTest") else FALSE
 
 
 @theorem(
@@ -173,17 +173,19 @@ def a_manual_test_is_seen_when_it_begins() -> Queries:
     yield from JUDGE.in_every_scan(manual_test_is_seen)
     yield JUDGE.without(manual_test_is_seen, "ExternalFunctionTest", "EdgesAreRemembered")
 
-    def by_level(one: Scanned) -> Obligation:
-        said = manual_test_is_seen(one)
-        return None if said is None else (z3.And(one.inputs.Activate, z3.Not(one.inputs.S_OSSD_In)), said[1])
+    def by_level(scan: Scanned) -> Obligation:
+        said = manual_test_is_seen(scan)
+        return (
+            None if said is None else (z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_OSSD_In)), said[1])
+        )
 
     yield JUDGE.too_strong("by level", by_level, "ExternalFunctionTest")
 
 
-def parameter_error_needs_cause(one: Scanned) -> Obligation:
-    if not one.becomes("ParameterError"):
+def parameter_error_needs_cause(scan: Scanned) -> Obligation:
+    if not scan.becomes("ParameterError"):
         return None
-    return TRUE, z3.Not(valid(one.params))
+    return TRUE, z3.Not(valid(scan.params))
 
 
 @theorem(
@@ -196,14 +198,14 @@ def a_parameter_error_is_about_test_time() -> Queries:
     """C000 is shown only with a TestTime below 0 or above 150 ms."""
     yield from JUDGE.in_every_scan(parameter_error_needs_cause)
 
-    def above(one: Scanned) -> Obligation:
-        return None if not one.becomes("ParameterError") else (TRUE, one.params.TestTime_ms > 150)
+    def above(scan: Scanned) -> Obligation:
+        return None if not scan.becomes("ParameterError") else (TRUE, scan.params.TestTime_ms > 150)
 
     yield JUDGE.too_strong("above alone", above, "Init")
 
 
-def active_at_once(one: Scanned) -> Obligation:
-    return one.inputs.Activate, z3.And(one.sends.Ready, TRUE)
+def active_at_once(scan: Scanned) -> Obligation:
+    return scan.inputs.Activate, z3.And(scan.sends.Ready, TRUE)
 
 
 @theorem(
@@ -216,7 +218,7 @@ def a_call_with_activate_is_active() -> Queries:
     """Every call with Activate TRUE leaves Ready TRUE."""
     yield from JUDGE.in_every_scan(active_at_once)
 
-    def after_one_more(one: Scanned) -> Obligation:
-        return TRUE, z3.And(one.sends.Ready, TRUE)
+    def after_one_more(scan: Scanned) -> Obligation:
+        return TRUE, z3.And(scan.sends.Ready, TRUE)
 
     yield JUDGE.too_strong("without it too", after_one_more, "Idle")

@@ -38,17 +38,17 @@ WATCHED: Final = {
 """Where each reset error is found, and where its end leads back to. TSSF-01, TSSF-02, TSSF-03"""
 
 
-def static(one: Scanned) -> z3.BoolRef:
+def static(scan: Scanned) -> z3.BoolRef:
     """Reset is held, as an observer of the wires sees it."""
-    return z3.And(one.inputs.Reset, SEEN.reset)
+    return z3.And(scan.inputs.Reset, SEEN.reset)
 
 
-def code_tells_resettable(one: Scanned) -> Obligation:
-    fits = z3.And(one.inputs.S_OSSD_In, one.inputs.NoExternalTest)
-    if one.becomes("TestError1C410"):
-        return TRUE, z3.And(fits, one.sends.DiagCode == 0xC410)
-    if one.becomes("TestError1C010"):
-        return TRUE, z3.And(z3.Not(fits), one.sends.DiagCode == 0xC010)
+def code_tells_resettable(scan: Scanned) -> Obligation:
+    fits = z3.And(scan.inputs.S_OSSD_In, scan.inputs.NoExternalTest)
+    if scan.becomes("TestError1C410"):
+        return TRUE, z3.And(fits, scan.sends.DiagCode == 0xC410)
+    if scan.becomes("TestError1C010"):
+        return TRUE, z3.And(z3.Not(fits), scan.sends.DiagCode == 0xC010)
     return TRUE, TRUE
 
 
@@ -64,26 +64,26 @@ def c410_is_shown_exactly_with_the_sensor_free_and_no_manual_test() -> Queries:
     """
     yield from JUDGE.in_every_scan(code_tells_resettable)
 
-    def as_before(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes("TestError1C010", "ResetError3", "Idle") else FALSE
+    def as_before(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes("TestError1C010", "ResetError3", "Idle") else FALSE
 
     yield JUDGE.too_strong("it stays as it was", as_before, "TestError1C010")
 
 
-def error_left_only_as_documented(one: Scanned) -> Obligation:
-    before, after = control(SENSOR, one.before), control(SENSOR, one.after)
+def error_left_only_as_documented(scan: Scanned) -> Obligation:
+    before, after = control(SENSOR, scan.before), control(SENSOR, scan.after)
     if before not in TEST_ERRORS | RESET_ERRORS | PARAMETER_ERRORS:
         return None
     if before == after:
-        return one.inputs.Activate, TRUE
+        return scan.inputs.Activate, TRUE
     if before in RESET_ERRORS:
-        return one.inputs.Activate, z3.Not(one.inputs.Reset) if after in WATCHED[before] else FALSE
+        return scan.inputs.Activate, z3.Not(scan.inputs.Reset) if after in WATCHED[before] else FALSE
     if after in RESET_ERRORS:
-        return one.inputs.Activate, static(one) if before in WATCHED[after] else FALSE
+        return scan.inputs.Activate, static(scan) if before in WATCHED[after] else FALSE
     if before not in TEST_ERRORS:
-        return one.inputs.Activate, FALSE
-    by_itself = z3.And(one.params.AUTO_RESET_ERRORS, one.inputs.S_AutoReset)
-    return one.inputs.Activate, TRUE if after in TEST_ERRORS else z3.Or(edge(one), by_itself)
+        return scan.inputs.Activate, FALSE
+    by_itself = z3.And(scan.params.AUTO_RESET_ERRORS, scan.inputs.S_AutoReset)
+    return scan.inputs.Activate, TRUE if after in TEST_ERRORS else z3.Or(edge(scan), by_itself)
 
 
 @theorem(
@@ -100,30 +100,30 @@ def errors_are_left_only_as_documented() -> Queries:
     yield from JUDGE.in_every_scan(error_left_only_as_documented)
     yield JUDGE.without(error_left_only_as_documented, "TestError1C410", "EdgesAreRemembered")
 
-    def never(one: Scanned) -> Obligation:
-        return one.inputs.Activate, z3.And(one.sends.Error, TRUE)
+    def never(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, z3.And(scan.sends.Error, TRUE)
 
     yield JUDGE.too_strong("no error is left", never, "ResetError6")
 
 
-def kept(one: Scanned, state: str) -> z3.BoolRef:
+def kept(scan: Scanned, state: str) -> z3.BoolRef:
     """The inhibit, or the error, of this very state is kept in this call."""
-    i, p = one.inputs, one.params
+    i, p = scan.inputs, scan.params
     if state == "Init":
         return z3.And(z3.Not(i.S_StartReset), valid(p))
     if state == "WaitForReset1":
-        return z3.Or(z3.Not(i.S_AutoReset), one.before.start_inhibit)
+        return z3.Or(z3.Not(i.S_AutoReset), scan.before.start_inhibit)
     if state == "WaitForReset2":
         return z3.Not(i.S_AutoReset)
     return TRUE if state in PARAMETER_ERRORS else z3.Not(z3.And(p.AUTO_RESET_ERRORS, i.S_AutoReset))
 
 
-def static_reset_is_found(one: Scanned) -> Obligation:
-    before, after = control(SENSOR, one.before), control(SENSOR, one.after)
+def static_reset_is_found(scan: Scanned) -> Obligation:
+    before, after = control(SENSOR, scan.before), control(SENSOR, scan.after)
     found = [error for error, states in WATCHED.items() if before in states]
     if not found:
         return None
-    given = z3.And(one.inputs.Activate, static(one), kept(one, before))
+    given = z3.And(scan.inputs.Activate, static(scan), kept(scan, before))
     return given, TRUE if after in found else FALSE
 
 
@@ -150,15 +150,15 @@ def a_static_reset_is_found_wherever_a_reset_is_waited_for() -> Queries:
     yield from JUDGE.in_every_scan(static_reset_is_found)
     yield JUDGE.without(static_reset_is_found, "EndExternalTest", "EdgesAreRemembered")
 
-    def whatever_the_constants(one: Scanned) -> Obligation:
-        said = static_reset_is_found(one)
-        return None if said is None else (z3.And(one.inputs.Activate, static(one)), said[1])
+    def whatever_the_constants(scan: Scanned) -> Obligation:
+        said = static_reset_is_found(scan)
+        return None if said is None else (z3.And(scan.inputs.Activate, static(scan)), said[1])
 
     yield JUDGE.too_strong("whatever the constants", whatever_the_constants, "WaitForReset2")
 
 
-def a_held_reset_never_resets(one: Scanned) -> Obligation:
-    return z3.And(static(one), z3.Not(automatic(one))), z3.Not(rises(one, "S_OSSD_Out"))
+def a_held_reset_never_resets(scan: Scanned) -> Obligation:
+    return z3.And(static(scan), z3.Not(automatic(scan))), z3.Not(rises(scan, "S_OSSD_Out"))
 
 
 @theorem(
@@ -175,11 +175,11 @@ def a_static_reset_never_resets() -> Queries:
     yield JUDGE.without(a_held_reset_never_resets, "WaitForReset1", "EdgesAreRemembered")
 
 
-def reset_error_keeps_test_executed(one: Scanned) -> Obligation:
-    before, after = control(SENSOR, one.before), control(SENSOR, one.after)
+def reset_error_keeps_test_executed(scan: Scanned) -> Obligation:
+    before, after = control(SENSOR, scan.before), control(SENSOR, scan.after)
     if after not in RESET_ERRORS:
         return None
-    same = one.sends.TestExecuted == one.sent.TestExecuted
+    same = scan.sends.TestExecuted == scan.sent.TestExecuted
     return TRUE, same if before in (*WATCHED[after], after) else FALSE
 
 
@@ -193,22 +193,22 @@ def a_reset_error_keeps_the_result_of_the_test() -> Queries:
     """A reset error is reached from the state that it belongs to, and TestExecuted stays as it was."""
     yield from JUDGE.in_every_scan(reset_error_keeps_test_executed)
 
-    def without_a_result(one: Scanned) -> Obligation:
-        said = reset_error_keeps_test_executed(one)
-        return None if said is None else (TRUE, z3.Not(one.sends.TestExecuted))
+    def without_a_result(scan: Scanned) -> Obligation:
+        said = reset_error_keeps_test_executed(scan)
+        return None if said is None else (TRUE, z3.Not(scan.sends.TestExecuted))
 
     yield JUDGE.too_strong("and there is none", without_a_result, "WaitForReset2")
 
 
-def external_test_is_complete(one: Scanned) -> Obligation:
-    if one.was(*TEST_ERRORS):
-        if one.becomes(*MANUAL):
-            return TRUE, z3.Not(one.inputs.NoExternalTest)
-        return TRUE, z3.Implies(rises(one, "S_OSSD_Out"), one.inputs.NoExternalTest)
-    if not one.was(*MANUAL):
+def external_test_is_complete(scan: Scanned) -> Obligation:
+    if scan.was(*TEST_ERRORS):
+        if scan.becomes(*MANUAL):
+            return TRUE, z3.Not(scan.inputs.NoExternalTest)
+        return TRUE, z3.Implies(rises(scan, "S_OSSD_Out"), scan.inputs.NoExternalTest)
+    if not scan.was(*MANUAL):
         return None
-    complete = SEEN.cycle == 3 if one.was("EndExternalTest") else FALSE
-    return TRUE, z3.Implies(rises(one, "S_OSSD_Out"), complete)
+    complete = SEEN.cycle == 3 if scan.was("EndExternalTest") else FALSE
+    return TRUE, z3.Implies(rises(scan, "S_OSSD_Out"), complete)
 
 
 @theorem(
@@ -225,20 +225,22 @@ def after_a_failed_test_the_manual_test_is_complete_or_there_is_none() -> Querie
     yield from JUDGE.in_every_scan(external_test_is_complete)
     yield JUDGE.without(external_test_is_complete, "EndExternalTest", "CycleOfTheManualTest")
 
-    def always_a_manual_one(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(rises(one, "S_OSSD_Out"))
+    def always_a_manual_one(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(rises(scan, "S_OSSD_Out"))
 
     yield JUDGE.too_strong("always a manual one", always_a_manual_one, "TestError1C410")
 
 
-def parameter_error_stays(one: Scanned) -> Obligation:
-    shows = TRUE if one.was("Idle", "ResetError1") else z3.And(one.sends.Error, TRUE)
-    return z3.And(z3.Not(valid(one.params)), one.inputs.Activate), z3.And(z3.Not(one.sends.S_OSSD_Out), shows)
+def parameter_error_stays(scan: Scanned) -> Obligation:
+    shows = TRUE if scan.was("Idle", "ResetError1") else z3.And(scan.sends.Error, TRUE)
+    return z3.And(z3.Not(valid(scan.params)), scan.inputs.Activate), z3.And(
+        z3.Not(scan.sends.S_OSSD_Out), shows
+    )
 
 
-def _refusable(one: Scanned) -> Obligation:
+def _refusable(scan: Scanned) -> Obligation:
     """Asked where a TestTime out of its range can be met at all."""
-    return parameter_error_stays(one) if one.was("Idle", "Init", *PARAMETER_ERRORS) else None
+    return parameter_error_stays(scan) if scan.was("Idle", "Init", *PARAMETER_ERRORS) else None
 
 
 @theorem(
@@ -255,8 +257,8 @@ def a_test_time_out_of_its_range_never_enables() -> Queries:
     """
     yield from JUDGE.in_every_scan(_refusable)
 
-    def whatever_test_time_is(one: Scanned) -> Obligation:
-        return one.inputs.Activate, z3.And(one.sends.Error, TRUE)
+    def whatever_test_time_is(scan: Scanned) -> Obligation:
+        return scan.inputs.Activate, z3.And(scan.sends.Error, TRUE)
 
     yield JUDGE.too_strong("whatever TestTime is", whatever_test_time_is, "Init")
 
@@ -288,8 +290,8 @@ TRANSITIONS: Final = frozenset(
 """Every pair of states that a call may join."""
 
 
-def one_transition(one: Scanned) -> Obligation:
-    pair = control(SENSOR, one.before), control(SENSOR, one.after)
+def one_transition(scan: Scanned) -> Obligation:
+    pair = control(SENSOR, scan.before), control(SENSOR, scan.after)
     return TRUE, TRUE if pair in TRANSITIONS else FALSE
 
 
@@ -298,7 +300,7 @@ def every_call_takes_one_of_the_listed_transitions_or_stays() -> Queries:
     """From every state every call stays, or takes one of the listed transitions."""
     yield from JUDGE.in_every_scan(one_transition)
 
-    def stays(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes(control(SENSOR, one.before)) else FALSE
+    def stays(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes(control(SENSOR, scan.before)) else FALSE
 
     yield JUDGE.too_strong("it stays", stays, "Idle")

@@ -27,18 +27,18 @@ ENABLED: Final = frozenset({"ESPEFreeNoTest", "ESPEFreeTestOk", *TESTING})
 MOST: Final = 6
 
 
-def served(one: Scanned) -> z3.BoolRef:
+def served(scan: Scanned) -> z3.BoolRef:
     """The call of a machine that is served."""
-    i, s, c = one.inputs, one.before, control(SENSOR, one.before)
+    i, s, c = scan.inputs, scan.before, control(SENSOR, scan.before)
     dark = TRUE if c == "TestRequest" else s.sensor_before if c == "ExternalFunctionTest" else FALSE
-    asked = z3.Or(one.sent.ResetRequest, one.sent.Error)
-    in_time = s.elapsed_ms + i.dt_ms < one.params.TestTime_ms if c in TESTING else TRUE
+    asked = z3.Or(scan.sent.ResetRequest, scan.sent.Error)
+    in_time = s.elapsed_ms + i.dt_ms < scan.params.TestTime_ms if c in TESTING else TRUE
     return z3.And(
         i.Activate,
         i.S_OSSD_In == z3.Not(dark),
         i.Reset == z3.And(asked, z3.Not(s.reset_before)),
         i.NoExternalTest == z3.Not(MANUAL_TEST),
-        valid(one.params),
+        valid(scan.params),
         in_time,
     )
 
@@ -67,14 +67,14 @@ def calls_left(c: str, s: Any) -> z3.ArithRef:
     return _pressed(s, 3, 2)
 
 
-def comes_closer(one: Scanned) -> Obligation:
+def comes_closer(scan: Scanned) -> Obligation:
     """A served call leaves a call less, or the block enables and goes on to."""
-    if one.was(*PARAMETER_ERRORS):
+    if scan.was(*PARAMETER_ERRORS):
         return None
-    left = calls_left(control(SENSOR, one.after), one.after)
-    if one.was(*ENABLED):
-        return served(one), left == 0
-    return served(one), left + 1 <= calls_left(control(SENSOR, one.before), one.before)
+    left = calls_left(control(SENSOR, scan.after), scan.after)
+    if scan.was(*ENABLED):
+        return served(scan), left == 0
+    return served(scan), left + 1 <= calls_left(control(SENSOR, scan.before), scan.before)
 
 
 @theorem(
@@ -106,13 +106,13 @@ def a_served_block_enables_within_six_calls_and_goes_on_to() -> Queries:
         most = z3.And(left >= (0 if scans.control in ENABLED else 1), left <= MOST)
         yield from claim(f"the number in {scans.control}", JUDGE.premises(scans), most, LOGIC)
 
-    def in_one_call(one: Scanned) -> Obligation:
-        return served(one), z3.And(one.sends.S_OSSD_Out, TRUE)
+    def in_one_call(scan: Scanned) -> Obligation:
+        return served(scan), z3.And(scan.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("one call is enough", in_one_call, "TestError1C010")
 
-    def without_an_answer(one: Scanned) -> Obligation:
-        return z3.And(one.inputs.Activate, one.inputs.S_OSSD_In), z3.And(one.sends.S_OSSD_Out, TRUE)
+    def without_an_answer(scan: Scanned) -> Obligation:
+        return z3.And(scan.inputs.Activate, scan.inputs.S_OSSD_In), z3.And(scan.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("whether the sensor answers or not", without_an_answer, "TestRequest")
 
@@ -124,16 +124,16 @@ def tested_within(c: str, s: Any) -> z3.ArithRef:
     return z3.IntVal({"TestRequest": 2, "TestActive": 1}.get(c, 0))
 
 
-def test_comes_closer(one: Scanned) -> Obligation:
+def test_comes_closer(scan: Scanned) -> Obligation:
     """A served call with StartTest pressed and released leaves a call less up to TestExecuted."""
-    if not one.was("ESPEFreeNoTest", *TESTING):
+    if not scan.was("ESPEFreeNoTest", *TESTING):
         return None
-    asks = one.inputs.StartTest == z3.And(one.sent.TestPossible, z3.Not(one.before.start_test_before))
-    if not one.becomes("ESPEFreeNoTest", "ESPEFreeTestOk", *TESTING):
-        return z3.And(served(one), asks), FALSE
-    before, after = (tested_within(control(SENSOR, s), s) for s in (one.before, one.after))
-    reached = z3.Implies(after == 0, one.sends.TestExecuted)
-    return z3.And(served(one), asks), z3.And(after + 1 <= before, reached)
+    asks = scan.inputs.StartTest == z3.And(scan.sent.TestPossible, z3.Not(scan.before.start_test_before))
+    if not scan.becomes("ESPEFreeNoTest", "ESPEFreeTestOk", *TESTING):
+        return z3.And(served(scan), asks), FALSE
+    before, after = (tested_within(control(SENSOR, s), s) for s in (scan.before, scan.after))
+    reached = z3.Implies(after == 0, scan.sends.TestExecuted)
+    return z3.And(served(scan), asks), z3.And(after + 1 <= before, reached)
 
 
 @theorem(
@@ -148,8 +148,8 @@ def a_test_is_passed_within_four_calls() -> Queries:
     """
     yield from JUDGE.in_every_scan(test_comes_closer)
 
-    def within_three(one: Scanned) -> Obligation:
-        said = test_comes_closer(one)
-        return None if said is None else (said[0], FALSE if one.becomes("ESPEFreeNoTest") else TRUE)
+    def within_three(scan: Scanned) -> Obligation:
+        said = test_comes_closer(scan)
+        return None if said is None else (said[0], FALSE if scan.becomes("ESPEFreeNoTest") else TRUE)
 
     yield JUDGE.too_strong("within three", within_three, "ESPEFreeNoTest")

@@ -54,15 +54,15 @@ def the_block_remembers_the_inputs_of_every_call() -> Queries:
     stood there in that call.
     """
 
-    def remembered(one: Scanned) -> Obligation:
-        s, i = one.after, one.inputs
+    def remembered(scan: Scanned) -> Obligation:
+        s, i = scan.after, scan.inputs
         kept = (s.reset_before == i.Reset, s.start_test_before == i.StartTest, s.sensor_before == i.S_OSSD_In)
         return TRUE, z3.And(*kept)
 
     yield from JUDGE.in_every_scan(remembered)
 
-    def only_while_active(one: Scanned) -> Obligation:
-        return TRUE, one.after.reset_before == z3.And(one.inputs.Reset, one.inputs.Activate)
+    def only_while_active(scan: Scanned) -> Obligation:
+        return TRUE, scan.after.reset_before == z3.And(scan.inputs.Reset, scan.inputs.Activate)
 
     yield JUDGE.too_strong("only while active", only_while_active, "Idle")
 
@@ -70,9 +70,9 @@ def the_block_remembers_the_inputs_of_every_call() -> Queries:
 # ---------------------------------------------------------------- TRUE
 
 
-def enable_needs_free_sensor(one: Scanned) -> Obligation:
-    dark = z3.And(one.sends.S_OSSD_Out, z3.Not(one.inputs.S_OSSD_In))
-    return TRUE, TRUE if one.becomes("TestActive") else z3.Not(dark)
+def enable_needs_free_sensor(scan: Scanned) -> Obligation:
+    dark = z3.And(scan.sends.S_OSSD_Out, z3.Not(scan.inputs.S_OSSD_In))
+    return TRUE, TRUE if scan.becomes("TestActive") else z3.Not(dark)
 
 
 @theorem(
@@ -87,14 +87,14 @@ def the_block_enables_over_a_dark_sensor_in_the_second_phase_of_a_test_only() ->
     """
     yield from JUDGE.in_every_scan(enable_needs_free_sensor)
 
-    def nor_there(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(z3.And(one.sends.S_OSSD_Out, z3.Not(one.inputs.S_OSSD_In)))
+    def nor_there(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(z3.And(scan.sends.S_OSSD_Out, z3.Not(scan.inputs.S_OSSD_In)))
 
     yield JUDGE.too_strong("nor there", nor_there, "TestRequest")
 
 
-def masked_time_is_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
-    p = one.params
+def masked_time_is_bounded(scan: Scanned, seen: Any) -> z3.BoolRef:
+    p = scan.params
     dark = z3.Or(seen.dark < 0, seen.dark < p.TestTime_ms)
     tested = z3.Or(seen.tested <= 0, seen.tested < 2 * p.TestTime_ms)
     return z3.And(dark, tested)
@@ -116,22 +116,22 @@ def a_test_masks_the_sensor_for_less_than_test_time() -> Queries:
     yield JUDGE.without(sentence, "TestActive", "DarkInTheSecondPhase")
     yield JUDGE.without(sentence, "TestActive", "TestedWithinBoth")
 
-    def half(one: Scanned) -> Obligation:
-        seen = JUDGE.sees(one)
-        return TRUE, z3.Or(seen.dark < 0, 2 * seen.dark <= one.params.TestTime_ms)
+    def half(scan: Scanned) -> Obligation:
+        seen = JUDGE.sees(scan)
+        return TRUE, z3.Or(seen.dark < 0, 2 * seen.dark <= scan.params.TestTime_ms)
 
     yield JUDGE.too_strong("for half of it", half, "TestActive")
 
-    def once(one: Scanned) -> Obligation:
-        return TRUE, z3.Or(JUDGE.sees(one).tested <= 0, JUDGE.sees(one).tested <= one.params.TestTime_ms)
+    def once(scan: Scanned) -> Obligation:
+        return TRUE, z3.Or(JUDGE.sees(scan).tested <= 0, JUDGE.sees(scan).tested <= scan.params.TestTime_ms)
 
     yield JUDGE.too_strong("a test lasts TestTime at most", once, "TestActive")
 
 
-def sender_off_bounded(one: Scanned, seen: Any) -> z3.BoolRef:
-    if not one.becomes("TestRequest"):
-        return z3.And(one.sends.S_TestOut, TRUE)
-    return z3.Or(seen.phase == 0, seen.phase < one.params.TestTime_ms)
+def sender_off_bounded(scan: Scanned, seen: Any) -> z3.BoolRef:
+    if not scan.becomes("TestRequest"):
+        return z3.And(scan.sends.S_TestOut, TRUE)
+    return z3.Or(seen.phase == 0, seen.phase < scan.params.TestTime_ms)
 
 
 @theorem(
@@ -151,14 +151,14 @@ def the_sender_is_off_for_less_than_test_time_and_one_call() -> Queries:
     yield JUDGE.without(JUDGE.after_a_scan(sender_off_bounded), "TestRequest", "TimeIsThatOfThePhase")
 
 
-def latency(one: Scanned) -> Obligation:
+def latency(scan: Scanned) -> Obligation:
     """A call over a dark sensor that ends the output, and how long ago the sensor was first seen dark."""
-    if not one.was("ESPEFreeNoTest", "ESPEFreeTestOk", "TestRequest", "TestActive"):
+    if not scan.was("ESPEFreeNoTest", "ESPEFreeTestOk", "TestRequest", "TestActive"):
         return None
-    falls = z3.And(one.sent.S_OSSD_Out, z3.Not(one.sends.S_OSSD_Out), one.inputs.Activate)
-    since = z3.If(SEEN.dark < 0, 0, SEEN.dark + one.inputs.dt_ms)
-    bound = z3.If(SEEN.dark < 0, since == 0, since < one.params.TestTime_ms + one.inputs.dt_ms)
-    return z3.And(falls, z3.Not(one.inputs.S_OSSD_In)), bound
+    falls = z3.And(scan.sent.S_OSSD_Out, z3.Not(scan.sends.S_OSSD_Out), scan.inputs.Activate)
+    since = z3.If(SEEN.dark < 0, 0, SEEN.dark + scan.inputs.dt_ms)
+    bound = z3.If(SEEN.dark < 0, since == 0, since < scan.params.TestTime_ms + scan.inputs.dt_ms)
+    return z3.And(falls, z3.Not(scan.inputs.S_OSSD_In)), bound
 
 
 @theorem(clauses=["TSS-NOTE-1", "TSS-FN-7", "TSS-OUT-OSSD"], findings=["TSSF-09"], slow=True)
@@ -171,27 +171,27 @@ def a_person_in_the_field_is_answered_within_test_time_and_one_call() -> Queries
     """
     yield from JUDGE.in_every_scan(latency)
 
-    def within_test_time(one: Scanned) -> Obligation:
-        said = latency(one)
-        return None if said is None else (said[0], SEEN.dark + one.inputs.dt_ms < one.params.TestTime_ms)
+    def within_test_time(scan: Scanned) -> Obligation:
+        said = latency(scan)
+        return None if said is None else (said[0], SEEN.dark + scan.inputs.dt_ms < scan.params.TestTime_ms)
 
     yield JUDGE.too_strong("within TestTime", within_test_time, "TestActive")
 
-    def stays_dark(one: Scanned) -> Obligation:
+    def stays_dark(scan: Scanned) -> Obligation:
         """The sensor is still dark TestTime after it was first seen so."""
-        late = z3.And(SEEN.dark >= 0, SEEN.dark + one.inputs.dt_ms >= one.params.TestTime_ms)
-        return z3.And(late, z3.Not(one.inputs.S_OSSD_In)), z3.Not(one.sends.S_OSSD_Out)
+        late = z3.And(SEEN.dark >= 0, SEEN.dark + scan.inputs.dt_ms >= scan.params.TestTime_ms)
+        return z3.And(late, z3.Not(scan.inputs.S_OSSD_In)), z3.Not(scan.sends.S_OSSD_Out)
 
     for scans in JUDGE.scans():
         if scans.control == "TestActive":
-            spoken = {"it is spoken of": scans.some(lambda one: (stays_dark(one) or (FALSE, TRUE))[0])}
-            then = scans.always(lambda one: z3.Implies(*(stays_dark(one) or (FALSE, TRUE))))
+            spoken = {"it is spoken of": scans.some(lambda scan: (stays_dark(scan) or (FALSE, TRUE))[0])}
+            then = scans.always(lambda scan: z3.Implies(*(stays_dark(scan) or (FALSE, TRUE))))
             yield from claim("still dark at TestTime", {**JUDGE.premises(scans), **spoken}, then, LOGIC)
 
 
-def a_short_demand(one: Scanned) -> z3.BoolRef:
+def a_short_demand(scan: Scanned) -> z3.BoolRef:
     """Somebody leaves the field in this call, and the output has been TRUE all the time."""
-    return z3.And(SEEN.dark > 0, one.inputs.S_OSSD_In, one.sends.S_OSSD_Out, one.sends.TestExecuted)
+    return z3.And(SEEN.dark > 0, scan.inputs.S_OSSD_In, scan.sends.S_OSSD_Out, scan.sends.TestExecuted)
 
 
 @theorem(clauses=["TSS-FN-1", "TSS-TEST-3", "TSS-OUT-EXECUTED"], findings=["TSSF-09"], slow=True)
@@ -200,12 +200,12 @@ def a_demand_that_begins_and_ends_in_a_test_is_only_seen_as_the_test() -> Querie
     leaves S_OSSD_Out TRUE and TestExecuted TRUE: no output shows which it was.
     """
 
-    def passes(one: Scanned) -> Obligation:
-        if not one.was("TestActive"):
+    def passes(scan: Scanned) -> Obligation:
+        if not scan.was("TestActive"):
             return None
-        in_time = SEEN.dark + one.inputs.dt_ms < one.params.TestTime_ms
-        given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In, in_time)
-        return given, z3.And(one.sends.S_OSSD_Out, one.sends.TestExecuted, z3.Not(one.sends.SafetyDemand))
+        in_time = SEEN.dark + scan.inputs.dt_ms < scan.params.TestTime_ms
+        given = z3.And(scan.inputs.Activate, scan.inputs.S_OSSD_In, in_time)
+        return given, z3.And(scan.sends.S_OSSD_Out, scan.sends.TestExecuted, z3.Not(scan.sends.SafetyDemand))
 
     yield from JUDGE.in_every_scan(passes)
     scans = JUDGE.begin("TestActive")
@@ -213,9 +213,9 @@ def a_demand_that_begins_and_ends_in_a_test_is_only_seen_as_the_test() -> Querie
     yield control_query("control: it happens", example, LOGIC)
 
 
-def inactive_at_once(one: Scanned) -> Obligation:
-    off = z3.Not(one.sends.S_OSSD_Out) if one.becomes("Idle") else FALSE
-    return z3.Not(one.inputs.Activate), off
+def inactive_at_once(scan: Scanned) -> Obligation:
+    off = z3.Not(scan.sends.S_OSSD_Out) if scan.becomes("Idle") else FALSE
+    return z3.Not(scan.inputs.Activate), off
 
 
 @theorem(clauses=["TSS-IN-ACTIVATE", "TSS-0000"], findings=[], properties=["InactiveAtOnce"], slow=True)
@@ -223,8 +223,8 @@ def without_activate_the_call_ends_in_idle() -> Queries:
     """Every call without Activate, from any state, ends in Idle, with S_OSSD_Out FALSE."""
     yield from JUDGE.in_every_scan(inactive_at_once)
 
-    def always(one: Scanned) -> Obligation:
-        return TRUE, TRUE if one.becomes("Idle") else FALSE
+    def always(scan: Scanned) -> Obligation:
+        return TRUE, TRUE if scan.becomes("Idle") else FALSE
 
     yield JUDGE.too_strong("and every other", always, "Idle")
 
@@ -232,38 +232,38 @@ def without_activate_the_call_ends_in_idle() -> Queries:
 # ---------------------------------------------------------------- becoming TRUE
 
 
-def edge(one: Scanned) -> z3.BoolRef:
+def edge(scan: Scanned) -> z3.BoolRef:
     """Reset rises, as an observer of the wires sees it."""
-    return z3.And(one.inputs.Reset, z3.Not(SEEN.reset))
+    return z3.And(scan.inputs.Reset, z3.Not(SEEN.reset))
 
 
-def rises(one: Scanned, name: str) -> z3.BoolRef:
+def rises(scan: Scanned, name: str) -> z3.BoolRef:
     """This output becomes TRUE in the call."""
-    return z3.And(z3.Not(getattr(one.sent, name)), getattr(one.sends, name))
+    return z3.And(z3.Not(getattr(scan.sent, name)), getattr(scan.sends, name))
 
 
-def automatic(one: Scanned) -> z3.BoolRef:
+def automatic(scan: Scanned) -> z3.BoolRef:
     """The constants switch off the inhibit of this state."""
-    i = one.inputs
-    if one.was("Init"):
+    i = scan.inputs
+    if scan.was("Init"):
         return z3.And(i.S_StartReset, TRUE)
-    if one.was("ESPEInterrupted1", "WaitForReset1", "ESPEInterrupted2", "WaitForReset2"):
+    if scan.was("ESPEInterrupted1", "WaitForReset1", "ESPEInterrupted2", "WaitForReset2"):
         return z3.And(i.S_AutoReset, TRUE)
-    if one.was(*TEST_ERRORS, *MANUAL):
-        return z3.And(i.S_AutoReset, one.params.AUTO_RESET_ERRORS)
+    if scan.was(*TEST_ERRORS, *MANUAL):
+        return z3.And(i.S_AutoReset, scan.params.AUTO_RESET_ERRORS)
     return FALSE
 
 
-def no_restart_by_itself(one: Scanned) -> Obligation:
-    given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In)
-    return rises(one, "S_OSSD_Out"), z3.And(given, z3.Or(edge(one), automatic(one)))
+def no_restart_by_itself(scan: Scanned) -> Obligation:
+    given = z3.And(scan.inputs.Activate, scan.inputs.S_OSSD_In)
+    return rises(scan, "S_OSSD_Out"), z3.And(given, z3.Or(edge(scan), automatic(scan)))
 
 
 def _spoken(sentence: Sentence) -> Sentence:
     """Not asked of paths that cannot enable."""
 
-    def of(one: Scanned) -> Obligation:
-        said = sentence(one)
+    def of(scan: Scanned) -> Obligation:
+        said = sentence(scan)
         return None if said is None or z3.is_false(z3.simplify(said[0])) else said
 
     return of
@@ -292,16 +292,16 @@ def the_block_never_enables_by_itself() -> Queries:
     yield from JUDGE.in_every_scan(_spoken(no_restart_by_itself))
     yield JUDGE.without(_spoken(no_restart_by_itself), "WaitForReset1", "EdgesAreRemembered")
 
-    def always_an_edge(one: Scanned) -> Obligation:
-        return rises(one, "S_OSSD_Out"), edge(one)
+    def always_an_edge(scan: Scanned) -> Obligation:
+        return rises(scan, "S_OSSD_Out"), edge(scan)
 
     yield JUDGE.too_strong("always by an edge", _spoken(always_an_edge), "ESPEInterrupted2")
 
 
-def failed_test_needs_reset(one: Scanned) -> Obligation:
-    if not one.was(*TEST_ERRORS, *MANUAL):
+def failed_test_needs_reset(scan: Scanned) -> Obligation:
+    if not scan.was(*TEST_ERRORS, *MANUAL):
         return None
-    return z3.And(rises(one, "S_OSSD_Out"), z3.Not(one.params.AUTO_RESET_ERRORS)), edge(one)
+    return z3.And(rises(scan, "S_OSSD_Out"), z3.Not(scan.params.AUTO_RESET_ERRORS)), edge(scan)
 
 
 @theorem(
@@ -316,15 +316,15 @@ def after_a_failed_test_only_a_reset_enables() -> Queries:
     """
     yield from JUDGE.in_every_scan(_spoken(failed_test_needs_reset))
 
-    def with_the_other_value(one: Scanned) -> Obligation:
-        return rises(one, "S_OSSD_Out"), edge(one)
+    def with_the_other_value(scan: Scanned) -> Obligation:
+        return rises(scan, "S_OSSD_Out"), edge(scan)
 
     yield JUDGE.too_strong("with AUTO_RESET_ERRORS too", _spoken(with_the_other_value), "TestError1C410")
 
 
-def start_inhibit_holds(one: Scanned) -> Obligation:
-    off = z3.And(one.inputs.S_StartReset, TRUE) if one.was("Init") else FALSE
-    return TRUE, z3.Implies(z3.And(rises(one, "S_OSSD_Out"), SEEN.starting), z3.Or(edge(one), off))
+def start_inhibit_holds(scan: Scanned) -> Obligation:
+    off = z3.And(scan.inputs.S_StartReset, TRUE) if scan.was("Init") else FALSE
+    return TRUE, z3.Implies(z3.And(rises(scan, "S_OSSD_Out"), SEEN.starting), z3.Or(edge(scan), off))
 
 
 @theorem(clauses=["TSS-FN-3", "TSS-EB-5"], findings=["TSSF-19"], properties=["StartInhibitHolds"], slow=True)
@@ -337,22 +337,22 @@ def the_start_up_inhibit_outlives_an_interruption() -> Queries:
     yield JUDGE.without(start_inhibit_holds, "ESPEInterrupted2", "StartInhibitPending")
 
 
-def switched_off_inhibit_ends(one: Scanned) -> Obligation:
-    i, p, out = one.inputs, one.params, z3.And(one.sends.S_OSSD_Out, TRUE)
+def switched_off_inhibit_ends(scan: Scanned) -> Obligation:
+    i, p, out = scan.inputs, scan.params, z3.And(scan.sends.S_OSSD_Out, TRUE)
     free = z3.And(i.Activate, i.S_OSSD_In)
-    if one.was("Init"):
+    if scan.was("Init"):
         return z3.And(free, i.S_StartReset, valid(p)), out
-    if one.was("ESPEInterrupted1"):
-        return z3.And(free, i.S_AutoReset, z3.Not(one.before.start_inhibit)), out
-    if one.was("ESPEInterrupted2"):
+    if scan.was("ESPEInterrupted1"):
+        return z3.And(free, i.S_AutoReset, z3.Not(scan.before.start_inhibit)), out
+    if scan.was("ESPEInterrupted2"):
         return z3.And(free, i.S_AutoReset), out
     by_itself = z3.And(free, i.S_AutoReset, p.AUTO_RESET_ERRORS)
-    manual = TRUE if one.becomes("ExternalFunctionTest") else FALSE
-    if one.was("TestError1C410"):
+    manual = TRUE if scan.becomes("ExternalFunctionTest") else FALSE
+    if scan.was("TestError1C410"):
         return by_itself, z3.If(i.NoExternalTest, out, manual)
-    if one.was("TestError1C010"):
+    if scan.was("TestError1C010"):
         return z3.And(by_itself, z3.Not(i.NoExternalTest)), manual
-    return (by_itself, out) if one.was("EndExternalTest") else None
+    return (by_itself, out) if scan.was("EndExternalTest") else None
 
 
 @theorem(
@@ -368,16 +368,16 @@ def an_inhibit_that_is_switched_off_is_not_waited_for() -> Queries:
     """
     yield from JUDGE.in_every_scan(switched_off_inhibit_ends)
 
-    def with_the_other_value_too(one: Scanned) -> Obligation:
-        given = z3.And(one.inputs.Activate, one.inputs.S_OSSD_In, one.inputs.S_AutoReset)
-        return given, z3.And(one.sends.S_OSSD_Out, TRUE)
+    def with_the_other_value_too(scan: Scanned) -> Obligation:
+        given = z3.And(scan.inputs.Activate, scan.inputs.S_OSSD_In, scan.inputs.S_AutoReset)
+        return given, z3.And(scan.sends.S_OSSD_Out, TRUE)
 
     yield JUDGE.too_strong("without AUTO_RESET_ERRORS", with_the_other_value_too, "EndExternalTest")
 
 
-def reset_only_where_requested(one: Scanned) -> Obligation:
-    kept = z3.Not(z3.Or(one.inputs.S_StartReset, one.inputs.S_AutoReset))
-    return kept, z3.Implies(rises(one, "S_OSSD_Out"), one.sent.ResetRequest)
+def reset_only_where_requested(scan: Scanned) -> Obligation:
+    kept = z3.Not(z3.Or(scan.inputs.S_StartReset, scan.inputs.S_AutoReset))
+    return kept, z3.Implies(rises(scan, "S_OSSD_Out"), scan.sent.ResetRequest)
 
 
 @theorem(
@@ -392,19 +392,19 @@ def a_reset_enables_only_where_it_was_asked_for() -> Queries:
     """
     yield from JUDGE.in_every_scan(reset_only_where_requested)
 
-    def whatever_the_constants(one: Scanned) -> Obligation:
-        return rises(one, "S_OSSD_Out"), z3.And(one.sent.ResetRequest, TRUE)
+    def whatever_the_constants(scan: Scanned) -> Obligation:
+        return rises(scan, "S_OSSD_Out"), z3.And(scan.sent.ResetRequest, TRUE)
 
     yield JUDGE.too_strong("whatever the constants", _spoken(whatever_the_constants), "ESPEInterrupted1")
 
 
-def demand_is_shown(one: Scanned) -> Obligation:
+def demand_is_shown(scan: Scanned) -> Obligation:
     judged = ("ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset1", "WaitForReset2", "Init", "EndExternalTest")
     still = ("ESPEInterrupted1", "ESPEInterrupted2", "ESPEInterruptedExternalTest")
-    if not one.was(*judged, *still):
+    if not scan.was(*judged, *still):
         return None
-    lost = z3.And(one.inputs.Activate, z3.Not(one.inputs.S_OSSD_In))
-    return lost, z3.Or(one.sends.SafetyDemand, one.sends.Error)
+    lost = z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_OSSD_In))
+    return lost, z3.Or(scan.sends.SafetyDemand, scan.sends.Error)
 
 
 @theorem(
@@ -419,8 +419,8 @@ def a_lost_sensor_is_shown_at_once() -> Queries:
     """
     yield from JUDGE.in_every_scan(demand_is_shown)
 
-    def as_a_demand(one: Scanned) -> Obligation:
-        said = demand_is_shown(one)
-        return None if said is None else (said[0], z3.And(one.sends.SafetyDemand, TRUE))
+    def as_a_demand(scan: Scanned) -> Obligation:
+        said = demand_is_shown(scan)
+        return None if said is None else (said[0], z3.And(scan.sends.SafetyDemand, TRUE))
 
     yield JUDGE.too_strong("always as a demand", as_a_demand, "WaitForReset2")

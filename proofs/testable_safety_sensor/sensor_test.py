@@ -22,24 +22,24 @@ from proofs.theorem import control as control_query
 POSSIBLE: Final = ("ESPEFreeNoTest", "ESPEFreeTestOk")
 
 
-def asked_for(one: Scanned) -> z3.BoolRef:
+def asked_for(scan: Scanned) -> z3.BoolRef:
     """StartTest rises, as an observer of the wires sees it."""
-    return z3.And(one.inputs.StartTest, z3.Not(SEEN.start_test))
+    return z3.And(scan.inputs.StartTest, z3.Not(SEEN.start_test))
 
 
-def over(one: Scanned) -> z3.BoolRef:
+def over(scan: Scanned) -> z3.BoolRef:
     """This phase of the test has lasted TestTime, as an observer of the wires counts it."""
-    late: z3.BoolRef = SEEN.phase + one.inputs.dt_ms >= one.params.TestTime_ms
+    late: z3.BoolRef = SEEN.phase + scan.inputs.dt_ms >= scan.params.TestTime_ms
     return late
 
 
 # ---------------------------------------------------------------- its start
 
 
-def test_needs_edge(one: Scanned) -> Obligation:
-    if not one.becomes("TestRequest") or one.was("TestRequest"):
+def test_needs_edge(scan: Scanned) -> Obligation:
+    if not scan.becomes("TestRequest") or scan.was("TestRequest"):
         return TRUE, TRUE
-    return TRUE, z3.And(one.sent.TestPossible, asked_for(one))
+    return TRUE, z3.And(scan.sent.TestPossible, asked_for(scan))
 
 
 @theorem(
@@ -53,17 +53,17 @@ def a_test_begins_only_by_an_edge_while_it_is_possible() -> Queries:
     yield from JUDGE.in_every_scan(test_needs_edge)
     yield JUDGE.without(test_needs_edge, "ESPEFreeTestOk", "EdgesAreRemembered")
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, FALSE if one.becomes("TestRequest") else TRUE
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, FALSE if scan.becomes("TestRequest") else TRUE
 
     yield JUDGE.too_strong("never", never, "ESPEFreeNoTest")
 
 
-def test_starts_at_once(one: Scanned) -> Obligation:
-    if not one.was(*POSSIBLE):
+def test_starts_at_once(scan: Scanned) -> Obligation:
+    if not scan.was(*POSSIBLE):
         return None
-    begins = TRUE if one.becomes("TestRequest") else FALSE
-    return z3.And(one.inputs.Activate, one.inputs.S_OSSD_In), begins == asked_for(one)
+    begins = TRUE if scan.becomes("TestRequest") else FALSE
+    return z3.And(scan.inputs.Activate, scan.inputs.S_OSSD_In), begins == asked_for(scan)
 
 
 @theorem(
@@ -78,9 +78,9 @@ def every_such_edge_starts_a_test() -> Queries:
     """
     yield from JUDGE.in_every_scan(test_starts_at_once)
 
-    def over_a_dark_sensor(one: Scanned) -> Obligation:
-        said = test_starts_at_once(one)
-        return None if said is None else (z3.And(one.inputs.Activate, TRUE), said[1])
+    def over_a_dark_sensor(scan: Scanned) -> Obligation:
+        said = test_starts_at_once(scan)
+        return None if said is None else (z3.And(scan.inputs.Activate, TRUE), said[1])
 
     yield JUDGE.too_strong("also over a dark sensor", over_a_dark_sensor, "ESPEFreeTestOk")
 
@@ -92,10 +92,10 @@ OTHER: Final = (z3.Bool("other.StartTest"), z3.Bool("other.start_test_before"))
 def _answer(scans: Scans, end: str) -> z3.BoolRef:
     """The call leads to this state, with these values in its memory; edges that it remembers left out."""
 
-    def there(one: Scanned) -> z3.BoolRef:
-        if not one.becomes(end):
+    def there(scan: Scanned) -> z3.BoolRef:
+        if not scan.becomes(end):
             return FALSE
-        after = one.after
+        after = scan.after
         return z3.And(after.elapsed_ms == VALUES[0], after.start_inhibit == VALUES[1])
 
     return scans.some(there)
@@ -119,7 +119,7 @@ def start_test_has_no_effect_while_no_test_is_possible() -> Queries:
     remembered of it, lead to the same state, outputs, time and inhibit.
     """
     for scans in JUDGE.scans():
-        ends = dict.fromkeys(control(one.device, one.after) for one in scans.read.values())
+        ends = dict.fromkeys(control(scan.device, scan.after) for scan in scans.read.values())
         given = {"memory, inputs and parameters in their ranges": scans.scan.premise}
         same = [_answer(scans, end) == _without_start_test(scans, _answer(scans, end)) for end in ends]
         if scans.control not in POSSIBLE:
@@ -132,11 +132,11 @@ def start_test_has_no_effect_while_no_test_is_possible() -> Queries:
 # ---------------------------------------------------------------- its end
 
 
-def slow_test_fails(one: Scanned) -> Obligation:
-    if not one.was(*TESTING):
+def slow_test_fails(scan: Scanned) -> Obligation:
+    if not scan.was(*TESTING):
         return None
-    failed = z3.And(one.sends.Error, z3.Not(one.sends.S_OSSD_Out), z3.Not(one.sends.TestExecuted))
-    return z3.And(one.inputs.Activate, over(one)), failed if one.becomes(*TEST_ERRORS) else FALSE
+    failed = z3.And(scan.sends.Error, z3.Not(scan.sends.S_OSSD_Out), z3.Not(scan.sends.TestExecuted))
+    return z3.And(scan.inputs.Activate, over(scan)), failed if scan.becomes(*TEST_ERRORS) else FALSE
 
 
 @theorem(
@@ -163,18 +163,18 @@ def a_test_longer_than_test_time_or_without_reaction_always_fails() -> Queries:
     yield from JUDGE.in_every_scan(slow_test_fails)
     yield JUDGE.without(slow_test_fails, "TestActive", "TimeIsThatOfThePhase")
 
-    def a_ms_before(one: Scanned) -> Obligation:
-        said = slow_test_fails(one)
-        early = SEEN.phase + one.inputs.dt_ms + 1 >= one.params.TestTime_ms
-        return None if said is None else (z3.And(one.inputs.Activate, early), said[1])
+    def a_ms_before(scan: Scanned) -> Obligation:
+        said = slow_test_fails(scan)
+        early = SEEN.phase + scan.inputs.dt_ms + 1 >= scan.params.TestTime_ms
+        return None if said is None else (z3.And(scan.inputs.Activate, early), said[1])
 
     yield JUDGE.too_strong("a millisecond before", a_ms_before, "TestRequest")
 
 
-def each_phase_has_its_time(one: Scanned) -> Obligation:
-    if not one.was(*TESTING):
+def each_phase_has_its_time(scan: Scanned) -> Obligation:
+    if not scan.was(*TESTING):
         return None
-    return TRUE, over(one) if one.becomes(*TEST_ERRORS) else TRUE
+    return TRUE, over(scan) if scan.becomes(*TEST_ERRORS) else TRUE
 
 
 @theorem(
@@ -185,23 +185,23 @@ def no_other_test_fails() -> Queries:
     yield from JUDGE.in_every_scan(each_phase_has_its_time)
     yield JUDGE.without(each_phase_has_its_time, "TestRequest", "TimeIsThatOfThePhase")
 
-    def never(one: Scanned) -> Obligation:
-        return None if not one.was(*TESTING) else (TRUE, FALSE if one.becomes(*TEST_ERRORS) else TRUE)
+    def never(scan: Scanned) -> Obligation:
+        return None if not scan.was(*TESTING) else (TRUE, FALSE if scan.becomes(*TEST_ERRORS) else TRUE)
 
     yield JUDGE.too_strong("no test fails", never, "TestActive")
 
 
-def reaction_is_seen(one: Scanned) -> Obligation:
-    if not one.was(*TESTING):
+def reaction_is_seen(scan: Scanned) -> Obligation:
+    if not scan.was(*TESTING):
         return None
-    free = one.inputs.S_OSSD_In
-    waits = free if one.was("TestRequest") else z3.Not(free)
-    goes_on = {"TestRequest": "TestActive", "TestActive": "ESPEFreeTestOk"}[control(one.device, one.before)]
-    here = z3.And(one.inputs.Activate, z3.Not(over(one)))
-    if one.becomes(goes_on):
+    free = scan.inputs.S_OSSD_In
+    waits = free if scan.was("TestRequest") else z3.Not(free)
+    goes_on = {"TestRequest": "TestActive", "TestActive": "ESPEFreeTestOk"}[control(scan.device, scan.before)]
+    here = z3.And(scan.inputs.Activate, z3.Not(over(scan)))
+    if scan.becomes(goes_on):
         return here, z3.Not(waits)
-    same = z3.And(waits, one.after.elapsed_ms == SEEN.phase + one.inputs.dt_ms)
-    return here, same if one.becomes(control(one.device, one.before)) else FALSE
+    same = z3.And(waits, scan.after.elapsed_ms == SEEN.phase + scan.inputs.dt_ms)
+    return here, same if scan.becomes(control(scan.device, scan.before)) else FALSE
 
 
 @theorem(
@@ -218,13 +218,13 @@ def a_reaction_in_time_is_seen_at_once() -> Queries:
     yield JUDGE.without(reaction_is_seen, "TestActive", "TimeIsThatOfThePhase")
 
 
-def test_executed_is_true(one: Scanned) -> Obligation:
-    if not one.becomes("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
-        return TRUE, z3.Not(rises(one, "TestExecuted"))
-    if not one.was("TestActive"):
-        return TRUE, z3.Not(rises(one, "TestExecuted"))
-    in_time = z3.And(one.inputs.S_OSSD_In, z3.Not(over(one)), SEEN.dark >= 0)
-    return TRUE, z3.Implies(rises(one, "TestExecuted"), in_time)
+def test_executed_is_true(scan: Scanned) -> Obligation:
+    if not scan.becomes("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
+        return TRUE, z3.Not(rises(scan, "TestExecuted"))
+    if not scan.was("TestActive"):
+        return TRUE, z3.Not(rises(scan, "TestExecuted"))
+    in_time = z3.And(scan.inputs.S_OSSD_In, z3.Not(over(scan)), SEEN.dark >= 0)
+    return TRUE, z3.Implies(rises(scan, "TestExecuted"), in_time)
 
 
 @theorem(
@@ -240,19 +240,19 @@ def test_executed_says_the_truth() -> Queries:
     yield from JUDGE.in_every_scan(test_executed_is_true)
     yield JUDGE.without(test_executed_is_true, "TestActive", "DarkInTheSecondPhase")
 
-    def never(one: Scanned) -> Obligation:
-        return TRUE, z3.Not(rises(one, "TestExecuted"))
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(rises(scan, "TestExecuted"))
 
     yield JUDGE.too_strong("never", never, "TestActive")
 
 
-def test_executed_stays(one: Scanned) -> Obligation:
-    if not one.was("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
+def test_executed_stays(scan: Scanned) -> Obligation:
+    if not scan.was("ESPEFreeTestOk", "ESPEInterrupted2", "WaitForReset2", "ResetError6"):
         return None
-    ends = z3.Not(one.sends.TestExecuted)
-    return z3.And(one.inputs.Activate, one.sent.TestExecuted), TRUE if one.becomes("TestRequest") else z3.Not(
-        ends
-    )
+    ends = z3.Not(scan.sends.TestExecuted)
+    return z3.And(scan.inputs.Activate, scan.sent.TestExecuted), TRUE if scan.becomes(
+        "TestRequest"
+    ) else z3.Not(ends)
 
 
 @theorem(
@@ -265,8 +265,8 @@ def test_executed_stays_until_the_next_test() -> Queries:
     """While the block is active TestExecuted ends only in a call that begins another test."""
     yield from JUDGE.in_every_scan(test_executed_stays)
 
-    def also_inactive(one: Scanned) -> Obligation:
-        said = test_executed_stays(one)
+    def also_inactive(scan: Scanned) -> Obligation:
+        said = test_executed_stays(scan)
         return None if said is None else (TRUE, said[1])
 
     yield JUDGE.too_strong("also without Activate", also_inactive, "WaitForReset2")

@@ -58,48 +58,54 @@ def _score(sources: Sources, document: Document, kind: str) -> dict[str, Any] | 
     return None
 
 
-def _campaign(document: Document, one: Campaign) -> dict[str, Any]:
-    source = one.evidence.path
-    record = one.evidence.record
-    counts = one.counts().get("", Counter())
-    operators, cells = one.matrix()
+def _campaign(document: Document, campaign: Campaign) -> dict[str, Any]:
+    source = campaign.evidence.path
+    record = campaign.evidence.record
+    counts = campaign.counts().get("", Counter())
+    operators, cells = campaign.matrix()
     negatives = Counter(run.property for run in document.runs if run.kind == "NEG")
-    names = list(dict.fromkeys([*one.judges, *sorted(one.killed)]))
+    names = list(dict.fromkeys([*campaign.judges, *sorted(campaign.killed)]))
     return {
         "evidence": source,
-        "id": id_of(one.kind),
-        "verdict": one.evidence.figure("verdict"),
-        "good": None if one.evidence.changed else True if record["as_expected"] else _bad(record["verdict"]),
-        "why": f"the evidence is of another text of {one.evidence.changed[0]}"
-        if one.evidence.changed
+        "id": id_of(campaign.kind),
+        "verdict": campaign.evidence.figure("verdict"),
+        "good": None
+        if campaign.evidence.changed
+        else True
+        if record["as_expected"]
+        else _bad(record["verdict"]),
+        "why": f"the evidence is of another text of {campaign.evidence.changed[0]}"
+        if campaign.evidence.changed
         else record["reason"],
-        "every": one.evidence.figure("result", "every"),
-        "out_of_scope": one.evidence.figure("result", "out_of_scope"),
+        "every": campaign.evidence.figure("result", "every"),
+        "out_of_scope": campaign.evidence.figure("result", "out_of_scope"),
         "different": Figure(sum(counts[word] for word in ("KILLED", "SURVIVED", "UNMEASURED")), source),
         "counts": {word: Figure(counts[word], source) for word in WORDS},
-        "modules": _by(one, "module"),
-        "by_operator": _by(one, "operator"),
+        "modules": _by(campaign, "module"),
+        "by_operator": _by(campaign, "operator"),
         "operators": list(operators),
         "judges": [
             {
                 "id": name,
-                "stated": _stated(document, one.kind, name),
-                "asked": Figure(one.judges.get(name, 0), source),
-                "killed": Figure(one.killed[name], source),
-                "first": Figure(one.first[name], source),
-                "alone": Figure(one.alone[name], source),
-                "negatives": Figure(negatives[name], document.source("runs")) if one.kind == "spec" else None,
+                "stated": _stated(document, campaign.kind, name),
+                "asked": Figure(campaign.judges.get(name, 0), source),
+                "killed": Figure(campaign.killed[name], source),
+                "first": Figure(campaign.first[name], source),
+                "alone": Figure(campaign.alone[name], source),
+                "negatives": Figure(negatives[name], document.source("runs"))
+                if campaign.kind == "spec"
+                else None,
                 "cells": [cells.get(name, Counter())[operator] for operator in operators],
             }
             for name in names
         ],
-        "nothing": [name for name in names if one.judges.get(name) and not one.killed[name]],
-        "never_alone": [name for name in names if one.killed[name] and not one.alone[name]],
-        "survivors": _survivors(one),
+        "nothing": [name for name in names if campaign.judges.get(name) and not campaign.killed[name]],
+        "never_alone": [name for name in names if campaign.killed[name] and not campaign.alone[name]],
+        "survivors": _survivors(campaign),
         "unexplained": [
-            _edit(each) for each in one.mutants if each["verdict"] == "SURVIVED" and not each.get("why")
+            _edit(each) for each in campaign.mutants if each["verdict"] == "SURVIVED" and not each.get("why")
         ],
-        "unmeasured": [_edit(each) for each in one.mutants if each["verdict"] == "UNMEASURED"],
+        "unmeasured": [_edit(each) for each in campaign.mutants if each["verdict"] == "UNMEASURED"],
     }
 
 
@@ -107,10 +113,10 @@ def _bad(verdict: str) -> bool | None:
     return None if verdict in ("UNMEASURED", "UNJUDGED", "INCONCLUSIVE") else False
 
 
-def _by(one: Campaign, field: str) -> list[dict[str, Any]]:
+def _by(campaign: Campaign, field: str) -> list[dict[str, Any]]:
     return [
-        {"id": name, **{word: Figure(counts[word], one.evidence.path) for word in WORDS}}
-        for name, counts in one.counts(field).items()
+        {"id": name, **{word: Figure(counts[word], campaign.evidence.path) for word in WORDS}}
+        for name, counts in campaign.counts(field).items()
     ]
 
 
@@ -121,10 +127,10 @@ def _stated(document: Document, kind: str, name: str) -> str | None:
     return next((prop.id for prop in document.properties if prop.tla == name), None)
 
 
-def _survivors(one: Campaign) -> list[dict[str, Any]]:
+def _survivors(campaign: Campaign) -> list[dict[str, Any]]:
     """The survivors that are explained, by explanation."""
     groups: dict[tuple[str, str], list[Mapping[str, Any]]] = {}
-    for each in one.mutants:
+    for each in campaign.mutants:
         if each["verdict"] == "SURVIVED" and each.get("why"):
             groups.setdefault((each["kind"], each["why"]), []).append(each)
     return [

@@ -178,14 +178,14 @@ FAULTS = [
         "the invariant",
         JUDGE,
         "EDMError22",
-        lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
+        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
         [("s.params.AFTER_RESET == AT_ONCE or not i.S_OutControl", "s.params.AFTER_RESET == AT_ONCE")],
     ),
 ]
 
 
 @pytest.mark.sampled(8)
-@pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
+@pytest.mark.parametrize("fault", FAULTS, ids=[fault.name for fault in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()
     assert not fault.refuted_unplanted()
@@ -195,7 +195,7 @@ def test_properties_have_theorems_and_these_have_planted_faults() -> None:
     proved = named(rows, block_safety, block_resets, block_response, step_paths)
     of_activate = {"ErrorOutlivesDeactivation"}  # it holds of whoever drives Activate, not of the block
     assert proved | of_activate == {one.id for one in load_document(root(), "edm").properties}
-    assert {one.name for one in FAULTS} == (proved | {"the invariant"}) - {
+    assert {fault.name for fault in FAULTS} == (proved | {"the invariant"}) - {
         "EveryCallIsAnswered",
         "PowerUpIsSafe",
     }
@@ -204,9 +204,9 @@ def test_properties_have_theorems_and_these_have_planted_faults() -> None:
 def test_at_power_up_a_fault_is_refuted_too() -> None:
     with planted(BLOCK, ("return State(params, Step.IDLE,", "return State(params, Step.INIT,")) as device:
         judge = replace(JUDGE, device=device)
-        (query, *_) = judge.at_power_up(lambda one, seen: z3.Not(one.sends.Ready))
+        (query, *_) = judge.at_power_up(lambda scan, seen: z3.Not(scan.sends.Ready))
         assert wrong_answers([query])
-    (query, *_) = JUDGE.at_power_up(lambda one, seen: z3.Not(one.sends.Ready))
+    (query, *_) = JUDGE.at_power_up(lambda scan, seen: z3.Not(scan.sends.Ready))
     assert not wrong_answers([query])
 
 

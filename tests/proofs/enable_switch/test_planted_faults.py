@@ -206,7 +206,7 @@ FAULTS = [
         "the invariant",
         JUDGE,
         "Stage0",
-        lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
+        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
         [REMEMBERED],
     ),
     Planted(
@@ -267,7 +267,7 @@ FAULTS = [
 
 
 @pytest.mark.sampled(8)
-@pytest.mark.parametrize("fault", FAULTS, ids=[f"{one.name}-{one.control}" for one in FAULTS])
+@pytest.mark.parametrize("fault", FAULTS, ids=[f"{fault.name}-{fault.control}" for fault in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()
     assert not fault.refuted_unplanted()
@@ -275,7 +275,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted)
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     proved = named(switch_answers, switch_outputs, switch_safety, step_paths)
-    assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
+    assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     assert {one.id for one in load_document(root(), "enable_switch").properties} == proved
 
 

@@ -53,7 +53,7 @@ FAULTS = [
         "PowerUpIsSafe",
         JUDGE,
         "Init",
-        lambda one: (z3.Not(one.inputs.Activate), block_safety.safe_at_power_up(one, None)),
+        lambda scan: (z3.Not(scan.inputs.Activate), block_safety.safe_at_power_up(scan, None)),
         [("Outputs(False, False, False, False, 0x0000)", "Outputs(True, False, False, False, 0x0000)")],
     ),
     Planted(
@@ -97,7 +97,7 @@ FAULTS = [
         "LossNeedsGuardBack",
         JUDGE,
         "SafetyReturn",
-        lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
+        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
         [("s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE and", "s.params.CAUSE_OF_LOSS == ZONE and")],
     ),
     Planted(
@@ -307,14 +307,14 @@ FAULTS = [
         "the invariant",
         JUDGE,
         "Init",
-        lambda one: (z3.BoolVal(True), JUDGE.kept()(one)),
+        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
         [("== UNTIL_RESET and not i.S_StartReset", "== UNTIL_OPENED and not i.S_StartReset")],
     ),
 ]
 
 
 @pytest.mark.sampled(8)
-@pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
+@pytest.mark.parametrize("fault", FAULTS, ids=[fault.name for fault in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()
     if fault.name != "PowerUpIsSafe":  # it speaks of power-up, and is asked of a call here
@@ -323,7 +323,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted)
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     proved = named(block_safety, block_locks, block_memory, block_response, step_paths)
-    assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
+    assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     not_of_the_block = {"NobodyInMovingZone", "NoMotionBehindOpenDoor", "NobodyShutInByAnError"}
     not_as_decided = {"MessageUntilReset"}
     known = {one.id for one in load_document(root(), "guard_locking").properties}

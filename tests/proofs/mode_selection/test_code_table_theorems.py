@@ -190,7 +190,7 @@ ASKED: dict[frozenset[int], tuple[Query, bool]] = {}
 
 def _falls(query: Query) -> bool:
     """Whether z3 refutes it; a plant that a question does not touch leaves it word for word as it was."""
-    formulas = frozenset(one.get_id() for one in query.formulas.values())
+    formulas = frozenset(formula.get_id() for formula in query.formulas.values())
     if formulas not in ASKED:
         ASKED[formulas] = query, ask_z3(query, "", LONG_MS).answer == "sat"
     return ASKED[formulas][1]

@@ -41,7 +41,7 @@ from tests.proofs.mode_selection.composed_flow import (
     touch,
 )
 
-SYSTEM_THEOREMS = [one for one in vars(composition).values() if isinstance(one, Theorem)]
+SYSTEM_THEOREMS = [value for value in vars(composition).values() if isinstance(value, Theorem)]
 PANEL = composition_guarantees.every_scan_of_the_panel_keeps_its_guarantees
 PLC_COPIES = composition_guarantees.every_scan_of_the_plc_keeps_its_guarantees
 EKS_SIGNALS = composition_guarantees.every_scan_of_the_eks_keeps_its_guarantees
@@ -55,7 +55,9 @@ def _queries(item: Theorem) -> tuple[Query, ...]:
 @cache
 def _wrong(item: Theorem) -> tuple[str, ...]:
     """The queries of a theorem to which z3 gives another answer than the expected one."""
-    return tuple(one.name for one in _queries(item) if ask_z3(one, "", LONG_MS).answer != one.expected)
+    return tuple(
+        query.name for query in _queries(item) if ask_z3(query, "", LONG_MS).answer != query.expected
+    )
 
 
 # ---------------------------------------------------------------- proved
@@ -73,10 +75,12 @@ def test_the_shipped_device_keeps_its_guarantees(item: Theorem) -> None:
 
 def test_every_assumed_formula_has_a_theorem_that_proves_it() -> None:
     theorems = {one.name: one for one in theorems_of("mode_selection")}
-    for one in GUARANTEES:
-        assert one.theorem in theorems
+    for guarantee in GUARANTEES:
+        assert guarantee.theorem in theorems
     for proved in ARGUMENT.proved:
-        item = next(one for one in SYSTEM_THEOREMS if one.name == proved.theorem)
+        item = next(
+            system_theorem for system_theorem in SYSTEM_THEOREMS if system_theorem.name == proved.theorem
+        )
         assert item == theorems[proved.theorem]
         assert proved.name in {query.name.split(":")[0] for query in _queries(item)}
 
@@ -84,9 +88,9 @@ def test_every_assumed_formula_has_a_theorem_that_proves_it() -> None:
 def test_every_assumption_of_the_argument_stands_in_a_register() -> None:
     document = load_document(ROOT, "mode_selection")
     known = {one.id for one in (*document.assumptions, *document.findings)}
-    for one in ASSUMPTIONS:
-        assert one.register
-        assert set(one.register) <= known
+    for assumption in ASSUMPTIONS:
+        assert assumption.register
+        assert set(assumption.register) <= known
 
 
 # ---------------------------------------------------------------- the order
@@ -179,8 +183,8 @@ def test_the_invariants_hold_in_real_flows_of_the_shipped_devices() -> None:
     assert {moment.flow.fplc_state.state for moment in seen.values()} == set(fplc.Step)
     for moment in seen.values():
         system = as_system(moment)
-        for one in invariants:
-            assert is_true(one.of(system)), (one.name, moment)
+        for invariant in invariants:
+            assert is_true(invariant.of(system)), (invariant.name, moment)
 
 
 def test_flows_switch_only_to_what_was_touched_seen_and_confirmed() -> None:
@@ -220,7 +224,7 @@ def test_a_scan_of_one_device_leaves_the_others_alone() -> None:
     ):
         source = inspect.getsource(getattr(key_flows, f"scan_{device}"))
         after = key_flows.scan(moment, device, 0)
-        kept = {one.name for one in dataclasses.fields(moment)} - changes
+        kept = {field.name for field in dataclasses.fields(moment)} - changes
         assert all(getattr(after, name) is getattr(moment, name) for name in kept)
         assert all(f"{name}=" in source for name in changes)
 
@@ -326,8 +330,8 @@ def test_the_ground_of_intent_holds_with_one_broken_wire() -> None:
     assert fplc.Step.ERROR in {moment.flow.fplc_state.state for moment in seen.values()}
     for moment in seen.values():
         system = as_system(moment)
-        for one in invariants:
-            assert is_true(one.of(system)), (one.name, moment)
+        for invariant in invariants:
+            assert is_true(invariant.of(system)), (invariant.name, moment)
 
 
 def _swapped_behind_broken_wires(**wires: bool) -> Moment:
@@ -380,7 +384,7 @@ def _broken(device: Device, control: Enum) -> dict[str, tuple[Any, Any, Any]]:
             record = ends.scan.state
             if device is EKS:
                 values = {
-                    one.name: getattr(record.params, one.name) for one in dataclasses.fields(eks.Params)
+                    field.name: getattr(record.params, field.name) for field in dataclasses.fields(eks.Params)
                 }
                 opaque = unvalidated(eks.Params, values | {"checksum": lambda data: 0})
                 record = dataclasses.replace(record, params=opaque)
@@ -498,7 +502,7 @@ def test_every_property_of_the_whole_system_has_a_row() -> None:
         for name in run.properties
         if name != "TypeOK"
     }
-    assert judged <= {one.id for one in rows}
+    assert judged <= {row.id for row in rows}
     assert len(rows) >= 50
 
 
@@ -514,7 +518,7 @@ def test_tlc_and_the_theorems_agree_property_by_property() -> None:
 
 
 def test_exactly_these_properties_are_listed_as_not_proved() -> None:
-    missing = {(one.id, one.environment) for one in agreement.rows() if not one.theorem}
+    missing = {(row.id, row.environment) for row in agreement.rows() if not row.theorem}
     assert missing == {
         ("GoalReached", "honest"),
         ("NeverBeyondTheKey", "faulty_eks"),
@@ -536,10 +540,10 @@ def test_a_proof_rests_on_assumptions_whose_break_fells_the_property() -> None:
 def test_a_proof_that_forgets_an_assumption_disagrees_with_tlc() -> None:
     """The assumption stays where it is needed, and is said to stand in another row of the register."""
     forgetful = [
-        dataclasses.replace(one, register=("A-19",))
-        if one.name == "words arrive within the dwell time"
-        else one
-        for one in ASSUMPTIONS
+        dataclasses.replace(assumption, register=("A-19",))
+        if assumption.name == "words arrive within the dwell time"
+        else assumption
+        for assumption in ASSUMPTIONS
     ]
     found = agreement.disagreements(argument=Argument(GUARANTEES, forgetful, ARGUMENT.proved))
     assert any(one.startswith("UserIntent (honest)") and "A-06" in one for one in found)

@@ -34,7 +34,7 @@ MODULES: list[Any] = [panel_safety, panel_prompt, plc_safety, eks_safety, eks_pr
 
 
 def _theorems(module: ModuleType) -> list[Theorem]:
-    return [one for one in vars(module).values() if isinstance(one, Theorem)]
+    return [value for value in vars(module).values() if isinstance(value, Theorem)]
 
 
 SMALL = [item for module in MODULES[:-1] for item in _theorems(module)]
@@ -70,8 +70,8 @@ def _state(judge: Judge, always: Callable[..., z3.BoolRef]) -> Sentence:
 
 
 def _kept(judge: Judge) -> Sentence:
-    def sentence(one: Scanned) -> Obligation:
-        return z3.BoolVal(True), judge.kept()(one)
+    def sentence(scan: Scanned) -> Obligation:
+        return z3.BoolVal(True), judge.kept()(scan)
 
     return sentence
 
@@ -382,7 +382,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
 @pytest.mark.parametrize(
     ("name", "judge", "control", "sentence", "edits"),
     FAULTS,
-    ids=lambda one: one if isinstance(one, str) else "",
+    ids=lambda scan: scan if isinstance(scan, str) else "",
 )
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(
     name: str, judge: Judge, control: str, sentence: Sentence, edits: list[tuple[str, str]]

@@ -20,10 +20,10 @@ from tests.any_machine import LONG_MS
 from tests.proofs.planted_steps import begun_in, breaks, built, planted, refuted
 
 SAFETY = [
-    one
+    value
     for module in (fplc_safety, fplc_prompt, fplc_order)
-    for one in vars(module).values()
-    if isinstance(one, Theorem)
+    for value in vars(module).values()
+    if isinstance(value, Theorem)
 ]
 QUICK = [
     fplc_invariant.the_invariant_of_the_fplc_is_true_at_power_up,
@@ -80,8 +80,8 @@ def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
     return JUDGE.after_a_scan(always)
 
 
-def _kept(one: Scanned) -> Obligation:
-    return z3.BoolVal(True), JUDGE.kept()(one)
+def _kept(scan: Scanned) -> Obligation:
+    return z3.BoolVal(True), JUDGE.kept()(scan)
 
 
 ANY_CODE = ("if not within_authority(s.params, s.authority, i.MW03):", "if echo(i.MW03) == ZERO:")
@@ -345,7 +345,7 @@ FAULTS = [
 
 @pytest.mark.sampled(10)
 @pytest.mark.parametrize(
-    ("name", "control", "sentence", "edits"), FAULTS, ids=lambda one: one if isinstance(one, str) else ""
+    ("name", "control", "sentence", "edits"), FAULTS, ids=lambda scan: scan if isinstance(scan, str) else ""
 )
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(
     name: str, control: str, sentence: Sentence, edits: list[tuple[str, str]]

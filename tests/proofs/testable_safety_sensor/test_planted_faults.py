@@ -69,7 +69,7 @@ FAULTS = [
         "PowerUpIsSafe",
         JUDGE,
         "Init",
-        lambda one: (z3.Not(one.inputs.Activate), rows.power_up_is_safe(one)),
+        lambda scan: (z3.Not(scan.inputs.Activate), rows.power_up_is_safe(scan)),
         [
             (
                 "Outputs(False, False, True, False, False, False, False, False, 0x0000)",
@@ -81,7 +81,7 @@ FAULTS = [
         "EdgesAreRemembered",
         JUDGE,
         "Init",
-        lambda one: (z3.BoolVal(True), one.after.reset_before == one.inputs.Reset),
+        lambda scan: (z3.BoolVal(True), scan.after.reset_before == scan.inputs.Reset),
         [FORGETS],
     ),
     Planted(
@@ -392,7 +392,7 @@ FAULTS = [
 
 
 @pytest.mark.sampled(8)
-@pytest.mark.parametrize("fault", FAULTS, ids=[one.name for one in FAULTS])
+@pytest.mark.parametrize("fault", FAULTS, ids=[fault.name for fault in FAULTS])
 def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted) -> None:
     assert fault.refuted()
     if fault.name != "PowerUpIsSafe":  # it speaks of power-up, and is asked of a call here
@@ -403,7 +403,7 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     proved = named(
         *(rows, sensor_answers, sensor_safety, sensor_test, sensor_errors, sensor_response, step_paths)
     )
-    assert {one.name for one in FAULTS} >= proved - {"EveryCallIsAnswered"}
+    assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     beyond_the_block = {"PersonStopsMachine", "EveryPersonIsShown", "StuckSenderFails", "FailedTestIsMended"}
     known = {one.id for one in load_document(root(), "testable_safety_sensor").properties}
     assert known - proved == beyond_the_block
