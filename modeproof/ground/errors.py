@@ -5,9 +5,13 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from modeproof.kit.errors import plain
+
 EXIT_AS_EXPECTED = 0
 EXIT_NOT_AS_EXPECTED = 1
 EXIT_UNJUDGED = 2
+LONGEST = 4000
+"""Characters of a message."""
 MANY = 40
 """More names than these are not listed in one line, if one of them is close."""
 
@@ -19,7 +23,7 @@ class Unjudged(Exception):
     """
 
     def __init__(self, message: str) -> None:
-        super().__init__(" ".join(message.split()))
+        super().__init__(plain(" ".join(message.split()), LONGEST))
 
     @property
     def message(self) -> str:

@@ -15,18 +15,19 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
 from typing import IO, Any, Protocol
 
-from modeproof.kit.errors import Unjudged
+from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.lines import END, TOO_LONG, Lines, lines_of
 from modeproof.kit.signals import loads, shown
 
 LONGEST_LINE = 1 << 20
 """Bytes of one answer; a longer line is refused while it is still coming in."""
-SAFE_WRITE = 4000
-"""Bytes that surely fit into an empty pipe; a longer request is guarded by a timer."""
+LONGEST_REFUSAL = 1000
+"""Characters of the line that says why a request is refused."""
 GRACE_S = 0.2
 """How long an answer too many is waited for before a difference is believed."""
 CLOSING_S = 0.2
@@ -111,6 +112,9 @@ class Adapter:
         self._words: IO[bytes] = self.process.stderr
         self._listener = threading.Thread(target=self._drain, daemon=True)
         self._listener.start()
+        self._sending_since: float | None = None
+        self._closed = threading.Event()
+        threading.Thread(target=self._watch_sending, daemon=True).start()
 
     def _drain(self) -> None:
         with contextlib.suppress(OSError, ValueError):
@@ -127,9 +131,7 @@ class Adapter:
 
     def reset(self, params: Mapping[str, Any]) -> None:
         """Reset; any answer but {"ok":true} is refused."""
-        answer = parse_answer(self.ask({"op": "reset", "params": params}))
-        if answer != {"ok": True}:
-            raise Unjudged(f"reset was answered with {shown(answer)}")
+        self._ask_ok({"op": "reset", "params": params})
 
     def scan(self, dt_ms: int, inputs: Mapping[str, Any]) -> Mapping[str, Any]:
         """The outputs after one scan."""
@@ -181,11 +183,15 @@ class Adapter:
             words = shown(line.decode("utf-8", "replace"))
             raise Unjudged(f"a refusal or an answer was expected, got {words}")
         error = answer.get("error")
-        if set(answer) == {"error"} and isinstance(error, str) and error and "\n" not in error:
-            return {}
-        return {"answer": answer}
+        one_line = isinstance(error, str) and error.isprintable() and 0 < len(error) <= LONGEST_REFUSAL
+        return {} if one_line and set(answer) == {"error"} else {"answer": shown(answer)}
 
     # ------------------------------------------------------------------------------------------ requests
+
+    def _ask_ok(self, request: Mapping[str, Any]) -> None:
+        answer = parse_answer(self.ask(request))
+        if set(answer) != {"ok"} or answer["ok"] is not True:
+            raise Unjudged(f"{request['op']} was answered with {shown(answer)}")
 
     def ask(self, request: Mapping[str, Any]) -> bytes:
         """Send a request and return the line that answers it."""
@@ -209,11 +215,7 @@ class Adapter:
         raise Unjudged(self._how_it_ended())
 
     def _send(self, line: bytes) -> None:
-        guard = None
-        if len(line) > SAFE_WRITE:
-            guard = threading.Timer(self.timeout_s, self._give_up)
-            guard.daemon = True
-            guard.start()
+        self._sending_since = time.monotonic()
         try:
             sent = 0
             while sent < len(line):
@@ -223,12 +225,15 @@ class Adapter:
                 raise Unjudged(f"a request was not read within {self.timeout_s:g} s") from None
             raise Unjudged(self._how_it_ended()) from None
         finally:
-            if guard is not None:
-                guard.cancel()
+            self._sending_since = None
 
-    def _give_up(self) -> None:
-        self._hung = True
-        self._kill()
+    def _watch_sending(self) -> None:
+        """Ends an adapter that does not read: a full pipe would hold us up for ever."""
+        while not self._closed.wait(min(0.5, self.timeout_s / 2)):
+            since = self._sending_since
+            if since is not None and time.monotonic() - since > self.timeout_s:
+                self._hung = True
+                self._kill()
 
     def _refuse_stray(self, found: bytes | int) -> None:
         if isinstance(found, bytes):
@@ -245,9 +250,7 @@ class Adapter:
 
     def bye(self) -> None:
         """Say goodbye; whatever follows the answer is refused."""
-        answer = parse_answer(self.ask({"op": "bye"}))
-        if answer != {"ok": True}:
-            raise Unjudged(f"bye was answered with {shown(answer)}")
+        self._ask_ok({"op": "bye"})
         with contextlib.suppress(OSError):
             self._stdin.close()
         found = self._lines.get(ENDING_S)
@@ -263,7 +266,7 @@ class Adapter:
         how = "the adapter closed its output" if status is None else f"the adapter ended with status {status}"
         self._listener.join(ENDING_S if status is not None else CLOSING_S)  # for the last words
         words = self._stderr.decode("utf-8", "replace").strip().splitlines()
-        return f"{how}; it said: {words[-1][:200]}" if words else how
+        return f"{how}; it said: {plain(words[-1], 200)}" if words else how
 
     def _kill(self) -> None:
         with contextlib.suppress(OSError):
@@ -278,6 +281,7 @@ class Adapter:
 
     def close(self) -> None:
         """End the process, whatever it is doing."""
+        self._closed.set()
         with contextlib.suppress(OSError):
             self._stdin.close()
         with contextlib.suppress(subprocess.TimeoutExpired):
@@ -304,7 +308,7 @@ def parse_answer(line: bytes) -> dict[str, Any]:
     try:
         answer = loads(line.decode("utf-8"))
     except (ValueError, RecursionError) as error:
-        raise Unjudged(f"not a line of JSON ({str(error)[:80]}): {_printable(line)}") from None
+        raise Unjudged(f"not a line of JSON ({plain(error, 80)}): {_printable(line)}") from None
     if not isinstance(answer, dict):
         raise Unjudged(f"not a JSON object: {_printable(line)}")
     if "error" in answer:

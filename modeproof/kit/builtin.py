@@ -6,14 +6,20 @@ modes -1 for none, sets of modes tuples of booleans.
 
 from __future__ import annotations
 
-import importlib
+import contextlib
+import hashlib
+import importlib.util
+import sys
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal
-from modeproof.kit.vectors import EXACT, Suite
+from modeproof.kit.vectors import EXACT, Case, Suite
 
+REFERENCE = "refimpl"
+"""The package of the reference implementations: beside ours, in a checkout and in the packed kit."""
 _REMEMBERED = 20_000
 
 
@@ -28,7 +34,7 @@ class Builtin:
             self.code = importlib.import_module(name)
             self._params, self._inputs = self.code.Params, self.code.Inputs
             self._power_up, self._step = self.code.power_up, self.code.step
-        except (ImportError, AttributeError, ValueError) as error:
+        except Exception as error:  # whatever the package does when it is imported
             raise Unjudged(f"--builtin {package}: {error}") from None
         self._name, self._suite = package, suite
         self._state: Any = None
@@ -76,8 +82,66 @@ class Builtin:
                 self._rows[out] = row
         return row
 
+    def at_rest(self, inputs: Mapping[str, Any]) -> bool:
+        """Whether a scan with these inputs and no time would leave everything as it is."""
+        state = self._state
+        try:
+            self.scan(0, inputs)
+            return bool(self._state == state)
+        finally:
+            self._state = state
+
     def close(self) -> None:
         """Nothing is held."""
+
+
+def reference(suite: Suite) -> Callable[[Case], bool] | None:
+    """What says whether the reference implementation gives all outputs that a case expects.
+
+    None where there is no reference implementation of the target.
+    """
+    try:
+        program = own_reference(suite)
+    except Unjudged:
+        return None
+
+    def gives(case: Case) -> bool:
+        try:
+            program.reset(case.params)
+            for scan in case.scans:
+                if scan.request is None:
+                    out = program.scan(scan.dt_ms, scan.inputs)
+                    if any(value != scan.outputs[name] for name, value in out.items()):
+                        return False
+        except Unjudged:
+            return False
+        return True
+
+    return gives
+
+
+def package_files(package: str | None) -> dict[str, str]:
+    """Hashes of the files of a package, by name; nothing where it is none or cannot be found."""
+    with contextlib.suppress(ImportError, ValueError, AttributeError):
+        spec = importlib.util.find_spec(package) if package else None
+        folders = spec.submodule_search_locations if spec is not None else None
+        return {
+            str(path): hashlib.sha256(path.read_bytes()).hexdigest()
+            for folder in folders or ()
+            for path in sorted(Path(folder).rglob("*.py"))
+        }
+    return {}
+
+
+def own_reference(suite: Suite) -> Builtin:
+    """The reference implementation of a target. Raises Unjudged where there is none beside the kit."""
+    beside = str(Path(__file__).parents[2])
+    if beside not in sys.path:
+        sys.path.append(beside)
+    program = Builtin(REFERENCE, suite)
+    if not str(getattr(program.code, "__file__", "")).startswith(beside):
+        raise Unjudged(f"the package {REFERENCE} beside the kit was expected, not {program.code.__file__}")
+    return program
 
 
 def _taker(of: Signal) -> Callable[[Any], Any]:

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
+import shlex
+import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.kit.adapter import Adapter, Program
+from modeproof.kit.adapter import Adapter, Program, split_command
+from modeproof.kit.builtin import Builtin, package_files
 from modeproof.kit.bundle import Bundle
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import EXIT, Difference, Options, Plan, Verdict, run_suite
-from modeproof.kit.resume import Resume
+from modeproof.kit.machine import with_parameters
+from modeproof.kit.resume import Resume, identity
 from modeproof.kit.text import (
     as_junit,
     as_record,
     as_text,
     difference_lines,
+    joined,
     joint_word,
+    say,
     together,
     write_json,
     write_text,
@@ -80,6 +87,13 @@ def add_parser(
         "--slow", type=_factor, default=1, metavar="K", help="make all times of the suite K times as long"
     )
     parser.add_argument(
+        "--param",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a parameter of your machine, in all cases; the reference implementation says what to expect",
+    )
+    parser.add_argument(
         "--codes", action="store_true", help="compare outputs too whose values the document does not give"
     )
     parser.add_argument(
@@ -135,8 +149,9 @@ def run_kit(args: argparse.Namespace) -> int:
             suites = Bundle.own().suites(args.target, args.suite or [FAST], args.relation)
         verdicts = judge(args, suites)
         return EXIT[joint_word(verdicts)]
-    except Unjudged as error:
-        print(f"UNJUDGED: {error}", file=sys.stderr)
+    except (Unjudged, KeyboardInterrupt) as error:
+        with contextlib.suppress(Unjudged):
+            say(f"UNJUDGED: {str(error) or 'interrupted'}", sys.stderr)
         return EXIT_UNJUDGED
 
 
@@ -157,14 +172,20 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
         raise Unjudged("--scans belongs to --case")
     if args.resume is not None and (args.case is not None or len(suites) > 1):
         raise Unjudged("--resume is for one suite at a time, and all its cases")
-    verdicts = []
-    for number, suite in enumerate(suites, 1):
-        verdict = _judge(args, suite)
-        verdicts.append(verdict)
-        last = number == len(suites)
-        print(as_text(verdict, again(args, suite, verdict), suite, last), flush=True)
+    if args.param:
+        suites = [with_parameters(suite, args.param, args.relation) for suite in suites]
+    verdicts: list[Verdict] = []
+    with _ended_alike():
+        for suite in suites:
+            verdict = _judge(args, suite)
+            verdict.params = tuple(args.param)
+            verdicts.append(verdict)
+            last = suite is suites[-1] or verdict.interrupted
+            say(as_text(verdict, again(args, suite, verdict), suite, last))
+            if verdict.interrupted:
+                break
     if len(verdicts) > 1:
-        print(together(verdicts))
+        say(together(verdicts))
     if args.json is not None:
         record = as_record(verdicts[0])
         if len(verdicts) > 1:
@@ -180,10 +201,30 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
     return verdicts
 
 
+@contextlib.contextmanager
+def _ended_alike() -> Iterator[None]:
+    """What asks a process to end does so as Ctrl-C does: adapters are ended, and the verdict is UNJUDGED."""
+
+    def interrupt(number: int, frame: Any) -> None:
+        raise KeyboardInterrupt
+
+    kinds = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {}
+    if threading.current_thread() is threading.main_thread():
+        before = {kind: signal.getsignal(kind) for kind in kinds}
+    for kind, handler in before.items():
+        if handler is signal.SIG_DFL:  # under nohup it stays ignored
+            signal.signal(kind, interrupt)
+    try:
+        yield
+    finally:
+        for kind, handler in before.items():
+            if handler is signal.SIG_DFL:
+                signal.signal(kind, handler)
+
+
 def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
-    resume = None
-    if args.resume:
-        resume = Resume(args.resume, suite, _program_words(args), args.relation, args.codes)
+    resume = Resume(args.resume, suite, _identity(args)) if args.resume else None
     plan = Plan(
         options=Options(args.relation, args.latency, args.hold, args.slow, args.codes),
         only=args.case,
@@ -194,14 +235,16 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
         skip=resume.done if resume is not None else (),
     )
 
-    def progress(done: int, total: int) -> None:
+    def tell(text: str) -> None:
         if not args.quiet:
-            print(f"{suite.target} {suite.name}: {done:,} of {total:,} scans", file=sys.stderr, flush=True)
+            with contextlib.suppress(Unjudged):  # nobody need read it
+                say(text, sys.stderr)
+
+    def progress(done: int, total: int) -> None:
+        tell(f"{suite.target} {suite.name}: {done:,} of {total:,} scans")
 
     def first(found: Difference) -> None:
-        if not args.quiet:
-            print("first difference:", file=sys.stderr)
-            print("\n".join(difference_lines(found, suite)[:12]), file=sys.stderr, flush=True)
+        tell(joined(["first difference:", *difference_lines(found, suite)[:12]]))
 
     verdict = run_suite(
         suite,
@@ -210,10 +253,21 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
         on_progress=_now_and_then(progress),
         on_difference=first,
         on_passed=resume.note if resume is not None else None,
+        on_hello=resume.hello if resume is not None else None,
     )
-    if resume is not None:
+    if resume is not None and (verdict.cases or verdict.differences):
         resume.write()
     return verdict
+
+
+def _identity(args: argparse.Namespace) -> dict[str, Any]:
+    """What a note of passed cases is true of: the program, as far as it can be known, and every option."""
+    files = [args.adapter and split_command(args.adapter) or [], [str(args.map)] if args.map else []]
+    return {
+        "program": _program_words(args),
+        "files": identity(word for words in files for word in words) | package_files(args.builtin),
+        **{name: getattr(args, name) for name in ("relation", "latency", "hold", "slow", "codes", "param")},
+    }
 
 
 def starter(args: argparse.Namespace, suite: Suite) -> Callable[[], Program]:
@@ -227,8 +281,6 @@ def starter(args: argparse.Namespace, suite: Suite) -> Callable[[], Program]:
             raise Unjudged("--s7: a PLC is one program; --jobs is for adapters")
         # The adapter gives up first, with better words than "no answer".
         return lambda: Adapter(s7_adapter(args, suite), 3 * args.timeout + 5)
-    from modeproof.kit.builtin import Builtin
-
     return lambda: Builtin(args.builtin, suite)
 
 
@@ -269,18 +321,27 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
     ):
         if value != usual:
             words.append(f"--{name} {value}")
+    words += [f"--param {quoted(text)}" for text in args.param]
     if args.codes:
         words.append("--codes")
-    words.append(f"--case {found.case.id}")
-    if found.confirmed and len(found.shortest.scans) < len(found.case.scans):
-        words.append(f"--scans {found.part}")
+    # A part of a case has another id than the case, which no file knows.
+    words.append(f"--case {args.case or found.case.id}")
+    if args.scans is not None:
+        words.append(f"--scans {quoted(args.scans)}")
+    elif found.confirmed and len(found.shortest.scans) < len(found.case.scans):
+        words.append(f"--scans {quoted(found.part)}")
     return " ".join(words)
 
 
 def quoted(text: str) -> str:
-    """A word of a command line for sh and for Windows alike: in double quotes where it needs them."""
-    plain = text and all(char.isalnum() or char in "_-./:=+@%,\\" for char in text)
-    return text if plain else '"' + text.replace('"', '\\"') + '"'
+    """A word of a command line for sh and for Windows alike: in double quotes where it needs them.
+
+    In single quotes where sh would read something into it.
+    """
+    simple = text and all(char.isalnum() or char in "_-./:=+@%,\\" for char in text)
+    if any(char in text for char in "$`!"):
+        return shlex.quote(text)
+    return text if simple else '"' + text.replace('"', '\\"') + '"'
 
 
 def _now_and_then(report: Callable[[int, int], None]) -> Callable[[int, int], None]:

@@ -23,6 +23,8 @@ from modeproof.kit.errors import Unjudged
 from modeproof.kit.ids import case_id
 
 FORM = "modeproof-compact-1"
+LARGEST_PART = 1 << 28
+"""Bytes of a part when it is unpacked."""
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 _SCAN = {"dt_ms", "in", "out", "step", "to", "column"}
 _WIDTHS = (1, 3, 1, 5, 4)
@@ -85,7 +87,15 @@ def expand(data: bytes) -> Iterator[dict[str, Any]]:
     """The rows of the file, the header first, as JSON would give them. Raises Unjudged for other bytes."""
     try:
         yield from _expanded(data)
-    except (ValueError, KeyError, IndexError, TypeError, EOFError, _lzma().LZMAError) as error:
+    except (
+        ValueError,
+        KeyError,
+        IndexError,
+        TypeError,
+        AttributeError,
+        EOFError,
+        _lzma().LZMAError,
+    ) as error:
         raise Unjudged(f"not a compact vector file: {type(error).__name__} {error}") from None
 
 
@@ -96,7 +106,10 @@ def _expanded(data: bytes) -> Iterator[dict[str, Any]]:
         raise ValueError(f"form {about['form']}")
     parts = []
     for length in about["parts"]:
-        parts.append(_lzma().decompress(data[start : start + length]))
+        unpacked = _lzma().LZMADecompressor()
+        parts.append(unpacked.decompress(data[start : start + length], LARGEST_PART))
+        if not unpacked.eof:
+            raise ValueError(f"a part that is cut off, or has more than {LARGEST_PART:,} bytes")
         start += length
     header, cases, letters, outputs = map(json.loads, parts[:4])
     columns, uses, order, moves, shown = (

@@ -9,122 +9,34 @@ from __future__ import annotations
 import threading
 import time
 from collections import Counter
-from collections.abc import Callable, Container, Iterator, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from modeproof.kit.adapter import Program
+from modeproof.kit.builtin import reference
+from modeproof.kit.contract import Watch
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
-from modeproof.kit.vectors import MONITOR, Case, Suite
+from modeproof.kit.vectors import MONITOR, Case, Scan, Suite
+from modeproof.kit.verdict import (
+    CONFORMS,
+    DIFFERS,
+    EXIT,
+    PROTOCOL,
+    UNJUDGED,
+    Difference,
+    Plan,
+    Verdict,
+)
 
-__all__ = ["CONFORMS", "DIFFERS", "UNJUDGED", "Difference", "Hello", "Options", "Plan", "Verdict"]
+__all__ = ["CONFORMS", "DIFFERS", "EXIT", "UNJUDGED", "Difference", "Hello", "Options", "Plan", "Verdict"]
 __all__ += ["read_hello", "run_suite"]
 
-CONFORMS, DIFFERS, UNJUDGED = "CONFORMS", "DIFFERS", "UNJUDGED"
-EXIT = {CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
-PROTOCOL = "protocol"
-"""Stands for the step where an adapter answered what it must refuse."""
 SHRINKING_S = 5.0
 """No new attempt to make a case shorter begins after this time."""
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What is run: the `options`, one case (`only`) or a part of it (`part`), how many programs at once
-    (`jobs`).
-
-    After `most` differing cases it ends. `effort` is how often a case may be run again to find a shorter one.
-    Cases whose number (from 0) is in `skip` passed in an earlier run.
-    """
-
-    options: Options = field(default_factory=Options)
-    only: str | None = None
-    part: str | None = None
-    jobs: int = 1
-    most: int = 1
-    effort: int = 2
-    skip: Container[int] = ()
-
-
-@dataclass(frozen=True)
-class Difference:
-    """The first wrong scan of a case. `scan` counts from 1; `expected` and `got` hold what differs only.
-
-    `part` names the scans of `shortest`, the shortest part that was found to show a difference; `confirmed`
-    says whether it did so when it was run again.
-    """
-
-    case: Case
-    scan: int
-    step: str
-    clauses: tuple[str, ...]
-    findings: tuple[str, ...]
-    expected: Mapping[str, Any]
-    got: Mapping[str, Any]
-    shortest: Case
-    confirmed: bool
-    when: str = ""
-    part: str = ""
-    broken: str = ""
-    says: str = ""
-
-    @property
-    def cause(self) -> tuple[str, ...]:
-        """What differences of one cause are likely to share: property or step, and the wrong outputs."""
-        return (self.broken or self.step, *sorted(self.expected))
-
-
-@dataclass
-class Verdict:
-    """The result of a run; `covered` counts for each step the transitions seen and all there are.
-
-    `differences` holds one for each case that came out wrong, up to the number asked for; `properties` in how
-    many scans each safety property was put to the program; `passed` the numbers of the cases that passed;
-    `not_compared` the outputs left out because the document does not give their values.
-    """
-
-    word: str
-    target: str
-    suite: str
-    relation: str
-    cases: int = 0
-    cases_total: int = 0
-    scans: int = 0
-    seconds: float = 0.0
-    adapter: str = ""
-    unobserved: tuple[str, ...] = ()
-    not_compared: tuple[str, ...] = ()
-    latency: int = 0
-    covered: dict[str, tuple[int, int]] = field(default_factory=dict)
-    clauses: dict[str, tuple[int, int]] = field(default_factory=dict)
-    properties: dict[str, int] = field(default_factory=dict)
-    unjudged: tuple[str, ...] = ()
-    differences: list[Difference] = field(default_factory=list)
-    first_difference_s: float | None = None
-    passed: list[int] = field(default_factory=list)
-    ids: dict[str, str] = field(default_factory=dict)
-    reason: str = ""
-
-    @property
-    def status(self) -> int:
-        """The exit status."""
-        return EXIT[self.word]
-
-    @property
-    def difference(self) -> Difference | None:
-        """The first difference, if there is one."""
-        return self.differences[0] if self.differences else None
-
-    def causes(self) -> list[tuple[tuple[str, ...], list[Difference]]]:
-        """The differences grouped by likely cause, the largest group first."""
-        found: dict[tuple[str, ...], list[Difference]] = {}
-        for difference in self.differences:
-            found.setdefault(difference.cause, []).append(difference)
-        return sorted(found.items(), key=lambda item: -len(item[1]))
-
-
+ENDING_S = 5.0
+"""How long several programs may take to end after an interruption."""
 Progress = Callable[[int, int], None]
 """Gets the scans done and all there are."""
 
@@ -138,27 +50,34 @@ def run_suite(
     on_progress: Progress | None = None,
     on_difference: Callable[[Difference], None] | None = None,
     on_passed: Callable[[int], None] | None = None,
+    on_hello: Callable[[Hello], None] | None = None,
 ) -> Verdict:
     """Judge a program by a suite, or by the one case whose id is `only`.
 
     Whatever cannot be judged ends in the verdict UNJUDGED, with what was found so far; nothing is raised for
-    it, and every program is closed. `on_difference` is called at once with the first one, before it is made
-    shorter, `on_passed` with the number of each case that passed. An interruption from the keyboard is
-    UNJUDGED too.
+    it, and every program is closed. `on_hello` is told what a program says of itself, and may raise Unjudged;
+    `on_difference` is called at once with the first one, before it is made shorter, `on_passed` with the
+    number of each case that passed. An interruption from the keyboard is UNJUDGED too.
     """
     plan = plan or Plan(only=only)
     verdict = Verdict(UNJUDGED, suite.target, suite.name, plan.options.relation)
     verdict.cases_total = 1 if plan.only is not None else suite.case_count
+    if plan.only is not None:
+        verdict.only = f"scans {plan.part} of case {plan.only}" if plan.part else f"case {plan.only}"
     run = _Run(suite, verdict, plan, on_progress, on_difference)
-    run.on_passed = on_passed
+    run.on_passed, run.on_hello = on_passed, on_hello
     began = time.monotonic()
     try:
         run.all(start)
     except KeyboardInterrupt:
         run.stop.set()
         verdict.word, verdict.reason = UNJUDGED, f"interrupted after {verdict.cases:,} cases"
+        verdict.interrupted = True
     verdict.seconds = time.monotonic() - began
-    run.finish()
+    run.cover()
+    if verdict.word == CONFORMS:
+        verdict.reason = run.too_little()
+        verdict.word = UNJUDGED if verdict.reason else CONFORMS
     return verdict
 
 
@@ -174,6 +93,11 @@ class _Run:
         self.suite, self.verdict, self.plan = suite, verdict, plan
         self.on_progress, self.on_difference = on_progress, on_difference
         self.on_passed: Callable[[int], None] | None = None
+        self.on_hello: Callable[[Hello], None] | None = None
+        self.hello: Hello | None = None
+        self.hidden: frozenset[str] = frozenset()
+        self.watch: Watch | None = None
+        self.programs: list[Program] = []
         self.seen: list[set[tuple[int, int, int]]] = [set() for _ in suite.steps]
         self.lock = threading.Lock()
         self.stop = threading.Event()
@@ -183,6 +107,14 @@ class _Run:
         self.causes: set[tuple[str, ...]] = set()
 
     def _todo(self) -> Iterator[tuple[int, Case]]:
+        for number, case in self._cases():
+            if number in self.plan.skip:
+                self.verdict.earlier += 1
+                self._passed(number, case)
+            else:
+                yield number, case
+
+    def _cases(self) -> Iterator[tuple[int, Case]]:
         plan, found = self.plan, False
         for number, case in enumerate(self.suite.cases()):
             if plan.only is not None:
@@ -191,10 +123,7 @@ class _Run:
                 found = True
                 if plan.part is not None:
                     case = cut(self.suite, case, read_part(plan.part, case))
-            if number in plan.skip:
-                self._passed(number, case)
-            else:
-                yield number, case
+            yield number, case
         if plan.only is not None and not found:
             raise Unjudged(f"no case with the id {plan.only}")
 
@@ -219,8 +148,10 @@ class _Run:
                         thread.join(0.2)
             except KeyboardInterrupt:
                 self.stop.set()
+                for program in self.programs:  # whoever waits for an answer hears of its end
+                    program.close()
                 for thread in threads:
-                    thread.join()
+                    thread.join(ENDING_S)
                 raise
         if self.troubles:
             verdict.word, verdict.reason = UNJUDGED, self.troubles[0]
@@ -231,10 +162,41 @@ class _Run:
                     "the adapter answers a request that protocol 1 tells it to refuse; "
                     "this says nothing about the program behind it"
                 )
-        elif verdict.cases == 0:
-            verdict.reason = "no case was run"
         else:
             verdict.word = CONFORMS
+
+    def too_little(self) -> str:
+        """Why nothing that differs is no pass yet: what was not judged; nothing where all was."""
+        verdict = self.verdict
+        if verdict.cases != verdict.cases_total:
+            return f"{verdict.cases:,} of {verdict.cases_total:,} cases were judged"
+        if verdict.earlier == verdict.cases:
+            return "all cases passed in an earlier run, so nothing was run; remove the note to judge again"
+        if not verdict.compared:
+            return "no output was compared in any scan"
+        if verdict.relation == MONITOR:
+            return self._never_put()
+        if self.hidden and not verdict.transitions[0]:
+            return "none of the transitions shows in the outputs that are observed"
+        return ""
+
+    def _never_put(self) -> str:
+        """Safety properties that this suite puts to a right program, and that were never put to this one."""
+        missing = {name for name, count in self.verdict.properties.items() if not count}
+        if missing and self.watch is not None and len(missing) < len(self.verdict.properties):
+            for _, case in self._cases():
+                self.watch.reset(case.params)
+                for scan in case.scans:
+                    if scan.request is None:
+                        self.watch.scan(scan.dt_ms, scan.inputs, scan.outputs)
+            missing = {name for name in missing if self.watch.counts[name]}
+        if not missing:
+            return ""
+        names = ", ".join(name for name in self.verdict.properties if name in missing)
+        return (
+            f"{len(missing)} of {len(self.verdict.properties)} safety properties were never put to the "
+            f"program, for it never did what they are about: {names}"
+        )
 
     def _work(self, start: Callable[[], Program]) -> None:
         """Take cases until none is left, or something ends it all."""
@@ -242,6 +204,7 @@ class _Run:
         program: Program | None = None
         try:
             program = start()
+            self.programs.append(program)
             try:
                 session = _open(self.suite, program, self.plan.options)
                 self._greet(session)
@@ -252,20 +215,31 @@ class _Run:
             finally:
                 self._account(session)
                 program.close()
-        except Unjudged as error:
-            place = session.place if session is not None and program is not None else ""
+        except Exception as error:
             self.stop.set()
-            self.troubles.append(f"{place}: {error}" if place else str(error))
+            place = session.place if session is not None and program is not None else ""
+            words = str(error) if isinstance(error, Unjudged) else f"{type(error).__name__}: {error}"
+            self.troubles.append(f"{place}: {words}" if place else words)
 
     def _greet(self, session: Session) -> None:
         verdict, hello = self.verdict, session.hello
         with self.lock:
+            if self.hello not in (None, hello):
+                raise Unjudged(
+                    "one of the programs says of itself what the others do not, so no two are alike"
+                )
+            if self.hello is None and self.on_hello is not None:
+                self.on_hello(hello)
+            self.hello = hello
+            self.hidden = frozenset(hello.unobserved) - frozenset(self.suite.codes)
+            verdict.outputs = (len(session.compared), len(self.suite.outputs) - len(session.not_compared))
             verdict.adapter = f"{hello.name} {hello.version}".strip()
             verdict.unobserved = hello.unobserved
             verdict.not_compared = session.not_compared
             verdict.latency = session.latency
             if session.watch is not None:
                 verdict.unjudged = session.watch.unjudged
+                self.watch = Watch(session.watch.contract, 0, session.hidden)
 
     def _account(self, session: Session | None) -> None:
         if session is None or session.watch is None:
@@ -314,13 +288,23 @@ class _Run:
     def _passed(self, number: int, case: Case) -> None:
         self.verdict.cases += 1
         self.verdict.passed.append(number)
-        self.verdict.ids[case.id] = "passed"
         by_column = self.suite.header.get("counted_by") == "column"
-        before = case.initial
+        before, last, shows = case.initial, None, not self.hidden
         for scan in case.scans:
+            self.verdict.compared += scan.compared
             if scan.request is None:
-                self.seen[scan.step].add((case.graph, before, scan.column if by_column else scan.to))
-                before = scan.to
+                if self._shows(last, scan):
+                    self.seen[scan.step].add((case.graph, before, scan.column if by_column else scan.to))
+                    shows = True
+                before, last = scan.to, scan
+        self.verdict.ids[case.id] = "passed" if shows else "not seen"
+
+    def _shows(self, last: Scan | None, scan: Scan) -> bool:
+        """Whether a compared output changes in this scan, or none does: else nobody saw what happened."""
+        if not self.hidden or last is None or last.outputs is scan.outputs:
+            return True
+        changed = {name for name, value in scan.outputs.items() if last.outputs[name] != value}
+        return not changed or bool(changed - self.hidden)
 
     def _tell(self) -> None:
         now = time.monotonic()
@@ -328,7 +312,7 @@ class _Run:
             self.reported = now
             self.on_progress(self.verdict.scans, self.suite.scan_count)
 
-    def finish(self) -> None:
+    def cover(self) -> None:
         """Work out what was covered."""
         seen: Counter[str] = Counter()
         total: Counter[str] = Counter()
@@ -372,7 +356,7 @@ def _difference(suite: Suite, case: Case, failure: Failure) -> Difference:
         expected=failure.expected,
         got=failure.got,
         shortest=cut(suite, case, part),
-        confirmed=False,
+        confirmed=None,
         when=failure.when,
         part=str(part),
         broken=broken.id if broken is not None else "",
@@ -394,13 +378,13 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
         session.scans = scans
         return again is not None
 
-    if found.step == PROTOCOL:
-        return _with(suite, found, Part(tuple(range(found.scan))), True)
     whole = Part(tuple(range(found.scan)))
-    if plan.part is not None or plan.effort <= 0:
+    if found.step == PROTOCOL:
         return _with(suite, found, whole, True)
+    if plan.part is not None or plan.effort <= 0:
+        return _with(suite, found, whole, None)
     anything = plan.options.relation == MONITOR
-    best = Shrinker(suite, found.case, failure.at, fails, anything).run()
+    best = Shrinker(suite, found.case, failure.at, fails, reference(suite), anything).run()
     confirmed = best != whole
     if not confirmed:
         left, ends = 1, time.monotonic() + SHRINKING_S
@@ -409,7 +393,5 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
     return _with(suite, found, best, confirmed)
 
 
-def _with(suite: Suite, found: Difference, part: Part, confirmed: bool) -> Difference:
-    values = {name: getattr(found, name) for name in Difference.__dataclass_fields__}
-    values |= {"shortest": cut(suite, found.case, part), "confirmed": confirmed, "part": str(part)}
-    return Difference(**values)
+def _with(suite: Suite, found: Difference, part: Part, confirmed: bool | None) -> Difference:
+    return replace(found, shortest=cut(suite, found.case, part), confirmed=confirmed, part=str(part))

@@ -17,7 +17,7 @@ from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.contract import Property, Watch
-from modeproof.kit.errors import Unjudged
+from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.signals import shown
 from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Case, Scan, Suite
 
@@ -26,6 +26,8 @@ BATCH = 64
 STABLE = 2
 """Scans for which settled outputs must stand."""
 MOST_LATENCY = 10_000
+LONGEST_NAME = 100
+"""Characters of what a program calls itself."""
 _REMEMBERED = 20_000
 
 
@@ -95,7 +97,7 @@ class Session:
         if not 0 <= self.latency <= MOST_LATENCY:
             raise Unjudged(f"a latency of 0 to {MOST_LATENCY} scans expected, not {self.latency}")
         left_out = () if options.codes else suite.codes
-        hidden = (*self.hello.unobserved, *left_out)
+        self.hidden = hidden = (*self.hello.unobserved, *left_out)
         self.not_compared = tuple(name for name in left_out if name not in self.hello.unobserved)
         self.compared = tuple(name for name in suite.outputs if name not in hidden)
         if not self.compared:
@@ -105,6 +107,11 @@ class Session:
         contract = suite.contract() if options.relation != EXACT else None
         if contract is not None:
             self.watch = Watch(contract, self.latency, hidden)
+        if options.relation == MONITOR and self.latency and SETTLED not in suite.relations:
+            raise Unjudged(
+                f"suite {suite.name} changes inputs in every scan, and the program may need {self.latency} "
+                "scans for each, so that its safety properties say nothing: use a suite that holds inputs (sic)"
+            )
         if options.relation == MONITOR and (self.watch is None or not self.watch.judged):
             raise Unjudged("no safety property can be judged on the outputs that are compared")
         self.scans = 0
@@ -130,7 +137,7 @@ class Session:
             self.watch.reset(self._slowed(case.params))
         if self.options.relation == EXACT:
             failure = self._exact(case)
-        elif self.options.relation == SETTLED or (SETTLED in self.suite.relations and self.latency):
+        elif self.options.relation == SETTLED or self.latency:
             failure = self._settled(case)
         else:
             failure = self._watched(case)
@@ -392,7 +399,7 @@ def _differ(got: Mapping[str, Any], wanted: Mapping[str, Any], names: Sequence[s
 
 def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -> Hello:
     """Check the answer to hello. Raises Unjudged when the relation is not possible with it."""
-    if answer.get("ok") is not True:
+    if not isinstance(answer, Mapping) or answer.get("ok") is not True:
         raise Unjudged(f"hello was answered with {shown(answer, 200)}")
     offered = answer.get("relations", [EXACT])
     # Who answers scan by scan also settles, and who settles can be watched.
@@ -406,15 +413,16 @@ def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -
     if type(latency) is not int or latency < 0 or (relation == EXACT and latency != 0):
         raise Unjudged(f"relation {relation} allows no latency, the adapter has {shown(latency)} scans")
     unobserved = answer.get("unobserved", [])
-    if not isinstance(unobserved, list) or any(name not in suite.outputs for name in unobserved):
+    if not isinstance(unobserved, list) or not all(
+        isinstance(name, str) and name in suite.outputs for name in unobserved
+    ):
         raise Unjudged(f"unobserved must list outputs of the target, got {shown(unobserved)}")
     lists = answer.get("scans", False)
     if type(lists) is not bool:
         raise Unjudged(f"scans must be true or false, got {shown(lists)}")
-    names = [str(answer.get(key, "")) for key in ("name", "version")]
     return Hello(
-        name=names[0][:100] or "unnamed",
-        version=names[1][:100],
+        name=plain(answer.get("name", ""), LONGEST_NAME) or "unnamed",
+        version=plain(answer.get("version", ""), LONGEST_NAME),
         unobserved=tuple(dict.fromkeys(unobserved)),
         lists=lists,
         latency=latency,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -12,6 +13,8 @@ from typing import Any, NoReturn
 from modeproof.kit.errors import Unjudged
 
 _WORD = re.compile("[0-9A-F]{4}")
+DIGITS = 40
+"""Characters of a number on the wire; no signal needs half as many."""
 TYPES = ("word", "bool", "mode", "modes", "text", "int", "ms")
 
 
@@ -90,8 +93,30 @@ def shown(value: Any, limit: int = 60) -> str:
 
 
 def loads(text: str | bytes) -> Any:
-    """JSON in the strict sense: no NaN or Infinity, no key twice. Raises ValueError."""
-    return json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_twins)
+    """JSON in the strict sense: no NaN or Infinity, no key twice, no number of more than `DIGITS` characters.
+
+    Raises ValueError.
+    """
+    return json.loads(
+        text,
+        parse_constant=_no_constant,
+        parse_int=_integer,
+        parse_float=_float,
+        object_pairs_hook=_no_twins,
+    )
+
+
+def _integer(text: str) -> int:
+    if len(text) > DIGITS:
+        raise ValueError(f"a number of {len(text)} digits")
+    return int(text)
+
+
+def _float(text: str) -> float:
+    number = float(text)
+    if len(text) > DIGITS or not math.isfinite(number):
+        raise ValueError(f"{text[:DIGITS]} is out of range")
+    return number
 
 
 def _no_constant(name: str) -> NoReturn:

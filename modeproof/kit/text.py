@@ -3,20 +3,40 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
+import sys
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import Any
+from typing import IO, Any
 from xml.sax.saxutils import escape, quoteattr
 
-from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import CONFORMS, DIFFERS, UNJUDGED, Difference, Verdict
+from modeproof.kit.errors import Unjudged, plain
+from modeproof.kit.files import write_json as write_json
+from modeproof.kit.files import write_text as write_text
 from modeproof.kit.vectors import EXACT, MONITOR, Case, Suite
+from modeproof.kit.verdict import CONFORMS, DIFFERS, UNJUDGED, Difference, Verdict
 
+LONGEST_LINE = 4000
+"""Characters of a line that is printed."""
 LONGEST_SHOWN = 40
 MOST_CAUSES = 10
 MOST_MISSED = 12
+
+
+def joined(lines: Sequence[str]) -> str:
+    """Lines to be printed; what others wrote in them is harmless, and makes no line of its own."""
+    return "\n".join(plain(line, LONGEST_LINE) for line in lines)
+
+
+def say(text: str, stream: IO[str] | None = None) -> None:
+    """Print, with escapes for what the stream's code page does not have.
+
+    Raises Unjudged where it cannot be written: a verdict that nobody can read is none.
+    """
+    stream = stream or sys.stdout
+    coding = getattr(stream, "encoding", None) or "utf-8"
+    try:
+        print(text.encode(coding, "backslashreplace").decode(coding), file=stream, flush=True)
+    except (OSError, ValueError) as error:
+        raise Unjudged(f"the result cannot be printed: {error}") from None
 
 
 def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last: bool = True) -> str:
@@ -44,27 +64,49 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last:
         lines.append("")
     lines += _coverage(verdict, last)
     lines.append(f"{verdict_word(verdict)}: {verdict.reason}" if verdict.reason else verdict_word(verdict))
-    return "\n".join(lines)
+    return joined(lines)
 
 
 def verdict_word(verdict: Verdict) -> str:
     """The word of the verdict, with relation and suite where it conforms, and what was left out."""
-    if verdict.word != CONFORMS:
-        return verdict.word
-    return f"{CONFORMS}({verdict.relation}, {verdict.suite}{_left_out(verdict)})"
-
-
-def _left_out(verdict: Verdict) -> str:
-    return f"; not compared: {', '.join(verdict.not_compared)}" if verdict.not_compared else ""
+    return _word([verdict])
 
 
 def together(verdicts: Sequence[Verdict]) -> str:
     """One line for several suites; UNJUDGED counts for more than DIFFERS."""
     word = joint_word(verdicts)
     if word == CONFORMS:
-        suites = " ".join(verdict.suite for verdict in verdicts)
-        return f"{CONFORMS}({verdicts[0].relation}, {suites}{_left_out(verdicts[0])})"
-    return f"{word}: {', '.join(f'{verdict.suite} {verdict.word}' for verdict in verdicts)}"
+        return _word(verdicts)
+    return joined([f"{word}: {', '.join(f'{verdict.suite} {verdict.word}' for verdict in verdicts)}"])
+
+
+def _word(verdicts: Sequence[Verdict]) -> str:
+    """The word of verdicts that are alike, with all that was not judged."""
+    first = verdicts[0]
+    if first.word != CONFORMS:
+        return first.word
+    suites = " ".join(
+        f"{verdict.only} of {verdict.suite}" if verdict.only else verdict.suite for verdict in verdicts
+    )
+    notes = [f"{first.relation}, {suites}"]
+    hidden = {name: None for verdict in verdicts for name in verdict.unobserved}
+    if hidden:
+        have, all_ = first.outputs
+        notes += [f"{have} of {all_} outputs compared", f"not observed: {', '.join(hidden)}"]
+    if first.not_compared:
+        notes.append(f"not compared: {', '.join(first.not_compared)}")
+    if first.params:
+        notes.append(f"with {', '.join(first.params)}")
+    if first.relation == MONITOR:
+        put = sum(1 for verdict in verdicts for count in verdict.properties.values() if count)
+        all_ = sum(len(verdict.properties) + len(verdict.unjudged) for verdict in verdicts)
+        notes += [f"{put} of {all_} properties put to the program"] if put < all_ else []
+    elif any(seen < all_ for seen, all_ in (verdict.transitions for verdict in verdicts)):
+        seen, all_ = (sum(counts) for counts in zip(*(one.transitions for one in verdicts), strict=True))
+        notes.append(f"{seen:,} of {all_:,} transitions")
+    if earlier := sum(verdict.earlier for verdict in verdicts):
+        notes.append(f"resumed: {earlier:,} cases passed in an earlier run")
+    return f"{CONFORMS}({'; '.join(notes)})"
 
 
 def joint_word(verdicts: Sequence[Verdict]) -> str:
@@ -74,10 +116,9 @@ def joint_word(verdicts: Sequence[Verdict]) -> str:
 
 
 def _coverage(verdict: Verdict, last: bool) -> list[str]:
-    seen = sum(have for have, _ in verdict.covered.values())
-    total = sum(all_ for _, all_ in verdict.covered.values())
+    seen, total = verdict.transitions
     rate = f", {verdict.scans / verdict.seconds:,.0f} scans a second" if verdict.seconds > 0.05 else ""
-    steps = "" if verdict.relation == MONITOR else f", {seen:,} of {total:,} transitions"
+    steps = f", {seen:,} of {total:,} transitions" if total and verdict.relation != MONITOR else ""
     lines = [
         f"{verdict.target} {verdict.adapter}: {verdict.cases:,} of {verdict.cases_total:,} cases passed, "
         f"{verdict.scans:,} scans{steps}, {verdict.seconds:.1f} s{rate}"
@@ -89,7 +130,8 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
                 more = f" and {len(missed) - MOST_MISSED} more" if len(missed) > MOST_MISSED else ""
                 lines.append(f"{what} not covered in full: {', '.join(missed[:MOST_MISSED])}{more}")
             elif counts:
-                lines.append(f"all {sum(1 for _, n in counts.values() if n)} {what} covered in full")
+                whole = "as far as the outputs compared show it" if verdict.unobserved else "in full"
+                lines.append(f"all {sum(1 for _, n in counts.values() if n)} {what} covered {whole}")
     if verdict.relation != EXACT and verdict.word != UNJUDGED:
         put = ", ".join(f"{name} {count:,}" for name, count in verdict.properties.items() if count)
         never = [name for name, count in verdict.properties.items() if not count]
@@ -140,6 +182,8 @@ def _way(found: Difference) -> list[str]:
     case = found.shortest
     if found.confirmed:
         title = f"shortest way there ({len(case.scans)} scans, which show it; of the case {found.part}):"
+    elif found.confirmed is None:
+        title = f"the case up to there ({len(case.scans)} scans):"
     else:
         title = (
             f"the case up to there ({len(case.scans)} scans; run again it showed NO difference, so the "
@@ -179,7 +223,12 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         "adapter": verdict.adapter,
         "cases": verdict.cases,
         "cases_total": verdict.cases_total,
+        "only": verdict.only,
+        "params": list(verdict.params),
+        "cases_of_an_earlier_run": verdict.earlier,
         "scans": verdict.scans,
+        "scans_compared": verdict.compared,
+        "outputs_compared": list(verdict.outputs),
         "seconds": round(verdict.seconds, 3),
         "unobserved": list(verdict.unobserved),
         "not_compared": list(verdict.not_compared),
@@ -225,33 +274,36 @@ def as_junit(verdicts: Sequence[Verdict]) -> str:
     for verdict in verdicts:
         found = {difference.case.id: difference for difference in verdict.differences}
         errors = 1 if verdict.word == UNJUDGED else 0
-        name = quoteattr(f"{verdict.target} {verdict.relation} {verdict.suite}")
+        only = f" {verdict.only}" if verdict.only else ""
+        name = quoteattr(plain(f"{verdict.target} {verdict.relation} {verdict.suite}{only}"))
+        unseen = sum(1 for state in verdict.ids.values() if state == "not seen")
         lines.append(
             f'<testsuite name={name} tests="{len(verdict.ids) + errors}" failures="{len(found)}" '
-            f'errors="{errors}" time="{verdict.seconds:.3f}">'
+            f'errors="{errors}" skipped="{unseen}" time="{verdict.seconds:.3f}">'
         )
-        if verdict.not_compared:
-            names = quoteattr(", ".join(verdict.not_compared))
-            lines.append(f'<properties><property name="not compared" value={names}/></properties>')
-        for id in verdict.ids:
-            case = f"<testcase classname={quoteattr(verdict.target)} name={quoteattr(id)}"
+        left_out = {"not compared": verdict.not_compared, "not observed": verdict.unobserved}
+        lines += ["<properties>"] if any(left_out.values()) else []
+        for what, names in left_out.items():
+            if names:
+                lines.append(f'<property name="{what}" value={quoteattr(", ".join(names))}/>')
+        lines += ["</properties>"] if any(left_out.values()) else []
+        for id, state in verdict.ids.items():
+            case = f"<testcase classname={quoteattr(plain(verdict.target))} name={quoteattr(plain(id))}"
+            if state == "not seen":
+                lines += [case + ">", '<skipped message="no output that is observed shows it"/></testcase>']
+                continue
             if id not in found:
                 lines.append(case + "/>")
                 continue
-            message = quoteattr(f"{found[id].broken or found[id].step}, scan {found[id].scan}")
-            text = escape(_printed("\n".join(difference_lines(found[id]))))
+            message = quoteattr(plain(f"{found[id].broken or found[id].step}, scan {found[id].scan}"))
+            text = escape(joined(difference_lines(found[id])))
             lines += [case + ">", f"<failure message={message}>{text}</failure>", "</testcase>"]
         if errors:
-            message = quoteattr(_printed(verdict.reason))
-            lines += [f'<testcase classname={quoteattr(verdict.target)} name="the run">']
+            message = quoteattr(plain(verdict.reason))
+            lines += [f'<testcase classname={quoteattr(plain(verdict.target))} name="the run">']
             lines += [f"<error message={message}/>", "</testcase>"]
         lines.append("</testsuite>")
     return "\n".join([*lines, "</testsuites>", ""])
-
-
-def _printed(text: str) -> str:
-    """Without what XML cannot hold."""
-    return "".join(one if one in "\n\t" or one.isprintable() else "?" for one in text)
 
 
 def _scans(case: Case) -> dict[str, Any]:
@@ -262,23 +314,3 @@ def _scans(case: Case) -> dict[str, Any]:
         for scan in case.scans
     ]
     return {"id": case.id, "params": dict(case.params), "scans": scans}
-
-
-def write_json(path: Path, record: Mapping[str, Any]) -> None:
-    """Write a record as a whole or not at all. Raises Unjudged when that is not possible."""
-    write_text(path, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a text as a whole or not at all. Raises Unjudged when that is not possible."""
-    part = ""
-    try:
-        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        os.chmod(part, 0o644)
-        os.replace(part, path)
-    except OSError as error:
-        if part and os.path.exists(part):
-            os.unlink(part)
-        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None

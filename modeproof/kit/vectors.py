@@ -15,20 +15,21 @@ without it, the graph's shortest way to the state is tried.
 from __future__ import annotations
 
 import gzip
+import hashlib
 import json
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from modeproof.kit.compact import expand
 from modeproof.kit.contract import Contract, read_contract
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.ids import case_id as case_id
 from modeproof.kit.ids import id_of_text as id_of_text
-from modeproof.kit.signals import Signal, loads, read_signals
+from modeproof.kit.signals import Signal, loads, read_signals, shown
 
 KIND, VERSION = "modeproof-vectors", 1
 EXACT, SETTLED, MONITOR = "exact", "settled", "monitor"
@@ -39,6 +40,10 @@ COMPACT = ".compact"
 """The suffix of a member of an archive that is in the form of modeproof.kit.compact."""
 FILE_NAME = "{suite}.jsonl.gz"
 """How the file of a suite is called in the folder of its target."""
+LONGEST_LINE = 1 << 26
+"""Bytes; the longest published line has a fortieth of it."""
+_ODD = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError, RecursionError)
+"""What a file of another form raises while it is read."""
 
 
 @dataclass(frozen=True)
@@ -124,7 +129,7 @@ class Suite:
             count += 1
             try:
                 yield self._case(row)
-            except (KeyError, TypeError, ValueError, IndexError) as error:
+            except _ODD as error:
                 cause = f"{type(error).__name__} {error}"
                 raise Unjudged(f"{self.path.name}: line {number}: not a test case: {cause}") from None
         if count != self.case_count:
@@ -134,7 +139,7 @@ class Suite:
         inputs: dict[str, Any] = {}
         outputs: dict[str, Any] = {}
         scans: list[Scan] = []
-        initial = self.header["graphs"][row["graph"]]["initial"]
+        initial, steps = self.header["graphs"][row["graph"]]["initial"], len(self.steps)
         for scan in row["scans"]:
             if "refuse" in scan:
                 to = scans[-1].to if scans else initial
@@ -145,6 +150,9 @@ class Suite:
             if scan["out"]:
                 outputs = {**outputs, **scan["out"]}
             compared = "settling" not in scan
+            numbers = (scan["dt_ms"], scan["step"], scan["to"], scan["column"])
+            if any(type(number) is not int or number < 0 for number in numbers) or numbers[1] >= steps:
+                raise ValueError(f"dt_ms, step, to and column {numbers}")
             scans.append(
                 Scan(scan["dt_ms"], inputs, outputs, scan["step"], scan["to"], scan["column"], compared)
             )
@@ -159,9 +167,9 @@ class Suite:
             raise ValueError(f"id {row['id']} does not belong to these inputs (was the file edited?)")
         return Case(
             id=row["id"],
-            why=row["why"],
-            basis=row["basis"],
-            clauses=tuple(row["clauses"]),
+            why=_text(row["why"]),
+            basis=_text(row["basis"]),
+            clauses=_texts(row["clauses"]),
             params=row["params"],
             graph=row["graph"],
             initial=initial,
@@ -216,29 +224,47 @@ def open_suite(path: Path, member: str = "") -> Suite:
     if header.get("kind") != KIND or header.get("version") != VERSION:
         raise Unjudged(f"{place}: not a vector file of version {VERSION}")
     try:
+        counts = [header["cases"], header["scans"], *(row["transitions"] for row in header["steps"])]
+        if any(type(count) is not int for count in counts):
+            raise TypeError("cases, scans and transitions are numbers")
+        graphs = [
+            (dict(graph["params"]), graph["initial"], len(graph["views"])) for graph in header["graphs"]
+        ]
         suite = Suite(
             path=path,
             member=member,
             header=header,
-            target=header["target"],
-            document=header["document"],
-            name=header["suite"],
-            relations=tuple(header["relations"] if "relations" in header else [header["relation"]]),
-            parameters=dict(header.get("parameters", {})),
+            target=_text(header["target"]),
+            document=_text(header["document"]),
+            name=_text(header["suite"]),
+            relations=_texts(header["relations"] if "relations" in header else [header["relation"]]),
+            parameters={name: dict(row) for name, row in header.get("parameters", {}).items()},
             inputs=read_signals(header["inputs"], place),
             outputs=read_signals(header["outputs"], place),
             steps=tuple(
-                Step(row["name"], tuple(row["clauses"]), tuple(row["findings"]), row["transitions"])
+                Step(_text(row["name"]), _texts(row["clauses"]), _texts(row["findings"]), row["transitions"])
                 for row in header["steps"]
             ),
             case_count=header["cases"],
             scan_count=header["scans"],
         )
-    except (KeyError, TypeError) as error:
+    except _ODD as error:
         raise Unjudged(f"{place}: {type(error).__name__} {error}") from None
-    if suite.case_count < 1:
+    if suite.case_count < 1 or not graphs:
         raise Unjudged(f"{path.name}: the suite has no cases, so it shows nothing")
     return suite
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"a text expected, not {shown(value)}")
+    return value
+
+
+def _texts(values: Any) -> tuple[str, ...]:
+    if not isinstance(values, list):
+        raise TypeError(f"a list of texts expected, not {shown(values)}")
+    return tuple(map(_text, values))
 
 
 def changes(scans: Sequence[Scan]) -> list[tuple[int | str, Any]]:
@@ -268,12 +294,27 @@ def read_lines(path: Path, member: str = "") -> Iterator[bytes]:
                 archive.open(member) as packed,
                 gzip.open(packed) as stream,
             ):
-                yield from stream
+                yield from _bounded(path, stream)
         else:
             with gzip.open(path, "rb") if path.suffix == PACKED else path.open("rb") as stream:
-                yield from stream
+                yield from _bounded(path, stream)
     except (OSError, EOFError, KeyError, zlib.error, zipfile.BadZipFile) as error:
         raise Unjudged(f"{path}: {getattr(error, 'strerror', None) or error}") from None
+
+
+def _bounded(path: Path, stream: IO[bytes] | gzip.GzipFile) -> Iterator[bytes]:
+    while line := stream.readline(LONGEST_LINE + 1):
+        if len(line) > LONGEST_LINE:
+            raise Unjudged(f"{path}: a line longer than {LONGEST_LINE:,} bytes")
+        yield line
+
+
+def content_hash(suite: Suite) -> str:
+    """SHA-256 of the rows of a vector file, however they are packed. Raises Unjudged as reading does."""
+    found = hashlib.sha256()
+    for _, row in _rows(suite.path, suite.member):
+        found.update(json.dumps(row, sort_keys=True).encode())
+    return found.hexdigest()
 
 
 def _rows(path: Path, member: str) -> Iterator[tuple[int, Mapping[str, Any]]]:

@@ -120,8 +120,10 @@ def test_a_property_never_put_to_the_program_is_named(tour: Suite) -> None:
         def shown(self, out: Mapping[str, Any]) -> Mapping[str, Any]:
             return {"LAMP": False, "MW": "0000"}
 
-    text = as_text(judged(tour, Dark, "monitor"))
-    assert "never put to the program, so not judged: LightNeedsCode" in text
+    verdict = judged(tour, Dark, "monitor")
+    assert verdict.word == "UNJUDGED" and verdict.status == 2
+    assert "1 of 1 safety properties were never put to the program" in as_text(verdict)
+    assert verdict.reason.endswith("LightNeedsCode")
 
 
 def test_properties_of_unobserved_outputs_are_named_and_not_judged(sic: Suite) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Mapping
@@ -162,7 +163,7 @@ def test_the_command_that_is_given_runs_the_shortest_part_again(
     args = ["conform", "lamp", "--adapter", command, "--vectors", str(tmp_path / "tour.jsonl.gz"), "--quiet"]
     assert kit_main(args) == 1
     said = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("again:"))
-    tail = said[said.index("--case") :].split()
+    tail = shlex.split(said[said.index("--case") :])
     assert kit_main([*args, *tail]) == 1
     assert "of 1 cases" in capsys.readouterr().out
     (tmp_path / "good").mkdir()

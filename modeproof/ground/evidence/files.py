@@ -5,10 +5,7 @@ A file appears whole or not at all: it is written beside its place, flushed to t
 
 from __future__ import annotations
 
-import contextlib
 import json
-import os
-import tempfile
 from collections.abc import Mapping, Set
 from functools import cache
 from pathlib import Path
@@ -18,6 +15,7 @@ import jsonschema
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build
+from modeproof.kit import files
 
 
 @cache
@@ -52,29 +50,15 @@ def write(place: Path, record: Mapping[str, Any]) -> Path:
 
 
 def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
-    """Write a file atomically. Raises Unjudged when that fails; then the old file, if any, is still there."""
-    part: str | None = None
+    """Write a file atomically, its folders too. Raises Unjudged when that fails; the old file is still there.
+
+    What is no regular file is written to, and never replaced.
+    """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-            stream.flush()
-            os.fsync(stream.fileno())
-        os.chmod(part, mode)
-        os.replace(part, path)
-        part = None
-        folder = os.open(path.parent, os.O_RDONLY)
-        try:
-            os.fsync(folder)
-        finally:
-            os.close(folder)
+        files.write_whole(path, content, mode)
     except OSError as error:
         raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        if part is not None:
-            with contextlib.suppress(OSError):
-                os.unlink(part)
 
 
 def discard(place: Path, document: str, id: str) -> None:

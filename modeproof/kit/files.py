@@ -1,0 +1,62 @@
+"""Writes files as a whole or not at all; what is no regular file is written to, and never replaced."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from modeproof.kit.errors import Unjudged
+
+
+def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
+    """Write a file atomically. Raises OSError when that fails; then the old file, if any, is still there.
+
+    A device, a pipe, or a name in /dev such as /dev/stdout gets the content; it stays what it is. Where the
+    path is a link, the file that it leads to is written.
+    """
+    if path.parent == Path("/dev") or (path.exists() and not path.is_file()):
+        with path.open("ab") as stream:
+            stream.write(content)
+        return
+    path = Path(os.path.realpath(path))
+    part = ""
+    try:
+        handle, part = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.chmod(part, mode)
+        os.replace(part, path)
+        part = ""
+        with contextlib.suppress(OSError):  # not every system opens a folder
+            folder = os.open(path.parent, os.O_RDONLY)
+            try:
+                os.fsync(folder)
+            finally:
+                os.close(folder)
+    finally:  # an interruption leaves nothing behind either
+        if part:
+            with contextlib.suppress(OSError):
+                os.unlink(part)
+
+
+def write_json(path: Path, record: Mapping[str, Any]) -> None:
+    """Write a record as a whole or not at all. Raises Unjudged when that is not possible."""
+    write_text(path, json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a text as a whole or not at all. Raises Unjudged when that is not possible.
+
+    Half a surrogate pair, which UTF-8 does not have, is written as the escape that JSON reads.
+    """
+    try:
+        write_whole(path, text.encode("utf-8", "backslashreplace"))
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
