@@ -1,0 +1,72 @@
+"""What is printed to run again is true: a program that is right passes it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from modeproof.kit.__main__ import main as kit_main
+from modeproof.kit.builtin import Builtin, reference
+from modeproof.kit.judge import Plan, run_suite
+from tests.kit.faulty import ROOT, campaign, cases_of, chosen, suite_of
+
+
+@pytest.mark.xdist_group("reproductions")
+def test_no_reproduction_accuses_a_right_program() -> None:
+    counts = campaign([one for one in chosen(200) if one.target != "fplc"][::14], 5)
+    assert counts.found >= 6 and counts.replayed > 40 and counts.shorter > 10, str(counts)
+    assert counts.wrong == []
+
+
+@pytest.mark.deep
+def test_no_reproduction_of_200_faulty_programs_is_wrong() -> None:
+    counts = campaign(chosen(200), 3)
+    assert counts.found > 120 and counts.replayed > 1000 and counts.shorter > 200, str(counts)
+    assert counts.wrong == []
+
+
+def test_a_part_that_a_right_program_fails_is_not_printed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the question to the reference implementation pieces of time are cut as loops."""
+    slow = [one for one in chosen(200) if one.target == "sf_edm" and one.fault.startswith(("cuts", "rounds"))]
+    assert slow and campaign(slow, 20).wrong == []
+    monkeypatch.setattr("modeproof.kit.judge.reference", lambda suite: lambda case: True)
+    assert campaign(slow, 20).wrong != []
+
+
+def test_the_reference_knows_what_a_case_expects() -> None:
+    suite = suite_of("sf_edm", "brief")
+    assert suite is not None
+    gives = reference(suite)
+    case = next(iter(cases_of("sf_edm", "brief").values()))
+    assert gives is not None and gives(case)
+    wrong = replace(case.scans[-1], outputs={**case.scans[-1].outputs, "Ready": False})
+    assert not gives(replace(case, scans=(*case.scans[:-1], wrong)))
+    assert not gives(replace(case, params={"NONE": 1}))
+    assert reference(replace(suite, target="none")) is None
+
+
+def test_what_was_not_run_again_is_not_said_to_be(capsys: pytest.CaptureFixture[str]) -> None:
+    """Neither with the first difference, nor where a part is judged."""
+    path = ROOT / "vectors/sf_edm/brief.jsonl.gz"
+    args = ["conform", "sf_edm", "--builtin", chosen(200)[70].package or "none", "--vectors", str(path)]
+    programs = [one for one in chosen(200) if one.target == "sf_edm" and one.package]
+    args[3] = next(one.package for one in programs if differs(one.package))
+    assert kit_main(args) == 1
+    told = capsys.readouterr()
+    assert "first difference:" in told.err and "NO difference" not in told.err + told.out
+    again = next(line for line in told.out.splitlines() if line.startswith("again:")).split()
+    tail = [word.strip('"') for word in again[again.index("--case") :]]
+    assert kit_main([*args, *tail]) == 1
+    told = capsys.readouterr()
+    assert "NO difference" not in told.err + told.out and "the case up to there" in told.out
+    again = next(line for line in told.out.splitlines() if line.startswith("again:")).split()
+    assert [word.strip('"') for word in again[again.index("--case") :]] == tail, "a case that exists"
+
+
+def differs(package: str) -> bool:
+    suite = suite_of("sf_edm", "brief")
+    assert suite is not None
+    found = run_suite(suite, lambda: Builtin(package, suite), plan=Plan(effort=60)).difference
+    return found is not None and found.part != f"1-{found.scan}"
