@@ -262,10 +262,10 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
 
 def _identity(args: argparse.Namespace) -> dict[str, Any]:
     """What a note of passed cases is true of: the program, as far as it can be known, and every option."""
-    files = [args.adapter and split_command(args.adapter) or [], [str(args.map)] if args.map else []]
+    words = split_command(args.adapter) if args.adapter else []
     return {
         "program": _program_words(args),
-        "files": identity(word for words in files for word in words) | package_files(args.builtin),
+        "files": identity([*words, *([str(args.map)] if args.map else [])]) | package_files(args.builtin),
         **{name: getattr(args, name) for name in ("relation", "latency", "hold", "slow", "codes", "param")},
     }
 

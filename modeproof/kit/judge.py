@@ -15,10 +15,11 @@ from dataclasses import replace
 from modeproof.kit.adapter import Program
 from modeproof.kit.builtin import reference
 from modeproof.kit.contract import Watch
+from modeproof.kit.diagnosis import timing
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
-from modeproof.kit.vectors import MONITOR, Case, Scan, Suite
+from modeproof.kit.vectors import EXACT, MONITOR, Case, Scan, Suite
 from modeproof.kit.verdict import (
     CONFORMS,
     DIFFERS,
@@ -35,6 +36,8 @@ __all__ += ["read_hello", "run_suite"]
 
 SHRINKING_S = 5.0
 """No new attempt to make a case shorter begins after this time."""
+TIMING = 40
+"""How often a shortest case is run again to find out whether the time is wrong."""
 ENDING_S = 5.0
 """How long several programs may take to end after an interruption."""
 Progress = Callable[[int, int], None]
@@ -271,12 +274,12 @@ class _Run:
             first = self.verdict.first_difference_s is None
             if first:
                 self.verdict.first_difference_s = time.monotonic() - self.began
-            if len(self.verdict.differences) >= self.plan.most:
+            if self.enough():
                 return
             at = len(self.verdict.differences)
             self.verdict.differences.append(found)
             self.verdict.ids[case.id] = "differs"
-            if len(self.verdict.differences) >= self.plan.most:
+            if self.enough():
                 self.stop.set()
         if first and self.on_difference is not None:
             self.on_difference(found)
@@ -284,6 +287,10 @@ class _Run:
             found = _shrunk(self.suite, session, found, failure, self.plan)
             with self.lock:
                 self.verdict.differences[at] = found
+
+    def enough(self) -> bool:
+        """Whether so many cases differ as were asked for. All requests that must be refused are tried."""
+        return sum(one.step != PROTOCOL for one in self.verdict.differences) >= self.plan.most
 
     def _passed(self, number: int, case: Case) -> None:
         self.verdict.cases += 1
@@ -334,12 +341,21 @@ def _open(suite: Suite, program: Program, options: Options) -> Session:
         raise Unjudged(f"hello: {error}") from None
 
 
+def _steps(case: Case, failure: Failure) -> list[int]:
+    """The steps on which the wrong outputs rest: those that change one, or else all since the input."""
+    steps = {}
+    for n in range(failure.first, failure.at + 1):
+        scan, before = case.scans[n], case.scans[n - 1].outputs if n else {}
+        if any(before.get(name) != scan.outputs[name] for name in failure.expected):
+            steps[scan.step] = None
+    every = dict.fromkeys(scan.step for scan in case.scans[failure.first : failure.at + 1])
+    return list(steps or every)
+
+
 def _difference(suite: Suite, case: Case, failure: Failure) -> Difference:
     """A failure in words; its shortest case is its beginning as yet."""
     scan = case.scans[failure.at]
-    steps = [
-        suite.steps[n] for n in dict.fromkeys(s.step for s in case.scans[failure.first : failure.at + 1])
-    ]
+    steps = [suite.steps[n] for n in _steps(case, failure)]
     name = " > ".join(step.name for step in steps)
     clauses = tuple(sorted({clause for step in steps for clause in step.clauses}))
     findings = tuple(sorted({finding for step in steps for finding in step.findings}))
@@ -368,7 +384,7 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
     """The difference with a shorter case, as far as `effort` and time go. May raise Unjudged."""
     left, ends = plan.effort, time.monotonic() + SHRINKING_S
 
-    def fails(case: Case) -> bool:
+    def judged(case: Case) -> Failure | None:
         nonlocal left
         if left <= 0 or time.monotonic() > ends:
             raise StopIteration
@@ -376,7 +392,10 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
         scans = session.scans
         again = session.case(case)
         session.scans = scans
-        return again is not None
+        return again
+
+    def fails(case: Case) -> bool:
+        return judged(case) is not None
 
     whole = Part(tuple(range(found.scan)))
     if found.step == PROTOCOL:
@@ -389,8 +408,13 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
     if not confirmed:
         left, ends = 1, time.monotonic() + SHRINKING_S
         confirmed = fails(cut(suite, found.case, whole))
+    found = _with(suite, found, best, confirmed)
+    if confirmed and plan.options.relation == EXACT and not session.hello.real_time:
+        left, ends = TIMING, time.monotonic() + SHRINKING_S
+        shown = judged(found.shortest)
+        found = replace(found, time=timing(found.shortest, shown, judged) if shown is not None else "")
     session.quiet()
-    return _with(suite, found, best, confirmed)
+    return found
 
 
 def _with(suite: Suite, found: Difference, part: Part, confirmed: bool | None) -> Difference:

@@ -56,7 +56,7 @@ class OwnParameters(Suite):
 
 
 def with_parameters(suite: Suite, words: Sequence[str], relation: str) -> Suite:
-    """The suite with parameters given as NAME=VALUE. Raises Unjudged for one that the target does not have."""
+    """The suite with parameters given as NAME=VALUE. Raises Unjudged where the target has no such one."""
     machine = {}
     signals = read_signals(suite.parameters, f"{suite.path.name}: parameters")
     for word in words:

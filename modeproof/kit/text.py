@@ -8,11 +8,12 @@ from collections.abc import Mapping, Sequence
 from typing import IO, Any
 from xml.sax.saxutils import escape, quoteattr
 
+from modeproof.kit.diagnosis import step_there, unseen
 from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.files import write_json as write_json
 from modeproof.kit.files import write_text as write_text
 from modeproof.kit.vectors import EXACT, MONITOR, Case, Suite
-from modeproof.kit.verdict import CONFORMS, DIFFERS, UNJUDGED, Difference, Verdict
+from modeproof.kit.verdict import CONFORMS, DIFFERS, PROTOCOL, UNJUDGED, Difference, Verdict
 
 LONGEST_LINE = 4000
 """Characters of a line that is printed."""
@@ -51,8 +52,13 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last:
         lines += difference_lines(verdict.difference, suite)
         if again:
             lines += ["", f"again:   {again}"]
-        if len(verdict.differences) > 1:
-            lines += ["", f"{len(verdict.differences)} cases differ, by likely cause:"]
+        refused = {one.case.why.partition(": ")[2] for one in verdict.differences if one.step == PROTOCOL}
+        if refused:
+            lines += ["", "answered, though protocol 1 tells the adapter to refuse it:"]
+            lines += [f"  {what}" for what in sorted(refused)]
+        causes = [(cause, those) for cause, those in causes if cause[0] != PROTOCOL]
+        if sum(len(those) for _, those in causes) > 1:
+            lines += ["", f"{sum(len(those) for _, those in causes)} cases differ, by likely cause:"]
             for cause, found in causes[:MOST_CAUSES]:
                 where, *outputs = cause
                 lines.append(
@@ -156,9 +162,13 @@ def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]
     clauses = ", ".join(found.clauses) or "none cited"
     lines = [
         f"case {found.case.id}, scan {found.scan} of {len(found.case.scans)}",
-        f"why:     {found.case.why}",
+        f"why:     {_why(found, suite)}",
         f"step:    {found.step} (clauses: {clauses})",
     ]
+    if found.time:
+        lines.append(f"time:    {found.time}")
+    elif suite is not None and (names := unseen(suite, found)):
+        lines.append(f"before:  {', '.join(names)} (no output shows whether the program took them)")
     if found.broken:
         lines.append(f"breaks:  {found.broken}: {found.says}")
     elif found.when:
@@ -174,11 +184,27 @@ def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]
     lines += ["", f"{'output':<20} {'expected':<20} got"]
     for name, wanted in found.expected.items():
         lines.append(f"{name:<20} {json.dumps(wanted):<20} {json.dumps(found.got.get(name, found.got))}")
-    lines += ["", *_way(found)]
+    lines += ["", *_way(found, suite)]
     return lines
 
 
-def _way(found: Difference) -> list[str]:
+def _why(found: Difference, suite: Suite | None) -> str:
+    """Why a case exists; of a walk, which is there for all that it passes, what this scan is about."""
+    scan = found.case.scans[found.scan - 1]
+    if suite is None or scan.request is not None or not found.case.why.startswith("a walk through"):
+        return found.case.why
+    before = found.case.scans[found.scan - 2].inputs if found.scan > 1 else {}
+    inputs = _changed(before, scan.inputs)
+    after = f" after {scan.dt_ms:,} ms" if scan.dt_ms else ""
+    return f"{step_there(suite, found.case, found.scan - 1)}, with {inputs}{after}"
+
+
+def _changed(before: Mapping[str, Any], now: Mapping[str, Any]) -> str:
+    changed = {name: value for name, value in now.items() if before.get(name, _NEW) != value}
+    return ", ".join(f"{name}={json.dumps(value)}" for name, value in changed.items()) or "inputs as before"
+
+
+def _way(found: Difference, suite: Suite | None) -> list[str]:
     case = found.shortest
     if found.confirmed:
         title = f"shortest way there ({len(case.scans)} scans, which show it; of the case {found.part}):"
@@ -200,11 +226,9 @@ def _way(found: Difference) -> list[str]:
             text = scan.request if isinstance(scan.request, str) else json.dumps(scan.request)
             lines.append(f"  request {n}, to be refused: {text}")
             continue
-        changed = {name: value for name, value in scan.inputs.items() if before.get(name, _NEW) != value}
-        inputs = (
-            ", ".join(f"{name}={json.dumps(value)}" for name, value in changed.items()) or "inputs as before"
-        )
-        lines.append(f"  scan {n}: +{scan.dt_ms} ms, {inputs}{'' if scan.compared else ' (settling)'}")
+        inputs = _changed(before, scan.inputs)
+        there = "" if suite is None else f"  | {step_there(suite, case, n - 1)}"
+        lines.append(f"  scan {n}: +{scan.dt_ms} ms, {inputs}{'' if scan.compared else ' (settling)'}{there}")
         before = scan.inputs
     return lines
 
@@ -262,6 +286,7 @@ def _record(found: Difference) -> dict[str, Any]:
         "basis": found.case.basis,
         "expected": dict(found.expected),
         "got": dict(found.got),
+        "time": found.time,
         "shortest": _scans(found.shortest),
         "shortest_scans_of_case": found.part,
         "shortest_confirmed": found.confirmed,

@@ -39,6 +39,7 @@ class Difference:
 
     `part` names the scans of `shortest`, the shortest part that was found to show a difference; `confirmed`
     says whether it did so when it was run again, and is None where it was not run again.
+    `time` says how much too late or too early the last scan of `shortest` is, where that explains it.
     """
 
     case: Case
@@ -54,6 +55,7 @@ class Difference:
     part: str = ""
     broken: str = ""
     says: str = ""
+    time: str = ""
 
     @property
     def cause(self) -> tuple[str, ...]:
@@ -67,10 +69,11 @@ class Verdict:
 
     `differences` holds one for each case that came out wrong, up to the number asked for; `properties` in how
     many scans each safety property was put to the program; `passed` the numbers of the cases that passed;
-    `not_compared` the outputs left out because the document does not give their values. `only` says which part
-    of the suite was asked for, if not all of it; `params` which parameters were given; `compared` counts the scans whose outputs were compared and
-    the requests that were refused, `outputs` the outputs that were compared and all; `earlier` cases passed
-    in an earlier run. A transition is covered only if a compared output shows it.
+    `not_compared` the outputs left out because the document does not give their values. `only` says which
+    part of the suite was asked for, if not all of it; `params` which parameters were given; `compared` counts
+    the scans whose outputs were compared and the requests that were refused, `outputs` the outputs that were
+    compared and all; `earlier` cases passed in an earlier run. A transition is covered only if a compared
+    output shows it.
     """
 
     word: str

@@ -1,0 +1,69 @@
+"""What the kit says of a faulty program leads to the fault: a step, a signal or a time that the fault touches."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from examples.faulty.run import PACK, Fault, build, load_faults, open_all, programs
+from modeproof.kit.adapter import Adapter
+from modeproof.kit.diagnosis import unseen
+from modeproof.kit.judge import Plan, run_suite
+from modeproof.kit.vectors import Suite
+from modeproof.kit.verdict import Difference
+
+PACKS = {program.target: program for program in programs()}
+SHARE = 0.9
+"""Of the faults that are caught."""
+_TIME = re.compile(r"T_[A-Z]+|_ms|elapsed|now|dt|[Tt]ime")
+
+
+def leads_there(suite: Suite, fault: Fault, found: Difference) -> bool:
+    """Whether what is named is touched: a step by what it cites, a signal by its name, a time by any."""
+    steps = {*found.step.split(" > "), *unseen(suite, found)}
+    cited = {id for step in suite.steps if step.name in steps for id in (*step.clauses, *step.findings)}
+    text = f"{fault.old} {fault.new} {fault.mistake}"
+    signals = any(re.search(rf"\b{name}\b", text) for name in found.expected)
+    return bool(cited & set(fault.breaks)) or signals or bool(found.time and _TIME.search(text))
+
+
+def rated(target: str, folder: Path, every: int = 1) -> tuple[int, list[str]]:
+    """How many faults of a pack were judged, and those whose diagnosis names nothing that they touch."""
+    program = PACKS[target]
+    suites, good = open_all(program), folder / "good"
+    build(good, program=program)
+    faults = [fault for fault in load_faults(program.pack) if not fault.reason][::every]
+    missed = []
+    for fault in faults:
+        made = build(folder / fault.id, fault, good, program)
+        suite = suites[fault.suite]
+        found = run_suite(suite, lambda made=made: Adapter([str(made)]), plan=Plan(effort=60)).difference  # type: ignore[misc]
+        if found is None or not leads_there(suite, fault, found):
+            missed.append(f"{fault.id}: {found and (found.step, unseen(suite, found), [*found.expected])}")
+    return len(faults), missed
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("target", PACKS)
+def test_nine_of_ten_diagnoses_name_what_the_fault_touches(target: str, tmp_path: Path) -> None:
+    count, missed = rated(target, tmp_path)
+    assert count > 20 and len(missed) <= (1 - SHARE) * count, "\n".join(missed)
+
+
+def test_a_sample_of_diagnoses_names_what_the_fault_touches(tmp_path: Path) -> None:
+    count, missed = rated("sf_edm", tmp_path, 6)
+    assert count >= 5 and len(missed) <= (1 - SHARE) * count, "\n".join(missed)
+
+
+def test_a_diagnosis_that_leads_elsewhere_is_counted_as_missed(tmp_path: Path) -> None:
+    """The mistake of another fault is not what the kit names."""
+    program = PACKS["sf_edm"]
+    faults = [fault for fault in load_faults(program.pack) if not fault.reason and fault.suite == "brief"]
+    made = build(tmp_path / "made", faults[0], program=program)
+    suite = open_all(program)["brief"]
+    found = run_suite(suite, lambda: Adapter([str(made)]), plan=Plan(effort=60)).difference
+    assert found is not None and leads_there(suite, faults[0], found)
+    assert not all(leads_there(suite, fault, found) for fault in faults)
+    assert PACK.is_file()
