@@ -10,10 +10,7 @@ Adapter protocol 1 is JSON Lines over standard input and output; one answer for 
     > {"op":"scans","list":[{"dt_ms":10,"in":{..}},..]}      < {"list":[{"out":{..}},..]}
     > {"op":"bye"}                                           < {"ok":true}
 
-`scans` is sent only when hello says `"scans":true`; its answer holds one `out` for each scan, in order. A
-refusal is {"error":"one line"}. Outputs that hello lists as `unobserved` may be left out; they are never
-compared. Words are four upper-case hex digits, modes 0..4 or null, sets of modes ascending lists, absent
-texts null. Standard error is free for the adapter's own messages.
+docs/adapter-protocol.md says what each field means and what must be refused. Standard error is free.
 
 What cannot be judged (no answer in time, an answer that is not one JSON object, a second answer, a wrong
 type, a missing or extra output, an adapter that ends) is UNJUDGED, names vector and scan, and ends the

@@ -110,7 +110,7 @@ class Session:
         if options.relation == MONITOR and self.latency and SETTLED not in suite.relations:
             raise Unjudged(
                 f"suite {suite.name} changes inputs in every scan, and the program may need {self.latency} "
-                "scans for each, so its safety properties would say nothing: use a suite that holds inputs (sic)"
+                "scans for each, so its properties would say nothing: use a suite that holds inputs (sic)"
             )
         if options.relation == MONITOR and (self.watch is None or not self.watch.judged):
             raise Unjudged("no safety property can be judged on the outputs that are compared")

@@ -52,7 +52,11 @@ def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last:
         lines += difference_lines(verdict.difference, suite)
         if again:
             lines += ["", f"again:   {again}"]
-        refused = {one.case.why.partition(": ")[2] for one in verdict.differences if one.step == PROTOCOL}
+        refused = {
+            one.case.why.partition(": ")[2] or one.case.why
+            for one in verdict.differences
+            if one.step == PROTOCOL
+        }
         if refused:
             lines += ["", "answered, though protocol 1 tells the adapter to refuse it:"]
             lines += [f"  {what}" for what in sorted(refused)]
@@ -129,7 +133,7 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
         f"{verdict.target} {verdict.adapter}: {verdict.cases:,} of {verdict.cases_total:,} cases passed, "
         f"{verdict.scans:,} scans{steps}, {verdict.seconds:.1f} s{rate}"
     ]
-    if verdict.word == CONFORMS and verdict.relation != MONITOR:
+    if verdict.word == CONFORMS and verdict.relation != MONITOR and total:
         for what, counts in (("steps", verdict.covered), ("clauses", verdict.clauses)):
             missed = [f"{name} {have}/{all_}" for name, (have, all_) in counts.items() if have < all_]
             if missed:

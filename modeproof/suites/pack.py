@@ -1,4 +1,5 @@
-"""Packs the kit into one file that needs nothing but Python: modeproof.kit, modeproof.s7 and vectors.
+"""Packs the kit into one file that needs nothing but Python: modeproof.kit, modeproof.s7,
+the reference implementations and vectors.
 
 Inside are the fast suites of every published target. The same inputs give the same bytes: no dates, names in
 order.
@@ -17,6 +18,7 @@ from typing import Any
 from modeproof import kit, s7
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
+from modeproof.kit.builtin import REFERENCE
 from modeproof.kit.bundle import CONTENTS, FOLDER
 from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
@@ -42,6 +44,9 @@ def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = Fals
     for package in (kit, s7):
         for source in sorted(Path(str(package.__file__)).parent.glob("*.py")):
             members[f"modeproof/{source.parent.name}/{source.name}"] = source.read_bytes()
+    ours = Path(__file__).parents[2]
+    for source in sorted((ours / REFERENCE).rglob("*.py")):  # says what to expect with other parameters
+        members[str(source.relative_to(ours))] = source.read_bytes()
     with contextlib.suppress(OSError):
         members["LICENSE"] = (place / "LICENSE").read_bytes()
     for target, document in sorted(targets.items()):

@@ -1,4 +1,4 @@
-"""What the kit says of a faulty program leads to the fault: a step, a signal or a time that the fault touches."""
+"""What the kit says of a faulty program leads to the fault: to a step, a signal or a time that it touches."""
 
 from __future__ import annotations
 
@@ -25,7 +25,9 @@ def leads_there(suite: Suite, fault: Fault, found: Difference) -> bool:
     steps = {*found.step.split(" > "), *unseen(suite, found)}
     cited = {id for step in suite.steps if step.name in steps for id in (*step.clauses, *step.findings)}
     text = f"{fault.old} {fault.new} {fault.mistake}"
-    signals = any(re.search(rf"\b{name}\b", text) for name in found.expected)
+    scan, way = found.case.scans[found.scan - 1], found.case.scans[: found.scan - 1]
+    changed = [name for name, value in scan.inputs.items() if not way or way[-1].inputs[name] != value]
+    signals = any(re.search(rf"\b{name}\b", text) for name in (*found.expected, *changed))
     return bool(cited & set(fault.breaks)) or signals or bool(found.time and _TIME.search(text))
 
 
@@ -49,7 +51,7 @@ def rated(target: str, folder: Path, every: int = 1) -> tuple[int, list[str]]:
 @pytest.mark.parametrize("target", PACKS)
 def test_nine_of_ten_diagnoses_name_what_the_fault_touches(target: str, tmp_path: Path) -> None:
     count, missed = rated(target, tmp_path)
-    assert count > 20 and len(missed) <= (1 - SHARE) * count, "\n".join(missed)
+    assert count >= 20 and len(missed) <= (1 - SHARE) * count, "\n".join(missed)
 
 
 def test_a_sample_of_diagnoses_names_what_the_fault_touches(tmp_path: Path) -> None:
