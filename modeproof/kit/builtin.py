@@ -11,6 +11,7 @@ import hashlib
 import importlib.util
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -88,6 +89,30 @@ class Builtin:
         try:
             self.scan(0, inputs)
             return bool(self._state == state)
+        finally:
+            self._state = state
+
+    def pieces(self, dt_ms: int, inputs: Mapping[str, Any]) -> tuple[int, ...]:
+        """The time of a scan in pieces: where time alone makes something happen, a piece ends a millisecond
+        before it does, and one when it does.
+        """
+        state = self._state
+
+        def after(ms: int) -> tuple[Any, ...]:
+            self._state = state
+            out = self.scan(ms, inputs)
+            names = (field.name for field in fields(self._state) if not field.name.endswith("_ms"))
+            return out, *(getattr(self._state, name) for name in names)
+
+        try:
+            same, other = 0, dt_ms
+            at_once = after(0)
+            if after(dt_ms) == at_once:
+                return (dt_ms,)
+            while other - same > 1:
+                middle = (same + other) // 2
+                same, other = (middle, other) if after(middle) == at_once else (same, middle)
+            return tuple(ms for ms in (same, 1, dt_ms - other) if ms)
         finally:
             self._state = state
 

@@ -343,7 +343,7 @@ def _open(suite: Suite, program: Program, options: Options) -> Session:
 
 def _steps(case: Case, failure: Failure) -> list[int]:
     """The steps on which the wrong outputs rest: those that change one, or else all since the input."""
-    steps = {}
+    steps: dict[int, None] = {}
     for n in range(failure.first, failure.at + 1):
         scan, before = case.scans[n], case.scans[n - 1].outputs if n else {}
         if any(before.get(name) != scan.outputs[name] for name in failure.expected):

@@ -149,6 +149,8 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
             lines.append(f"safety properties, in so many scans each (latency {verdict.latency} scans): {put}")
         if never:
             lines.append("never put to the program, so not judged: " + ", ".join(never))
+    if verdict.params and verdict.relation != EXACT:
+        lines.append("waits are those of the suite: with these parameters a limit may lie between two scans")
     if verdict.unjudged:
         lines.append("rest on outputs that are not compared, so not judged: " + ", ".join(verdict.unjudged))
     if verdict.unobserved:

@@ -15,8 +15,6 @@ from modeproof.kit.vectors import Suite
 from modeproof.kit.verdict import Difference
 
 PACKS = {program.target: program for program in programs()}
-SHARE = 0.9
-"""Of the faults that are caught."""
 _TIME = re.compile(r"T_[A-Z]+|_ms|elapsed|now|dt|[Tt]ime")
 
 
@@ -48,15 +46,15 @@ def rated(target: str, folder: Path, every: int = 1) -> tuple[int, list[str]]:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("target", PACKS)
-def test_nine_of_ten_diagnoses_name_what_the_fault_touches(target: str, tmp_path: Path) -> None:
-    count, missed = rated(target, tmp_path)
-    assert count >= 20 and len(missed) <= (1 - SHARE) * count, "\n".join(missed)
+def test_nine_of_ten_diagnoses_name_what_the_fault_touches(tmp_path: Path) -> None:
+    found = [rated(target, tmp_path / target) for target in PACKS]
+    missed = [one for _, those in found for one in those]
+    assert len(found) >= 5 and len(missed) * 10 <= sum(count for count, _ in found), "\n".join(missed)
 
 
 def test_a_sample_of_diagnoses_names_what_the_fault_touches(tmp_path: Path) -> None:
     count, missed = rated("sf_edm", tmp_path, 6)
-    assert count >= 5 and len(missed) <= (1 - SHARE) * count, "\n".join(missed)
+    assert count >= 5 and len(missed) * 10 <= count, "\n".join(missed)
 
 
 def test_a_diagnosis_that_leads_elsewhere_is_counted_as_missed(tmp_path: Path) -> None:

@@ -35,10 +35,11 @@ def conform(name: str, package: str, *more: str) -> list[str]:
 
 @pytest.fixture
 def deaf(monkeypatch: pytest.MonkeyPatch) -> str:
-    """A package whose block takes no MonitoringTime but those of the suites: it takes 200 for 170."""
+    """A package whose block takes no MonitoringTime but those of the suites: it takes 200 for 170
+    and 470."""
 
     def power_up(params: Any) -> Any:
-        time_ms = 200 if params.MonitoringTime_ms == 170 else params.MonitoringTime_ms
+        time_ms = 200 if params.MonitoringTime_ms in (170, 470) else params.MonitoringTime_ms
         return sf_edm.power_up(sf_edm.Params(time_ms, params.AFTER_RESET))
 
     names = ("Params", "Inputs", "Outputs", "step")
@@ -51,18 +52,20 @@ def deaf(monkeypatch: pytest.MonkeyPatch) -> str:
 def test_a_machines_own_parameters_are_judged_in_every_relation(
     name: str, relation: str, deaf: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    more = ["--relation", relation, "--param", "MonitoringTime_ms=170"]
+    own = f"MonitoringTime_ms={170 if relation == 'exact' else 470}"
+    more = ["--relation", relation, "--param", own]
     assert kit_main(conform(name, "refimpl", *more)) == 0
     told = capsys.readouterr().out
-    word = f"CONFORMS({relation}, {name}; not compared: DiagCode; with MonitoringTime_ms=170)"
+    word = f"CONFORMS({relation}, {name}; not compared: DiagCode; with {own})"
     assert told.endswith(f"{word}\n") and "transitions" not in told and "covered" not in told
+    assert ("a limit may lie between two scans" in told) == (relation != "exact")
     assert kit_main(conform(name, deaf, "--relation", relation)) == 0, "the suite's own time is right"
     if relation != "monitor":
         capsys.readouterr()
         assert kit_main(conform(name, deaf, *more)) == 1
         again = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("again:"))
         words = shlex.split(again)
-        assert "--param" in words and "MonitoringTime_ms=170" in words
+        assert "--param" in words and own in words
         tail = words[words.index("--case") :]
         assert kit_main([*conform(name, deaf, *more), *tail]) == 1
         assert kit_main([*conform(name, "refimpl", *more), *tail]) == 0
@@ -109,6 +112,21 @@ def test_outputs_that_have_not_settled_are_not_compared(monkeypatch: pytest.Monk
     monkeypatch.setattr(Builtin, "at_rest", lambda self, inputs: False)
     with pytest.raises(Unjudged, match="the outputs have not settled here"):
         list(own.cases())
+
+
+def test_a_time_ends_where_something_happens() -> None:
+    block = Builtin("refimpl", suite_of("sic"))
+    block.reset({"MonitoringTime_ms": 170})
+    asked = dict.fromkeys(suite_of("sic").inputs, False) | {"Activate": True, "S_StartReset": True}
+    block.scan(0, {**asked, "S_StartReset": False})
+    block.scan(0, asked)
+    assert block.pieces(100, asked) == (100,), "nothing happens in it"
+    before = block._state
+    assert sum(block.pieces(500, asked)) == 500 and len(block.pieces(500, asked)) == 3
+    assert block._state is before
+    late = sum(block.pieces(500, asked)[:2])
+    errors = [block.scan(ms, asked)["Error"] for ms in block.pieces(500, asked)]
+    assert errors == [False, True, True] and late in (170, 171)
 
 
 def test_at_rest_looks_and_changes_nothing() -> None:

@@ -84,7 +84,7 @@ def test_what_settles_wrongly_is_found(sic: Suite) -> None:
     assert found is not None and found.confirmed
     assert (found.expected, found.got) == ({"MW": "0FF0"}, {"MW": "0000"})
     late = judged(sic, Late, "settled").difference
-    assert late is not None and "not what it settles to" in late.when and late.step == "Expire > StayOff"
+    assert late is not None and "not what it settles to" in late.when and late.step == "Expire"
 
 
 def test_a_forbidden_output_is_found_even_if_it_settles_well(sic: Suite) -> None:
