@@ -9,9 +9,10 @@ reference implementation itself, which is right, does not pass it.
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -77,15 +78,25 @@ class Clumsy(Builtin):
 
 @dataclass(frozen=True)
 class Faulty:
-    """A faulty program of a target: what is wrong with it, and what starts it."""
+    """A faulty program of a target: what is wrong with it, and the text of its step where that is edited."""
 
     target: str
     fault: str
-    package: str = ""
+    text: str = ""
+
+    @property
+    def package(self) -> str:
+        """The name that `--builtin` takes; the module is made when it is asked for."""
+        package = f"faulty_{hashlib.sha256(self.text.encode()).hexdigest()[:12]}"
+        name = f"{package}.{TARGETS[self.target]}.{self.target}"
+        if self.text and name not in sys.modules:
+            made = sys.modules[name] = ModuleType(name)  # dataclasses look there
+            exec(compile(self.text, package, "exec"), made.__dict__)
+        return package
 
     def start(self, suite: Suite) -> Builtin:
         """The program, for a suite of its target."""
-        return Builtin(self.package, suite) if self.package else Clumsy(suite, self.fault)
+        return Builtin(self.package, suite) if self.text else Clumsy(suite, self.fault)
 
 
 @cache
@@ -113,19 +124,15 @@ def faulty_programs(target: str) -> Iterator[Faulty]:
     name = f"refimpl.{TARGETS[target]}.{target}"
     module = Module(name, (ROOT / f"{name.replace('.', '/')}.py").read_text(encoding="utf-8"))
     functions = [one for one in module.functions if one not in ("power_up", "outputs")]
-    for n, one in enumerate(python_mutants(module, functions, frozenset(), PythonRule())):
-        package = f"faulty_{n}"
-        made = ModuleType(f"{package}.{TARGETS[target]}.{target}")
-        sys.modules[made.__name__] = made  # dataclasses look there
-        exec(compile(applied(module.lines, one.mutant.edit), package, "exec"), made.__dict__)
-        yield Faulty(target, str(one.mutant), package)
+    for one in python_mutants(module, functions, frozenset(), PythonRule()):
+        yield Faulty(target, str(one.mutant), applied(module.lines, one.mutant.edit))
 
 
-def chosen(count: int) -> list[Faulty]:
+def chosen(count: int, targets: Sequence[str] = tuple(TARGETS)) -> list[Faulty]:
     """So many faulty programs: of each target alike, and of all kinds."""
-    each = -(-count // len(TARGETS))
+    each = -(-count // len(targets))
     found: list[Faulty] = []
-    for target in TARGETS:
+    for target in targets:
         programs = list(faulty_programs(target))
         step = max(1, len(programs) // each)
         found += programs[::step][:each]
