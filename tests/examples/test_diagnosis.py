@@ -29,7 +29,7 @@ def touched(fault: Fault) -> str:
 
 
 def named(suite: Suite, found: Difference) -> set[str]:
-    """States and signals that the kit shows: of the scan, and inputs changed since an output showed anything."""
+    """States and signals that the kit shows: of the scan, and inputs changed since an output changed."""
     case, names = found.case, set(found.expected)
     first = found.scan - 1
     while first > 1 and case.scans[first - 1].outputs == case.scans[first - 2].outputs:
