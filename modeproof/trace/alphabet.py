@@ -9,6 +9,8 @@ from modeproof.graph.classes import InputClass
 from modeproof.graph.device import DeviceGraph
 from modeproof.registers.rows import Signal
 
+MOST_KNOWN = 50_000
+"""So many inputs are remembered with what they can be."""
 _Values = tuple[tuple[str, Any], ...]
 
 
@@ -28,6 +30,8 @@ class Alphabet:
     def letters(self, values: Mapping[str, Any], dt_ms: int | None = None) -> tuple[int, ...]:
         """The inputs of the graph that `values` can be; with `dt_ms` only those with exactly this time."""
         key = (tuple(sorted(values.items())), dt_ms)
+        if len(self._known) > MOST_KNOWN:
+            self._known.clear()
         if key not in self._known:
             self._known[key] = tuple(
                 n

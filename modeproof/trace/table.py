@@ -20,7 +20,7 @@ from typing import Any
 from modeproof.graph.values import NONE
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.rows import Device, Signal
-from modeproof.trace.lines import read_text
+from modeproof.trace.lines import lines_of
 from modeproof.trace.log import Builder, Log, Row
 from modeproof.trace.targets import Target
 
@@ -51,7 +51,7 @@ def read_table(
 ) -> Log:
     """The log in `path`. Raises Unjudged with file, line and column for whatever cannot be right."""
     builder = Builder(target, path, params)
-    return _Table(builder, form or TableForm()).read(read_text(path))
+    return _Table(builder, form or TableForm()).read(path)
 
 
 class _Table:
@@ -60,21 +60,21 @@ class _Table:
         self.form = form
         self.decimal = form.decimal_words
 
-    def read(self, text: str) -> Log:
-        lines = text.split("\n")
-        if lines and lines[-1].strip():
-            raise self.builder.fail(len(lines), "the last line is cut off: it has no end of line")
-        first = 0
-        while first < len(lines) and (not lines[first].strip() or lines[first].startswith("#")):
-            self._setting(first + 1, lines[first])
-            first += 1
-        if first == len(lines):
-            return self.builder.log()
-        separator = self.form.separator or max(";,\t", key=lines[first].count)
-        names = [name.strip() for name in self._cells(first + 1, lines[first], separator)]
-        self._check_names(first + 1, names)
-        for number, line in enumerate(lines[first + 1 :], first + 2):
-            if line.strip():
+    def read(self, path: Path) -> Log:
+        names: list[str] = []
+        separator = self.form.separator
+        for number, line, ended in lines_of(path):
+            if not ended and line.strip():
+                raise self.builder.fail(number, "the last line is cut off: it has no end of line")
+            if not line.strip():
+                continue
+            if not names and line.startswith("#"):
+                self._setting(number, line)
+            elif not names:
+                separator = separator or max(";,\t", key=line.count)
+                names = [name.strip() for name in self._cells(number, line, separator)]
+                self._check_names(number, names)
+            else:
                 cells = [cell.strip() for cell in self._cells(number, line, separator)]
                 if len(cells) != len(names):
                     cut = "; the line is cut off" if len(cells) < len(names) else ""
@@ -129,6 +129,15 @@ class _Table:
                 text = f"{name!r} is no signal of {self.builder.target.id}"
                 mean = suggestion(name, dict.fromkeys(known))
                 raise self.builder.fail(number, f"{text}; {mean}; or --ignore it", column)
+        for part in self.builder.target.parts.values():
+            columns: dict[str, str] = {}
+            for name in names:
+                if name in self.form.ignore or (found := self._find(part.device, name)) is None:
+                    continue
+                other = columns.setdefault(found[1].name, name)
+                if other != name:
+                    text = f"columns {other} and {name} are one signal of {part.device.id}; --ignore one"
+                    raise self.builder.fail(number, text)
         times = [name for name in names if name in _TIMES or name == self.form.time]
         if len(times) > 1:
             raise self.builder.fail(number, f"two columns of time: {times[0]} and {times[1]}")

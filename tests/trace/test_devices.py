@@ -20,7 +20,7 @@ from modeproof.ground.places import root
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.judge import Graphs, Judgement, check
-from modeproof.trace.log import Log, Row
+from modeproof.trace.log import Log, Row, Rows
 from modeproof.trace.targets import Target, find_target
 from tests.any_machine import SHARED_FIXTURE
 from tests.trace.judging import judge, log_of
@@ -216,7 +216,7 @@ def test_the_graph_accepts_any_walk_even_if_partly_shown(
         outputs = {name: value for name, value in row.outputs.items() if name not in hidden}
         return Row(row.line, row.device, row.dt_ms, inputs, outputs)
 
-    partial = Log(log.name, tuple(seen(row) for row in log.rows), log.params)
+    partial = Log(log.name, Rows(seen(row) for row in log.rows), log.params)
     for anywhere, samples in ((False, False), (True, False), (False, True)):
         found = follow(target, partial, {device: alphabet}, anywhere, samples)
         assert isinstance(found, Followed) and found.accepted == 25
