@@ -250,6 +250,7 @@ class _Work:
             *(f"{one} == <<\n  " + ",\n  ".join(table) + ">>" for one, table in tuples),
             "LogRows == <<" + ",\n  ".join(rows) + ">>",
             "LogLines == <<\n  " + ",\n  ".join(lines) + ">>",
+            "LogStates == <<" + ",\n  ".join("{" + ",\n  ".join(one.states) + "}" for one in pieces) + ">>",
             "LogRow(n) == LogRows[LogLines[log][n]]",
             "LogIn(n) == LogIns[LogRow(n)[1]]",
             "LogOut(n) == LogOuts[LogRow(n)[3]]",
@@ -281,8 +282,7 @@ class _Work:
                 left = f"logLeft = {ANY_TIME if gap is None else gap}"
             else:
                 values = " /\\ ".join(f"{name} = s[{at}]" for at, name in enumerate(self.variables, 1))
-                states = ",\n  ".join(piece.states)
-                case = f"line = {self.before(piece)} /\\ \\E s \\in {{{states}}} : {values}"
+                case = f"line = {self.before(piece)} /\\ \\E s \\in LogStates[{n}] : {values}"
                 left = f"logLeft = s[{len(self.variables) + 1}] + {rows[piece.first].dt_ms}"
             sampled = f" /\\ {left} /\\ logTurned = FALSE" if self.samples else ""
             cases.append(f"(log = {n} /\\ {case}{sampled})")
