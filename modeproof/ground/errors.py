@@ -5,6 +5,10 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from modeproof.kit.errors import plain
+
+LONGEST = 4000
+"""Characters of a message."""
 EXIT_AS_EXPECTED = 0
 EXIT_NOT_AS_EXPECTED = 1
 EXIT_UNJUDGED = 2
@@ -19,7 +23,7 @@ class Unjudged(Exception):
     """
 
     def __init__(self, message: str) -> None:
-        super().__init__(" ".join(message.split()))
+        super().__init__(plain(" ".join(message.split()), LONGEST))
 
     @property
     def message(self) -> str:

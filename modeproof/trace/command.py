@@ -16,6 +16,7 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import root
 from modeproof.kit.command import quoted
+from modeproof.kit.errors import plain
 from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
@@ -103,7 +104,7 @@ def run(args: argparse.Namespace) -> int:
                 tools,
                 anywhere=args.begins == "anywhere",
                 samples=args.samples,
-                say=(lambda line: None) if args.quiet else (lambda line: print(line, file=sys.stderr)),
+                say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
             )
         except Unjudged as error:
             _write(place, args, target, log, id, started, tools, graphs, error.message)

@@ -69,6 +69,8 @@ def _record(builder: Builder, number: int, line: str, last: bool) -> dict[str, A
         if last:
             raise builder.fail(number, "the last line is cut off", f"column {error.colno}") from None
         raise builder.fail(number, f"no JSON: {error.msg}", f"column {error.colno}") from None
+    except ValueError:
+        raise builder.fail(number, "a number with too many digits") from None
     except RecursionError:
         raise builder.fail(number, "nested too deeply") from None
     if not isinstance(record, dict):

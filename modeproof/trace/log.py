@@ -190,7 +190,7 @@ class Builder:
                     line, f"`device` is missing; a line is of one of {', '.join(self.target.parts)}"
                 )
             return self.target.only.device
-        if name not in self.target.parts:
+        if not isinstance(name, str) or name not in self.target.parts:
             raise self.fail(
                 line,
                 f"{name!r} is no device of {self.target.id}; {suggestion(str(name), self.target.parts)}",

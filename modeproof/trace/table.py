@@ -26,10 +26,11 @@ from modeproof.trace.targets import Target
 
 _HEX = re.compile(r"(?:W#16#|16#|0x)?([0-9A-F]{1,4})", re.IGNORECASE)
 _DECIMAL = re.compile(r"\d{1,5}")
-_INTEGER = re.compile(r"-?\d+")
+_INTEGER = re.compile(r"-?\d{1,30}")
 _SETTING = re.compile(r"#\s*([\w.]+)\s*[=:]\s*(.*?)\s*")
 _TRUTH = {"0": False, "1": True, "false": False, "true": True}
 _NOTHING = ("none", "null", "-", "-1")
+LONGEST_TIME = 10**16
 _TIMES = {"dt_ms": Decimal(1), "t_ms": Decimal(1), "t_us": Decimal("0.001"), "t_s": Decimal(1000)}
 
 
@@ -182,7 +183,7 @@ class _Table:
             raise self.builder.fail(number, "the time is missing", name)
         try:
             value = Decimal(text.replace(",", ".")) * _TIMES.get(name, Decimal(1))
-            whole = int(value) if value.is_finite() else None
+            whole = int(value) if abs(value) < LONGEST_TIME else None
         except (InvalidOperation, ValueError, OverflowError):
             whole = None
         if whole is None:

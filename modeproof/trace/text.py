@@ -6,6 +6,8 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from modeproof.ground.errors import LONGEST
+from modeproof.kit.errors import plain
 from modeproof.trace.exact import Scans
 from modeproof.trace.follow import Followed, NotFollowed
 from modeproof.trace.judge import Judgement
@@ -30,7 +32,7 @@ def as_text(target: Target, found: Judgement, why: Why | None = None, samples: S
         lines += [f"  {line}" for line in ([] if why is None else _why(target, row, why))]
     share = f"; {shared(found, unit)}" if found.status == 0 else ""
     lines.append(f"{found.verdict}({'samples' if samples else 'exact'}, {log.name}{share})")
-    return "\n".join(lines)
+    return "\n".join(plain(line, LONGEST) for line in lines)
 
 
 def shared(found: Judgement, unit: str) -> str:
