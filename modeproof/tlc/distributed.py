@@ -165,10 +165,7 @@ def _rechecked(place: Path, run: Run, tools: Toolchain, outcome: Outcome) -> Out
     """The outcome, if a local run of RECHECK_S does not contradict it. Raises Unjudged otherwise."""
     if not outcome.log.success or outcome.log.counts is None:
         return outcome
-    log_file = build(place) / "tlc" / run.document / f"{run.id}.log"
-    kept = log_file.read_bytes()
-    local = run_tlc(place, structs.replace(run, timeout_s=RECHECK_S), tools)
-    log_file.write_bytes(kept)
+    local = run_tlc(place, structs.replace(run, id=f"{run.id}_again", timeout_s=RECHECK_S), tools)
     there, here = outcome.log.counts.distinct, local.log.counts.distinct if local.log.counts else 0
     if local.log.violations or here > there or (local.log.success and here != there):
         what = "violates it" if local.log.violations else f"has {here:,} states and not {there:,}"
@@ -293,7 +290,8 @@ class _Session:
 
     def _initial_states(self, module: str) -> Outcome | None:
         """A local run over the initial states: assumptions, syntax, version. The outcome if wrong."""
-        run = structs.replace(self.run_, module=module, cfg="First.cfg", base="", heap_mb=512, workers=1)
+        own = self.run_
+        run = structs.replace(own, id=f"{own.id}_first", module=module, cfg="First.cfg", base="", heap_mb=512)
         outcome = run_tlc(self.place, run, self.tools, made_in=self.room)
         self._first = outcome.log
         if outcome.status == 0 and outcome.log.success and outcome.log.finished:

@@ -20,6 +20,7 @@ from modeproof.trace.log import Log, Row
 from modeproof.trace.targets import Target
 
 MOST_STEPS = 20_000_000
+MOST_MOVES = 20_000
 
 
 @dataclass(frozen=True)
@@ -70,13 +71,18 @@ class Follower:
         for number, view in enumerate(graph.views):
             groups.setdefault(canonical(timeless(target, device, parse(view))), []).append(number)
         self._same_but_time = {number: frozenset(group) for group in groups.values() for number in group}
+        self._moves: dict[tuple[frozenset[int], tuple[int, ...]], frozenset[int]] = {}
         self._next: dict[tuple[int, tuple[int, ...]], frozenset[int]] = {}
 
     def scan(self, row: Row) -> bool:
         """Take one scan; false, and the states stay, when it is impossible."""
-        letters = self._letters(row)
-        reached = {after for state in self._opened(self.states) for after in self._after(state, letters)}
-        return self._arrive(reached, row, (row,))
+        move = (self.states, self._letters(row))
+        if move not in self._moves:
+            if len(self._moves) > MOST_MOVES:
+                self._moves.clear()
+            states, letters = self._opened(self.states), move[1]
+            self._moves[move] = frozenset(after for state in states for after in self._after(state, letters))
+        return self._arrive(self._moves[move], row, (row,))
 
     def sample(self, before: Row | None, row: Row) -> bool:
         """Any number of scans with the inputs of either row, then the outputs of `row`."""
