@@ -30,7 +30,7 @@ HEAP_ANYWHERE_MB = 1536
 TIME_LIMIT_S = 600.0
 PIECE_LINES = 5_000
 MOST_SCANS = 30_000
-"""So many scans of samples at most in one piece: TLC counts the steps of a run up to 65,535."""
+"""So many scans of samples at most in one piece: TLC gets slower with the length of a run."""
 MOST_STATES = 2_000
 """So many states may be possible between two pieces."""
 ANY_TIME = 2_000_000_000
