@@ -35,20 +35,8 @@ from modeproof.ground.places import build
 from modeproof.registers.cfg import Cfg
 from modeproof.registers.made import cfg_text, make
 from modeproof.registers.runs import Run
-from modeproof.tlc import children
-from modeproof.tlc.messages import (
-    BLOCK_TOO_BIG,
-    GENERAL,
-    SERVER_READY,
-    SUCCESS,
-    TRACE,
-    WORKER_DISCONNECTED,
-    WORKER_REGISTERED,
-    WORKER_STATS,
-    Counts,
-    Log,
-    LogReader,
-)
+from modeproof.tlc import children, messages
+from modeproof.tlc.messages import Counts, Log, LogReader
 from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.process import FINGERPRINT, SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.toolchain import Toolchain
@@ -73,6 +61,11 @@ fcntl.ioctl(socket.socket(), 0x8914, request)
 os.execvp(sys.argv[1], sys.argv[1:])
 """
 """Started in a new network, this switches its loopback on and becomes the program that is named."""
+_REFUSED = {
+    "LIVE": "TLC's distributed mode does not check liveness",
+    "OPEN": "the printed graph would be scattered over the workers",
+    "WIT": "the printed witnesses would be scattered over the workers, and TLCSet is not shared by them",
+}
 _PARSED = re.compile(r"/([^/]+\.tla)$")
 
 
@@ -100,19 +93,11 @@ def refusal(run: Run, cfg: Cfg) -> str:
 
     The form of its properties is looked at when it is run.
     """
-    if run.kind == "LIVE":
-        return "TLC's distributed mode does not check liveness"
-    if run.kind == "OPEN":
-        return "the printed graph would be scattered over the workers"
-    if run.kind == "WIT":
-        return "the printed witnesses would be scattered over the workers, and TLCSet is not shared by them"
     if run.kind != "MC":
-        return f"a run of kind {run.kind} is judged by its counterexample, which that mode does not give"
+        return _REFUSED.get(run.kind, "that mode does not give the counterexample by which it is judged")
     if run.deadlock:
         return "TLC's distributed mode does not name a deadlock"
-    if cfg.symmetry:
-        return "symmetry is not tested in that mode"
-    return ""
+    return "symmetry is not tested in that mode" if cfg.symmetry else ""
 
 
 def run_distributed(
@@ -148,6 +133,10 @@ def run_distributed(
         raise Unjudged(
             f"{run.name}: {session.registered} workers registered and {where.invited} were invited; called "
             f"from {', '.join(sorted(session.callers))}; a stranger can make any verdict"
+        )
+    if outcome.stderr.startswith("unshare"):
+        raise Unjudged(
+            f"{run.name}: no network of its own here ({outcome.stderr}); --listen 127.0.0.1 does without"
         )
     if outcome.timed_out or outcome.broken_off or outcome.status != 0:
         return outcome
@@ -242,7 +231,11 @@ class _Session:
                 thread.join()
             if server.stderr is not None:
                 server.stderr.close()
-            self._end_workers(GRACE_S if server.returncode == 0 else 0.0)
+            patience = time.monotonic() + (GRACE_S if server.returncode == 0 else 0.0)
+            for worker in self._workers:
+                while worker.poll() is None and time.monotonic() < patience:
+                    time.sleep(0.05)
+                children.end(worker)
         log = self._log(reader.close(), files)
         return Outcome(
             status=status,
@@ -297,9 +290,7 @@ class _Session:
         if outcome.status == 0 and outcome.log.success and outcome.log.finished:
             return None
         self.violation = bool(outcome.log.violations) and not outcome.log.errors
-        return (
-            replace(outcome, status=0) if self.violation else outcome
-        )  # a local run of the module says which
+        return replace(outcome, status=0) if self.violation else outcome  # a local run will say which
 
     @property
     def _address(self) -> str:
@@ -319,12 +310,12 @@ class _Session:
     # ------------------------------------------------------------------ while it runs
 
     def _message(self, code: int) -> None:
-        self.registered += code == WORKER_REGISTERED
-        self._lost += code == WORKER_DISCONNECTED
-        self._too_big |= code == BLOCK_TOO_BIG
-        self._done |= code in (SUCCESS, WORKER_STATS)
-        self.violation |= code == TRACE
-        if code == SERVER_READY:
+        self.registered += code == messages.WORKER_REGISTERED
+        self._lost += code == messages.WORKER_DISCONNECTED
+        self._too_big |= code == messages.BLOCK_TOO_BIG
+        self._done |= code in (messages.SUCCESS, messages.WORKER_STATS)
+        self.violation |= code == messages.TRACE
+        if code == messages.SERVER_READY:
             self._ready.set()
 
     def _read_calls(self, server: subprocess.Popen[bytes]) -> None:
@@ -391,13 +382,6 @@ class _Session:
         ]
         return f": {said[0].strip()[:200]}" if said else ""
 
-    def _end_workers(self, grace_s: float) -> None:
-        patience = time.monotonic() + grace_s
-        for worker in self._workers:
-            while worker.poll() is None and time.monotonic() < patience:
-                time.sleep(0.05)
-            children.end(worker)
-
     # ------------------------------------------------------------------ after
 
     def _log(self, log: Log, files: list[str]) -> Log:
@@ -407,9 +391,8 @@ class _Session:
         parsed = {match.group(1) for name in self._first.files if (match := _PARSED.search(name))}
         log.files = [path for path in files if Path(path).name in parsed]
         if self._lost:  # `lost` counts broken connections; they are no error of the model
-            log.errors = [
-                error for error in log.errors if not (error[0] == GENERAL and "java.rmi." in error[1])
-            ]
+            general = messages.GENERAL
+            log.errors = [one for one in log.errors if one[0] != general or "java.rmi." not in one[1]]
         if log.counts is not None and log.final and log.success:
             # The server adds, for each block of states: successors - 1; and the distinct states once.
             successors = log.counts.generated - log.counts.distinct + self._blocks
@@ -418,11 +401,8 @@ class _Session:
 
     def _doubt(self) -> str:
         if self._lost:
-            count = f"{self._lost} of {self.registered} workers" if self.registered > 1 else "the worker"
-            return (
-                f"{count} lost on the way: others did the work, but how many states were generated is not "
-                "known; run it again"
-            )
+            count = f"{self._lost} of {self.registered} workers"
+            return f"{count} lost on the way: how many states were generated is not known; run it again"
         if self._too_big:
             return "a block of states was too big to send, and may be lost in part: run it again"
         return ""

@@ -229,6 +229,13 @@ def test_states_that_a_worker_kept_back_are_missed(root: Path, monkeypatch: pyte
     assert "the distributed run found nothing, and a local one has" in one.judgement.reason
 
 
+def test_without_a_network_of_its_own_nothing_is_judged(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(distributed, "_ALONE", ("sh", "-c", "echo unshare: not permitted >&2; exit 1"))
+    one = spread(root, "MC_grid", Where(1))
+    assert (one.judgement.verdict, one.status) == ("UNJUDGED", 2)
+    assert "no network of its own here (unshare: not permitted); --listen 127.0.0.1" in one.judgement.reason
+
+
 def test_workers_from_elsewhere_give_the_local_verdict_and_counts(
     root: Path, local: Checked, tmp_path: Path
 ) -> None:

@@ -16,7 +16,7 @@ from tests.trace.judging import example, judge
 from tests.trace.test_devices import target_of
 from tests.trace.test_examples import MIDDLE, PLANTED, SAMPLED, SCANS
 
-PIECE = 7
+PIECE = 18
 
 
 @pytest.fixture
