@@ -25,6 +25,7 @@ from adapter import HERE, LONGEST_MS, TARGETS, TIME, Cpu, read_map
 
 SETTINGS, CYCLE = "DB1", "DB2"
 CYCLES = slice(8, 10)
+MAGIC = b"RIG!"
 RESET = 10
 AREAS = {"I": SrvArea.PE, "Q": SrvArea.PA, "M": SrvArea.MK}
 
@@ -37,6 +38,7 @@ class Plc:
         self.cpu = Cpu(program, self.places)
         self.lock = threading.Lock()
         self.control = self.cpu.bytes[CYCLE]
+        self.inputs = bytearray(len(self.cpu.bytes["I"]))
         self.stepped = True
         self.cpu.power_up({})
 
@@ -48,6 +50,8 @@ class Plc:
                 server.register_area(AREAS[area], 0, memory)
             else:
                 server.register_area(SrvArea.DB, int(area[2:]), memory)
+        server.register_area(SrvArea.DB, 3, self.inputs)
+        server.register_area(SrvArea.DB, 4, bytearray(MAGIC))
         server.set_events_callback(lambda _event: self.look())
         server.start_to("127.0.0.1", port)
         return server
@@ -56,10 +60,16 @@ class Plc:
         """After a telegram, before its answer: is power-up or a scan asked for?"""
         with self.lock:
             if self.control[RESET] & 1:
+                self.inputs[:] = bytes(len(self.inputs))
                 self.cpu.power_up({}, keep=[SETTINGS] if SETTINGS in self.cpu.bytes else [])
             if self.stepped and self.control[4:6] != self.control[6:8]:
-                self.cpu.run(self.cpu.sim.runCycle)
+                self.scan()
                 self.control[6:8] = self.control[4:6]
+
+    def scan(self) -> None:
+        """What is written for the inputs goes to the inputs, then OB1 once."""
+        self.cpu.bytes["I"][:] = self.inputs
+        self.cpu.run(self.cpu.sim.runCycle)
 
     def run_freely(self, cycle_ms: int) -> None:
         """Scan after scan, by the clock; does not return."""
@@ -71,7 +81,7 @@ class Plc:
                 passed = int((time.monotonic() - before) * 1000)  # whole ms; the rest counts in the next scan
                 before += passed / 1000
                 self.cpu.write({TIME: min(passed, LONGEST_MS)})
-                self.cpu.run(self.cpu.sim.runCycle)
+                self.scan()
                 number = (number + 1) & 0xFFFF
                 self.control[CYCLES] = number.to_bytes(2, "big")
 

@@ -33,6 +33,8 @@ from modeproof.kit.text import (
 )
 from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Suite, open_suite
 
+TEST_RIG = "--i-know-this-is-a-test-rig"
+
 EXIT_UNJUDGED = 2
 FAST = "fast"
 """Stands for every fast suite that can be judged by the relation."""
@@ -61,6 +63,9 @@ def add_parser(
         "--builtin", metavar="NAME", help="Python package (refimpl): every transition, both ways; or --suite"
     )
     parser.add_argument("--map", type=Path, metavar="FILE", help="addresses of the signals in the PLC, CSV")
+    parser.add_argument(
+        TEST_RIG, dest="test_rig", action="store_true", help="of --s7: no machine hangs on it"
+    )
     parser.add_argument("--document", metavar="NAME", help="the document of the target, where two have one")
     parser.add_argument(
         "--suite",
@@ -277,6 +282,8 @@ def starter(args: argparse.Namespace, suite: Suite) -> Callable[[], Program]:
     if args.s7 is not None:
         if args.map is None:
             raise Unjudged("--s7 needs --map FILE with the addresses of the signals")
+        if not args.test_rig:
+            raise Unjudged(f"--s7 writes into the memory of a PLC: {TEST_RIG} is missing (docs/s7.md)")
         if args.jobs > 1:
             raise Unjudged("--s7: a PLC is one program; --jobs is for adapters")
         # The adapter gives up first, with better words than "no answer".
@@ -291,6 +298,7 @@ def s7_adapter(args: argparse.Namespace, suite: Suite) -> list[str]:
     start += "runpy.run_module('modeproof.s7', None, '__main__')"
     command = [sys.executable, "-c", start, here, suite.target, "--host", args.s7, "--map", str(args.map)]
     command += ["--vectors", str(suite.path), "--member", suite.member, "--timeout", f"{args.timeout:g}"]
+    command.append(TEST_RIG)
     return command
 
 
@@ -298,7 +306,7 @@ def _program_words(args: argparse.Namespace) -> str:
     if args.adapter is not None:
         return f"--adapter {quoted(args.adapter)}"
     if args.s7 is not None:
-        return f"--s7 {args.s7} --map {quoted(str(args.map))}"
+        return f"--s7 {args.s7} --map {quoted(str(args.map))} {TEST_RIG}"
     return f"--builtin {args.builtin}"
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import argparse
 import json
+import signal
 import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from modeproof.kit.command import TEST_RIG
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal, loads, read_signals, shown
 from modeproof.kit.vectors import Suite, open_suite
@@ -78,6 +80,7 @@ class Adapter:
 
     def _bye(self, request: Mapping[str, Any]) -> dict[str, Any]:
         self.ended = True
+        self.close()
         return {"ok": True}
 
     def _connected(self) -> S7Program:
@@ -86,7 +89,7 @@ class Adapter:
         return self._plc
 
     def close(self) -> None:
-        """Hang up."""
+        """Put back what was written, and hang up."""
         if self._plc is not None:
             self._plc.close()
 
@@ -118,8 +121,12 @@ def main(argv: list[str] | None = None) -> int:
     )
     parser.add_argument("--member", default="", metavar="NAME", help="the vector file in the archive FILE")
     parser.add_argument("--timeout", type=float, default=10.0, metavar="S", help="limit for the PLC (10 s)")
+    parser.add_argument(TEST_RIG, dest="test_rig", action="store_true", help="no machine hangs on this PLC")
     args = parser.parse_args(argv)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(2))  # so that what was written is put back
     try:
+        if not args.test_rig:
+            raise Unjudged(f"this writes into the memory of a PLC: {TEST_RIG} is missing (docs/s7.md)")
         suite = open_suite(args.vectors, args.member)
         if suite.target != args.target:
             raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")

@@ -1,9 +1,9 @@
 """The address map of a target behind the S7 protocol: a CSV file with a line for each symbol.
 
     symbol,address,type
-    BUTTON,I0.0,BOOL
+    BUTTON,DB3.DBX0.0,BOOL
     CODE,MW3,WORD
-    LAMP,DB5.DBX0.0,BOOL
+    LAMP,Q0.0,BOOL           only read: what is written lies in M or a data block, never in I or Q
     HORN,-,BOOL              an output that nobody reads: unobserved
 
 Addresses are those of STEP 7, with bytes high before low; E and A may stand for I and Q. The type of a symbol
@@ -36,7 +36,11 @@ BYTES = {"BOOL": 1, "BYTE": 1, "WORD": 2, "INT": 2, "DINT": 4, "TIME": 4}
 """For each type of STEP 7 its bytes; a BOOL is one bit of its byte."""
 SIZES = {1: "B", 2: "W", 4: "D"}
 RESET, STEP, DONE, TIME, CYCLE = "@reset", "@scan", "@done", "@dt_ms", "@cycle"
+MAGIC = "@magic"
+MAGIC_NUMBER = int.from_bytes(b"RIG!", "big")
+"""What the test harness in a PLC holds at @magic, in a data block of its own: 16#52494721."""
 CONTROLS = {
+    MAGIC: ("DINT",),
     RESET: ("BOOL",),
     STEP: ("WORD",),
     DONE: ("WORD",),
@@ -139,6 +143,14 @@ def read_map(
         raise Unjudged(f"{path.name}: missing: {', '.join(missing)}; an unobserved output has the address -")
     known = {name: place for name, place in places.items() if place is not None}
     _refuse_overlap(path, known)
+    for symbol, one in known.items():
+        if one.area in "IQ" and symbol not in outputs and symbol not in (DONE, CYCLE):
+            raise Unjudged(
+                f"{path.name}: {symbol}: {one.address} would be written; use M or a data block, and let the "
+                "test harness copy it (docs/s7.md)"
+            )
+    if MAGIC in known and known[MAGIC].area != "DB":
+        raise Unjudged(f"{path.name}: {MAGIC} must lie in a data block")
     found = AddressMap(
         inputs={name: known[name] for name in inputs},
         outputs={name: known[name] for name in outputs if name in known},
@@ -279,8 +291,8 @@ def proposed_map(
 ) -> str:
     """A map to start from: words at the tags of the interface, bits and all else in blocks of their own.
 
-    Inputs go to I, outputs to Q; what has a tag that is an address goes there. Parameters go to DB1, what
-    steps the program to DB2.
+    What has a tag that is an address goes there, if that may be written. Other outputs go to Q, parameters to
+    DB1, what steps the program to DB2, and other inputs to DB3.
     """
     lines = [",".join(COLUMNS)]
     taken: list[Place] = []
@@ -288,17 +300,17 @@ def proposed_map(
     def put(name: str, signal: Signal | None, kind: str, area: str, block: int) -> None:
         tag = tags.get(name, "")
         place = _tagged(tag, kind)
-        if place is None or any(place.overlaps(one) for one in taken):
+        if place is None or (place.area != "M" and area == "DB") or any(place.overlaps(one) for one in taken):
             place = _next_free(taken, area, block, kind)
         taken.append(place)
         lines.append(f"{name},{place.address},{kind}")
 
-    for table, area in ((inputs, "I"), (outputs, "Q")):
+    for table, area, block in ((inputs, "DB", 3), (outputs, "Q", 0)):
         for name, signal in table.items():
-            put(name, signal, types_of(signal)[-1 if signal.type == "ms" else 0], area, 0)
+            put(name, signal, types_of(signal)[-1 if signal.type == "ms" else 0], area, block)
     for name, signal in parameters.items():
         put(name, signal, types_of(signal)[-1 if signal.type in ("ms", "modes") else 0], "DB", 1)
-    for name in (TIME, STEP, DONE, RESET):
+    for name in (TIME, STEP, DONE, RESET, MAGIC):
         put(name, None, CONTROLS[name][0], "DB", 2)
     return "\n".join(lines) + "\n"
 

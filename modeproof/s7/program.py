@@ -4,6 +4,7 @@ Needs python-snap7, an extra of modeproof that is imported only here and only wh
 map (`modeproof.s7.map`) says where everything lies. How the program is stepped depends on the symbols that
 the map has for it:
 
+    @magic DINT         always: holds MAGIC_NUMBER in a PLC that is a test rig; else nothing is written
     @reset BOOL         always: set by us; the program puts itself in its power-up state and clears it
     @scan, @done WORD   virtual time: we count @scan up, the program runs once and copies it to @done
     @dt_ms DINT         with these: the time since the scan before, in ms
@@ -11,7 +12,7 @@ the map has for it:
 
 With real time nothing stops the program between two cycles; so an input counts as seen when @cycle has gone
 on by two, and relation exact is not possible. What is written into the memory of an F-CPU is not what its
-inputs are: see docs/s7.md.
+inputs are: see docs/s7.md. What was written is put back at the end, but for @scan, which would start a scan.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import logging
+import sys
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -33,6 +35,8 @@ from modeproof.s7.map import (
     BYTES,
     CYCLE,
     DONE,
+    MAGIC,
+    MAGIC_NUMBER,
     RESET,
     STEP,
     TIME,
@@ -137,8 +141,9 @@ class S7Program:
         self._areas = {"I": snap7.Area.PE, "Q": snap7.Area.PA, "M": snap7.Area.MK, "DB": snap7.Area.DB}
         controls = places.controls
         stepped = {STEP, DONE, TIME} <= set(controls)
-        if RESET not in controls:
-            raise Unjudged(f"the map has no {RESET}, so no case can begin; see docs/s7.md")
+        for needed, why in ((MAGIC, "nothing tells a test rig from a machine"), (RESET, "no case can begin")):
+            if needed not in controls:
+                raise Unjudged(f"the map has no {needed}, so {why}; see docs/s7.md")
         if not stepped and (CYCLE not in controls or {STEP, DONE, TIME} & set(controls)):
             raise Unjudged(f"the map needs {STEP}, {DONE} and {TIME} (virtual time), or {CYCLE} (real time)")
         self.virtual = stepped
@@ -147,8 +152,17 @@ class S7Program:
         self._observed = blocks_of(places.outputs.values(), GAP)
         self._written = blocks_of([*places.inputs.values(), *([controls[TIME]] if stepped else [])], 0)
         self._set = blocks_of(places.parameters.values(), 0)
+        self._touched = False
+        self._before: dict[Block, bytes] = {}
         self._client = snap7.Client()
         self._connect(host, port)
+        try:
+            self._recognize()
+            for block in (*self._written, *self._set, self._block_of(RESET)):
+                self._before[block] = self._read(block)
+        except Unjudged:
+            self._hang_up()
+            raise
 
     def _connect(self, host: str, port: int) -> None:
         try:
@@ -159,6 +173,16 @@ class S7Program:
             raise Unjudged(
                 f"no S7 server at {self._where}: {error}; is the address right, the CPU on?"
             ) from None
+
+    def _recognize(self) -> None:
+        """Raises Unjudged when the PLC does not hold the magic number: it may run a machine."""
+        found = self._read_control(MAGIC) % (1 << 32)
+        if found != MAGIC_NUMBER:
+            raise Unjudged(
+                f"S7 server {self._where}: {MAGIC} {self._places.controls[MAGIC].address} holds "
+                f"16#{found:08X} and not 16#{MAGIC_NUMBER:08X}, so this PLC is no test rig; "
+                "nothing was written"
+            )
 
     # ------------------------------------------------------------------------------------------ program
 
@@ -175,7 +199,8 @@ class S7Program:
         }
 
     def reset(self, params: Mapping[str, Any]) -> None:
-        """Write the parameters and let the program do its power-up."""
+        """Write the parameters and let the program do its power-up, once the PLC is known for a test rig."""
+        self._recognize()
         values = {}
         for name, value in {**self._defaults, **params}.items():
             if name in self._places.parameters:
@@ -211,7 +236,16 @@ class S7Program:
         return self._outputs()
 
     def close(self) -> None:
-        """Hang up."""
+        """Put back what was written, and hang up; may be called twice."""
+        before, self._before = (self._before if self._touched else {}), {}
+        try:
+            for block, data in before.items():
+                self._put(block, data)
+        except Unjudged as error:
+            print(f"modeproof.s7: what was written is not put back: {error}", file=sys.stderr)
+        self._hang_up()
+
+    def _hang_up(self) -> None:
         with contextlib.suppress(Exception):
             self._client.disconnect()
 
@@ -228,26 +262,33 @@ class S7Program:
         return {name: encode(self._signals[name], places[name], value) for name, value in values.items()}
 
     def _write(self, blocks: Sequence[Block], numbers: Mapping[str, int]) -> None:
-        """Whole blocks, one telegram each; bits of a byte that have no name are written as 0."""
+        """Whole blocks, one telegram each; bits of a byte that have no name stay as they were found."""
         places = {**self._places.inputs, **self._places.parameters, **self._places.controls}
         for block in blocks:
-            data = bytearray(block.size)
+            data = bytearray(self._before.get(block, bytes(block.size)))
             for name, number in numbers.items():
                 place = places[name]
                 if not block.holds(place):
                     continue
                 at = place.byte - block.first
                 if place.bit >= 0:
-                    data[at] |= number << place.bit
+                    data[at] = data[at] & ~(1 << place.bit) | number << place.bit
                 else:
                     size = BYTES[place.type]
                     data[at : at + size] = (number % (1 << 8 * size)).to_bytes(size, "big")
-            area = self._areas[block.area]
-            self._ask(partial(self._client.write_area, area, block.block, block.first, data))
+            self._touched = True
+            self._put(block, data)
+
+    def _put(self, block: Block, data: bytes | bytearray) -> None:
+        area = self._areas[block.area]
+        self._ask(partial(self._client.write_area, area, block.block, block.first, bytearray(data)))
+
+    def _block_of(self, name: str) -> Block:
+        place = self._places.controls[name]
+        return Block(place.area, place.block, place.byte, place.last)
 
     def _write_control(self, name: str, number: int) -> None:
-        place = self._places.controls[name]
-        self._write([Block(place.area, place.block, place.byte, place.last)], {name: number})
+        self._write([self._block_of(name)], {name: number})
 
     def _read(self, block: Block) -> bytes:
         area = self._areas[block.area]
@@ -258,9 +299,7 @@ class S7Program:
 
     def _read_control(self, name: str) -> int:
         place = self._places.controls[name]
-        return number_at(
-            place, self._read(Block(place.area, place.block, place.byte, place.last)), place.byte
-        )
+        return number_at(place, self._read(self._block_of(name)), place.byte)
 
     def _outputs(self) -> dict[str, Any]:
         found = {}

@@ -39,7 +39,7 @@ def add_parser(commands: Any) -> None:
     spread.add_argument(
         "--listen",
         metavar="ADDRESS[:PORT]",
-        help="where workers of other machines reach the server (default: 127.0.0.1, any free port)",
+        help="where workers of other machines reach the server (default: nobody else can)",
     )
     spread.add_argument(
         "--wait-for", type=int, metavar="N", help="begin when N workers of other machines are there"
@@ -130,13 +130,15 @@ def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[
         return {}
     if args.repin:
         raise Unjudged("pins are taken from local runs: --repin without --distributed")
-    address, _, port = (args.listen or "127.0.0.1").partition(":")
-    if not address or (port and not (port.isdigit() and 0 < int(port) < 65536)):
+    address, _, port = (args.listen or "").partition(":")
+    if (args.listen is not None and not address) or (port and not (port.isdigit() and 0 < int(port) < 65536)):
         raise Unjudged(f"--listen takes ADDRESS or ADDRESS:PORT, not {args.listen!r}")
     waited = args.wait_for or 0
     workers = cores() if args.workers is None else args.workers
     if workers < 0 or waited < 0 or workers + waited == 0:
         raise Unjudged("--workers and --wait-for are 0 or more, and together at least 1")
+    if waited and not address:
+        raise Unjudged("--wait-for needs --listen ADDRESS, under which the others reach this machine")
     where = Where(workers, address, int(port or 0), waited)
     found: dict[str, Any] = {}
     for run in runs:

@@ -1,15 +1,16 @@
 """Runs TLC's own distributed mode: one server and some workers, which talk over RMI.
 
-The server holds the states that were seen and the queue, the workers compute successors and check them. We
-start server and workers on this machine; workers on other machines may join (docs/distributed.md). What that
-mode of TLC 2.15 leaves out is made up for here, or the run is refused:
+The server holds the states that were seen and the queue, the workers compute successors and check them.
+Without --listen they have a network of their own, which nobody else can reach; with it, workers of other
+machines may join (docs/distributed.md). What that mode of TLC 2.15 leaves out is made up for, or refused:
 
-- action properties are checked on transitions to new states only: they are asserted on every transition
-  (transitions.py);
-- ASSUME is not checked at all: one local run over the initial states alone comes first, and checks it;
+- action properties are asserted on every transition (transitions.py); TLC checks them on new states only;
+- ASSUME is checked by a local run over the initial states, which comes first;
 - a violation has no name and half a trace: a local run has to find it again, and is what is judged;
 - the server's count of generated states is another one: `generated` below;
-- fairness, printed graphs and printed witnesses: refused.
+- it believes every worker: with more workers than were invited there is no verdict, and none when a local run
+  of RECHECK_S seconds contradicts it;
+- fairness, printed graphs and printed witnesses are refused.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import re
 import shutil
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -25,27 +27,16 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import IO
+
+from msgspec import structs
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build
 from modeproof.registers.cfg import Cfg
 from modeproof.registers.made import cfg_text, make
 from modeproof.registers.runs import Run
-from modeproof.tlc import children
-from modeproof.tlc.messages import (
-    BLOCK_TOO_BIG,
-    GENERAL,
-    SERVER_READY,
-    SUCCESS,
-    TRACE,
-    WORKER_DISCONNECTED,
-    WORKER_REGISTERED,
-    WORKER_STATS,
-    Counts,
-    Log,
-    LogReader,
-)
+from modeproof.tlc import children, messages
+from modeproof.tlc.messages import Counts, Log, LogReader
 from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.process import FINGERPRINT, SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.toolchain import Toolchain
@@ -56,9 +47,25 @@ WORKER = "tlc2.tool.distributed.TLCWorker"
 WORKER_HEAP_MB = 1024
 WAIT_S = 600.0
 """So long the server waits for the workers of other machines to register."""
+RECHECK_S = 20.0
+"""So long a local run looks over the first states again."""
 GRACE_S = 5.0
 """So long a worker has to end by itself after the server has finished."""
 _BLOCK = b".containsBlock("
+_CALLER = re.compile(rb"\[([0-9a-f.:]+): ")
+_ALONE = ("unshare", "--user", "--map-root-user", "--net", sys.executable, "-I", "-S", "-c")
+_LOOPBACK = """
+import fcntl, os, socket, struct, sys
+request = struct.pack("16sh14x", b"lo", 0x49)  # up, running, loopback
+fcntl.ioctl(socket.socket(), 0x8914, request)
+os.execvp(sys.argv[1], sys.argv[1:])
+"""
+"""Started in a new network, this switches its loopback on and becomes the program that is named."""
+_REFUSED = {
+    "LIVE": "TLC's distributed mode does not check liveness",
+    "OPEN": "the printed graph would be scattered over the workers",
+    "WIT": "the printed witnesses would be scattered over the workers, and TLCSet is not shared by them",
+}
 _PARSED = re.compile(r"/([^/]+\.tla)$")
 
 
@@ -67,13 +74,18 @@ class Where:
     """Who takes part: `workers` on this machine, `wait_for` worker threads of other machines.
 
     `address` is the one under which server and workers of this machine are reached, `port` that of the
-    server's registry (0: any free one).
+    server's registry (0: any free one). Without an address they have a network of their own.
     """
 
     workers: int
-    address: str = "127.0.0.1"
+    address: str = ""
     port: int = 0
     wait_for: int = 0
+
+    @property
+    def invited(self) -> int:
+        """How many workers there may be."""
+        return self.workers + self.wait_for
 
 
 def refusal(run: Run, cfg: Cfg) -> str:
@@ -81,19 +93,11 @@ def refusal(run: Run, cfg: Cfg) -> str:
 
     The form of its properties is looked at when it is run.
     """
-    if run.kind == "LIVE":
-        return "TLC's distributed mode does not check liveness"
-    if run.kind == "OPEN":
-        return "the printed graph would be scattered over the workers"
-    if run.kind == "WIT":
-        return "the printed witnesses would be scattered over the workers, and TLCSet is not shared by them"
     if run.kind != "MC":
-        return f"a run of kind {run.kind} is judged by its counterexample, which that mode does not give"
+        return _REFUSED.get(run.kind, "that mode does not give the counterexample by which it is judged")
     if run.deadlock:
         return "TLC's distributed mode does not name a deadlock"
-    if cfg.symmetry:
-        return "symmetry is not tested in that mode"
-    return ""
+    return "symmetry is not tested in that mode" if cfg.symmetry else ""
 
 
 def run_distributed(
@@ -117,24 +121,46 @@ def run_distributed(
         logs.mkdir(parents=True, exist_ok=True)
         for stale in logs.glob(f"{run.id}.distributed.*"):
             shutil.rmtree(stale, ignore_errors=True)
-        room = Path(tempfile.mkdtemp(prefix=f"{run.id}.distributed.", dir=logs)).resolve()
-    except OSError as error:
-        raise Unjudged(f"{run.name}: cannot write to {logs}: {error.strerror}") from None
-    try:
-        session = _Session(place, run, cfg, tools, where, room, on_progress, say)
-        outcome = session.run()
+        made = tempfile.TemporaryDirectory(
+            dir=logs, prefix=f"{run.id}.distributed.", ignore_cleanup_errors=True
+        )
+        with made as room:
+            session = _Session(place, run, cfg, tools, where, Path(room).resolve(), on_progress, say)
+            outcome = session.run()
     except OSError as error:
         raise Unjudged(f"{run.name}: {error.strerror or error} ({error.filename or logs})") from None
-    finally:
-        shutil.rmtree(room, ignore_errors=True)
-    if not session.violation or outcome.timed_out or outcome.broken_off or outcome.status != 0:
+    if session.registered > where.invited:
+        raise Unjudged(
+            f"{run.name}: {session.registered} workers registered and {where.invited} were invited; called "
+            f"from {', '.join(sorted(session.callers))}; a stranger can make any verdict"
+        )
+    if outcome.stderr.startswith("unshare"):
+        raise Unjudged(
+            f"{run.name}: no network of its own here ({outcome.stderr}); --listen 127.0.0.1 does without"
+        )
+    if outcome.timed_out or outcome.broken_off or outcome.status != 0:
         return outcome
+    if not session.violation:
+        return _rechecked(place, run, tools, outcome)
     say(f"{run.id}: a violation; TLC's distributed mode does not name it: a local run looks for it again")
     local = run_tlc(place, run, tools, on_progress)
     how = {**outcome.how, "confirmed": bool(local.log.violations)}
     if local.log.success:
         raise Unjudged(f"{run.name}: the distributed run found a violation that the local run does not find")
     return replace(local, how=how)
+
+
+def _rechecked(place: Path, run: Run, tools: Toolchain, outcome: Outcome) -> Outcome:
+    """The outcome, if a local run of RECHECK_S does not contradict it. Raises Unjudged otherwise."""
+    if not outcome.log.success or outcome.log.counts is None:
+        return outcome
+    local = run_tlc(place, structs.replace(run, id=f"{run.id}_again", timeout_s=RECHECK_S), tools)
+    there, here = outcome.log.counts.distinct, local.log.counts.distinct if local.log.counts else 0
+    if local.log.violations or here > there or (local.log.success and here != there):
+        what = "violates it" if local.log.violations else f"has {here:,} states and not {there:,}"
+        raise Unjudged(f"{run.name}: the distributed run found nothing, and a local one {what}")
+    whole = bool(local.log.success)
+    return replace(outcome, how={**outcome.how, "rechecked": {"distinct": here, "whole": whole}})
 
 
 @dataclass
@@ -150,15 +176,15 @@ class _Session:
     on_progress: Callable[[Counts], None] | None
     say: Callable[[str], None]
     violation: bool = False
+    registered: int = 0
+    callers: set[str] = field(default_factory=set)
     _ready: threading.Event = field(default_factory=threading.Event)
-    _registered: int = 0
     _lost: int = 0
     _too_big: bool = False
     _blocks: int = 0
     _done: bool = False
     _complaints: deque[str] = field(default_factory=lambda: deque(maxlen=40))
     _workers: list[subprocess.Popen[bytes]] = field(default_factory=list)
-    _files: list[IO[bytes]] = field(default_factory=list)
     _stopped: str = ""
     _expired: bool = False
     _first: Log = field(default_factory=Log)
@@ -167,11 +193,12 @@ class _Session:
         """The snapshot, the local run over the initial states, then server and workers to the end."""
         run = self.run_
         module, cfg_name, files = self._snapshot()
-        first = self._initial_states(module, cfg_name)
+        first = self._initial_states(module)
         if first is not None:
             return first
-        port = self.where.port or _free_port(self.where.address)
+        port = self.where.port or _free_port(self._address)
         command = [
+            *((*_ALONE, _LOOPBACK) if not self.where.address else ()),
             *self._java(run.heap_mb, "server", port),
             f"-D{SERVER}.report=5000",
             "-Djava.rmi.server.logCalls=true",
@@ -204,7 +231,11 @@ class _Session:
                 thread.join()
             if server.stderr is not None:
                 server.stderr.close()
-            self._end_workers(GRACE_S if server.returncode == 0 else 0.0)
+            patience = time.monotonic() + (GRACE_S if server.returncode == 0 else 0.0)
+            for worker in self._workers:
+                while worker.poll() is None and time.monotonic() < patience:
+                    time.sleep(0.05)
+                children.end(worker)
         log = self._log(reader.close(), files)
         return Outcome(
             status=status,
@@ -219,7 +250,8 @@ class _Session:
                 "mode": "distributed",
                 "workers": self.where.workers,
                 "workers_elsewhere": self.where.wait_for,
-                "registered": self._registered,
+                "registered": self.registered,
+                "called_from": sorted(self.callers),
                 "lost": self._lost,
                 "blocks": self._blocks,
             },
@@ -249,65 +281,49 @@ class _Session:
         (self.room / "tmp").mkdir()
         return made.module, f"{made.module}.cfg", [str(path) for path in sources.values()]
 
-    def _initial_states(self, module: str, cfg_name: str) -> Outcome | None:
+    def _initial_states(self, module: str) -> Outcome | None:
         """A local run over the initial states: assumptions, syntax, version. The outcome if wrong."""
-        command = [
-            *self._java(512, "first", 0),
-            *("-cp", str(self.tools.jar), "tlc2.TLC", "-tool", "-deadlock", "-workers", "1"),
-            *("-checkpoint", "0", "-metadir", str(self.room / "first"), "-config", "First.cfg", module),
-        ]
-        reader = LogReader()
-        began = time.monotonic()
-        with (self.room / "first.err").open("wb") as errors:
-            process = children.start(command, self.room, subprocess.PIPE, errors)
-            try:
-                assert process.stdout is not None
-                for line in process.stdout:
-                    reader.feed(line)
-                status = process.wait()
-            finally:
-                children.end(process)
-        self._first = reader.close()
-        if status == 0 and self._first.success and self._first.finished:
+        own = self.run_
+        run = structs.replace(own, id=f"{own.id}_first", module=module, cfg="First.cfg", base="", heap_mb=512)
+        outcome = run_tlc(self.place, run, self.tools, made_in=self.room)
+        self._first = outcome.log
+        if outcome.status == 0 and outcome.log.success and outcome.log.finished:
             return None
-        self.violation = bool(self._first.violations) and not self._first.errors
-        stderr = (self.room / "first.err").read_bytes()[-4000:].decode("utf-8", "replace")
-        seconds = time.monotonic() - began
-        if self.violation:
-            status = 0  # a local run of the module itself says which
-        return Outcome(status, seconds, False, self._first, tuple(command), stderr=stderr)
+        self.violation = bool(outcome.log.violations) and not outcome.log.errors
+        return replace(outcome, status=0) if self.violation else outcome  # a local run will say which
+
+    @property
+    def _address(self) -> str:
+        return self.where.address or "127.0.0.1"
 
     def _java(self, heap_mb: int, name: str, port: int) -> list[str]:
         folder = self.room / "tmp" / name
         folder.mkdir(exist_ok=True)
-        small = self.run_.heap_mb <= SMALL_HEAP_MB or name == "first"
+        small = self.run_.heap_mb <= SMALL_HEAP_MB
         return [
             *(str(self.tools.java), "-XX:+UseParallelGC", "-XX:+ExitOnOutOfMemoryError", "-Xss16m"),
             *(("-XX:TieredStopAtLevel=1",) if small else ()),
             *(f"-Xmx{heap_mb}m", f"-Djava.io.tmpdir={folder}"),
-            *(f"-Djava.rmi.server.hostname={self.where.address}", f"-D{SERVER}.port={port}"),
+            *(f"-Djava.rmi.server.hostname={self._address}", f"-D{SERVER}.port={port}"),
         ]
 
     # ------------------------------------------------------------------ while it runs
 
     def _message(self, code: int) -> None:
-        if code == SERVER_READY:
+        self.registered += code == messages.WORKER_REGISTERED
+        self._lost += code == messages.WORKER_DISCONNECTED
+        self._too_big |= code == messages.BLOCK_TOO_BIG
+        self._done |= code in (messages.SUCCESS, messages.WORKER_STATS)
+        self.violation |= code == messages.TRACE
+        if code == messages.SERVER_READY:
             self._ready.set()
-        elif code == WORKER_REGISTERED:
-            self._registered += 1
-        elif code == WORKER_DISCONNECTED:
-            self._lost += 1
-        elif code == BLOCK_TOO_BIG:
-            self._too_big = True
-        elif code in (SUCCESS, WORKER_STATS):
-            self._done = True
-        elif code == TRACE:
-            self.violation = True
 
     def _read_calls(self, server: subprocess.Popen[bytes]) -> None:
         """Count the blocks of states that workers asked about: one call each, as Java logs them."""
         assert server.stderr is not None
         for line in server.stderr:
+            if found := _CALLER.search(line):
+                self.callers.add(found.group(1).decode())
             if _BLOCK in line:
                 self._blocks += 1
             elif not line.startswith(b"FINER:") and b"sun.rmi.server.UnicastServerRef" not in line:
@@ -320,68 +336,51 @@ class _Session:
             now = time.monotonic()
             if now - began > self.run_.timeout_s:
                 self._expired = True
+            elif self.registered > where.invited:
+                self._stopped = "strangers"
             elif self._ready.is_set() and not started:
                 ready_at = ready_at or now
-                if self._registered >= where.wait_for:
+                if self.registered >= where.wait_for:
                     started = True
-                    self._start_workers(port)
+                    self._start_workers(server.pid, port)
                 elif now - ready_at > WAIT_S:
-                    seen = f"{self._registered} of {where.wait_for} workers of other machines"
+                    seen = f"{self.registered} of {where.wait_for} workers of other machines"
                     self._stopped = f"{seen} registered within {WAIT_S:.0f} s"
                 elif ready_at == now:
                     self.say(
                         f"{self.run_.id}: the server listens at {where.address}:{port} and waits for "
-                        f"{where.wait_for} from other machines; there: {self._invite(port)}"
+                        f"{where.wait_for} workers of other machines (docs/distributed.md)"
                     )
-            elif started and not self._finishing():
+            elif started and not (self._done or self.violation):  # then it sends its workers home
                 here = any(worker.poll() is None for worker in self._workers)
-                joined = self._registered - self._lost > 0
-                if not here and (not joined or not where.wait_for):
-                    self._stopped = (
-                        f"all workers are gone ({self._registered} registered){self._last_words()}"
-                    )
+                if not here and (self.registered <= self._lost or not where.wait_for):
+                    said = f"all workers are gone ({self.registered} registered)"
+                    self._stopped = said + self._last_words()
             if self._expired or self._stopped:
                 children.kill(server)
                 return
 
-    def _finishing(self) -> bool:
-        """Whether the server has begun to send its workers home."""
-        return self._done or self.violation
-
-    def _start_workers(self, port: int) -> None:
+    def _start_workers(self, server: int, port: int) -> None:
+        inside = ("nsenter", "--target", str(server), "--user", "--net", "--preserve-credentials")
         heap = min(WORKER_HEAP_MB, max(256, self.run_.heap_mb))
         for number in range(1, self.where.workers + 1):
             command = [
+                *(inside if not self.where.address else ()),
                 *self._java(heap, f"worker{number}", port),
                 f"-D{WORKER}.threadCount=1",
-                *("-cp", str(self.tools.jar), WORKER, self.where.address),
+                *("-cp", str(self.tools.jar), WORKER, self._address),
             ]
-            output = (self.room / f"worker{number}.log").open("wb")
-            self._files.append(output)
-            self._workers.append(children.start(command, self.room, output, output))
-
-    def _invite(self, port: int) -> str:
-        return (
-            f"java -Djava.rmi.server.hostname=ITS_ADDRESS -D{SERVER}.port={port} "
-            f"-D{WORKER}.threadCount=1 -cp tla2tools.jar {WORKER} {self.where.address}"
-        )
+            with (self.room / f"worker{number}.log").open("wb") as output:
+                self._workers.append(children.start(command, self.room, output, output))
 
     def _last_words(self) -> str:
-        """The last line that says something of the first worker's output."""
+        """The first worker's first complaint; every current Java complains about UnicastRef."""
         log = self.room / "worker1.log"
         lines = log.read_text("utf-8", "replace").splitlines() if log.is_file() else []
-        said = [line.strip() for line in lines if "Error" in line or "Exception" in line]
-        kept = [line for line in said if "UnicastRef port" not in line]  # every current Java says that
-        return f": {kept[0][:200]}" if kept else ""
-
-    def _end_workers(self, grace_s: float) -> None:
-        patience = time.monotonic() + grace_s
-        for worker in self._workers:
-            while worker.poll() is None and time.monotonic() < patience:
-                time.sleep(0.05)
-            children.end(worker)
-        for output in self._files:
-            output.close()
+        said = [
+            line for line in lines if re.search("Error|Exception", line) and "UnicastRef port" not in line
+        ]
+        return f": {said[0].strip()[:200]}" if said else ""
 
     # ------------------------------------------------------------------ after
 
@@ -389,27 +388,21 @@ class _Session:
         """What the server said, in the terms of a local run: version, files, and the pinned counts."""
         log.version = self._first.version
         log.initial = self._first.counts.generated if self._first.counts is not None else None
-        log.files = [path for path in files if Path(path).name in self._parsed()]
+        parsed = {match.group(1) for name in self._first.files if (match := _PARSED.search(name))}
+        log.files = [path for path in files if Path(path).name in parsed]
         if self._lost:  # `lost` counts broken connections; they are no error of the model
-            log.errors = [
-                error for error in log.errors if not (error[0] == GENERAL and "java.rmi." in error[1])
-            ]
+            general = messages.GENERAL
+            log.errors = [one for one in log.errors if one[0] != general or "java.rmi." not in one[1]]
         if log.counts is not None and log.final and log.success:
             # The server adds, for each block of states: successors - 1; and the distinct states once.
             successors = log.counts.generated - log.counts.distinct + self._blocks
             log.counts = replace(log.counts, generated=successors + (log.initial or 0))
         return log
 
-    def _parsed(self) -> set[str]:
-        return {match.group(1) for name in self._first.files if (match := _PARSED.search(name))}
-
     def _doubt(self) -> str:
         if self._lost:
-            count = f"{self._lost} of {self._registered} workers" if self._registered > 1 else "the worker"
-            return (
-                f"{count} lost on the way: others did the work, but how many states were generated is not "
-                "known; run it again"
-            )
+            count = f"{self._lost} of {self.registered} workers"
+            return f"{count} lost on the way: how many states were generated is not known; run it again"
         if self._too_big:
             return "a block of states was too big to send, and may be lost in part: run it again"
         return ""

@@ -9,6 +9,10 @@ from modeproof.graph.classes import InputClass
 from modeproof.graph.device import DeviceGraph
 from modeproof.registers.rows import Signal
 
+MOST_KNOWN = 50_000
+"""So many inputs are remembered with what they can be."""
+_OTHER = object()
+"""Stands for any value that no input of the graph names: they are all alike to it."""
 _Values = tuple[tuple[str, Any], ...]
 
 
@@ -25,9 +29,27 @@ class Alphabet:
             name: frozenset(letter[name] for letter in graph.alphabet) for name in graph.device.inputs
         }
 
+        self._told_apart = {
+            name: named.union(
+                member[name]
+                for one in graph.classes
+                if len(one.representative) > 1 and name in one.representative
+                for member in one.members
+            )
+            for name, named in self._named.items()
+        }
+
     def letters(self, values: Mapping[str, Any], dt_ms: int | None = None) -> tuple[int, ...]:
         """The inputs of the graph that `values` can be; with `dt_ms` only those with exactly this time."""
-        key = (tuple(sorted(values.items())), dt_ms)
+        key = (
+            tuple(
+                (name, values[name] if values[name] in self._told_apart[name] else _OTHER)
+                for name in sorted(values)
+            ),
+            dt_ms,
+        )
+        if len(self._known) > MOST_KNOWN:
+            self._known.clear()
         if key not in self._known:
             self._known[key] = tuple(
                 n

@@ -16,9 +16,11 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import root
 from modeproof.kit.command import quoted
+from modeproof.kit.errors import plain
 from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
+from modeproof.trace.exact import Scans
 from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
@@ -27,6 +29,7 @@ from modeproof.trace.targets import Target, find_target
 from modeproof.trace.text import as_json, as_record, as_text
 from modeproof.trace.why import Why
 
+_SCANS = re.compile(r"(\d{1,6})(?:-(\d{1,6}))?")
 _DESCRIPTION = """Is a recorded log a run of the specification? CONFORMS: every line is a scan (or a sample)
 that the specification allows; DIFFERS: a line is impossible, and it is shown with the conjunct that failed.
 The log is followed through the graph of the device and judged again by TLC with the log's own parameters,
@@ -54,8 +57,9 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--samples",
-        action="store_true",
-        help="a line is a sample: between two lines any number of scans, with the inputs of either, may lie",
+        type=scan_times,
+        metavar="MS[-MS]",
+        help="a line is a sample of a program that scans so often: every 10 ms, or every 8-12 ms",
     )
     parser.add_argument(
         "--param", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the machine"
@@ -100,13 +104,14 @@ def run(args: argparse.Namespace) -> int:
                 tools,
                 anywhere=args.begins == "anywhere",
                 samples=args.samples,
+                say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
             )
         except Unjudged as error:
             _write(place, args, target, log, id, started, tools, graphs, error.message)
             raise
         why: Why | None = None
         unsaid = ""
-        if not args.samples:
+        if args.samples is None:
             try:
                 why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
             except Unjudged as error:  # the verdict stands all the same
@@ -120,9 +125,19 @@ def run(args: argparse.Namespace) -> int:
     return found.status
 
 
+def scan_times(text: str) -> Scans:
+    """The times of a scan, MS or MS-MS. Raises argparse's error for anything else."""
+    match = _SCANS.fullmatch(text)
+    shortest = int(match.group(1)) if match else 0
+    longest = int(match.group(2) or shortest) if match else 0
+    if not 1 <= shortest <= longest:
+        raise argparse.ArgumentTypeError("ms from 1 expected, such as 10 or 8-12")
+    return Scans(shortest, longest)
+
+
 def read_log(args: argparse.Namespace, target: Target) -> Log:
     """The log that the arguments name. Raises Unjudged for whatever in it cannot be right."""
-    params = {}
+    params: dict[str, Any] = {}
     for given in args.param:
         name, equals, text = given.partition("=")
         if not equals:
@@ -131,7 +146,9 @@ def read_log(args: argparse.Namespace, target: Target) -> Log:
         signals = [
             part.device.parameters[inner] for part in target.parts.values() if inner in part.device.parameters
         ]
-        params[name] = wire_param(signals[0], text) if signals else text
+        value = wire_param(signals[0], text) if signals else text
+        if params.setdefault(name, value) != value:
+            raise Unjudged(f"--param {name} is given twice, with different values")
     table = args.format == "table" or (args.format is None and args.log.suffix.lower() == ".csv")
     if not table:
         return read_lines(args.log, target, params)
@@ -159,7 +176,7 @@ def _write(
     inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
     options = [f"--param {quoted(given)}" for given in args.param]
     options += ["--from anywhere"] if args.begins == "anywhere" else []
-    options += ["--samples"] if args.samples else []
+    options += [f"--samples {str(args.samples).replace(' to ', '-')}"] if args.samples else []
     options += ["--codes"] if args.codes else []
     record = evidence.make(
         kind="trace",
@@ -185,17 +202,22 @@ def _write(
             "target": target.id,
             "log": {
                 "name": args.log.name,
-                "sha256": hashlib.sha256(args.log.read_bytes()).hexdigest(),
+                "sha256": _sha256(args.log),
                 "lines": len(log.rows),
             },
             "from": args.begins,
-            "samples": args.samples,
+            "samples": None if args.samples is None else str(args.samples),
             **({} if isinstance(found, str) else as_record(target, found, why)),
         },
         reason=found if isinstance(found, str) else _reason(found),
     )
     evidence.write(place, record)
     return record
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _reason(found: Judgement) -> str:

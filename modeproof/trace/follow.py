@@ -10,7 +10,7 @@ far as the log tells.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
@@ -18,6 +18,9 @@ from modeproof.tlc.tla_values import canonical, parse
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.log import Log, Row
 from modeproof.trace.targets import Target
+
+MOST_STEPS = 20_000_000
+MOST_MOVES = 20_000
 
 
 @dataclass(frozen=True)
@@ -68,13 +71,18 @@ class Follower:
         for number, view in enumerate(graph.views):
             groups.setdefault(canonical(timeless(target, device, parse(view))), []).append(number)
         self._same_but_time = {number: frozenset(group) for group in groups.values() for number in group}
+        self._moves: dict[tuple[frozenset[int], tuple[int, ...]], frozenset[int]] = {}
         self._next: dict[tuple[int, tuple[int, ...]], frozenset[int]] = {}
 
     def scan(self, row: Row) -> bool:
         """Take one scan; false, and the states stay, when it is impossible."""
-        letters = self._letters(row)
-        reached = {after for state in self._opened(self.states) for after in self._after(state, letters)}
-        return self._arrive(reached, row, (row,))
+        move = (self.states, self._letters(row))
+        if move not in self._moves:
+            if len(self._moves) > MOST_MOVES:
+                self._moves.clear()
+            states, letters = self._opened(self.states), move[1]
+            self._moves[move] = frozenset(after for state in states for after in self._after(state, letters))
+        return self._arrive(self._moves[move], row, (row,))
 
     def sample(self, before: Row | None, row: Row) -> bool:
         """Any number of scans with the inputs of either row, then the outputs of `row`."""
@@ -159,6 +167,8 @@ def _follow(
             left_open.append(f"the time of {device}")
         timed = exact and target.timed(device)
         followers[device] = Follower(target, alphabet, exact=timed, anywhere=anywhere)
+    if samples:
+        left_open.append("how many scans lie between two samples")
     if target.system:
         left_open.append("what no line tells about a wire")
     wires = Wires(target, followers)
@@ -183,7 +193,7 @@ def _unknown(log: Log, device: str, alphabet: Alphabet | None) -> str:
     """Why the graph of a device cannot follow the log, or nothing."""
     if alphabet is None:
         return f"no OPEN run of {device} has the log's parameters"
-    for row in log.rows:
+    for row, _ in log.rows.kinds():
         if row.device == device and not alphabet.letters(row.inputs):
             odd = {name: value for name, value in row.inputs.items() if not alphabet.letters({name: value})}
             shown = ", ".join(f"{name} = {value}" for name, value in (odd or row.inputs).items())
@@ -199,7 +209,7 @@ def _same_times(target: Target, log: Log, alphabet: Alphabet) -> bool:
         if signal.type == "ms" and alphabet.graph.params.get(signal.name, signal.default) != given:
             return False
     known = {letter["dt_ms"] for letter in alphabet.graph.alphabet}
-    return all(row.dt_ms in known for row in log.rows if row.device == device.id)
+    return log.rows.times(device.id) <= known
 
 
 class Wires:
@@ -249,6 +259,8 @@ def _follow_each_word(
     """
     assert target.copies is not None
     words = sorted(words_of(target, log, target.only.device.id) - {0}) or [target.copies[0]]
+    if len(words) * len(log.rows) > MOST_STEPS:
+        return NotFollowed(f"{len(words):,} words in {len(log.rows):,} lines are too many to follow each")
     found: list[Followed] = []
     for word in words:
         one = _follow(target, _seen_as(target, log, word), alphabets, anywhere, samples)
@@ -264,7 +276,7 @@ def words_of(target: Target, log: Log, device: str) -> frozenset[int]:
     signals = {**target.parts[device].device.inputs, **target.parts[device].device.outputs}
     return frozenset(
         value
-        for row in log.rows
+        for row, _ in log.rows.kinds()
         if row.device == device
         for name, value in (*row.inputs.items(), *row.outputs.items())
         if signals[name].type == "word"
@@ -275,23 +287,12 @@ def _seen_as(target: Target, log: Log, word: int) -> Log:
     assert target.copies is not None
     one, other = target.copies
     device = target.only.device
+    types = {name: signal.type for name, signal in (*device.inputs.items(), *device.outputs.items())}
 
-    def seen(values: Mapping[str, Any], signals: Mapping[str, Any]) -> dict[str, Any]:
+    def seen(_device: str, _side: str, values: Mapping[str, Any]) -> Mapping[str, Any]:
         return {
-            name: (0 if value == 0 else one if value == word else other)
-            if signals[name].type == "word"
-            else value
+            name: (0 if value == 0 else one if value == word else other) if types[name] == "word" else value
             for name, value in values.items()
         }
 
-    rows = tuple(
-        Row(
-            row.line,
-            row.device,
-            row.dt_ms,
-            seen(row.inputs, device.inputs),
-            seen(row.outputs, device.outputs),
-        )
-        for row in log.rows
-    )
-    return Log(log.name, rows, log.params)
+    return replace(log, rows=log.rows.changed(seen))

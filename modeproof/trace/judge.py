@@ -15,7 +15,7 @@ from modeproof.suites.build import step_citations
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.alphabet import Alphabet
-from modeproof.trace.exact import Matched, judge_exactly
+from modeproof.trace.exact import Matched, Scans, judge_exactly
 from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.log import Log
 from modeproof.trace.module import Reading
@@ -79,7 +79,7 @@ class Graphs:
         for name, part in target.parts.items():
             whole = all(
                 signal in row.inputs
-                for row in log.rows
+                for row, _ in log.rows.kinds()
                 if row.device == name
                 for signal in part.device.inputs
             )
@@ -119,13 +119,34 @@ def _same(device: Device, run: Run, log: Log) -> bool:
 
 
 @dataclass(frozen=True)
+class Compared:
+    """In how many of the lines each output was compared, by device, and in how many any was."""
+
+    outputs: Mapping[str, Mapping[str, int]]
+    lines: int
+
+
+def compared(target: Target, log: Log, passed: Mapping[str, Mapping[str, str]]) -> Compared:
+    """What a log lets compare. An output that repeats an input needs that input in its line."""
+    outputs = {name: dict.fromkeys(part.device.outputs, 0) for name, part in target.parts.items()}
+    lines = 0
+    for row, number in log.rows.kinds():
+        given = passed.get(row.device, {})
+        names = [name for name in row.outputs if name not in given or given[name] in row.inputs]
+        lines += number if names else 0
+        for name in names:
+            outputs[row.device][name] += number
+    return Compared(outputs, lines)
+
+
+@dataclass(frozen=True)
 class Judgement:
     """What came out for one log. `accepted` lines fit the specification, by TLC."""
 
     log: Log
     followed: Followed | NotFollowed
     matched: Matched
-    reading: Reading
+    compared: Compared
 
     @property
     def accepted(self) -> int:
@@ -151,28 +172,29 @@ def judge_logs(
     tools: Toolchain,
     *,
     anywhere: bool = False,
-    samples: bool = False,
+    samples: Scans | None = None,
+    say: Callable[[str], None] = lambda line: None,
 ) -> tuple[tuple[Judgement, ...], Outcome]:
-    """Judge logs of one target with the same parameters, all in one run of TLC.
+    """Judge logs of one target with the same parameters, together in each run of TLC.
 
-    Raises Unjudged when the two judgements contradict each other and nothing that was left open explains it.
+    Raises Unjudged when a log shows no output, and when the two judgements contradict each other and nothing
+    that was left open explains it.
     """
     if samples and target.system:
         raise Unjudged(f"--samples is for one device; a line of a log of {target.id} is one scan")
+    passed = graphs.passed(target)
+    shares = [compared(target, log, passed) for log in logs]
+    for log, share in zip(logs, shares, strict=True):
+        if not share.lines:
+            raise Unjudged(f"{log.name}: nothing to compare: no line shows an output of {target.id}")
     readings = [Reading(target, log, graphs.any_of(target, log)) for log in logs]
     done = judge_exactly(
-        place,
-        target,
-        readings,
-        tools,
-        passed=graphs.passed(target),
-        anywhere=anywhere,
-        samples=samples,
+        place, target, readings, tools, passed=passed, anywhere=anywhere, samples=samples, say=say
     )
     found = []
-    for log, reading, matched in zip(logs, readings, done.matched, strict=True):
-        followed = follow(target, log, graphs.matching(target, log), anywhere, samples)
-        found.append(Judgement(log, followed, matched, reading))
+    for log, matched, share in zip(logs, done.matched, shares, strict=True):
+        followed = follow(target, log, graphs.matching(target, log), anywhere, samples is not None)
+        found.append(Judgement(log, followed, matched, share))
         check(found[-1])
     return tuple(found), done.outcome
 
@@ -209,18 +231,6 @@ def why_not(
     alone = [other for other in targets_of(place, target.document) if set(other.parts) == {row.device}]
     if not alone:
         return None
-    views = found.matched.views
-    if not views:
-        done = judge_exactly(
-            place,
-            target,
-            [found.reading],
-            tools,
-            passed=graphs.passed(target),
-            anywhere=anywhere,
-            show=[found.accepted],
-        )
-        views = done.matched[0].views
     log = device_log(alone[0], found.log)
     one = found.followed
     stopped = isinstance(one, Followed) and one.accepted == found.accepted
@@ -229,7 +239,7 @@ def why_not(
         alone[0],
         Reading(alone[0], log, graphs.any_of(alone[0], log)),
         row,
-        views,
+        found.matched.views,
         graphs.one_of(alone[0], log),
         graphs.passed(alone[0]).get(row.device, {}),
         step_citations(place, target.document, row.device),

@@ -9,7 +9,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from modeproof.trace.log import Builder, Log, Row
 from modeproof.trace.targets import Target
 
 _ROW = ("dt_ms", "t_ms", "device", "in", "out")
+LONGEST_LINE = 1 << 20
 _HEADER = ("target", "params", "recorder", "remark")
 
 
@@ -28,12 +29,10 @@ class _Twice(ValueError):
 def read_lines(path: Path, target: Target, params: Mapping[str, Any] | None = None) -> Log:
     """The log in `path`. Raises Unjudged with file, line and key for whatever cannot be right."""
     builder = Builder(target, path, params)
-    text = read_text(path)
-    lines = text.split("\n")
-    for number, line in enumerate(lines, 1):
+    for number, line, ended in lines_of(path):
         if not line.strip():
             continue
-        record = _record(builder, number, line, last=number == len(lines))
+        record = _record(builder, number, line, last=not ended)
         if "in" not in record and "out" not in record and not builder.rows:
             _header(builder, number, record)
         else:
@@ -41,17 +40,24 @@ def read_lines(path: Path, target: Target, params: Mapping[str, Any] | None = No
     return builder.log()
 
 
-def read_text(path: Path) -> str:
-    """The text of a log. Raises Unjudged when it cannot be read, or when a line is no UTF-8."""
+def lines_of(path: Path) -> Iterator[tuple[int, str, bool]]:
+    """Each line of a log: its number, its text, and whether it has an end of line.
+
+    Raises Unjudged when the log cannot be read, a line is no UTF-8, or one is longer than LONGEST_LINE.
+    """
     try:
-        content = path.read_bytes()
+        with path.open("rb") as stream:
+            number = 0
+            while content := stream.readline(LONGEST_LINE + 1):
+                number += 1
+                if len(content) > LONGEST_LINE:
+                    raise Unjudged(f"{path}: line {number}: longer than {LONGEST_LINE:,} bytes")
+                text = content.decode("utf-8-sig" if number == 1 else "utf-8")
+                yield number, text.rstrip("\r\n"), text.endswith("\n")
     except OSError as error:
         raise Unjudged(f"{path}: {error.strerror or error}") from None
-    try:
-        return content.decode("utf-8-sig").replace("\r\n", "\n")
-    except UnicodeDecodeError as error:
-        line = content.count(b"\n", 0, error.start) + 1
-        raise Unjudged(f"{path}: line {line}: no UTF-8 text") from None
+    except UnicodeDecodeError:
+        raise Unjudged(f"{path}: line {number}: no UTF-8 text") from None
 
 
 def _record(builder: Builder, number: int, line: str, last: bool) -> dict[str, Any]:
@@ -63,6 +69,8 @@ def _record(builder: Builder, number: int, line: str, last: bool) -> dict[str, A
         if last:
             raise builder.fail(number, "the last line is cut off", f"column {error.colno}") from None
         raise builder.fail(number, f"no JSON: {error.msg}", f"column {error.colno}") from None
+    except ValueError:
+        raise builder.fail(number, "a number with too many digits") from None
     except RecursionError:
         raise builder.fail(number, "nested too deeply") from None
     if not isinstance(record, dict):

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from array import array
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.rows import Device, Signal
@@ -30,6 +33,95 @@ class Row:
     outputs: Mapping[str, Any]
 
 
+Values = Mapping[str, Any]
+
+
+class Rows(Sequence[Row]):
+    """The rows of a log, packed: 32 bytes each, and some 300 for each different set of values."""
+
+    def __init__(self, rows: Iterable[Row] = ()) -> None:
+        self._packed = array("q")  # of each row: line, dt_ms (-1: None), number of its inputs, of its outputs
+        self._forms: dict[tuple[str, str, tuple[str, ...]], int] = {}  # device, "in" or "out", names
+        self._sides: dict[tuple[Any, ...], int] = {}  # number of the form, values
+        for row in rows:
+            self.append(row)
+
+    def append(self, row: Row) -> None:
+        """Take a row at the end."""
+        dt = -1 if row.dt_ms is None else row.dt_ms
+        sides = (self._side(row.device, "in", row.inputs), self._side(row.device, "out", row.outputs))
+        self._packed.extend((row.line, dt, *sides))
+
+    def _side(self, device: str, side: str, values: Values) -> int:
+        form = self._forms.setdefault((device, side, tuple(values)), len(self._forms))
+        return self._sides.setdefault((form, *values.values()), len(self._sides))
+
+    @cached_property
+    def _table(self) -> tuple[list[tuple[str, str, tuple[str, ...]]], list[tuple[Any, ...]]]:
+        return list(self._forms), list(self._sides)
+
+    def _values(self, number: int) -> tuple[str, str, Values]:
+        forms, sides = self._table
+        form, *values = sides[number]
+        device, side, names = forms[form]
+        return device, side, dict(zip(names, values, strict=True))
+
+    def __len__(self) -> int:
+        return len(self._packed) // 4
+
+    @overload
+    def __getitem__(self, at: int) -> Row: ...
+    @overload
+    def __getitem__(self, at: slice) -> Rows: ...
+    def __getitem__(self, at: int | slice) -> Row | Rows:
+        if isinstance(at, slice):
+            first, end, step = at.indices(len(self))
+            return self._like(self._packed[4 * first : 4 * max(first, end)] if step == 1 else array("q"))
+        at = range(len(self))[at]
+        return self._row(*self._packed[4 * at : 4 * at + 4])
+
+    def __iter__(self) -> Iterator[Row]:
+        packed = iter(self._packed)
+        return (self._row(*one) for one in zip(packed, packed, packed, packed, strict=True))
+
+    def _row(self, line: int, dt_ms: int, inputs: int, outputs: int) -> Row:
+        device, _, values = self._values(inputs)
+        return Row(line, device, None if dt_ms < 0 else dt_ms, values, self._values(outputs)[2])
+
+    def _like(self, packed: array[int]) -> Rows:
+        other = Rows()
+        other._packed, other._forms, other._sides = packed, self._forms, self._sides
+        other._table = self._table
+        return other
+
+    def changed(self, change: Callable[[str, str, Values], Values]) -> Rows:
+        """The rows with other values: `change` gets a device, "in" or "out", and values of that side."""
+        other = Rows()
+        numbers = []
+        for number in range(len(self._sides)):
+            device, side, values = self._values(number)
+            numbers.append(other._side(device, side, change(device, side, values)))
+        other._packed = self._packed[:]
+        for at in (2, 3):
+            other._packed[at::4] = array("q", (numbers[one] for one in self._packed[at::4]))
+        return other
+
+    def kinds(self) -> Iterator[tuple[Row, int]]:
+        """Each different row (line and time aside, those of the first such row) and how many there are."""
+        pairs = zip(self._packed[2::4], self._packed[3::4], strict=True)
+        first: dict[tuple[int, int], int] = {}
+        counts: Counter[tuple[int, int]] = Counter()
+        for at, pair in enumerate(pairs):
+            first.setdefault(pair, at)
+            counts[pair] += 1
+        return ((self[at], counts[pair]) for pair, at in first.items())
+
+    def times(self, device: str) -> set[int | None]:
+        """The different times of the rows of a device."""
+        pairs = set(zip(self._packed[1::4], self._packed[2::4], strict=True))
+        return {None if dt < 0 else dt for dt, side in pairs if self._values(side)[0] == device}
+
+
 @dataclass(frozen=True)
 class Log:
     """All rows, and the parameters by device (wire values; those that are not given are defaults).
@@ -38,15 +130,17 @@ class Log:
     """
 
     name: str
-    rows: tuple[Row, ...]
+    rows: Rows
     params: Mapping[str, Mapping[str, Any]]
-    notes: tuple[str, ...] = field(default=())
     not_compared: tuple[str, ...] = ()
 
     def observed(self, device: str) -> frozenset[str]:
         """The signals of a device that at least one row shows."""
         return frozenset(
-            name for row in self.rows if row.device == device for name in (*row.inputs, *row.outputs)
+            name
+            for row, _ in self.rows.kinds()
+            if row.device == device
+            for name in (*row.inputs, *row.outputs)
         )
 
 
@@ -56,14 +150,16 @@ def without_codes(log: Log, target: Target) -> Log:
         name: {output for output, of in part.device.outputs.items() if of.project}
         for name, part in target.parts.items()
     }
-    names = tuple(dict.fromkeys(name for row in log.rows for name in row.outputs if name in own[row.device]))
+    names = tuple(
+        dict.fromkeys(name for row, _ in log.rows.kinds() for name in row.outputs if name in own[row.device])
+    )
     if not names:
         return log
-    rows = tuple(
-        replace(row, outputs={k: v for k, v in row.outputs.items() if k not in own[row.device]})
-        for row in log.rows
-    )
-    return replace(log, rows=rows, not_compared=names)
+
+    def documented(device: str, side: str, values: Values) -> Values:
+        return {k: v for k, v in values.items() if side == "in" or k not in own[device]}
+
+    return replace(log, rows=log.rows.changed(documented), not_compared=names)
 
 
 class Builder:
@@ -72,7 +168,7 @@ class Builder:
     def __init__(self, target: Target, path: Path, params: Mapping[str, Any] | None = None) -> None:
         self.target = target
         self.name = str(path)
-        self.rows: list[Row] = []
+        self.rows = Rows()
         self.params: dict[str, dict[str, Any]] = {name: {} for name in target.parts}
         self._given = dict(params or {})
         self._since: dict[str, int] = {}
@@ -94,7 +190,7 @@ class Builder:
                     line, f"`device` is missing; a line is of one of {', '.join(self.target.parts)}"
                 )
             return self.target.only.device
-        if name not in self.target.parts:
+        if not isinstance(name, str) or name not in self.target.parts:
             raise self.fail(
                 line,
                 f"{name!r} is no device of {self.target.id}; {suggestion(str(name), self.target.parts)}",
@@ -146,6 +242,9 @@ class Builder:
         if name not in declared:
             raise Unjudged(f"{place}: {device} has no parameter {name!r}; {suggestion(name, declared)}")
         self.target.forms.from_wire(declared[name], value, f"{place}: {device}")
+        before = self.params[device].setdefault(name, value)
+        if before != value and not place.startswith("--param"):
+            raise Unjudged(f"{place}: {name} is {before!r} above and {value!r} here")
         self.params[device][name] = value
 
     def elapsed(self, line: int, device: str, dt: Any, at: Any) -> int | None:
@@ -196,6 +295,4 @@ class Builder:
                             f"header of the log or with --param {device}.{signal.name}=VALUE"
                         )
                     given[signal.name] = signal.default
-        unseen = [name for name in self.target.parts if all(row.device != name for row in self.rows)]
-        notes = [f"no line of {name}" for name in unseen] if self.target.system else []
-        return Log(self.name, tuple(self.rows), self.params, tuple(notes))
+        return Log(self.name, self.rows, self.params)

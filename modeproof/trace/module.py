@@ -102,22 +102,42 @@ class Reading:
             int(given[parameter.name]) for parameter in device.parameters.values() if parameter.type == "ms"
         )
 
-    def line(self, row: Row, passed: Mapping[str, str], free_time: bool) -> str:
-        """One line as a record: `in` the set of possible inputs, `out` the outputs that were observed."""
+    def line(self, row: Row, passed: Mapping[str, str]) -> tuple[str, str, str]:
+        """One line in TLA+: the sets of its possible inputs and times, and a record of its observed outputs.
+
+        Inputs are a tuple that begins with the device.
+        """
         device = self.target.parts[row.device].device
-        times = sorted({0, *self.deadlines(device)}) if free_time and self.target.timed(row.device) else None
         inputs = [
-            input_record(device, values, dt)
+            ", ".join(
+                [f'"{row.device}"', *(tla_value(of, values[name]) for name, of in device.inputs.items())]
+            )
             for values in self.candidates(row)
             if passes(passed, row, (Row(row.line, row.device, row.dt_ms, values, {}),))
-            for dt in (self.times(row) if times is None else times)
         ]
         outputs = {
             name: tla_value(device.outputs[name], value)
             for name, value in row.outputs.items()
             if name not in passed
         }
-        return f"[in |-> {{{', '.join(inputs)}}}, out |-> {record(outputs)}]"
+        times = ", ".join(map(str, self.times(row)))
+        return "{" + ", ".join(f"<<{one}>>" for one in inputs) + "}", "{" + times + "}", record(outputs)
+
+
+def read_inputs(target: Target) -> list[str]:
+    """TLA+ that makes a record of the inputs of a scan from such a tuple and a time."""
+    cases = [
+        f'v[1] = "{name}" -> '
+        + record(
+            {
+                **{signal: f"v[{n}]" for n, signal in enumerate(part.device.inputs, 2)},
+                "dt": "t",
+                "device": f'"{name}"',
+            }
+        )
+        for name, part in target.parts.items()
+    ]
+    return ["LogRead(v, t) == CASE " + "\n    [] ".join(cases)]
 
 
 def constants(target: Target, readings: Sequence[Reading]) -> dict[str, str]:
@@ -162,7 +182,7 @@ def _placeholder(
         found = {
             input_record(device, values, None): None
             for reading in readings
-            for row in reading.log.rows
+            for row, _ in reading.log.rows.kinds()
             if row.device == name
             for values in reading.candidates(row)
         }

@@ -20,16 +20,17 @@ from typing import Any
 from modeproof.graph.values import NONE
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.rows import Device, Signal
-from modeproof.trace.lines import read_text
+from modeproof.trace.lines import lines_of
 from modeproof.trace.log import Builder, Log, Row
 from modeproof.trace.targets import Target
 
 _HEX = re.compile(r"(?:W#16#|16#|0x)?([0-9A-F]{1,4})", re.IGNORECASE)
 _DECIMAL = re.compile(r"\d{1,5}")
-_INTEGER = re.compile(r"-?\d+")
+_INTEGER = re.compile(r"-?\d{1,30}")
 _SETTING = re.compile(r"#\s*([\w.]+)\s*[=:]\s*(.*?)\s*")
 _TRUTH = {"0": False, "1": True, "false": False, "true": True}
 _NOTHING = ("none", "null", "-", "-1")
+LONGEST_TIME = 10**16
 _TIMES = {"dt_ms": Decimal(1), "t_ms": Decimal(1), "t_us": Decimal("0.001"), "t_s": Decimal(1000)}
 
 
@@ -51,7 +52,7 @@ def read_table(
 ) -> Log:
     """The log in `path`. Raises Unjudged with file, line and column for whatever cannot be right."""
     builder = Builder(target, path, params)
-    return _Table(builder, form or TableForm()).read(read_text(path))
+    return _Table(builder, form or TableForm()).read(path)
 
 
 class _Table:
@@ -60,21 +61,21 @@ class _Table:
         self.form = form
         self.decimal = form.decimal_words
 
-    def read(self, text: str) -> Log:
-        lines = text.split("\n")
-        if lines and lines[-1].strip():
-            raise self.builder.fail(len(lines), "the last line is cut off: it has no end of line")
-        first = 0
-        while first < len(lines) and (not lines[first].strip() or lines[first].startswith("#")):
-            self._setting(first + 1, lines[first])
-            first += 1
-        if first == len(lines):
-            return self.builder.log()
-        separator = self.form.separator or max(";,\t", key=lines[first].count)
-        names = [name.strip() for name in self._cells(first + 1, lines[first], separator)]
-        self._check_names(first + 1, names)
-        for number, line in enumerate(lines[first + 1 :], first + 2):
-            if line.strip():
+    def read(self, path: Path) -> Log:
+        names: list[str] = []
+        separator = self.form.separator
+        for number, line, ended in lines_of(path):
+            if not ended and line.strip():
+                raise self.builder.fail(number, "the last line is cut off: it has no end of line")
+            if not line.strip():
+                continue
+            if not names and line.startswith("#"):
+                self._setting(number, line)
+            elif not names:
+                separator = separator or max(";,\t", key=line.count)
+                names = [name.strip() for name in self._cells(number, line, separator)]
+                self._check_names(number, names)
+            else:
                 cells = [cell.strip() for cell in self._cells(number, line, separator)]
                 if len(cells) != len(names):
                     cut = "; the line is cut off" if len(cells) < len(names) else ""
@@ -129,6 +130,15 @@ class _Table:
                 text = f"{name!r} is no signal of {self.builder.target.id}"
                 mean = suggestion(name, dict.fromkeys(known))
                 raise self.builder.fail(number, f"{text}; {mean}; or --ignore it", column)
+        for part in self.builder.target.parts.values():
+            columns: dict[str, str] = {}
+            for name in names:
+                if name in self.form.ignore or (found := self._find(part.device, name)) is None:
+                    continue
+                other = columns.setdefault(found[1].name, name)
+                if other != name:
+                    text = f"columns {other} and {name} are one signal of {part.device.id}; --ignore one"
+                    raise self.builder.fail(number, text)
         times = [name for name in names if name in _TIMES or name == self.form.time]
         if len(times) > 1:
             raise self.builder.fail(number, f"two columns of time: {times[0]} and {times[1]}")
@@ -173,7 +183,7 @@ class _Table:
             raise self.builder.fail(number, "the time is missing", name)
         try:
             value = Decimal(text.replace(",", ".")) * _TIMES.get(name, Decimal(1))
-            whole = int(value) if value.is_finite() else None
+            whole = int(value) if abs(value) < LONGEST_TIME else None
         except (InvalidOperation, ValueError, OverflowError):
             whole = None
         if whole is None:

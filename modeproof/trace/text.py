@@ -6,6 +6,9 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from modeproof.ground.errors import LONGEST
+from modeproof.kit.errors import plain
+from modeproof.trace.exact import Scans
 from modeproof.trace.follow import Followed, NotFollowed
 from modeproof.trace.judge import Judgement
 from modeproof.trace.log import Row
@@ -13,7 +16,7 @@ from modeproof.trace.targets import Target
 from modeproof.trace.why import Missed, Taken, Why
 
 
-def as_text(target: Target, found: Judgement, why: Why | None = None, samples: bool = False) -> str:
+def as_text(target: Target, found: Judgement, why: Why | None = None, samples: Scans | None = None) -> str:
     """What to print; the last line is the verdict."""
     log = found.log
     total = len(log.rows)
@@ -27,18 +30,40 @@ def as_text(target: Target, found: Judgement, why: Why | None = None, samples: b
         lines.append(f"first impossible {unit[:-1]}: {found.accepted + 1:,}, line {row.line} of the log")
         lines += [f"  {line}" for line in _row(target, row)]
         lines += [f"  {line}" for line in ([] if why is None else _why(target, row, why))]
-    lines.append(f"{found.verdict}({'samples' if samples else 'exact'}, {log.name})")
-    return "\n".join(lines)
+    share = f"; {shared(found, unit)}" if found.status == 0 else ""
+    lines.append(f"{found.verdict}({'samples' if samples else 'exact'}, {log.name}{share})")
+    return "\n".join(plain(line, LONGEST) for line in lines)
+
+
+def shared(found: Judgement, unit: str) -> str:
+    """Which share of a log was compared."""
+    counts = [count for outputs in found.compared.outputs.values() for count in outputs.values()]
+    return (
+        f"{sum(map(bool, counts))} of {len(counts)} outputs compared, in {found.compared.lines:,} of "
+        f"{len(found.log.rows):,} {unit}"
+    )
 
 
 def _observed(target: Target, found: Judgement) -> list[str]:
     lines = []
+    for name, outputs in found.compared.outputs.items():
+        total = sum(number for row, number in found.log.rows.kinds() if row.device == name)
+        if total and not any(outputs.values()) and target.system:
+            lines.append(f"UNJUDGED: {name}, for no line shows an output of it")
+            continue
+        if not total:
+            lines.append(f"UNJUDGED: {name}, for it has no line")
+            continue
+        never = [output for output, count in outputs.items() if not count]
+        now_and_then = [f"{output} in {count:,}" for output, count in outputs.items() if 0 < count < total]
+        if never:
+            lines.append(f"UNJUDGED, for no line shows it: {', '.join(never)}")
+        if now_and_then:
+            lines.append(f"compared in a part of {total:,} lines of {name}: {', '.join(now_and_then)}")
     for name, part in target.parts.items():
-        signals = [*part.device.inputs, *part.device.outputs]
-        seen = found.log.observed(name)
-        blind = [signal for signal in signals if signal not in seen and signal not in found.log.not_compared]
+        blind = [signal for signal in part.device.inputs if signal not in found.log.observed(name)]
         if blind:
-            lines.append(f"not observed of {name}: {', '.join(blind)}")
+            lines.append(f"inputs of {name} that were not observed, so may be anything: {', '.join(blind)}")
     if found.log.not_compared:
         names = ", ".join(found.log.not_compared)
         lines.append(
@@ -54,11 +79,10 @@ def _followed(found: Followed | NotFollowed, unit: str) -> str:
     return f"{found.accepted:,} {unit} through {' '.join(found.runs)}{how}"
 
 
-def _exactness(target: Target, found: Judgement, samples: bool) -> str:
-    timed = any(target.timed(device) for device in target.parts)
-    if samples and timed:
-        return "; the time of the scans between two samples is left open"
-    if timed and any(row.dt_ms is None and target.timed(row.device) for row in found.log.rows):
+def _exactness(target: Target, found: Judgement, samples: Scans | None) -> str:
+    if samples:
+        return f", with scans of {samples} ms and inputs that change once between two samples"
+    if any(None in found.log.rows.times(device) for device in target.parts if target.timed(device)):
         return "; times that were not observed are left open"
     return ", exactly"
 
@@ -152,6 +176,8 @@ def as_record(target: Target, found: Judgement, why: Why | None = None) -> dict[
             ]
             for name, part in target.parts.items()
         },
+        "compared": {name: dict(outputs) for name, outputs in found.compared.outputs.items()},
+        "lines_compared": found.compared.lines,
         "not_compared": list(found.log.not_compared),
         "params": {device: dict(values) for device, values in found.log.params.items()},
         "graph": {"not_followed": one.reason}

@@ -25,7 +25,7 @@ from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.exact import HEAP_MB, checked, constant_definitions, trace_run
 from modeproof.trace.follow import timeless
 from modeproof.trace.guards import Conjunct, Effect, Guards
-from modeproof.trace.log import Log, Row
+from modeproof.trace.log import Log, Row, Rows
 from modeproof.trace.module import Reading, input_record
 from modeproof.trace.targets import Target
 
@@ -319,5 +319,5 @@ def cited(cites: Citations, step: str) -> tuple[str, ...]:
 def device_log(target: Target, log: Log) -> Log:
     """The rows of a log that are of the only device of `target`."""
     name = target.only.device.id
-    rows = tuple(row for row in log.rows if row.device == name)
+    rows = Rows(row for row in log.rows if row.device == name)
     return Log(log.name, rows, {name: log.params[name]})

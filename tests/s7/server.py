@@ -1,8 +1,8 @@
 """A PLC for tests: python-snap7's own server, behind which a loop runs the reference F-PLC scan by scan.
 
 The bytes are taken apart here by hand, so that what the kit makes of an address map is not checked by
-itself: I0.0 to I0.5 LA, A to D, STR; MW3, MW7 in, MW1, MW5 out; Q0.0 to Q0.5 modes and ERROR; DB1 settings;
-DB2 dt_ms, @scan, @done, @cycle, @reset.
+itself: bits 0 to 5 of DB3 LA, A to D, STR; MW3, MW7 in, MW1, MW5 out; Q0.0 to Q0.5 modes and ERROR;
+DB1 settings; DB2 dt_ms, @scan, @done, @cycle, @reset, @magic.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from refimpl.mode_selection import fplc
 from tests.kit.clocks import Clock
 
 MAP = """symbol,address,type
-LA,I0.0,BOOL
-A,I0.1,BOOL
-B,I0.2,BOOL
-C,I0.3,BOOL
-D,I0.4,BOOL
-STR,I0.5,BOOL
+LA,DB3.DBX0.0,BOOL
+A,DB3.DBX0.1,BOOL
+B,DB3.DBX0.2,BOOL
+C,DB3.DBX0.3,BOOL
+D,DB3.DBX0.4,BOOL
+STR,DB3.DBX0.5,BOOL
 MW03,MW3,WORD
 MW07,MW7,WORD
 MW01,MW1,WORD
@@ -44,6 +44,7 @@ PERMITS_2,DB1.DBB19,BYTE
 PERMITS_3,DB1.DBB20,BYTE
 PERMITS_4,DB1.DBB21,BYTE
 @reset,DB2.DBX10.0,BOOL
+@magic,DB2.DBD12,DINT
 """
 STEPPED = MAP + "@dt_ms,DB2.DBD0,DINT\n@scan,DB2.DBW4,WORD\n@done,DB2.DBW6,WORD\n"
 FREE = MAP + "@cycle,DB2.DBW8,WORD\n"
@@ -58,15 +59,21 @@ class Plc:
     """
 
     def __init__(
-        self, *, order: str = WORDS, most: int | None = None, cycle_ms: int = 0, dead: bool = False
+        self,
+        *,
+        order: str = WORDS,
+        most: int | None = None,
+        cycle_ms: int = 0,
+        dead: bool = False,
+        magic: bytes = b"RIG!",
     ) -> None:
         self.inputs, self.outputs = bytearray(1), bytearray(1)
-        self.flags, self.settings, self.control = bytearray(16), bytearray(32), bytearray(12)
+        self.flags, self.settings, self.control = bytearray(16), bytearray(32), bytearray(12) + magic
         self.order, self.most, self.cycle_ms, self.dead = order, most, cycle_ms, dead
         self.scans = 0
         self.state = fplc.power_up(fplc.Params())
         self.server = Server(log=False)
-        areas = [(SrvArea.PE, 0, self.inputs), (SrvArea.PA, 0, self.outputs), (SrvArea.MK, 0, self.flags)]
+        areas = [(SrvArea.DB, 3, self.inputs), (SrvArea.PA, 0, self.outputs), (SrvArea.MK, 0, self.flags)]
         areas += [(SrvArea.DB, 1, self.settings), (SrvArea.DB, 2, self.control)]
         for area, index, memory in areas:
             self.server.register_area(area, index, memory)

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from modeproof.kit.command import TEST_RIG
 from modeproof.kit.vectors import open_suite
 from modeproof.s7.__main__ import Adapter, main
 from tests.s7.server import FREE, STEPPED, Plc
@@ -91,5 +92,5 @@ def test_a_freely_running_plc_says_its_time_is_real(tmp_path: Path) -> None:
 
 
 def test_vectors_of_another_target_end_the_adapter(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["plc", "--host", "h", "--map", "m", "--vectors", str(VECTORS)]) == 2
+    assert main(["plc", "--host", "h", "--map", "m", "--vectors", str(VECTORS), TEST_RIG]) == 2
     assert "vectors of fplc, not of plc" in capsys.readouterr().err

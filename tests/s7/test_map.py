@@ -30,7 +30,7 @@ PARAMETERS = {
     "HOW": Signal("HOW", "text", values=("a", "b")),
 }
 GOOD = """symbol,address,type
-GO,I0.0,BOOL
+GO,DB3.DBX0.0,BOOL
 CODE,MW1,WORD
 LAMP,Q0.0,BOOL
 SHOWN,DB5.DBW0,INT
@@ -55,10 +55,10 @@ def written(folder: Path, *changes: tuple[str, str]) -> Path:
 
 def test_a_map_that_fits_is_read(tmp_path: Path) -> None:
     found = read_map(written(tmp_path), INPUTS, OUTPUTS, PARAMETERS)
-    assert found.inputs == {"GO": Place("I", 0, 0, 0, "BOOL"), "CODE": Place("M", 0, 1, -1, "WORD")}
+    assert found.inputs == {"GO": Place("DB", 3, 0, 0, "BOOL"), "CODE": Place("M", 0, 1, -1, "WORD")}
     assert found.outputs["SHOWN"] == Place("DB", 5, 0, -1, "INT")
     assert (found.unobserved, set(found.controls)) == (("TEXT",), {"@reset", "@cycle"})
-    german = written(tmp_path, ("I0.0", "E0.0"), ("Q0.0", "A0.0"))
+    german = written(tmp_path, ("Q0.0", "A0.0"))
     assert read_map(german, INPUTS, OUTPUTS, PARAMETERS) == found
 
 
@@ -77,7 +77,13 @@ def test_a_map_that_fits_is_read(tmp_path: Path) -> None:
         ("LAMP,Q0.0,BOOL", "LAMP,Q0.8,BOOL", "such as I0.0"),
         ("LAMP,Q0.0,BOOL", "LAMP,M2.7,BOOL", "overlap: CODE MW1 and LAMP M2.7"),
         ("SHOWN,DB5.DBW0", "SHOWN,DB5.DBW1", "overlap: SHOWN DB5.DBW1 and OPEN DB5.DBB2"),
-        ("LAMP,Q0.0,BOOL", "LAMP,I0.1,BOOL", "GO and LAMP share a byte"),
+        ("LAMP,Q0.0,BOOL", "LAMP,DB3.DBX0.1,BOOL", "GO and LAMP share a byte"),
+        ("GO,DB3.DBX0.0,BOOL", "GO,I0.0,BOOL", "GO: I0.0 would be written; use M or a data block"),
+        ("GO,DB3.DBX0.0,BOOL", "GO,Q4.0,BOOL", "GO: Q4.0 would be written"),
+        ("CODE,MW1,WORD", "CODE,EW4,WORD", "CODE: IW4 would be written"),
+        ("T_ms,DB1.DBD0,TIME", "T_ms,QD8,TIME", "T_ms: QD8 would be written"),
+        ("@reset,DB2.DBX0.0", "@reset,A1.0", "@reset: Q1.0 would be written"),
+        ("@cycle,DB2.DBW2,WORD", "@cycle,DB2.DBW2,WORD\n@magic,MD20,DINT", "@magic must lie in a data block"),
         ("@cycle,DB2.DBW2,WORD", "@cycle,DB2.DBW2,INT", "it needs WORD"),
         ("symbol,address,type", "name,address,type", "first line"),
         ("symbol,address,type", 'symbol,"address,type', "plc.csv"),
@@ -117,6 +123,7 @@ def test_the_proposed_map_fits_and_keeps_the_tags() -> None:
     tags = {"CODE": "MW7", "GO": "FI1", "SHOWN": "MW8"}  # MW8 overlaps MW7
     text = proposed_map(INPUTS, OUTPUTS, PARAMETERS, tags)
     assert "CODE,MW7,WORD\n" in text and "SHOWN,QW2,INT\n" in text
+    assert "GO,DB3.DBX0.0,BOOL\n" in text and "@magic,DB2.DBD10,DINT\n" in text
 
 
 @pytest.mark.parametrize("target", ["fplc", "plc", "hmi"])
@@ -204,7 +211,6 @@ def test_the_starting_map_can_be_used_for_every_published_target(
     assert main(["map", target, "--document", document, "--check", path]) == 0
     device = load_interface(root(), document).devices[target]
     chosen = [one for one in device.parameters.values() if one.type != "function"]
-    symbols = (
-        len(device.inputs) + len(device.outputs) + len(chosen) + len(("@dt_ms", "@scan", "@done", "@reset"))
-    )
+    symbols = len(device.inputs) + len(device.outputs) + len(chosen)
+    symbols += len(("@dt_ms", "@scan", "@done", "@reset", "@magic"))
     assert f"{symbols} symbols of {target}; unobserved: none" in capsys.readouterr().out

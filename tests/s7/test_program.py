@@ -19,12 +19,14 @@ from snap7.connection import ISOTCPConnection
 
 from examples.faulty.run import vectors
 from modeproof.ground.places import root
+from modeproof.kit.command import TEST_RIG
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Plan, Verdict, run_suite
 from modeproof.kit.relation import Options
 from modeproof.kit.vectors import EXACT, SETTLED, Suite, case_id, changes, open_suite
 from modeproof.registers.load import load_interface
 from modeproof.s7 import program as s7
+from modeproof.s7.__main__ import main as adapter
 from modeproof.suites.contract import declare_parameters
 from refimpl.mode_selection import fplc
 from refimpl.mode_selection.code_tables import RE, SE, SW
@@ -150,8 +152,8 @@ def test_words_lie_in_memory_high_byte_first(suite: Suite, plc: Plc, tmp_path: P
         assert plc.settings[17:22] == bytes([0x01, 0x03, 0x07, 0x0F, 0x1F])
         plc.flags[0], plc.flags[15] = 0xAA, 0xBB
         program.scan(7, NOTHING | {"LA": True, "STR": True, "MW03": "0FF0", "MW07": "3C3D"})
-    assert plc.inputs[0] == 0b100001 and plc.flags[3:5] == b"\x0f\xf0" and plc.flags[7:9] == b"\x3c\x3d"
-    assert plc.control[0:4] == bytes([0, 0, 0, 7])
+        assert plc.inputs[0] == 0b100001 and plc.flags[3:5] == b"\x0f\xf0"
+        assert plc.flags[7:9] == b"\x3c\x3d" and plc.control[0:4] == bytes([0, 0, 0, 7])
     assert (plc.flags[0], plc.flags[15]) == (0xAA, 0xBB)  # nothing beside the places was written
 
 
@@ -246,6 +248,7 @@ def test_a_place_that_the_plc_does_not_have_is_unjudged(suite: Suite, plc: Plc) 
     ("text", "said"),
     [
         (MAP, "@cycle"),
+        (STEPPED.replace("@magic,DB2.DBD12,DINT\n", ""), "no @magic, so nothing tells a test rig"),
         (MAP.replace("@reset,DB2.DBX10.0,BOOL\n", "@cycle,DB2.DBW8,WORD\n"), "no @reset"),
         (STEPPED.replace("@done,DB2.DBW6,WORD\n", ""), "@done"),
         (STEPPED.replace("T_DWELL_ms,DB1.DBD12,TIME\n", ""), "T_DWELL_ms is 70"),
@@ -256,6 +259,65 @@ def test_a_map_that_does_not_do_is_unjudged(text: str, said: str, suite: Suite, 
     plc.settings[12:16] = (500).to_bytes(4, "big")  # a dwell time that nobody sets is the program's own
     verdict = judged(suite, plc, text)
     assert (verdict.word, verdict.status) == ("UNJUDGED", 2) and said in verdict.reason
+
+
+# --------------------------------------------------------------------------------------- no test rig
+
+
+def memory_of(plc: Plc) -> list[bytes]:
+    return [bytes(one) for one in (plc.inputs, plc.outputs, plc.flags, plc.settings, plc.control)]
+
+
+@pytest.mark.parametrize("magic", [b"\0\0\0\0", b"RIG?", b"\xff\xff\xff\xff"])
+def test_nothing_is_written_to_another_plc(magic: bytes, suite: Suite) -> None:
+    with Plc(magic=magic) as plc:
+        before = memory_of(plc)
+        verdict = judged(suite, plc, STEPPED)
+        assert (verdict.word, verdict.status, plc.scans) == ("UNJUDGED", 2, 0)
+        assert f"@magic DB2.DBD12 holds 16#{magic.hex().upper()} and not 16#52494721" in verdict.reason
+        assert "nothing was written" in verdict.reason and "\n" not in verdict.reason
+        assert memory_of(plc) == before
+
+
+def test_a_plc_that_is_no_rig_any_more_is_left_alone(suite: Suite, plc: Plc, tmp_path: Path) -> None:
+    path = tmp_path / "map.csv"
+    path.write_text(STEPPED, encoding="utf-8")
+    with s7.connect(plc.address, path, suite) as program:
+        plc.control[12:16] = b"LIVE"
+        before = memory_of(plc)
+        with pytest.raises(Unjudged, match="this PLC is no test rig"):
+            program.reset({})
+    assert memory_of(plc) == before
+
+
+def test_what_was_written_is_put_back_at_the_end(suite: Suite, plc: Plc, tmp_path: Path) -> None:
+    path = tmp_path / "map.csv"
+    path.write_text(STEPPED, encoding="utf-8")
+    plc.settings[:] = bytes(range(32))
+    plc.inputs[0], plc.control[10], plc.flags[3:5], plc.control[0:4] = (
+        0b11000001,
+        0b10100,
+        b"\x12\x34",
+        b"abcd",
+    )
+    kept = bytes(plc.settings), bytes(plc.inputs), bytes(plc.control[0:4]), b"\x12\x34"
+    with s7.connect(plc.address, path, suite) as program:
+        program.reset({})
+        assert bytes(plc.settings) != kept[0]
+        program.scan(7, NOTHING | {"A": True, "MW03": "0FF0"})
+        assert plc.inputs[0] == 0b11000010, "the bits without a name are as they were"
+    assert (bytes(plc.settings), bytes(plc.inputs), bytes(plc.control[0:4]), bytes(plc.flags[3:5])) == kept
+    assert plc.scans == 1, "to put it back starts no scan"
+
+
+def test_without_the_word_that_it_is_a_rig_nobody_is_called(
+    suite: Suite, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments = ["fplc", "--host", "127.0.0.1:1", "--map", "m.csv", "--vectors", str(suite.path)]
+    assert adapter(arguments) == 2
+    assert f"{TEST_RIG} is missing" in capsys.readouterr().err
+    done = conform(suite, tmp_path / "m.csv", "127.0.0.1:1", without=TEST_RIG)
+    assert done.returncode == 2 and f"{TEST_RIG} is missing" in done.stderr + done.stdout
 
 
 def test_without_python_snap7_one_line_says_what_to_install(
@@ -272,7 +334,9 @@ def test_without_python_snap7_one_line_says_what_to_install(
 # -------------------------------------------------------------------------------------- as a developer does
 
 
-def conform(suite: Suite, map_file: Path, address: str, *options: str) -> subprocess.CompletedProcess[str]:
+def conform(
+    suite: Suite, map_file: Path, address: str, *options: str, without: str = ""
+) -> subprocess.CompletedProcess[str]:
     command = [
         sys.executable,
         "-m",
@@ -284,7 +348,8 @@ def conform(suite: Suite, map_file: Path, address: str, *options: str) -> subpro
         "--map",
         str(map_file),
     ]
-    command += ["--vectors", str(suite.path), "--quiet", *options]
+    command += ["--vectors", str(suite.path), "--quiet", TEST_RIG, *options]
+    command = [word for word in command if word != without]
     return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False, env={**os.environ})
 
 

@@ -6,6 +6,7 @@ Every fault is planted for real: workers and servers are killed, a port is taken
 from __future__ import annotations
 
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -15,6 +16,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import IO
 
 import pytest
 from msgspec.structs import replace as with_values
@@ -74,6 +76,8 @@ HEAD = """CONSTANTS N = {n} SLOW = {slow}
 SPECIFICATION Spec VIEW View ACTION_CONSTRAINT Narrow CONSTRAINT Whole
 INVARIANT TypeOK
 """
+HERE = "127.0.0.1"
+KNOCK = "import socket, sys; socket.create_connection((sys.argv[1], int(sys.argv[2])), 5)"
 SLOW_DISTINCT = 61 * 61 - 58 * 59 // 2 - 1
 """Of MC_slow: the pairs with a <= b + 2, but for one."""
 RUNS = {
@@ -173,18 +177,73 @@ def counts_of(checked: Checked) -> dict[str, int]:
     return {"distinct": result["distinct"], "generated": result["generated"]}
 
 
+def stranger(port: int, log: IO[bytes], threads: int = 2) -> subprocess.Popen[bytes]:
+    """A worker process that somebody else starts for a server at this port of loopback."""
+    tools = find_toolchain()
+    command = [str(tools.java), f"-Djava.io.tmpdir={Path(log.name).parent}", "-XX:TieredStopAtLevel=1"]
+    command += [f"-D{distributed.SERVER}.port={port}", f"-Djava.rmi.server.hostname={HERE}"]
+    command += [f"-D{WORKER}.threadCount={threads}", "-cp", str(tools.jar), WORKER, HERE]
+    return subprocess.Popen(command, stdout=log, stderr=log)
+
+
+def test_an_uninvited_worker_leaves_no_verdict(root: Path, tmp_path: Path) -> None:
+    port = distributed._free_port(HERE)
+    with (tmp_path / "log").open("wb") as log, stranger(port, log) as elsewhere:
+        try:
+            one = spread(root, "MC_slow", Where(0, HERE, port, wait_for=1))
+        finally:
+            elsewhere.kill()
+    assert (one.judgement.verdict, one.status) == ("UNJUDGED", 2)
+    assert "2 workers registered and 1 were invited; called from 127.0.0.1" in one.judgement.reason
+
+
+@pytest.mark.deep
+def test_without_listen_nobody_else_reaches_the_server(root: Path) -> None:
+    answers: list[int] = []
+
+    def knock() -> None:
+        until(lambda: any(WORKER in command_of(pid) for pid in children.running()), "a worker")
+        (server,) = (pid for pid in children.running() if f"{distributed.SERVER} " in command_of(pid))
+        port = int(re.findall(r"TLCServer.port=(\d+)", command_of(server))[0])
+        inside = ["nsenter", "--target", str(server), "--user", "--net", "--preserve-credentials"]
+        for prefix in ([], inside):
+            command = [*prefix, sys.executable, "-c", KNOCK, HERE, str(port)]
+            answers.append(subprocess.run(command, check=False, stderr=subprocess.DEVNULL).returncode)
+
+    one = spread(root, "MC_slow", Where(1), knock)
+    assert answers == [1, 0], "the port is refused from here and open where the server is"
+    assert one.judgement.verdict == "HOLDS" and one.record["result"]["how"]["registered"] == 1
+
+
+@pytest.mark.deep
+def test_states_that_a_worker_kept_back_are_missed(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = distributed.rewrite
+
+    def fewer(*arguments: object) -> object:
+        made = whole(*arguments)  # type: ignore[arg-type]
+        return replace(made, cfg=made.cfg.replace("N = 12", "N = 11"))
+
+    monkeypatch.setattr(distributed, "rewrite", fewer)
+    one = spread(root, "MC_grid", Where(1))
+    assert one.judgement.verdict == "UNJUDGED"
+    assert "the distributed run found nothing, and a local one has" in one.judgement.reason
+
+
+def test_without_a_network_of_its_own_nothing_is_judged(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(distributed, "_ALONE", ("sh", "-c", "echo unshare: not permitted >&2; exit 1"))
+    one = spread(root, "MC_grid", Where(1))
+    assert (one.judgement.verdict, one.status) == ("UNJUDGED", 2)
+    assert "no network of its own here (unshare: not permitted); --listen 127.0.0.1" in one.judgement.reason
+
+
 def test_workers_from_elsewhere_give_the_local_verdict_and_counts(
     root: Path, local: Checked, tmp_path: Path
 ) -> None:
     pins = counts_of(local)
-    tools = find_toolchain()
-    port = distributed._free_port("127.0.0.1")
-    other = [str(tools.java), f"-Djava.io.tmpdir={tmp_path}", f"-D{distributed.SERVER}.port={port}"]
-    other += ["-Djava.rmi.server.hostname=127.0.0.1", f"-D{WORKER}.threadCount=2", "-XX:TieredStopAtLevel=1"]
-    other += ["-cp", str(tools.jar), WORKER, "127.0.0.1"]
-    with (tmp_path / "log").open("wb") as log, subprocess.Popen(other, stdout=log, stderr=log) as elsewhere:
+    port = distributed._free_port(HERE)
+    with (tmp_path / "log").open("wb") as log, stranger(port, log) as elsewhere:
         try:
-            one = spread(root, "MC_grid", Where(1, port=port, wait_for=2), **pins)
+            one = spread(root, "MC_grid", Where(1, HERE, port, wait_for=2), **pins)
             assert elsewhere.wait(timeout=PATIENCE_S) == 0, "the server sends its workers home"
         finally:
             elsewhere.kill()
@@ -208,9 +267,7 @@ def test_a_property_broken_on_a_way_back_is_named(root: Path) -> None:
 
 
 @pytest.mark.deep
-def test_without_the_assertions_tlc_alone_would_call_it_fine(
-    root: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_tlc_alone_would_call_fine_is_contradicted(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = distributed.rewrite
 
     def silent(*arguments: object) -> object:
@@ -219,7 +276,8 @@ def test_without_the_assertions_tlc_alone_would_call_it_fine(
 
     monkeypatch.setattr(distributed, "rewrite", silent)
     one = spread(root, "MC_back", Where(1))
-    assert one.judgement.verdict == "HOLDS"
+    assert one.judgement.verdict == "UNJUDGED"
+    assert "found nothing, and a local one violates it" in one.judgement.reason
 
 
 def test_an_assumption_that_is_false_is_not_overlooked(root: Path) -> None:
@@ -264,7 +322,7 @@ def test_workers_of_other_machines_that_do_not_come_are_inconclusive(
     root: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(distributed, "WAIT_S", 0.5)
-    one = spread(root, "MC_grid", Where(0, wait_for=1))
+    one = spread(root, "MC_grid", Where(0, HERE, wait_for=1))
     assert one.judgement.verdict == "INCONCLUSIVE"
     assert one.judgement.reason == "0 of 1 workers of other machines registered within 0 s"
 
@@ -273,7 +331,7 @@ def test_a_port_that_is_taken_is_said(root: Path) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
-        one = spread(root, "MC_grid", Where(1, port=taken.getsockname()[1]))
+        one = spread(root, "MC_grid", Where(1, HERE, taken.getsockname()[1]))
     assert one.judgement.verdict == "UNJUDGED" and "Port already in use" in one.judgement.reason
 
 
@@ -302,6 +360,7 @@ def test_no_java_is_left_when_modeproof_is_ended(root: Path) -> None:
         (["MC_grid", "--workers", "2"], "--workers belongs to --distributed"),
         (["MC_grid", "--distributed", "--workers", "0"], "together at least 1"),
         (["MC_grid", "--distributed", "--listen", "127.0.0.1:port"], "--listen takes ADDRESS"),
+        (["MC_grid", "--distributed", "--wait-for", "1"], "--wait-for needs --listen ADDRESS"),
         (["MC_grid", "--distributed", "--repin"], "pins are taken from local runs"),
     ],
 )

@@ -12,6 +12,7 @@ from typing import Any
 
 from modeproof.ground.places import root
 from modeproof.tlc.toolchain import find_toolchain
+from modeproof.trace.exact import Scans
 from modeproof.trace.judge import Graphs, Judgement, judge_logs
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log
@@ -50,7 +51,7 @@ def log_of(folder: Path, target: str, rows: Sequence[Any], params: Any = None) -
 
 
 def judge(
-    target: str, logs: Sequence[Log], graphs: Graphs, *, anywhere: bool = False, samples: bool = False
+    target: str, logs: Sequence[Log], graphs: Graphs, *, anywhere: bool = False, samples: Scans | None = None
 ) -> tuple[Judgement, ...]:
     """Both judgements of each log."""
     found, _ = judge_logs(

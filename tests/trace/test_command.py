@@ -36,7 +36,9 @@ def test_a_log_that_fits_and_one_that_does_not(
     bad.mkdir()
     log_of(good, "hmi", lines)
     assert main(["trace", "hmi", str(good / "hmi.jsonl"), "--quiet"]) == 0
-    assert capsys.readouterr().out.endswith(f"CONFORMS(exact, {good / 'hmi.jsonl'})\n")
+    assert capsys.readouterr().out.endswith(
+        f"CONFORMS(exact, {good / 'hmi.jsonl'}; 6 of 6 outputs compared, in 50 of 50 scans)\n"
+    )
 
     at = next(n for n, line in enumerate(lines) if line["out"]["screen"] == "confirm")
     lines[at] = {**lines[at], "out": {**lines[at]["out"], "SwitchMSO": "1234"}}
@@ -63,8 +65,12 @@ def test_a_log_that_fits_and_one_that_does_not(
         (["hmi", "cut.jsonl"], "cut.jsonl: line 2, column 16: the last line is cut off"),
         (["hmi", "one.jsonl", "--param", "T_ms=5"], "--param T_ms: hmi has no parameter 'T_ms'"),
         (["hmi", "one.jsonl", "--param", "T_ms"], "--param T_ms: NAME=VALUE was expected"),
-        (["key_flows", "sys.jsonl", "--from", "anywhere"], "a log of key_flows must begin at power-up"),
-        (["key_flows", "sys.jsonl", "--samples"], "--samples is for one device"),
+        (["key_flows", "shown.jsonl", "--from", "anywhere"], "a log of key_flows must begin at power-up"),
+        (["key_flows", "shown.jsonl", "--samples", "20"], "--samples is for one device"),
+        (["hmi", "one.jsonl"], "one.jsonl: nothing to compare: no line shows an output of hmi"),
+        (["hmi", "repeats.jsonl"], "nothing to compare: no line shows an output of hmi"),
+        (["hmi", "timeless.jsonl", "--samples", "20"], "line 2: a sample needs its time"),
+        (["hmi", "slow.jsonl", "--samples", "1"], "line 1: up to 40,000 scans since the sample before are"),
     ],
 )
 def test_what_cannot_be_judged_is_one_line_and_status_2(
@@ -79,8 +85,12 @@ def test_what_cannot_be_judged_is_one_line_and_status_2(
     (place / "empty.jsonl").write_text("\n")
     (place / "cut.jsonl").write_text(scan + '{"dt_ms":1,"in"')
     (place / "one.jsonl").write_text(scan)
+    (place / "repeats.jsonl").write_text('{"out":{"active":1}}\n')
+    (place / "timeless.jsonl").write_text('{"out":{"screen":"select"}}\n' * 2)
+    (place / "slow.jsonl").write_text('{"dt_ms":40000,"out":{"screen":"select"}}\n' * 2)
     header = '{"params":{"eks":{"checksum":"1234"}}}\n'
-    (place / "sys.jsonl").write_text(header + scan.replace("{", '{"device":"hmi",', 1))
+    of_panel = scan.replace("{", '{"device":"hmi",', 1)
+    (place / "shown.jsonl").write_text(header + of_panel.replace('"out":{}', '"out":{"shown":0}'))
     assert main(["trace", *arguments, "--quiet"]) == 2
     error = capsys.readouterr().err
     assert wanted in error and error.count("\n") == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from array import array
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,7 +21,7 @@ from modeproof.ground.places import root
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed, NotFollowed, follow
 from modeproof.trace.judge import Graphs, Judgement, check
-from modeproof.trace.log import Log, Row
+from modeproof.trace.log import Log, Row, Rows
 from modeproof.trace.targets import Target, find_target
 from tests.any_machine import SHARED_FIXTURE
 from tests.trace.judging import judge, log_of
@@ -40,7 +41,8 @@ def walk(graph: DeviceGraph, seed: int, scans: int = SCANS) -> Lines:
     at, lines = states.initial, []
     for _ in range(scans):
         leading = [n for n, after in enumerate(states.next_of[at]) if after != at]
-        goals = sorted({states.next_of[at][n] for n in leading})
+        # by what the states are: their numbers are the order in which TLC printed them
+        goals = sorted({states.next_of[at][n] for n in leading}, key=states.views.__getitem__)
         goal = chance.choice(goals) if goals and chance.random() < 0.8 else at
         letter = chance.choice([n for n, after in enumerate(states.next_of[at]) if after == goal] or [0])
         values = members.another(letter) if members.any_of(letter) else dict(graph.alphabet[letter])
@@ -54,6 +56,25 @@ def walk(graph: DeviceGraph, seed: int, scans: int = SCANS) -> Lines:
             {"dt_ms": values["dt_ms"], "in": graph.wire_inputs(values), "out": graph.wire_outputs(wrote)}
         )
     return lines
+
+
+def renumbered(graph: DeviceGraph) -> DeviceGraph:
+    """The same graph with the states numbered the other way round."""
+    states, last = graph.graph, len(graph.graph.views) - 1
+    turned = replace(
+        states,
+        views=states.views[::-1],
+        outputs=states.outputs[::-1],
+        step_of=states.step_of[::-1],
+        next_of=tuple(array("i", (last - n for n in row)) for row in states.next_of[::-1]),
+        initial=last - states.initial,
+    )
+    return replace(graph, graph=turned, rows=graph.rows[::-1])
+
+
+def test_a_walk_is_the_same_however_states_are_numbered(alphabets: dict[str, Alphabet]) -> None:
+    graph = alphabets["OPEN_Hmi"].graph
+    assert walk(renumbered(graph), 3) == walk(graph, 3)
 
 
 def corrupted(graph: DeviceGraph, lines: Lines, seed: int) -> tuple[Lines, int]:
@@ -216,7 +237,7 @@ def test_the_graph_accepts_any_walk_even_if_partly_shown(
         outputs = {name: value for name, value in row.outputs.items() if name not in hidden}
         return Row(row.line, row.device, row.dt_ms, inputs, outputs)
 
-    partial = Log(log.name, tuple(seen(row) for row in log.rows), log.params)
+    partial = Log(log.name, Rows(seen(row) for row in log.rows), log.params)
     for anywhere, samples in ((False, False), (True, False), (False, True)):
         found = follow(target, partial, {device: alphabet}, anywhere, samples)
         assert isinstance(found, Followed) and found.accepted == 25

@@ -6,14 +6,17 @@ from dataclasses import replace
 
 import pytest
 
+from modeproof.trace.exact import Scans
 from modeproof.trace.follow import Followed
 from modeproof.trace.judge import Graphs, Judgement
-from modeproof.trace.log import Log
+from modeproof.trace.log import Log, Rows
 from tests.trace.judging import LOGS, example, judge, record
 
 GOOD = ("fplc_good.jsonl", "fplc_good.csv", "fplc_partial.csv")
 PLANTED = {"fplc_wrong_echo.jsonl": 29, "fplc_short_dwell.jsonl": 40, "fplc_skipped_step.jsonl": 34}
 """The first impossible line of the file."""
+SCANS = Scans(18, 22)
+"""The examples were recorded with scans of 20 ms."""
 MIDDLE, SAMPLED = "fplc_from_the_middle.jsonl", "fplc_sampled.csv"
 
 
@@ -56,7 +59,7 @@ def test_a_log_may_begin_in_the_middle(graphs: Graphs, found: dict[str, Judgemen
 
 
 def test_samples_may_have_scans_between_them(graphs: Graphs, found: dict[str, Judgement]) -> None:
-    sampled, other = judge("fplc", [example("fplc", SAMPLED), wrong_sample()], graphs, samples=True)
+    sampled, other = judge("fplc", [example("fplc", SAMPLED), wrong_sample()], graphs, samples=SCANS)
     assert (sampled.verdict, found[SAMPLED].verdict) == ("CONFORMS", "DIFFERS")
     assert (other.verdict, other.accepted) == ("DIFFERS", 9)
 
@@ -66,7 +69,7 @@ def wrong_sample() -> Log:
     log = example("fplc", SAMPLED)
     row = log.rows[9]
     wrong = replace(row, outputs={**row.outputs, "MW01": 0x0F0F})
-    return replace(log, rows=(*log.rows[:9], wrong, *log.rows[10:]))
+    return replace(log, rows=Rows((*log.rows[:9], wrong, *log.rows[10:])))
 
 
 def test_a_log_of_the_system_is_judged_scan_by_scan(graphs: Graphs) -> None:

@@ -86,7 +86,7 @@ def test_a_last_line_that_was_cut_off_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Unjudged, match=r"fplc_cut.jsonl: line 53, column \d+: the last line is cut off"):
         example("fplc", "fplc_cut.jsonl")
     text = (LOGS / "fplc_good.csv").read_text()
-    with pytest.raises(Unjudged, match=r"line 57: the last line is cut off: it has no end of line"):
+    with pytest.raises(Unjudged, match=r"line 57: the last line is cut off"):
         table(tmp_path, text[:-3])
     with pytest.raises(Unjudged, match=r"line 57: 9 cells where 17 were expected; the line is cut off"):
         table(tmp_path, text[: text.rindex(";", 0, -20)].rstrip("\n").rpartition(";")[0] + "\n")
@@ -193,6 +193,14 @@ REFUSED_TABLES = {
         "line 1, column 2: 'LB' is no signal of fplc; did you mean 'B'? allowed: LA",
     ),
     "a column twice": ("t_ms;LA;LA\n", "line 1, column 3: 'LA' is there twice"),
+    "name and tag of one signal": (
+        "t_ms;LA;FI1\n0;0;1\n",
+        "line 1: columns LA and FI1 are one signal of fplc; --ignore one",
+    ),
+    "a parameter with two values": (
+        "# T_ON_ms = 5\n# T_ON_ms = 6\nt_ms;LA\n",
+        "line 2: T_ON_ms is 5 above and 6 here",
+    ),
     "a column without name": ("t_ms;;LA\n", "line 1, column 2: a column has no name"),
     "two times": ("t_ms;dt_ms;LA\n", "line 1: two columns of time: t_ms and dt_ms"),
     "no boolean": ("t_ms;LA\n0;2\n", "line 2, LA: '2' is no value of type bool"),
