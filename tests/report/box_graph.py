@@ -6,7 +6,7 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
-from modeproof.graph.device import graph_file, load_device_graph
+from modeproof.graph.device import graph_file, read_device_graph
 from modeproof.graph.export import write_export
 from modeproof.ground.evidence import hashes
 from modeproof.registers.runs import load_runs
@@ -47,7 +47,7 @@ def add_graph(root: Path) -> Path:
     printed = graph_file(root, run)
     printed.parent.mkdir(parents=True)
     printed.write_text("\n".join(PRINTED) + "\n")
-    export = write_export(root, run, load_device_graph(root, run))
+    export = write_export(root, run, read_device_graph(root, run))
     put(root, "OPEN_Box", verdict="HOLDS", expected="HOLDS", result={"run": "OPEN", "distinct": 2})
     compared(root)
     return export
