@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 
 from modeproof.cli import COMMANDS, main
 from modeproof.ground.lock import only_one
+from modeproof.ground.places import TREE
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
 
@@ -80,6 +82,31 @@ def test_a_root_without_a_specification_is_one_line(
     assert "no folder `spec` here" in only_line(capsys)
 
 
+def test_a_command_judges_the_tree_in_which_it_stands(
+    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delenv("MODEPROOF_ROOT")
+    monkeypatch.chdir(toy / "spec" / "toy")
+    assert main(["check", "MC_toy", "--quiet", "--json", "out.json"]) == 0
+    assert capsys.readouterr().out.startswith(f"tree         {toy}\n")
+    assert json.loads(Path("out.json").read_text())["tree"] == str(toy)
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_a_copied_checkout_is_not_judged_by_another_ones_tool(
+    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], named: bool
+) -> None:
+    shutil.copytree(TREE / "modeproof", toy / "modeproof")
+    monkeypatch.chdir(toy)
+    if not named:
+        monkeypatch.delenv("MODEPROOF_ROOT")
+    assert main(["check", "MC_toy", "--quiet"]) == 2
+    assert f"{toy} has a modeproof of its own, and this is the one of {TREE}" in only_line(capsys)
+    own = [sys.executable, "-m", "modeproof", "check", "--list"]
+    done = subprocess.run(own, cwd=toy, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith(f"tree         {toy}\n")
+
+
 def test_a_missing_java_is_one_line(
     toy: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -142,7 +169,7 @@ def test_each_command_has_help(command: str, capsys: pytest.CaptureFixture[str])
 
 def test_the_runs_can_be_listed(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--list"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 3 <= len(CFGS)
+    assert capsys.readouterr().out.count("toy/") == 3 <= len(CFGS)
 
 
 def test_a_command_whose_packages_are_missing_says_so(
