@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, build, chosen_documents, root
@@ -53,10 +53,14 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("no document has proofs (proofs/<document>/)")
     if args.coverage:
         return cover_documents(args, place, names, progress)
+    theorems = [theorem.name for name in names if args.theorems for theorem in _theorems_of(name)]
+    for pattern in args.theorems:  # a name need not be one of every document
+        if not fnmatch.filter(theorems, pattern):
+            raise Unjudged(f"no theorem is called {pattern!r}; {suggestion(pattern, theorems)}")
     with only_one(place):
         records, troubles = prove_documents(place, names, progress, tuple(args.theorems), args.limit)
-    if troubles and (not args.theorems or len(troubles) == len(names)):
-        raise Unjudged("; ".join(troubles.values()))  # a name need not be one of every document
+    if troubles and not args.theorems:
+        raise Unjudged("; ".join(troubles.values()))
     status = max(status_of(record) for record in records)
     proofs = [record for record in records if record["kind"] == "proof"]
     for name in never_needed(proofs) if not args.theorems else ():

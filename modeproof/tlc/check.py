@@ -59,7 +59,7 @@ def select(
     """The runs to check: by id or pattern (`MC_*`, `DOCUMENT/MC_*`), else all of a lane, else of all
     lanes.
 
-    Raises Unjudged when a name or the whole selection matches nothing.
+    Raises Unjudged when a name, in the lane if there is one, or the whole selection matches nothing.
     """
     known = documents(place)
     if document is not None and document not in known:
@@ -67,8 +67,11 @@ def select(
     chosen = [name for name in known if document in (None, name)]
     runs = [run for name in chosen if _has_runs(place, name) for run in load_runs(place, name)]
     for pattern in names:
-        if not any(_named(run, pattern) for run in runs):
+        named = [run for run in runs if _named(run, pattern)]
+        if not named:
             raise Unjudged(f"no run {pattern!r} in runs.toml of {', '.join(chosen) or 'any document'}")
+        if lane is not None and not any(lane in run.lanes for run in named):
+            raise Unjudged(f"{pattern} is not in the lane {lane}, but in {', '.join(named[0].lanes)}")
     picked = tuple(
         run
         for run in runs

@@ -58,6 +58,7 @@ def test_a_different_count_ends_with_1_until_it_is_repinned(
     ("arguments", "words"),
     [
         (["check", "MC_tyo"], "no run 'MC_tyo'"),
+        (["check", "MC_toy", "MC_tyo", "--lane", "smoke"], "no run 'MC_tyo'"),
         (["check", "--document", "none"], "no document 'none'"),
         (["check", "--lane", "exhaustive"], "no run to check in the lane exhaustive"),
         (["check", "--repin"], "--repin needs the runs by name"),
@@ -72,6 +73,19 @@ def test_what_cannot_be_judged_is_one_line_and_status_2(
 ) -> None:
     assert main(arguments) == 2
     assert words in only_line(capsys)
+
+
+def test_a_run_outside_the_lane_is_not_dropped(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = toy / "spec/toy/runs.toml"
+    head, _, tail = path.read_text().partition('"NEG_small"')
+    path.write_text(f'{head}"NEG_small"' + tail.replace('["smoke", "full"]', '["full"]', 1))
+    assert main(["check", "MC_toy", "NEG_small", "--lane", "smoke"]) == 2
+    assert only_line(capsys).endswith("NEG_small is not in the lane smoke, but in full")
+
+
+def test_a_misspelt_theorem_is_not_dropped(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove", "--document", "edm", "no_*", "it_nevr_proved", "--quiet"]) == 2
+    assert "no theorem is called 'it_nevr_proved'" in only_line(capsys)
 
 
 def test_a_root_without_a_specification_is_one_line(

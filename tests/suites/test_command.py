@@ -118,6 +118,19 @@ def test_a_graph_of_another_text_is_never_read(
     assert not list(toy.glob("build/vectors/**/*.gz")) and not (toy / "vectors").exists()
 
 
+def test_no_name_of_a_suite_or_target_is_dropped(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["vectors", "build", "lamp", "--suite", "tour"]) == 0
+    vectors = "build/vectors/toy/lamp/tour.jsonl.gz"
+    for command, words in (
+        ("vectors lint lamp lmap", "no vector file of lmap"),
+        ("vectors stats lamp --suite tour --suite sic", "no vector file of sic.jsonl.gz"),
+        (f"conform lamp --builtin toyimpl --suite tour --vectors {toy / vectors}", "give one of them"),
+        ("conform lamp --builtin toyimpl --relation settled", "--builtin alone is exact"),
+    ):
+        assert main(command.split()) == 2
+        assert words in capsys.readouterr().err
+
+
 def test_a_reader_of_graphs_names_what_has_changed(toy: Path) -> None:
     (run,) = open_runs(toy, "toy")
     assert load_device_graph(toy, run).graph.views
