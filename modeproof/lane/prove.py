@@ -22,7 +22,7 @@ from modeproof.ground.processes import Task, in_processes, meanwhile
 from modeproof.ground.progress import Progress
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
-from modeproof.lane.coverage import cover_documents, version_of
+from modeproof.lane.coverage import cover_documents
 from modeproof.lane.summary import counted
 from modeproof.report.proofs import never_needed
 from modeproof.report.verdicts import status_of
@@ -109,6 +109,7 @@ def prove_documents(
     the queue, so that no core waits for the longest of them; `on_beside` gets each of their results.
     """
     whole = not patterns and lane != "smoke"
+    tools = evidence.solvers()  # hashed before the processes are copies of this one
     troubles: dict[str, str] = {}
     theorems: dict[str, list[Any]] = {}
     inputs: dict[str, dict[str, str]] = {}
@@ -160,7 +161,7 @@ def prove_documents(
         if whole and document not in troubles and _has_agreement(place, document):
             module = importlib.import_module(f"proofs.{document}.agreement")
             verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
-            records.append(agreement.compare(place, document, module, verdicts, inputs[document], _solvers()))
+            records.append(agreement.compare(place, document, module, verdicts, inputs[document], tools))
     return records, troubles
 
 
@@ -199,11 +200,6 @@ def _prepared(document: str) -> Iterator[float]:
 
 def _has_agreement(place: Path, document: str) -> bool:
     return (place / "proofs" / document / "agreement.py").is_file()
-
-
-def _solvers() -> dict[str, dict[str, str | None]]:
-    packages = {"z3": "z3-solver", "cvc5": "cvc5"}
-    return {tool: evidence.tool(version_of(package)) for tool, package in packages.items()}
 
 
 def _theorems_of(document: str) -> list[Any]:
@@ -251,7 +247,7 @@ def prove_theorem(
         started=started,
         seconds=result.seconds,
         inputs=inputs,
-        tools=_solvers(),
+        tools=evidence.solvers(),
         result={
             "sentence": result.sentence,
             "remark": result.remark,

@@ -23,11 +23,11 @@ from modeproof.registers.made import cfg_text, module_text
 from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc import children
+from modeproof.tlc.again import declared
 from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
-from modeproof.tlc.resume import declaration_sha256
 from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
@@ -287,24 +287,9 @@ def _record(
 def _result(
     place: Path, run: Run, tools: Toolchain, judgement: Judgement, outcome: Outcome | None
 ) -> dict[str, Any]:
-    result: dict[str, Any] = {
-        "run": run.kind,
-        "module": run.module,
-        "cfg": run.config,
-        "readings": list(run.readings),
-        "lanes": list(run.lanes),
-        "properties": list(run.properties),
-        "workers": run.workers,
-        "heap_mb": run.heap_mb,
-        "timeout_s": run.timeout_s,
-        "jar_pinned": tools.pinned,
-        "declaration": declaration_sha256(run),
-        "pins": {"distinct": run.distinct, "generated": run.generated, "trace_length": run.trace_length},
-    }
+    result: dict[str, Any] = {**declared(run), "jar_pinned": tools.pinned}
     if not tools.pinned:
         result["jar_note"] = f"pinned counts were taken with {JAR_VERSION}, not with this jar"
-    if run.property:
-        result["property"] = run.property
     if outcome is None:
         return result
     log = outcome.log
@@ -334,7 +319,6 @@ def _result(
             for state in log.trace
         ]
     if run.kind == "WIT":
-        result["witnesses"] = list(run.witnesses)
         result["reached"] = list(judgement.reached)
     if run.graph is not None:
         result["graph"] = {
