@@ -93,7 +93,7 @@ def _named(run: Run, pattern: str) -> bool:
 
 def register_problems(place: Path, document: str) -> tuple[str, ...]:
     """What is wrong between runs.toml and the specification: a missing or unlisted cfg, an empty property
-    list, a run whose cfg cannot be made.
+    list, a run whose cfg cannot be made, a main run that `make verify` leaves out.
     """
     folder = place / "spec" / document
     runs = load_runs(place, document)
@@ -113,6 +113,14 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
             module_text(place, run)
         except Unjudged as error:
             problems.append(error.message)
+    main: dict[tuple[str, str], Run] = {}
+    for run in runs:
+        main.setdefault((run.kind, run.environment), run)  # the strongest stands first
+    problems += [
+        f"run {run.id}: the main run of the environment {run.environment} is not in the lane full"
+        for (kind, _), run in main.items()
+        if kind in ("MC", "OPEN") and "full" not in run.lanes
+    ]
     listed = {run.cfg for run in runs}
     problems += [
         f"{cfg.relative_to(folder).as_posix()} is in no run"
