@@ -35,6 +35,9 @@ COMMANDS = {
 }
 """For each command the module that has its `add_parser`; only the module of the command given is imported."""
 
+JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report", "mutate")
+"""Commands that end in a verdict: their first line names the tree that it is about."""
+
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
@@ -43,8 +46,9 @@ def main(argv: list[str] | None = None) -> int:
     previous = _stop_on_signals()
     try:
         place = root()
-        if str(place) not in sys.path:
-            sys.path.insert(0, str(place))
+        sys.path[:] = [str(place), *(path for path in sys.path if path != str(place))]
+        if args.command in JUDGES:
+            print(f"{'tree':<12} {place}", flush=True)
         run: Callable[[argparse.Namespace], int] = args.run
         return int(run(args))
     except Unjudged as error:

@@ -13,13 +13,12 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from proofs.smtlib import to_smtlib
 from proofs.solvers import Judgment, Solver, ask_cvc5, ask_z3, core_of
 from proofs.theorem import COUNTEREXAMPLE, Query, Theorem, TheoremError, theorems_of
+from proofs.verdict import Verdict, judge
 
-Verdict = Literal["PROVED", "VIOLATED", "INCONCLUSIVE", "UNJUDGED"]
 LIMIT_MS = 20_000
 
 
@@ -173,32 +172,6 @@ def unused_premises(built: tuple[Query, ...], results: Iterable[QueryResult]) ->
         if query.expected == "unsat":
             used |= set(query.formulas if result.core is None else result.core)
     return tuple(name for name in premises_of(built) if name not in used)
-
-
-def judge(queries: list[QueryResult]) -> tuple[Verdict, str]:
-    """The verdict on a theorem from its queries, the gravest first, and one line of reason unless PROVED."""
-    if not queries:
-        return "UNJUDGED", "no query was asked"
-    for query in queries:
-        if {query.z3, query.cvc5} == {"sat", "unsat"}:
-            return (
-                "UNJUDGED",
-                f"{query.name}: the solvers disagree, z3 says {query.z3}, cvc5 says {query.cvc5}",
-            )
-    for query in queries:
-        if query.expected == "unsat" and query.z3 == query.cvc5 == "sat":
-            return "VIOLATED", f"{query.name}: counterexample {query.detail}"
-    for query in queries:
-        if query.expected == "sat" and query.z3 == query.cvc5 == "unsat":
-            what = "the premises cannot be met" if query.twin_of else "the example that must exist does not"
-            return "UNJUDGED", f"{query.name}: {what}"
-    for query in queries:
-        if "error" in (query.z3, query.cvc5):
-            return "UNJUDGED", f"{query.name}: {query.detail}"
-    for query in queries:
-        if (query.z3, query.cvc5) != (query.expected, query.expected):
-            return "INCONCLUSIVE", f"{query.name}: z3 {query.z3}, cvc5 {query.cvc5}; {query.detail}"
-    return "PROVED", ""
 
 
 def _detail(first: Judgment, second: Judgment) -> str:

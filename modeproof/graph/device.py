@@ -17,6 +17,7 @@ from modeproof.ground.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run, load_runs
+from modeproof.tlc.resume import why_stale
 
 TIME = "dt"
 """The field of an INPUT line that holds the time since the scan before, in ticks."""
@@ -94,6 +95,13 @@ def graph_file(place: Path, run: Run) -> Path:
     return build(place) / "graphs" / run.document / f"{run.id}.txt"
 
 
+def current_graph(place: Path, run: Run) -> Path:
+    """The same file. Raises Unjudged when it does not hold the graph of the specification as it is now."""
+    if why := why_stale(place, run):
+        raise Unjudged(f"{run.name}: no graph of the present text: {why}; run modeproof check {run.id}")
+    return graph_file(place, run)
+
+
 def compared_files(place: Path, run: Run, package: str) -> list[Path]:
     """Every file that a comparison of this run's graph with `package` rests on, for its evidence."""
     folders = [place / package, place / package / run.document]
@@ -105,17 +113,21 @@ def compared_files(place: Path, run: Run, package: str) -> list[Path]:
 def load_device_graph(place: Path, run: Run) -> DeviceGraph:
     """Read and check the graph of an OPEN_ run.
 
-    Raises Unjudged when the file is missing, when the graph is not complete (see `read_graph`), or when its
-    names and values are not those of interface.toml.
+    Raises Unjudged when there is none of the specification as it is now, and as `read_device_graph` does.
+    """
+    current_graph(place, run)
+    return read_device_graph(place, run)
+
+
+def read_device_graph(place: Path, run: Run) -> DeviceGraph:
+    """The same, whatever text the graph was made from.
+
+    Raises Unjudged when the graph is not there or not complete (see `read_graph`), or when its names and
+    values are not those of interface.toml.
     """
     if run.graph is None:
         raise Unjudged(f"{run.name} prints no graph")
     path = graph_file(place, run)
-    if not path.is_file():
-        raise Unjudged(
-            f"{run.name}: no graph at {path.relative_to(place).as_posix()}; "
-            f"`modeproof check {run.id}` makes it"
-        )
     interface = load_interface(place, run.document)
     device = interface.devices.get(run.graph.device)
     if device is None:

@@ -75,7 +75,8 @@ class Comparison:
     @property
     def equal(self) -> bool:
         """Whether every transition was replayed, no difference was seen and the states are one to one."""
-        return not self.difference_count and not self.problem and self.replayed == self.transitions > 0
+        found = self.difference_count or self.differences or self.problem
+        return not found and self.replayed == self.transitions > 0
 
     @property
     def verdict(self) -> str:

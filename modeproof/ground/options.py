@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import root
 
 
 def add_command(
@@ -28,5 +29,9 @@ def write_json(args: argparse.Namespace, status: int, **content: Any) -> None:
     """Write the result where --json says. Raises Unjudged when it cannot be written."""
     if args.json is None:
         return
-    text = json.dumps({"command": args.command, "status": status, **content}, indent=1, ensure_ascii=False)
+    text = json.dumps(
+        {"command": args.command, "status": status, "tree": str(root()), **content},
+        indent=1,
+        ensure_ascii=False,
+    )
     write_whole(args.json, (text + "\n").encode("utf-8"))

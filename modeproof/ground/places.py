@@ -9,25 +9,38 @@ from pathlib import Path
 
 from modeproof.ground.errors import Unjudged, suggestion
 
+TREE = Path(__file__).resolve().parents[2]
+"""The repository that this package is of."""
+
 
 def root() -> Path:
-    """The repository root: MODEPROOF_ROOT, or the folder that holds the package.
+    """The repository root: MODEPROOF_ROOT, else the tree in which the command stands, else `TREE`.
 
-    Raises Unjudged when there is no `spec` folder in it.
+    Raises Unjudged when there is no `spec` folder in it, or when it has a modeproof of its own that is not
+    this one: a copied checkout would be judged by the tool of the original.
     """
     named = os.environ.get("MODEPROOF_ROOT")
-    place = Path(named).resolve() if named else Path(__file__).resolve().parents[2]
+    if named:
+        place = Path(named).resolve()
+    else:
+        stands = Path(os.curdir).resolve()
+        place = next((one for one in (stands, *stands.parents) if documents(one)), TREE)
     if not (place / "spec").is_dir():
         raise Unjudged(f"{place}: no folder `spec` here; set MODEPROOF_ROOT to the root of the repository")
+    own = place / "modeproof"
+    if (own / "cli.py").is_file() and not own.samefile(TREE / "modeproof"):
+        raise Unjudged(
+            f"{place} has a modeproof of its own, and this is the one of {TREE}: nothing was judged; "
+            f"in {place} run `make venv` and `.venv/bin/python -m modeproof`"
+        )
     return place
 
 
 def documents(place: Path) -> tuple[str, ...]:
     """The names of all document folders: those in `spec` that carry one of the registers."""
-    folders = sorted(folder for folder in (place / "spec").iterdir() if folder.is_dir())
     return tuple(
         folder.name
-        for folder in folders
+        for folder in sorted((place / "spec").glob("*/"))
         if any((folder / f"{register}.toml").is_file() for register in ("document", "interface", "runs"))
     )
 

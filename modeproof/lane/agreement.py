@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from modeproof.ground import evidence
+from modeproof.report.again import agreement_problems
 
 ID = "agreement"
 
@@ -40,9 +41,7 @@ def compare(
         for row in module.rows():
             proved = verdicts.get(row.theorem, "UNJUDGED") if row.theorem else ""
             rows.append({**asdict(row), "proved": proved})
-            if row.theorem and (row.tlc, proved) != ("HOLDS", "PROVED"):
-                problems.append(f"{row.id} ({row.environment}): {row.tlc}, and {row.theorem}: {proved}")
-        problems += module.disagreements()
+        problems += [*agreement_problems(rows), *module.disagreements()]
     except ValueError as error:  # a property with neither theorem nor reason
         problems.append(" ".join(str(error).split()))
     if not rows and not problems:

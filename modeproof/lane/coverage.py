@@ -6,7 +6,6 @@ import argparse
 import importlib
 import time
 from collections.abc import Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +86,7 @@ def cover_document(place: Path, document: str, progress: Any) -> dict[str, Any]:
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, paths),
-        tools={"z3": evidence.tool(version_of("z3-solver"))},
+        tools={"z3": evidence.package("z3-solver")},
         result={"devices": devices, "problems": problems},
         reason=problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
         if problems
@@ -120,10 +119,3 @@ def _coverage_lines(record: dict[str, Any]) -> list[str]:
         f"{record['seconds']:.1f} s{words}"
     )
     return lines
-
-
-def version_of(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "unknown"

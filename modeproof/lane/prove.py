@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, build, chosen_documents, root
@@ -22,7 +22,7 @@ from modeproof.ground.processes import Task, in_processes, meanwhile
 from modeproof.ground.progress import Progress
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
-from modeproof.lane.coverage import cover_documents, version_of
+from modeproof.lane.coverage import cover_documents
 from modeproof.lane.summary import counted
 from modeproof.report.proofs import never_needed
 from modeproof.report.verdicts import status_of
@@ -53,10 +53,14 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("no document has proofs (proofs/<document>/)")
     if args.coverage:
         return cover_documents(args, place, names, progress)
+    theorems = [theorem.name for name in names if args.theorems for theorem in _theorems_of(name)]
+    for pattern in args.theorems:  # a name need not be one of every document
+        if not fnmatch.filter(theorems, pattern):
+            raise Unjudged(f"no theorem is called {pattern!r}; {suggestion(pattern, theorems)}")
     with only_one(place):
         records, troubles = prove_documents(place, names, progress, tuple(args.theorems), args.limit)
-    if troubles and (not args.theorems or len(troubles) == len(names)):
-        raise Unjudged("; ".join(troubles.values()))  # a name need not be one of every document
+    if troubles and not args.theorems:
+        raise Unjudged("; ".join(troubles.values()))
     status = max(status_of(record) for record in records)
     proofs = [record for record in records if record["kind"] == "proof"]
     for name in never_needed(proofs) if not args.theorems else ():
@@ -105,6 +109,7 @@ def prove_documents(
     the queue, so that no core waits for the longest of them; `on_beside` gets each of their results.
     """
     whole = not patterns and lane != "smoke"
+    tools = evidence.solvers()  # hashed before the processes are copies of this one
     troubles: dict[str, str] = {}
     theorems: dict[str, list[Any]] = {}
     inputs: dict[str, dict[str, str]] = {}
@@ -156,7 +161,7 @@ def prove_documents(
         if whole and document not in troubles and _has_agreement(place, document):
             module = importlib.import_module(f"proofs.{document}.agreement")
             verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
-            records.append(agreement.compare(place, document, module, verdicts, inputs[document], _solvers()))
+            records.append(agreement.compare(place, document, module, verdicts, inputs[document], tools))
     return records, troubles
 
 
@@ -195,11 +200,6 @@ def _prepared(document: str) -> Iterator[float]:
 
 def _has_agreement(place: Path, document: str) -> bool:
     return (place / "proofs" / document / "agreement.py").is_file()
-
-
-def _solvers() -> dict[str, dict[str, str | None]]:
-    packages = {"z3": "z3-solver", "cvc5": "cvc5"}
-    return {tool: evidence.tool(version_of(package)) for tool, package in packages.items()}
 
 
 def _theorems_of(document: str) -> list[Any]:
@@ -247,7 +247,7 @@ def prove_theorem(
         started=started,
         seconds=result.seconds,
         inputs=inputs,
-        tools=_solvers(),
+        tools=evidence.solvers(),
         result={
             "sentence": result.sentence,
             "remark": result.remark,

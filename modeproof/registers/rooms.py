@@ -41,6 +41,7 @@ RULES = (
             "modeproof.ground.evidence",
             "modeproof.ground.errors",
             "modeproof.ground.places",
+            *("modeproof.ground.proofs", "modeproof.tlc.again", "modeproof.graph.equal"),  # judged again
         ),
     ),
     Rule(

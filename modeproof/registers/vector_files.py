@@ -1,5 +1,5 @@
 """The published vectors: what a file holds, and which files it says that it was made from. So drift shows
-without making them again.
+without making them again; that nobody edited them shows in SHA256SUMS, which `sha256sum -c` reads.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Problem
 
 ROOM = "vectors"
+SUMS = "SHA256SUMS"
 REMEDY = "run modeproof vectors publish"
 DECIDING = ("interface.toml", "classes.toml", "contracts.toml", "sequences.toml")
 """Registers that decide what a vector holds, besides the specification. Others give its sentences."""
@@ -69,17 +70,35 @@ def check_vectors(root: Path) -> list[Problem]:
     def digest(name: str) -> str:
         return _sha256(root / name)
 
-    return [
+    room = root / ROOM
+    paths = sorted(room.glob("*/*.jsonl.gz"))
+    sums = room / SUMS
+    listed = dict(line.split("  ")[::-1] for line in sums.read_text().splitlines()) if sums.is_file() else {}
+    names = {path.relative_to(room).as_posix() for path in paths}
+    lost = [Problem(f"{ROOM}/{name}", "", "is not there") for name in sorted(set(listed) - names)]
+    return lost + [
         Problem(path.relative_to(root).as_posix(), "", f"{text}; {REMEDY}")
-        for path in sorted((root / ROOM).glob("*/*.jsonl.gz"))
-        for text in _faults(path, digest)
+        for path in paths
+        for text in _faults(path, listed.get(path.relative_to(room).as_posix()), digest)
     ]
 
 
-def _faults(path: Path, digest: Callable[[str], str]) -> Iterator[str]:
+def sums_text(room: Path) -> str:
+    """The text of SHA256SUMS for the vectors that lie in a room."""
+    paths = sorted(room.glob("*/*.jsonl.gz"))
+    return "".join(f"{_sha256(path)}  {path.relative_to(room).as_posix()}\n" for path in paths)
+
+
+def _faults(path: Path, listed: str | None, digest: Callable[[str], str]) -> Iterator[str]:
+    if listed != _sha256(path):
+        yield f"was changed since it was published, says {ROOM}/{SUMS}" if listed else f"is not in {SUMS}"
     try:
-        with gzip.open(path, "rt", encoding="utf-8") as lines:
-            sources = _sources(json.loads(next(lines, "")))
+        with gzip.open(path, "rb") as lines:
+            sources = _sources(json.loads(next(lines, b"")))
+            for line in lines:
+                if 0 < line.count(b'"dt_ms":') == line.count(b'"settling":true'):
+                    yield f"compares nothing in case {json.loads(line)['id']}"
+                    break
     except _ERRORS as error:
         yield _no_file(error)
         return

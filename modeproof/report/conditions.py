@@ -189,7 +189,7 @@ def _compared(sources: Sources, condition: Condition) -> Met:
             one = found.get(run.id)
             if one is None or one.changed:
                 lost.append(run.id)
-            elif one.record["verdict"] != "EQUAL":
+            elif not one.record["as_expected"]:
                 bad.append(run.id)
     return _met("each complete graph of a device equals the implementation", bad, count, lost)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import re
@@ -10,9 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import read
+from modeproof.ground.evidence.record import other_tools
 from modeproof.report.baseline import NAME
 from modeproof.report.integrity import json_of_page, seal_of_json, seal_of_page
-from modeproof.report.sources import DIFFERS, HOLE, NOTE
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, few
 
 PAGE = "report.html"
 _SOURCES = re.compile(r'<script type="application/json" id="sources">(.*?)</script>', re.DOTALL)
@@ -77,7 +80,7 @@ def recheck(root: Path, file: Path) -> Recheck:
             found.append(Difference("differs", str(page), why, DIFFERS))
         found += _attachments(record, texts[record])
     files = listed[file]
-    found += _compare(root, files)
+    found += [*_compare(root, files), *_tools(root)]
     return Recheck(len(files), tuple(dict.fromkeys(found)))
 
 
@@ -129,6 +132,18 @@ def _compare(root: Path, files: Mapping[str, str]) -> Iterator[Difference]:
             name = one.relative_to(root).as_posix()
             if name not in files:
                 yield Difference("new", name, "the report does not know it", DIFFERS)
+
+
+def _tools(root: Path) -> Iterator[Difference]:
+    """The tools that made the evidence, and are not what they were."""
+    made: dict[str, list[str]] = {}
+    for path in sorted(root.glob("build/evidence/*/*.json")):
+        with contextlib.suppress(Unjudged):  # a file that is damaged is not as the report has it
+            for name in other_tools(read(path)):
+                made.setdefault(name, []).append(f"{path.parent.name}/{path.stem}")
+    for name, ids in made.items():
+        why = f"was changed since it made the evidence of {few(ids)}"
+        yield Difference("differs", name, why, DIFFERS)
 
 
 def _sha256(path: Path) -> str | None:

@@ -13,9 +13,11 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import read
+from modeproof.ground.evidence.record import other_tools
 from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
+from modeproof.report.again import contradiction
 
 NOTE, DIFFERS, HOLE = 0, 1, 2
 """What a trouble is: something to know, which changes no status; something is not as expected or contradicts
@@ -50,7 +52,8 @@ class Figure:
 class Evidence:
     """One piece of evidence: its record, its file relative to the root, and the SHA-256 of that file.
 
-    `changed`, `gone`: the files that it rests on or made which are no longer what they were, or not there.
+    `changed`, `gone`: the files that it rests on or made which are no longer what they were, or not there;
+    a tool that made it and is no longer what it was is in `changed` too.
     """
 
     record: Mapping[str, Any]
@@ -165,8 +168,13 @@ def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
                 continue
             artefacts = record["result"].get("artefacts", {})
             before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
-            changed = tuple(one for one, digest in before.items() if hashes[one] not in (digest, None))
+            changed = (
+                *other_tools(record),
+                *(one for one, digest in before.items() if hashes[one] not in (digest, None)),
+            )
             gone = tuple(file for file in before if hashes[file] is None)
+            if why := "" if changed else contradiction(root, found[name], record):
+                record |= {"as_expected": False, "reason": f"the evidence contradicts itself: {why}"}
             files[shown] = hashes[shown] or ""
             files |= {file: digest for file in before if (digest := hashes[file]) is not None}
             evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)

@@ -65,7 +65,7 @@ class ByTheorems(Judges):
     @property
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:
         """The solver."""
-        return {"z3": evidence.tool(version("z3-solver"))}
+        return {"z3": evidence.package("z3-solver")}
 
     def lines_of(self, mutant: Mutant) -> Sequence[str]:
         """The module without the edit."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from modeproof import kit
-from modeproof.graph.device import graph_file, load_device_graph, open_runs
+from modeproof.graph.device import current_graph, load_device_graph, open_runs
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build, documents
@@ -22,6 +22,7 @@ from modeproof.registers.runs import Run
 from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
+from modeproof.tlc.resume import why_stale
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
@@ -64,14 +65,14 @@ def ready_suite(
 ) -> Suite:
     """Open a suite of a target, and build it before when it is missing or older than its sources.
 
-    `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when graphs are missing
-    or not complete.
+    `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when a graph is
+    missing, of another text, or not complete.
     """
     path = suite_file(place, document, target, suite)
     runs = open_runs(place, document, target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
-    sources = _sources(place, document, [graph_file(place, run) for run in runs])
+    sources = _sources(place, document, [current_graph(place, run) for run in runs])
     if path.is_file():
         try:
             there = open_suite(path)
@@ -158,11 +159,6 @@ def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
     folder = place / "spec" / document
     own = Path(__file__).resolve().parent
     code = [*own.glob("*.py"), *(own.parent / "graph").glob("*.py"), Path(kit.__file__).parent / "vectors.py"]
-    for graph in graphs:
-        if not graph.is_file():
-            raise Unjudged(
-                f"no graph at {graph.relative_to(place).as_posix()}; `modeproof check {graph.stem}` makes it"
-            )
     registers = [
         folder / "interface.toml",
         folder / "classes.toml",
@@ -182,8 +178,8 @@ def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
 
 
 def make_graphs(place: Path, runs: Sequence[Run], quiet: bool) -> None:
-    """Let TLC make the graphs that are missing. Raises Unjudged when one does not come."""
-    missing = [run for run in runs if not graph_file(place, run).is_file()]
+    """Let TLC make the graphs that are missing or of another text. Raises Unjudged when one does not come."""
+    missing = [run for run in runs if why_stale(place, run)]
     if not missing:
         return
     from modeproof.tlc.check import check_all
@@ -192,10 +188,8 @@ def make_graphs(place: Path, runs: Sequence[Run], quiet: bool) -> None:
     say(f"TLC makes {', '.join(run.id for run in missing)} first")
     done = check_all(place, missing, find_toolchain(), Progress(quiet=quiet))
     for run, checked in zip(missing, done, strict=True):
-        if not graph_file(place, run).is_file():
-            raise Unjudged(f"{run.name}: TLC left no graph: {checked.record['reason']}")
         if checked.status != 0:
-            say(f"note: {run.name} is not as expected: {checked.record['reason']}")
+            raise Unjudged(f"{run.name}: its graph cannot be used: {checked.record['reason']}")
 
 
 def say(line: str) -> None:

@@ -52,6 +52,8 @@ def _program(args: argparse.Namespace) -> int:
     if not device.published and args.builtin is None:
         raise Unjudged(f"{args.target} is not a published target; --builtin compares our own code")
     if args.vectors is not None:
+        if args.suite:
+            raise Unjudged("--vectors names one file, and --suite others: give one of them")
         suites = [kit_command.open_vectors(args)]
     else:
         with only_one(place):
@@ -121,8 +123,8 @@ def _builtin(args: argparse.Namespace) -> int:
     runs = open_runs(place, document, args.target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {args.target}")
-    if args.case is not None:
-        raise Unjudged("--case needs --suite or --vectors; --builtin alone replays every transition")
+    if args.case is not None or args.relation != EXACT:
+        raise Unjudged("--case and --relation need --suite or --vectors; --builtin alone is exact, and whole")
     code = load_implementation(args.builtin, document, device.id)
     progress = Progress(quiet=args.quiet)
     found: list[tuple[Run, Comparison]] = []

@@ -83,6 +83,8 @@ def _cases(suite: Suite, tracks: _Tracks) -> list[str]:
         scans += sum(scan.request is None for scan in case.scans)
         if case.basis == "document" and not case.clauses and any(step.clauses for step in suite.steps):
             problems.append(f"{case.id}: no clause is cited")
+        if not any(scan.compared or scan.request for scan in case.scans):
+            problems.append(f"{case.id}: every scan is settling, so nothing is compared")
         problems += _values(suite, case, good)
         tracks.add(case)
     if scans != suite.scan_count:

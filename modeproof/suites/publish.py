@@ -9,11 +9,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.vectors import FILE_NAME, read_lines
-from modeproof.registers.vector_files import ROOM
+from modeproof.registers.vector_files import ROOM, SUMS, sums_text
 from modeproof.suites.build import suite_file
 from modeproof.suites.kinds import SUITES
+from modeproof.suites.lint import lint
 
 SCHEMA = "vectors.schema.json"
 
@@ -42,6 +44,8 @@ def publish(place: Path, targets: Mapping[str, str]) -> Published:
     written, kept = [], []
     for source, path in wanted.items():
         shown = path.relative_to(place).as_posix()
+        if path.suffix == ".gz" and (problems := lint(source)):
+            raise Unjudged(f"{shown} is not published: {problems[0]}; delete {source} and try again")
         if path.is_file() and _same(source, path):
             kept.append(shown)
         else:
@@ -52,6 +56,7 @@ def publish(place: Path, targets: Mapping[str, str]) -> Published:
         if path not in wanted.values():
             path.unlink()
             removed.append(path.relative_to(place).as_posix())
+    write_whole(place / ROOM / SUMS, sums_text(place / ROOM).encode())
     return Published(tuple(written), tuple(kept), tuple(removed))
 
 

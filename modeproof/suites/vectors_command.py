@@ -157,14 +157,20 @@ def _digest(path: Path) -> str:
 
 
 def _files(place: Path, args: argparse.Namespace) -> list[Path]:
-    """The vector files of the targets and suites asked for. Raises Unjudged when there is none."""
-    found = []
-    for path in sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}")):
-        wanted = not args.targets or path.parent.name in args.targets
-        if wanted and (not args.suite or path.name.split(".")[0] in args.suite):
-            found.append(path)
-    if not found:
-        raise Unjudged("no vector file of these targets and suites; `modeproof vectors build` makes them")
+    """The vector files of the targets and suites asked for. Raises Unjudged when one of them has none."""
+    files = sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}"))
+    suites = [FILE_NAME.format(suite=name) for name in args.suite or ()]
+    found = [
+        path
+        for path in files
+        if (not args.targets or path.parent.name in args.targets) and (not suites or path.name in suites)
+    ]
+    there = {part for path in found for part in (path.parent.name, path.name)}
+    missing = [name for name in (*args.targets, *suites) if name not in there]
+    if missing or not found:
+        raise Unjudged(
+            f"no vector file of {', '.join(missing) or 'any target'}; modeproof vectors build makes them"
+        )
     return found
 
 

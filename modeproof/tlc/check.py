@@ -23,11 +23,11 @@ from modeproof.registers.made import cfg_text, module_text
 from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc import children
+from modeproof.tlc.again import declared
 from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
-from modeproof.tlc.resume import declaration_sha256
 from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
@@ -59,7 +59,7 @@ def select(
     """The runs to check: by id or pattern (`MC_*`, `DOCUMENT/MC_*`), else all of a lane, else of all
     lanes.
 
-    Raises Unjudged when a name or the whole selection matches nothing.
+    Raises Unjudged when a name, in the lane if there is one, or the whole selection matches nothing.
     """
     known = documents(place)
     if document is not None and document not in known:
@@ -67,8 +67,11 @@ def select(
     chosen = [name for name in known if document in (None, name)]
     runs = [run for name in chosen if _has_runs(place, name) for run in load_runs(place, name)]
     for pattern in names:
-        if not any(_named(run, pattern) for run in runs):
+        named = [run for run in runs if _named(run, pattern)]
+        if not named:
             raise Unjudged(f"no run {pattern!r} in runs.toml of {', '.join(chosen) or 'any document'}")
+        if lane is not None and not any(lane in run.lanes for run in named):
+            raise Unjudged(f"{pattern} is not in the lane {lane}, but in {', '.join(named[0].lanes)}")
     picked = tuple(
         run
         for run in runs
@@ -90,7 +93,7 @@ def _named(run: Run, pattern: str) -> bool:
 
 def register_problems(place: Path, document: str) -> tuple[str, ...]:
     """What is wrong between runs.toml and the specification: a missing or unlisted cfg, an empty property
-    list, a run whose cfg cannot be made.
+    list, a run whose cfg cannot be made, a main run that `make verify` leaves out.
     """
     folder = place / "spec" / document
     runs = load_runs(place, document)
@@ -110,6 +113,14 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
             module_text(place, run)
         except Unjudged as error:
             problems.append(error.message)
+    main: dict[tuple[str, str], Run] = {}
+    for run in runs:
+        main.setdefault((run.kind, run.environment), run)  # the strongest stands first
+    problems += [
+        f"run {run.id}: the main run of the environment {run.environment} is not in the lane full"
+        for (kind, _), run in main.items()
+        if kind in ("MC", "OPEN") and "full" not in run.lanes
+    ]
     listed = {run.cfg for run in runs}
     problems += [
         f"{cfg.relative_to(folder).as_posix()} is in no run"
@@ -284,24 +295,9 @@ def _record(
 def _result(
     place: Path, run: Run, tools: Toolchain, judgement: Judgement, outcome: Outcome | None
 ) -> dict[str, Any]:
-    result: dict[str, Any] = {
-        "run": run.kind,
-        "module": run.module,
-        "cfg": run.config,
-        "readings": list(run.readings),
-        "lanes": list(run.lanes),
-        "properties": list(run.properties),
-        "workers": run.workers,
-        "heap_mb": run.heap_mb,
-        "timeout_s": run.timeout_s,
-        "jar_pinned": tools.pinned,
-        "declaration": declaration_sha256(run),
-        "pins": {"distinct": run.distinct, "generated": run.generated, "trace_length": run.trace_length},
-    }
+    result: dict[str, Any] = {**declared(run), "jar_pinned": tools.pinned}
     if not tools.pinned:
         result["jar_note"] = f"pinned counts were taken with {JAR_VERSION}, not with this jar"
-    if run.property:
-        result["property"] = run.property
     if outcome is None:
         return result
     log = outcome.log
@@ -331,7 +327,6 @@ def _result(
             for state in log.trace
         ]
     if run.kind == "WIT":
-        result["witnesses"] = list(run.witnesses)
         result["reached"] = list(judgement.reached)
     if run.graph is not None:
         result["graph"] = {

@@ -19,7 +19,7 @@ from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_pro
 from modeproof.tlc.distributed import Where, refusal
 from modeproof.tlc.messages import essence, format_trace
 from modeproof.tlc.repin import Move, apply, ask_reason, cfg_diff, moves, refuse_in_ci
-from modeproof.tlc.resume import why_again
+from modeproof.tlc.resume import why_stale
 from modeproof.tlc.toolchain import find_toolchain
 
 
@@ -109,7 +109,7 @@ def _resumed(
     """With --resume: the runs that are kept, by their names; each run is said, with why it is run again."""
     found: dict[str, Any] = {}
     for run in runs if args.resume else ():
-        if reason := why_again(place, run, tools):
+        if reason := why_stale(place, run, tools):
             progress.say(f"again {run.name}: {reason}")
         else:
             found[run.name] = kept(place, run)

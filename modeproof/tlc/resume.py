@@ -1,7 +1,8 @@
-"""Which runs of an interrupted lane need not be run again: those whose evidence still fits.
+"""Whether the evidence of a run still fits: who reads a printed graph, and a lane that goes on, ask here.
 
 It fits when it is as expected, and nothing has changed since: the run's declaration with its pins, every file
-that TLC read, the tools, the printed graph. TLC's own checkpoints are not used (docs/decisions.md).
+that TLC read, the printed graph. A lane that goes on asks for the same tools too. TLC's own checkpoints are
+not used (docs/decisions.md).
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import msgspec
 
@@ -33,8 +33,11 @@ def current_tools(tools: Toolchain) -> dict[str, Mapping[str, str | None]]:
     return {**own, "java": java, "tlc": {"sha256": tools.jar_sha256}}
 
 
-def why_again(place: Path, run: Run, tools: Toolchain) -> str:
-    """Why a run must be run again; empty when its evidence still fits."""
+def why_stale(place: Path, run: Run, tools: Toolchain | None = None) -> str:
+    """Why the evidence of a run, and the graph that it printed, fit no longer; empty when they do.
+
+    With `tools` these must be the same too.
+    """
     path = evidence.evidence_path(place, run.document, run.id)
     if not path.is_file():
         return "no evidence"
@@ -42,16 +45,12 @@ def why_again(place: Path, run: Run, tools: Toolchain) -> str:
         record = evidence.read(path)
     except Unjudged:
         return "its evidence cannot be read"
-    return _changed(place, run, tools, record)
-
-
-def _changed(place: Path, run: Run, tools: Toolchain, record: Mapping[str, Any]) -> str:
     result = record["result"]
     if record["kind"] != "tlc" or not record["as_expected"]:
         return f"its evidence says {record['verdict']}, not as expected"
     if result.get("declaration") != declaration_sha256(run):
         return "its declaration has changed"
-    now = current_tools(tools)
+    now = {} if tools is None else current_tools(tools)
     for name in sorted(now):
         then = record["tools"].get(name, {})
         if any(then.get(key) != value for key, value in now[name].items()):
@@ -60,8 +59,11 @@ def _changed(place: Path, run: Run, tools: Toolchain, record: Mapping[str, Any])
     files = {name: digest for name, digest in record["inputs"].items() if name != register}
     if not files:
         return "its evidence names no input"
-    if graph := result.get("graph", {}).get("file"):
-        files[graph] = result["graph"]["sha256"]
+    if run.graph is not None:
+        graph = result.get("graph", {})
+        if "sha256" not in graph:
+            return "its evidence names no graph"
+        files[graph["file"]] = graph["sha256"]
     for name, digest in files.items():
         if not (place / name).is_file() or evidence.hashes(place, [place / name])[name] != digest:
             return f"{name} has changed"

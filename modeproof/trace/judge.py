@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
-from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
@@ -21,21 +20,6 @@ from modeproof.trace.log import Log
 from modeproof.trace.module import Reading
 from modeproof.trace.targets import Target, targets_of
 from modeproof.trace.why import Why, device_log, explain
-
-
-def is_current(place: Path, run: Run) -> bool:
-    """Whether the graph of a run is there and was made from the specification as it is now."""
-    path = graph_file(place, run)
-    try:
-        record = evidence.read(evidence.evidence_path(place, run.document, run.id))
-        inputs = {name: digest for name, digest in record["inputs"].items() if not name.endswith(".toml")}
-        return (
-            bool(record["as_expected"])
-            and evidence.hashes(place, [place / name for name in inputs]) == inputs
-            and record["result"]["graph"]["sha256"] == next(iter(evidence.hashes(place, [path]).values()))
-        )
-    except (Unjudged, KeyError):
-        return False
 
 
 class Graphs:
@@ -101,9 +85,7 @@ class Graphs:
 
     def _alphabet(self, run: Run) -> Alphabet:
         if run.id not in self._read:
-            if not is_current(self._place, run):
-                graph_file(self._place, run).unlink(missing_ok=True)
-                self._make((run,))
+            self._make((run,))
             self._read[run.id] = Alphabet(load_device_graph(self._place, run))
             self.used.append(graph_file(self._place, run))
         return self._read[run.id]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 
 from modeproof.cli import COMMANDS, main
 from modeproof.ground.lock import only_one
+from modeproof.ground.places import TREE
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
 
@@ -56,6 +58,7 @@ def test_a_different_count_ends_with_1_until_it_is_repinned(
     ("arguments", "words"),
     [
         (["check", "MC_tyo"], "no run 'MC_tyo'"),
+        (["check", "MC_toy", "MC_tyo", "--lane", "smoke"], "no run 'MC_tyo'"),
         (["check", "--document", "none"], "no document 'none'"),
         (["check", "--lane", "exhaustive"], "no run to check in the lane exhaustive"),
         (["check", "--repin"], "--repin needs the runs by name"),
@@ -72,12 +75,50 @@ def test_what_cannot_be_judged_is_one_line_and_status_2(
     assert words in only_line(capsys)
 
 
+def test_a_run_outside_the_lane_is_not_dropped(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = toy / "spec/toy/runs.toml"
+    head, _, tail = path.read_text().partition('"NEG_small"')
+    path.write_text(f'{head}"NEG_small"' + tail.replace('["smoke", "full"]', '["full"]', 1))
+    assert main(["check", "MC_toy", "NEG_small", "--lane", "smoke"]) == 2
+    assert only_line(capsys).endswith("NEG_small is not in the lane smoke, but in full")
+
+
+def test_a_misspelt_theorem_is_not_dropped(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove", "--document", "edm", "no_*", "it_nevr_proved", "--quiet"]) == 2
+    assert "no theorem is called 'it_nevr_proved'" in only_line(capsys)
+
+
 def test_a_root_without_a_specification_is_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
     assert main(["check"]) == 2
     assert "no folder `spec` here" in only_line(capsys)
+
+
+def test_a_command_judges_the_tree_in_which_it_stands(
+    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delenv("MODEPROOF_ROOT")
+    monkeypatch.chdir(toy / "spec" / "toy")
+    assert main(["check", "MC_toy", "--quiet", "--json", "out.json"]) == 0
+    assert capsys.readouterr().out.startswith(f"tree         {toy}\n")
+    assert json.loads(Path("out.json").read_text())["tree"] == str(toy)
+
+
+@pytest.mark.parametrize("named", [True, False])
+def test_a_copied_checkout_is_not_judged_by_another_ones_tool(
+    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], named: bool
+) -> None:
+    shutil.copytree(TREE / "modeproof", toy / "modeproof")
+    monkeypatch.chdir(toy)
+    if not named:
+        monkeypatch.delenv("MODEPROOF_ROOT")
+    assert main(["check", "MC_toy", "--quiet"]) == 2
+    assert f"{toy} has a modeproof of its own, and this is the one of {TREE}" in only_line(capsys)
+    own = [sys.executable, "-m", "modeproof", "check", "--list"]
+    done = subprocess.run(own, cwd=toy, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith(f"tree         {toy}\n")
 
 
 def test_a_missing_java_is_one_line(
@@ -142,7 +183,7 @@ def test_each_command_has_help(command: str, capsys: pytest.CaptureFixture[str])
 
 def test_the_runs_can_be_listed(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["check", "--list"]) == 0
-    assert len(capsys.readouterr().out.splitlines()) == 3 <= len(CFGS)
+    assert capsys.readouterr().out.count("toy/") == 3 <= len(CFGS)
 
 
 def test_a_command_whose_packages_are_missing_says_so(

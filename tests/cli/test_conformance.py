@@ -67,7 +67,7 @@ def test_a_lane_without_a_graph_is_no_pass(toy: Path) -> None:
 def test_a_missing_graph_is_unjudged(toy: Path) -> None:
     record = compare(toy)
     assert (record["verdict"], record["as_expected"]) == ("UNJUDGED", False)
-    assert "no graph at build/graphs/toy/OPEN_toy.txt" in record["reason"]
+    assert "no graph of the present text: no evidence; run modeproof check" in record["reason"]
 
 
 def test_a_difference_is_named(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:

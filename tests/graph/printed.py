@@ -12,11 +12,13 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from modeproof.graph.device import DeviceGraph, join
+from modeproof.graph.device import DeviceGraph, graph_file, join, open_runs
 from modeproof.graph.implementation import Implementation, from_module
 from modeproof.graph.read import read_graph
 from modeproof.graph.values import ValueForms
+from modeproof.ground import evidence
 from modeproof.registers.rows import Device, Signal
+from modeproof.tlc.resume import declaration_sha256
 
 CODE, OTHER, TICK_MS, LIMIT = 0x0FF0, 1, 250, 2
 
@@ -76,6 +78,28 @@ def quoted(line: str) -> str:
 def write(path: Path, printed: Iterable[str]) -> Path:
     path.write_text("".join(f"{line}\n" for line in printed), encoding="utf-8")
     return path
+
+
+def vouch(place: Path, document: str) -> None:
+    """Write the evidence of each printed graph, as if TLC had made it from what is there now."""
+    for run in open_runs(place, document):
+        files = [path for path in (place / "spec" / document).rglob("*") if path.suffix in (".tla", ".cfg")]
+        printed = graph_file(place, run)
+        (name, digest), *_ = evidence.hashes(place, [printed]).items()
+        record = evidence.make(
+            kind="tlc",
+            id=run.id,
+            document=document,
+            verdict="HOLDS",
+            expected="HOLDS",
+            as_expected=True,
+            command="modeproof check",
+            started=0.0,
+            seconds=1.0,
+            inputs=evidence.hashes(place, files),
+            result={"declaration": declaration_sha256(run), "graph": {"file": name, "sha256": digest}},
+        )
+        evidence.write(place, record)
 
 
 def signal(name: str, kind: str, **more: Any) -> Signal:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
-from tests.report.conftest import declared, make_box
+from modeproof.registers.runs import load_runs
+from modeproof.tlc.again import declared as declared_in
+from tests.report.conftest import CFGS, declared, make_box
 
 THEOREM = '''"""Theorems about the box."""
 
@@ -46,22 +49,46 @@ RESULT: dict[str, dict[str, Any]] = {
         "unused": [],
         "shared": 0.5,
         "queries": [
-            {"name": "claim", "expected": "unsat", "z3": "unsat", "cvc5": "unsat", "twin_of": "", "core": []},
-            {"name": "twin", "expected": "sat", "z3": "sat", "cvc5": "sat", "twin_of": "claim", "core": None},
+            {
+                "name": "claim",
+                "expected": "unsat",
+                "z3": "unsat",
+                "cvc5": "unsat",
+                "twin_of": "",
+                "core": [],
+                "detail": "",
+            },
+            {
+                "name": "twin",
+                "expected": "sat",
+                "z3": "sat",
+                "cvc5": "sat",
+                "twin_of": "claim",
+                "core": None,
+                "detail": "",
+            },
         ],
     },
 }
-WORD = {"MC": "HOLDS", "OPEN": "HOLDS", "NEG": "VIOLATED", "WIT": "REACHED", "it": "PROVED"}
+WORD = {
+    "MC": "HOLDS",
+    "OPEN": "HOLDS",
+    "NEG": "VIOLATED",
+    "WIT": "REACHED",
+    "it": "PROVED",
+    "adapter": "CONFORMS",
+}
 
 
 def make_paper(root: Path) -> Path:
     """The root of a repository with the box, its theorem, and all evidence as expected."""
     make_box(root)
     folder = root / "spec" / "box"
-    (folder / "models" / "WIT_Box.cfg").write_text("SPECIFICATION Spec\n")
-    witness = 'witnesses = ["Close"]'
+    cfg = "SPECIFICATION Spec\nPROPERTY ShutsOverDoor\n"
+    (folder / "models" / "WIT_Box.cfg").write_text(cfg)
+    witness = 'witnesses = ["Close"]\ndistinct = 1\ngenerated = 1'
     with (folder / "runs.toml").open("a") as runs:
-        digest = hashlib.sha256(b"SPECIFICATION Spec\n").hexdigest()
+        digest = hashlib.sha256(cfg.encode()).hexdigest()
         text = declared("MC_Box", "the bounds of MC_Box", witness).replace("MC_Box", "WIT_Box")
         runs.write(
             "".join(
@@ -80,7 +107,11 @@ def make_paper(root: Path) -> Path:
 
 def declare_graph(root: Path, counts: str = "") -> None:
     """Declare the run OPEN_Box, which prints the graph of the box; `counts` are the pins of the graph."""
-    graph = f'[run.graph]\ndevice = "box"\ntick_ms = 10\n{counts}'
+    (root / "spec/box/models/OPEN_Box.cfg").write_text(CFGS["MC_Box"])
+    states, edges = (int(word) for word in re.findall(r"\d+", counts) or (4, 7))
+    pins = f"states = {states}\nedges = {edges}\n"
+    graph = f"distinct = {states}\ngenerated = {edges + 1}\n"
+    graph += f'[run.graph]\ndevice = "box"\ntick_ms = 10\n{pins}'
     text = declared("MC_Box", "any door", graph).replace("MC_Box", "OPEN_Box")
     with (root / "spec" / "box" / "runs.toml").open("a") as runs:
         runs.write(text)
@@ -99,15 +130,19 @@ def put(
     """Write one piece of evidence: as expected, but for the changes."""
     known = {**RESULT.get(name, {}), **(result or {})}
     head = name.split("_")[0]
+    kind = kind or ("proof" if head == "it" else "tlc")
+    if "transitions" in known:
+        known.setdefault("replayed", known["transitions"])
+    known = {**_figures(root, name, kind, changes.get("verdict", WORD.get(head, "EQUAL"))), **known}
     fields: dict[str, Any] = {
-        "kind": kind or ("proof" if head == "it" else "tlc"),
+        "kind": kind,
         "id": name,
         "document": "box",
         "verdict": WORD.get(head, "EQUAL"),
         "expected": WORD.get(head, "EQUAL"),
         "as_expected": True,
         "environment": "arbitrary",
-        "strength": "any door",
+        "strength": next((run.strength for run in load_runs(root, "box") if run.id == name), "any door"),
         "command": f"modeproof check box/{name}",
         "started": 0.0,
         "seconds": 1.5,
@@ -116,6 +151,28 @@ def put(
         **changes,
     }
     evidence.write(root, evidence.make(**fields, result=known))
+
+
+def _figures(root: Path, name: str, kind: str, verdict: str) -> dict[str, Any]:
+    """What evidence of this kind holds besides, where all is as it should be."""
+    if kind == "tlc":
+        runs = [run for run in load_runs(root, "box") if run.id == name]
+        status = 12 if verdict == "VIOLATED" else 0
+        about = declared_in(runs[0]) if runs else {}
+        about |= {"exit_status": status, "distinct": 1, "generated": 1, "queue": 0, "initial": 1}
+        if runs and runs[0].graph is not None:
+            states, edges = runs[0].graph.states or 0, runs[0].graph.edges or 0
+            counts = {"distinct": states, "generated": edges + 1}
+            about |= {**counts, "printed": {"STATE": states, "EDGE": edges}}
+        return about
+    if name.startswith("adapter_"):
+        return {"verdict": verdict, "cases": 1, "cases_total": 1, "scans": 9, "difference": None}
+    if kind == "conformance":
+        counts = dict.fromkeys(("states", "inputs", "transitions", "replayed", "scans"), 1)
+        counts |= dict.fromkeys(("implementation_states", "class_scans", "difference_count"), 0)
+        empty = {"covered": {}, "classes": {}, "differences": []}
+        return {**counts, **empty, "run": "box/OPEN_Box", "implementation": "refimpl"}
+    return {"problems": [], "rows": [], "devices": {}, "clauses": 2}
 
 
 def without(root: Path, name: str) -> None:

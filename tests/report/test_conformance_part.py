@@ -32,6 +32,7 @@ PROGRAM = {
     "suite": "brief",
     "relation": "exact",
     "cases": 3,
+    "cases_total": 3,
     "scans": 40,
     "unobserved": ["LAMP"],
     "covered": {"Close": [2, 2]},

@@ -97,6 +97,7 @@ def test_a_run_of_another_lane_is_no_hole_or_verdict(root: Path) -> None:
     without(root, "MC_Box_lazy")
     path = root / "spec" / "box" / "runs.toml"
     path.write_text(path.read_text().replace('lanes = ["full"]', 'lanes = ["exhaustive"]'))
+    put(root, "WIT_Box")
     found = part(gather(root))
     row = found.data["documents"][0]["properties"][0]["environments"][0]
     assert (row["word"], row["good"], found.troubles) == ("not in this lane", None, ())

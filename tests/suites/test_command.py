@@ -9,9 +9,12 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
+from modeproof.graph.device import load_device_graph, open_runs
 from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged
 from modeproof.kit.__main__ import main as kit_main
-from tests.graph.printed import SEQUENCES, WORDS, lines, write
+from modeproof.suites.build import ready_suite
+from tests.graph.printed import SEQUENCES, WORDS, lines, vouch, write
 from tests.kit.programs import program
 
 INTERFACE = """
@@ -63,6 +66,8 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     graphs = tmp_path / "build" / "graphs" / "toy"
     graphs.mkdir(parents=True)
     write(graphs / "OPEN_Lamp.txt", lines())
+    (room / "Lamp.tla").write_text("---- MODULE Lamp ----\n====\n")
+    vouch(tmp_path, "toy")
     for package, limit in (("toyimpl", "params.T_ms"), ("brokenimpl", "params.T_ms + 1")):
         code = tmp_path / package / "toy"
         code.mkdir(parents=True)
@@ -84,6 +89,54 @@ def test_a_builtin_is_compared_both_ways(toy: Path, capsys: pytest.CaptureFixtur
     assert json.loads((toy / "v.json").read_text())["runs"][0]["verdict"] == "EQUAL"
     record = evidence.read(evidence.evidence_path(toy, "toy", "toyimpl_OPEN_Lamp"))
     assert record["kind"] == "conformance" and record["as_expected"] is True
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "conform lamp --builtin toyimpl",
+        "conform lamp --builtin toyimpl --suite tour",
+        "vectors build lamp --suite tour",
+        "vectors publish",
+    ],
+)
+@pytest.mark.parametrize(
+    "edit", ["spec/toy/Lamp.tla", "spec/toy/runs.toml", "build/graphs/toy/OPEN_Lamp.txt"]
+)
+def test_a_graph_of_another_text_is_never_read(
+    toy: Path, command: str, edit: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (toy / edit).read_text()
+    changed = text.replace("tick_ms = 250", "tick_ms = 200") + ("" if edit.endswith(".toml") else "\n")
+    assert text != changed
+    (toy / edit).write_text(changed)
+    assert main(command.split()) == 2
+    said = capsys.readouterr()
+    assert "TLC makes OPEN_Lamp first" in said.err and "its graph cannot be used" in said.err
+    assert "EQUAL" not in said.out and "CONFORMS" not in said.out
+    assert not list(toy.glob("build/vectors/**/*.gz")) and not (toy / "vectors").exists()
+
+
+def test_no_name_of_a_suite_or_target_is_dropped(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["vectors", "build", "lamp", "--suite", "tour"]) == 0
+    vectors = "build/vectors/toy/lamp/tour.jsonl.gz"
+    for command, words in (
+        ("vectors lint lamp lmap", "no vector file of lmap"),
+        ("vectors stats lamp --suite tour --suite sic", "no vector file of sic.jsonl.gz"),
+        (f"conform lamp --builtin toyimpl --suite tour --vectors {toy / vectors}", "give one of them"),
+        ("conform lamp --builtin toyimpl --relation settled", "--builtin alone is exact"),
+    ):
+        assert main(command.split()) == 2
+        assert words in capsys.readouterr().err
+
+
+def test_a_reader_of_graphs_names_what_has_changed(toy: Path) -> None:
+    (run,) = open_runs(toy, "toy")
+    assert load_device_graph(toy, run).graph.views
+    (toy / "spec/toy/Lamp.tla").write_text("---- MODULE Lamp ----\n\n====\n")
+    for read in (load_device_graph, lambda place, run: ready_suite(place, "toy", "lamp", "tour")):
+        with pytest.raises(Unjudged, match=r"no graph of the present text: spec/toy/Lamp.tla has changed"):
+            read(toy, run)
 
 
 def test_a_wrong_builtin_differs(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -151,6 +204,7 @@ def test_what_cannot_be_judged_is_one_line(
 
 def test_a_graph_that_lost_an_edge_is_no_basis(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write(toy / "build" / "graphs" / "toy" / "OPEN_Lamp.txt", lines()[:-1])
+    vouch(toy, "toy")
     assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet"]) == 2
     assert "OPEN_Lamp.txt: 1 edges are missing" in capsys.readouterr().err
     assert not evidence.evidence_path(toy, "toy", "toyimpl_OPEN_Lamp").exists()

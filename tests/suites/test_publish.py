@@ -14,6 +14,7 @@ from modeproof.kit.vectors import open_suite
 from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import check_vectors
 from modeproof.suites.kinds import SUITES
+from modeproof.suites.lint import lint
 from tests.suites.test_command import toy as toy  # the fixture
 
 
@@ -43,6 +44,10 @@ def test_what_was_built_is_published_unless_it_is_the_same(
         ("cut", "is no file of vectors"),
         ("header", "is no file of vectors"),
         ("sources", "does not say which specification"),
+        ("edited", "was changed since it was published, says vectors/SHA256SUMS"),
+        ("settling", "compares nothing in case lamp-"),
+        ("unlisted", "is not in SHA256SUMS"),
+        ("gone", "is not there"),
     ],
 )
 def test_a_published_file_of_another_text_is_found_without_rebuilding(
@@ -55,12 +60,30 @@ def test_a_published_file_of_another_text_is_found_without_rebuilding(
         (toy / "spec/toy/classes.toml").write_text("")
     elif spoil == "cut":
         path.write_bytes(path.read_bytes()[:40])
+    elif spoil in ("edited", "settling"):
+        header, *cases = gzip.decompress(path.read_bytes()).splitlines(keepends=True)
+        old, new = (b"true", b"false") if spoil == "edited" else (b'"dt_ms"', b'"settling":true,"dt_ms"')
+        assert old in cases[0]
+        path.write_bytes(gzip.compress(b"".join([header, cases[0].replace(old, new), *cases[1:]])))
+        assert spoil == "edited" or any("every scan is settling" in problem for problem in lint(path))
+    elif spoil == "unlisted":
+        (toy / "vectors/SHA256SUMS").write_text("")
+    elif spoil == "gone":
+        path.unlink()
     else:
         path.write_bytes(gzip.compress(b"[]\n" if spoil == "header" else b'{"sources":{}}\n'))
     problems = check_vectors(toy)
     assert problems and any(
         said in str(one) and one.file == "vectors/lamp/brief.jsonl.gz" for one in problems
     )
+
+
+def test_a_file_that_the_linter_refuses_is_not_published(
+    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("modeproof.suites.publish.lint", lambda path: ["planted"])
+    assert main(["vectors", "publish"]) == 2
+    assert "is not published: planted" in capsys.readouterr().err and not (toy / "vectors/lamp").exists()
 
 
 def test_every_published_target_has_its_fast_suites() -> None:

@@ -17,7 +17,7 @@ from modeproof.cli import main
 from modeproof.ground import evidence
 from modeproof.ground.progress import Progress
 from modeproof.tlc.check import check_all, kept, select
-from modeproof.tlc.resume import why_again
+from modeproof.tlc.resume import why_stale
 from modeproof.tlc.schedule import ORDINARY_MB, memory_mb
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from tests.any_machine import until
@@ -39,7 +39,7 @@ def root(made: Path, tmp_path: Path) -> Path:
 
 
 def reasons(root: Path, tools: Toolchain | None = None) -> dict[str, str]:
-    return {run.id: why_again(root, run, tools or find_toolchain()) for run in select(root)}
+    return {run.id: why_stale(root, run, tools or find_toolchain()) for run in select(root)}
 
 
 def edit(path: Path, old: str, new: str) -> None:

@@ -8,11 +8,12 @@ from collections.abc import Iterator
 import pytest
 from msgspec.structs import replace as with_values
 
-from modeproof.graph.device import DeviceGraph, load_device_graph
+from modeproof.graph.device import DeviceGraph, load_device_graph, read_device_graph
 from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
+from modeproof.tlc.resume import why_stale
 from modeproof.trace.alphabet import Alphabet
-from modeproof.trace.judge import Graphs, is_current
+from modeproof.trace.judge import Graphs
 from tests.spec.mode_selection.planted import DOCUMENT, Base, Trial
 
 NEEDED = {
@@ -41,12 +42,12 @@ def alphabets(tmp_path_factory: pytest.TempPathFactory, quick_java: None) -> dic
 
     def load(id: str) -> DeviceGraph:
         run = RUNS[id]
-        if not NEEDED[id].module and is_current(root(), run):
+        if not NEEDED[id].module and not why_stale(root(), run):
             return load_device_graph(root(), run)
         place = tmp_path_factory.mktemp("graph")
         Trial(NEEDED[id]).run(place)
         assert run.graph is not None
-        return load_device_graph(
+        return read_device_graph(
             place,
             with_values(run, graph=with_values(run.graph, states=None, edges=None)),
         )

@@ -8,14 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.graph.device import DeviceGraph, load_device_graph
+from modeproof.graph.device import DeviceGraph, load_device_graph, read_device_graph
 from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
+from modeproof.tlc.resume import why_stale
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed
-from modeproof.trace.judge import Graphs, Judgement, is_current
+from modeproof.trace.judge import Graphs, Judgement
 from tests.trace.judging import judge, log_of
 from tests.trace.test_devices import SCANS, corrupted, walk
 
@@ -42,12 +43,12 @@ class Judged:
 def graph_of(document: str, id: str, place: Path) -> DeviceGraph:
     """The graph as the last run left it where it is current, else made below `place`."""
     run = next(one for one in load_runs(root(), document) if one.id == id)
-    if is_current(root(), run):
+    if not why_stale(root(), run):
         return load_device_graph(root(), run)
     for name in (document, "common"):
         shutil.copytree(root() / "spec" / name, place / "spec" / name)
     assert run_tlc(place, run, find_toolchain()).log.success
-    return load_device_graph(place, run)
+    return read_device_graph(place, run)
 
 
 @pytest.fixture(scope="module", params=BLOCKS)

@@ -8,7 +8,17 @@ from modeproof.ground.evidence.files import (
     read_document,
     write,
 )
-from modeproof.ground.evidence.record import SCHEMA_VERSION, hashes, machine, make, own_tools, tool
+from modeproof.ground.evidence.record import (
+    SCHEMA_VERSION,
+    hashes,
+    machine,
+    make,
+    other_tools,
+    own_tools,
+    package,
+    solvers,
+    tool,
+)
 
 __all__ = [
     "SCHEMA_VERSION",
@@ -18,9 +28,12 @@ __all__ = [
     "hashes",
     "machine",
     "make",
+    "other_tools",
     "own_tools",
+    "package",
     "read",
     "read_document",
+    "solvers",
     "tool",
     "write",
 ]

@@ -47,6 +47,45 @@ def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
 
 
 @cache
+def package(name: str) -> dict[str, str | None]:
+    """One entry of `tools` for an installed package: its version, and one hash over all files that it brings.
+
+    What the installer writes is left out, so that the same wheel has the same hash everywhere. Raises
+    Unjudged when a file of it is not there.
+    """
+    try:
+        found = metadata.distribution(name)
+    except metadata.PackageNotFoundError:
+        return tool("not installed")
+    digest = hashlib.sha256()
+    for path in sorted(found.files or ()):
+        if path.suffix != ".pyc" and path.parts[0] != ".." and not path.parts[0].endswith(".dist-info"):
+            own = tool("", Path(str(path.locate())))["sha256"]
+            digest.update(f"{path.as_posix()} {own}\n".encode())
+    return {"version": found.version, "sha256": digest.hexdigest()}
+
+
+@cache
+def solvers() -> dict[str, dict[str, str | None]]:
+    """The entries of both solvers, as they are installed."""
+    return {"z3": package("z3-solver"), "cvc5": package("cvc5")}
+
+
+def other_tools(record: Mapping[str, Any]) -> tuple[str, ...]:
+    """The tools that made a piece of evidence and have changed since, as far as they can be compared.
+
+    Solvers of another system are other files of the same package, so only those of one like this are.
+    """
+    alike = all(record["machine"][key] == machine()[key] for key in ("system", "arch"))
+    now = {**own_tools(), **(solvers() if alike else {})}
+    return tuple(
+        f"{name} (the tool)"
+        for name, entry in record["tools"].items()
+        if entry["sha256"] is not None and entry["sha256"] != now.get(name, entry)["sha256"]
+    )
+
+
+@cache
 def own_tools() -> dict[str, dict[str, str | None]]:
     """Version and hash of modeproof itself (all its Python), and the version of Python."""
     package = Path(__file__).resolve().parents[2]
