@@ -48,7 +48,7 @@ def parts(action: str) -> tuple[str, list[str]]:
 
 
 def weakened() -> list[Weaker]:
-    """Every condition dropped and every effect made free, one at a time; and the two of the issue together."""
+    """Every condition dropped and every effect made free, one at a time; and both comparisons."""
     found = []
     for action in ACTIONS:
         old, conjuncts = parts(action)
