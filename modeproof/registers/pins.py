@@ -122,8 +122,8 @@ def repin(document: Document, sources: Sources, reason: str) -> list[str]:
 
 
 def _checked(document: Document, sources: Sources) -> Texts:
-    """For each name that a run checks: its definition in every root module that is checked, and what that
-    refers to, without that of which the steps of the devices are made: the graphs and counts judge those.
+    """For each name that a run checks, or explores and views by: its definition in every root module, and
+    what that refers to, without what the steps of the devices are made of: graphs and counts judge that.
     """
     roots: dict[str, set[str]] = {}
     starts: set[tuple[str, str]] = set()
@@ -134,7 +134,8 @@ def _checked(document: Document, sources: Sources) -> Texts:
             )
         except Unjudged:
             cfg = Cfg()  # told elsewhere
-        for name in dict.fromkeys((*cfg.checked, *run.properties)):
+        constraints = (*cfg.constraints, *cfg.action_constraints, *filter(None, (cfg.view, run.view)))
+        for name in dict.fromkeys((*cfg.checked, *run.properties, *constraints)):
             roots.setdefault(name, set()).add(run.module)
         for name in filter(None, (cfg.specification, run.specification, cfg.init, cfg.next)):
             starts.add((run.module, name))
