@@ -21,6 +21,8 @@ from typing import Any
 ROOT = Path(__file__).resolve().parents[3]
 LEFT_OUT = shutil.ignore_patterns("__pycache__", "build", ".*", "*.egg-info")
 
+MADE = ("build", "vectors")
+
 DRIVER = """
 import io, json, os, sys, traceback
 import modeproof.cli, cvc5, networkx, tomlkit, msgspec, z3  # loaded once, for every case
@@ -115,6 +117,17 @@ class Copy:
             yield
         finally:
             path.write_bytes(kept)
+
+    def keep(self) -> None:
+        """What is built now is what every case finds (see `as_kept`)."""
+        for name in MADE:
+            shutil.copytree(self.root / name, self.root / "kept" / name)
+
+    def as_kept(self) -> None:
+        """Take back what a command has written."""
+        for name in MADE if (self.root / "kept").is_dir() else ():
+            shutil.rmtree(self.root / name)
+            shutil.copytree(self.root / "kept" / name, self.root / name)
 
     def close(self) -> None:
         """End the process that judges."""
