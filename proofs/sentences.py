@@ -11,17 +11,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, Final
 
 import z3
 
-from proofs.explorer.device import LOGIC, Device, Scan, judged, no_two_paths, some_path
+from modeproof.registers import Signal
+from proofs.explorer.device import LOGIC, MODES, WORD_MAX, Device, Scan, judged, no_two_paths, some_path
 from proofs.explorer.device import scans as scans_from
 from proofs.explorer.ends import FALSE, TRUE, in_terms
 from proofs.explorer.explore import conjunction, explore
 from proofs.explorer.invariant import Conjunct, conjuncts
 from proofs.explorer.scanned import Property, Scanned, Scans, scanned, scans_of
 from proofs.explorer.scanned import control as control_of
+from proofs.explorer.values import Opaque
 from proofs.theorem import NotJudged, Queries, Query, TheoremError, claim, control
 
 Obligation = tuple[z3.BoolRef, z3.BoolRef] | None
@@ -180,15 +182,58 @@ def _leads_to(end: str) -> Property:
     return lambda scan: TRUE if scan.becomes(end) else FALSE
 
 
+LONG: Final = 10**12
+"""Elapsed time in ms, some thirty years: where the register has no greatest time there is none."""
+
+
+def _ends(device: Device, scan: Scan, end: int) -> dict[str, z3.BoolRef]:
+    """Each input, and each memory but records and the control state, at one end of its range: 0 or 1."""
+    inputs = [(f"in.{one.python}", one, scan.inputs) for one in device.register.inputs.values()]
+    own = [one for one in device.register.memory.values() if one.python in scan.state.__dataclass_fields__]
+    plain = [one for one in own if one.python not in (device.control, *device.memory)]
+    memory = [(f"before.{one.python}", one, scan.state) for one in plain]
+    found = {"in.dt_ms": scan.inputs.dt_ms.term == (0, LONG)[end]}
+    for name, signal, record in (*inputs, *memory):
+        symbol = getattr(record, signal.python)
+        for number, part in enumerate(symbol if isinstance(symbol, tuple) else (symbol,)):
+            if not isinstance(part, Opaque):
+                found[f"{name}.{number}"] = part.term == _range(signal)[end]
+    return found
+
+
+def _range(signal: Signal) -> tuple[Any, Any]:
+    """The least and the greatest value of a signal of the register, for the solver."""
+    if signal.type in ("bool", "modes"):
+        return False, True
+    if signal.type == "text":
+        return 0, len(signal.values) - 1
+    low, high = {"word": (0, WORD_MAX), "mode": (-1, MODES - 1)}.get(signal.type, (0, LONG))
+    return (
+        low if signal.minimum is None else signal.minimum,
+        high if signal.maximum is None else signal.maximum,
+    )
+
+
 def exactly_one_path(device: Device) -> Queries:
-    """For each control state: some path of `step` applies, no two do, and none raises."""
-    for scan in scans_from(device):
+    """For each control state: some path of `step` applies, no two do, and none raises.
+
+    The control states are all that the interface register has, and both ends of each range of the register,
+    and any time, are among the values that the paths were looked for with.
+    """
+    found = scans_from(device)
+    states = [scan.control.value for scan in found]
+    if sorted(states) != sorted(device.register.states):
+        raise TheoremError(f"explored from {states}; the interface has {list(device.register.states)}")
+    for scan in found:
         for path in scan.paths:
             if path.raised is not None:
                 raise TheoremError(f"from {scan.control.value} step raises: {path.raised}")
         given = {"memory, inputs and parameters in their ranges": scan.premise}
         conditions = [path.condition for path in scan.paths]
         name = f"{scan.control.value}, {len(conditions)} paths"
+        for number, end in enumerate(("least", "greatest")):
+            ends = {f"{key}: {end}": formula for key, formula in _ends(device, scan, number).items()}
+            yield control(f"{name}: every value at its {end}", {**given, **ends}, LOGIC)
         yield from claim(f"{name}: one applies", given, some_path(conditions), LOGIC)
         if len(conditions) > 1:
             yield from claim(f"{name}: no two apply", given, no_two_paths(conditions), LOGIC)

@@ -10,9 +10,12 @@ from typing import TYPE_CHECKING
 from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.ground.places import add_document_option, chosen_documents
 from modeproof.ground.places import root as repository_root
+from modeproof.ground.reason import ask_reason, refuse_in_ci
+from modeproof.registers.citations import read_sources
 from modeproof.registers.files import write_text
 from modeproof.registers.judge import Judgement, judge, judge_tree
 from modeproof.registers.load import load_document
+from modeproof.registers.pins import repin
 from modeproof.registers.rows import Problem
 from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text
 
@@ -32,6 +35,8 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     parser.add_argument("--matrix", action="store_true", help="print the matrix, one clause a line")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write matrix and problems as JSON")
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write the matrix of one document as CSV")
+    parser.add_argument("--repin", action="store_true", help="pin what properties and theorems say now")
+    parser.add_argument("--reason", metavar="TEXT", help="why the pins move; kept beside them")
     parser.set_defaults(run=run)
     return parser
 
@@ -42,6 +47,13 @@ def run(args: argparse.Namespace) -> int:
     chosen = chosen_documents(root, args.document)
     if args.csv and len(chosen) != 1:
         raise Unjudged(f"--csv writes one document; choose it with --document ({', '.join(chosen)})")
+    if args.repin:
+        refuse_in_ci()
+        reason = ask_reason(args.reason)
+        for document in [load_document(root, name) for name in chosen]:
+            print(
+                "\n".join(repin(document, read_sources(document), reason)) or f"{document.name}: no pin moved"
+            )
     judgements = [judge(load_document(root, name)) for name in chosen]
     tree = judge_tree(root)
     for judgement in judgements:

@@ -12,6 +12,7 @@ from modeproof.registers.document_page import check_document_page
 from modeproof.registers.load import load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
+from modeproof.registers.pins import check_pins
 from modeproof.registers.readings import check_readings, check_tops
 from modeproof.registers.rooms import check_imports, check_no_document_known, check_order
 from modeproof.registers.rows import Document, Problem
@@ -49,6 +50,7 @@ def judge(document: Document) -> Judgement:
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),
+        *check_pins(document, sources),
     ]
     count = sum(len(citation.clauses) + len(citation.findings) for citation in cited)
     return Judgement(document.name, rows, tuple(problems), count, len(lost))

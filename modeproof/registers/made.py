@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import msgspec
@@ -76,20 +77,25 @@ def _fault(modules: Mapping[str, Module], replacement: Replacement) -> str:
         return f"replaces nothing: no module that {replacement.module} extends defines {replacement.replaced}"
     if decided[0][1].local:
         return f"cannot replace {replacement.replaced}, which is LOCAL in {decided[0][0].file}"
-    if replacement.replaced in _used(
+    if replacement.replaced in used(
         {d.name: d.body for m in reached for d in m.definitions}, replacement.operator
     ):
         return f"uses {replacement.replaced}, which it replaces: TLC would never come to an end"
     return ""
 
 
-def _used(bodies: Mapping[str, str], name: str) -> set[str]:
+@cache
+def words_of(definition: str) -> frozenset[str]:
+    """The names on the right side of a definition."""
+    return frozenset(_WORD.findall(_NO_NAME.sub(" ", definition.partition("==")[2])))
+
+
+def used(bodies: Mapping[str, str], name: str) -> set[str]:
     """All definitions that a definition uses, directly or by another."""
     reached: set[str] = set()
     waiting = [name]
     while waiting:
-        body = _NO_NAME.sub(" ", bodies[waiting.pop()].partition("==")[2])
-        for word in {word for word in _WORD.findall(body) if word in bodies} - reached:
+        for word in {word for word in words_of(bodies[waiting.pop()]) if word in bodies} - reached:
             reached.add(word)
             waiting.append(word)
     return reached

@@ -45,7 +45,13 @@ RULES = (
         ),
     ),
     Rule(
-        "modeproof/registers", ("modeproof.registers", "modeproof.ground.errors", "modeproof.ground.places")
+        "modeproof/registers",
+        (
+            "modeproof.registers",
+            "modeproof.ground.errors",
+            "modeproof.ground.places",
+            "modeproof.ground.reason",
+        ),
     ),
 )
 

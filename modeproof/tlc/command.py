@@ -14,11 +14,12 @@ from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import root
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
+from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.runs import LANES
 from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_problems, select
 from modeproof.tlc.distributed import Where, refusal
 from modeproof.tlc.messages import essence, format_trace
-from modeproof.tlc.repin import Move, apply, ask_reason, cfg_diff, moves, refuse_in_ci
+from modeproof.tlc.repin import Move, apply, cfg_diff, moves
 from modeproof.tlc.resume import why_stale
 from modeproof.tlc.toolchain import find_toolchain
 

@@ -8,12 +8,9 @@ from __future__ import annotations
 
 import difflib
 import hashlib
-import os
 import subprocess
-import sys
 import time
 import tomllib
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -49,12 +46,6 @@ def _show(value: int | str | None) -> str:
     if value is None:
         return "none"
     return f"{value:,}" if isinstance(value, int) else value
-
-
-def refuse_in_ci() -> None:
-    """Raise Unjudged when the environment variable CI is set: a robot has no reason to give."""
-    if os.environ.get("CI"):
-        raise Unjudged("--repin is refused in CI: pins are moved by a person, with a reason")
 
 
 def moves(place: Path, checked: Checked) -> tuple[Move, ...]:
@@ -139,25 +130,6 @@ def _pinned_version(place: Path, name: str, digest: str) -> str | None:
         if content is not None and hashlib.sha256(content).hexdigest() == digest:
             return content.decode("utf-8", "replace")
     return None
-
-
-def ask_reason(given: str | None, ask: Callable[[str], str] = input) -> str:
-    """The reason for moving pins: as given on the command line, else asked for on the terminal.
-
-    Raises Unjudged without one.
-    """
-    reason = given
-    if reason is None:
-        if not sys.stdin.isatty():
-            raise Unjudged("--repin needs a reason: give --reason TEXT")
-        try:
-            reason = ask("reason for moving these pins: ")
-        except EOFError:
-            reason = ""
-    reason = " ".join(reason.split())
-    if not reason:
-        raise Unjudged("--repin needs a reason; nothing was changed")
-    return reason
 
 
 def apply(place: Path, changes: dict[str, dict[str, tuple[Move, ...]]], reason: str) -> None:

@@ -7,6 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from modeproof.registers.citations import read_sources
+from modeproof.registers.load import load_document
+from modeproof.registers.pins import repin
+
 FILES = {
     "spec/door/document.toml": """
 title = "A door"
@@ -259,6 +263,12 @@ class Tree:
         self.root = root
         for name, text in FILES.items():
             self.write(name, text.lstrip("\n"))
+        self.pin()
+
+    def pin(self) -> None:
+        """What properties and theorems say now is what they are to say."""
+        document = load_document(self.root, "door")
+        repin(document, read_sources(document), "a test")
 
     def write(self, name: str, text: str) -> None:
         """Create or replace a file."""

@@ -9,10 +9,11 @@ import pytest
 from msgspec.structs import replace as with_values
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc.check import Checked
 from modeproof.tlc.process import Outcome
-from modeproof.tlc.repin import apply, ask_reason, cfg_diff, moves, refuse_in_ci
+from modeproof.tlc.repin import apply, cfg_diff, moves
 from tests.tlc.outcomes import judged, outcome
 from tests.toy_tree import CFGS, sha256, toy_tree
 

@@ -51,6 +51,8 @@ NO_MODE = Base(
 EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
 PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
+CONTRACT = Base("MC_ModeSelection")
+CONTRACT_ANYWHERE = Base("MC_ModeSelection_anywhere")
 EARNEST = Base("MC_KeyFlows_earnest")
 LEAST = (
     ("BAD_KEY = TRUE", "BAD_KEY = FALSE"),
@@ -516,6 +518,56 @@ FAULTS = (
             "Fplc.tla",
             "mode' = {fplcSelection}",
             "mode' = {authority}",
+        ),
+    ),
+    Falls(
+        "ModeNeedsConfirmation",
+        CONTRACT_ANYWHERE,
+        Fault(
+            "the contract asks for no touch and no display",
+            "ModeSelection.tla",
+            "    /\\ confirmed = touched /\\ confirmed = seen ",
+            "    ",
+        ),
+    ),
+    Falls(
+        "ConfirmedWasSeen",
+        CONTRACT,
+        Fault(
+            "a touch keeps what was confirmed before",
+            "ModeSelection.tla",
+            "touched' \\in MSO /\\ seen' = None /\\ confirmed' = None",
+            "touched' \\in MSO /\\ seen' = None /\\ UNCHANGED confirmed",
+        ),
+    ),
+    Falls(
+        "TouchBeginsAnew",
+        CONTRACT,
+        Fault(
+            "another key changes the mode",
+            "ModeSelection.tla",
+            "confirmed' = None /\\ UNCHANGED <<level, mode>>\n\n\\* EKS-2-7",
+            "confirmed' = None /\\ UNCHANGED level /\\ mode' = None\n\n\\* EKS-2-7",
+        ),
+    ),
+    Falls(
+        "ShownThenConfirmed",
+        CONTRACT,
+        Fault(
+            "the panel shows any mode",
+            "ModeSelection.tla",
+            "seen' = touched /\\",
+            "seen' \\in MSO /\\",
+        ),
+    ),
+    Falls(
+        "LevelChangesNothingElse",
+        CONTRACT,
+        Fault(
+            "a level that is gone takes the mode with it",
+            "ModeSelection.tla",
+            "UNCHANGED <<touched, seen, confirmed, mode>>",
+            "mode' = None /\\ UNCHANGED <<touched, seen, confirmed>>",
         ),
     ),
     Falls(
