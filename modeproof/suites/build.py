@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
+import json
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from modeproof import kit
 from modeproof.graph.device import graph_file, load_device_graph, open_runs
@@ -19,6 +22,7 @@ from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
+from modeproof.suites.at import every_pair, graph_at
 from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
@@ -60,14 +64,23 @@ def suite_file(place: Path, document: str, target: str, suite: str) -> Path:
 
 
 def ready_suite(
-    place: Path, document: str, target: str, suite: str, on_built: Callable[[str], None] = lambda line: None
+    place: Path,
+    document: str,
+    target: str,
+    suite: str,
+    on_built: Callable[[str], None] = lambda line: None,
+    params: Mapping[str, Any] | None = None,
 ) -> Suite:
     """Open a suite of a target, and build it before when it is missing or older than its sources.
 
-    `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when graphs are missing
-    or not complete.
+    `on_built` gets a line with the figures of a suite that was built. With `params` it is that of a program
+    with these parameters (see `graph_at`, which may refuse them) and lies in a folder of its own. Raises
+    Unjudged when graphs are missing or not complete.
     """
     path = suite_file(place, document, target, suite)
+    if params is not None:
+        said = hashlib.sha256(json.dumps(dict(params), sort_keys=True).encode()).hexdigest()
+        path = path.with_name(f"at_{said[:10]}") / path.name
     runs = open_runs(place, document, target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
@@ -79,7 +92,12 @@ def ready_suite(
                 return there
         except KitUnjudged:
             pass  # a leftover of another version is built anew
-    devices = [load_device_graph(place, run) for run in runs]
+    if params is not None:
+        devices = [graph_at(place, document, target, params)]
+    else:
+        devices = [load_device_graph(place, run) for run in runs]
+        if SUITES[suite].pairs:
+            devices += every_pair(place, document, devices, on_built)
     contract = load_contract(place, document, devices[0].device, list(devices[0].forms.modes))
     stats = write_suite(
         path,

@@ -37,7 +37,7 @@ def publish(place: Path, targets: Mapping[str, str]) -> Published:
     for target, document in sorted(targets.items()):
         for name, about in SUITES.items():
             source = suite_file(place, document, target, name)
-            if about.fast and source.is_file():
+            if about.published and source.is_file():
                 wanted[source] = place / ROOM / target / FILE_NAME.format(suite=name)
     written, kept = [], []
     for source, path in wanted.items():
