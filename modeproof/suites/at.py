@@ -1,16 +1,17 @@
 """Graphs of a target at other parameters than the OPEN runs have: with longer ticks, or by TLC anew.
 
-A specification counts time in ticks. How long a tick is, it does not say: a graph with a deadline of 2 ticks is
-that of a program with 200 ms in scans of 100 ms, and of one with 66 s in scans of 33 s. So the same graph does
-for all parameters whose times are in the same proportion. That does not go where a tick is one millisecond: such
-a specification may name lengths in milliseconds. For other proportions, and for other choices, TLC makes a
-graph, with the constants that traces.toml gives for the parameters.
+A specification counts time in ticks. How long a tick is, it does not say: a graph with a deadline of 2 ticks
+is that of a program with 200 ms in scans of 100 ms, and of one with 66 s in scans of 33 s. So the same graph
+does for all parameters whose times are in the same proportion. That does not go where a tick is one
+millisecond: such a specification may name lengths in milliseconds. For other proportions, and for other
+choices, TLC makes a graph, with the constants that traces.toml gives for the parameters.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping, Sequence
+import re
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, product
@@ -35,7 +36,9 @@ from modeproof.tlc.process import run_tlc
 from modeproof.tlc.toolchain import find_toolchain
 
 MOST_TICKS = 16
-"""So many ticks may the longest time of a graph have that is made for given parameters: its size grows with it."""
+"""So many ticks may the longest time of a graph have that is made for given parameters: its size grows with
+it."""
+_PARAMETER = re.compile(r"\$([a-z][a-z0-9_]*)\.(\w+)")
 Params = Mapping[str, Any]
 
 
@@ -80,11 +83,12 @@ def check_params(device: Device, modes: Sequence[int], params: Params) -> None:
 
 
 def graph_at(place: Path, document: str, target: str, params: Params, tick_ms: int = 0) -> DeviceGraph:
-    """The graph of a target with these parameters (the others have their defaults), by TLC where none is there.
+    """The graph of a target with these parameters (the others have their defaults), by TLC where none is
+    there.
 
-    `tick_ms` is the length of a tick where TLC is needed; 0 leaves it open. Raises Unjudged for parameters that
-    do not fit the target, for times of which the longest would have more than `MOST_TICKS` ticks, and where the
-    specification refuses them.
+    `tick_ms` is the length of a tick where TLC is needed; 0 leaves it open. Raises Unjudged for parameters
+    that do not fit the target, for times of which the longest would have more than `MOST_TICKS` ticks, and
+    where the specification refuses them.
     """
     runs = open_runs(place, document, target)
     if not runs:
@@ -105,15 +109,18 @@ def graph_at(place: Path, document: str, target: str, params: Params, tick_ms: i
     most = MOST_TICKS * (MOST_TICKS if tick == 1 else 1)
     if (longest := max(times, default=0)) > tick * most:
         raise Unjudged(
-            f"{target}: with these parameters the longest time, {longest:,} ms, has {longest // tick:,} ticks of "
-            f"{tick:,} ms, and at most {most} can be judged; give times with a larger common measure, or judge a "
+            f"{target}: with these parameters the longest time, {longest:,} ms, has "
+            f"{longest // tick:,} ticks of "
+            f"{tick:,} ms, and at most {most} can be judged; give times with a larger common "
+            f"measure, or judge a "
             "log of the program with `modeproof trace`, which takes any times"
         )
     return _by_tlc(place, base, device, wanted, tick)
 
 
 def _factor(device: Device, run: Run, wanted: Params) -> Fraction | None:
-    """How many times as long all times are as those of a run that is otherwise the same; None where none is."""
+    """How many times as long all times are as those of a run that is otherwise the same; None where none
+    is."""
     assert run.graph is not None, "an OPEN run"
     factors = set()
     for name, value in whole(device, run.graph.params).items():
@@ -136,10 +143,10 @@ def _unlike(device: Device, run: Run, wanted: Params) -> int:
 def _by_tlc(place: Path, base: Run, device: Device, wanted: Params, tick_ms: int) -> DeviceGraph:
     """Let TLC make the graph, unless it is there already. Raises Unjudged where TLC does not hold."""
     assert base.graph is not None, "an OPEN run"
-    constants = _constants(place, base.document, device, wanted, tick_ms)
     cfg = parse_cfg(cfg_text(place, base), base.name)
-    named = {name: Constant(f"At_{name}", True) for name in constants if name in cfg.constants}
-    body = "".join(f"At_{name} == {constants[name]}\n" for name in named)
+    constants = _constants(place, base.document, device, wanted, tick_ms, cfg.constants)
+    named = {name: Constant(f"At_{name}", True) for name in constants}
+    body = "".join(f"At_{name} == {text}\n" for name, text in constants.items())
     shared = set.intersection(*(set(run.properties) for run in open_runs(place, base.document, device.id)))
     text = replace(
         cfg,
@@ -150,9 +157,7 @@ def _by_tlc(place: Path, base: Run, device: Device, wanted: Params, tick_ms: int
     sources = sorted((place / "spec").glob("*/*.tla"))
     said = "".join([body, text, *(path.read_text(encoding="utf-8") for path in sources)])
     name = f"{base.id}_at_{hashlib.sha256(said.encode()).hexdigest()[:10]}"
-    graph = msgspec.structs.replace(
-        base.graph, params=dict(wanted), tick_ms=tick_ms, states=None, edges=None
-    )
+    graph = msgspec.structs.replace(base.graph, params=dict(wanted), tick_ms=tick_ms, states=None, edges=None)
     run = msgspec.structs.replace(
         base, id=name, module=name, cfg=f"{name}.cfg", base="", reading=(), constants={}, graph=graph
     )
@@ -174,19 +179,33 @@ def _by_tlc(place: Path, base: Run, device: Device, wanted: Params, tick_ms: int
 
 
 def _constants(
-    place: Path, document: str, device: Device, wanted: Params, tick_ms: int
+    place: Path, document: str, device: Device, wanted: Params, tick_ms: int, known: Container[str]
 ) -> dict[str, str]:
-    """What traces.toml gives for each constant that a parameter of the device sets, with times in ticks."""
+    """What traces.toml gives for each constant that a parameter of the device sets, with times in ticks.
+
+    Raises Unjudged where a parameter sets none of the constants of the model.
+    """
     rows = read_register(place, document, "traces")["target"]
-    texts = next((row["constants"] for row in rows if row["id"] == device.id), {})
-    found = {}
+    texts: Mapping[str, str] = next((row["constants"] for row in rows if row["id"] == device.id), {})
+    found: dict[str, str] = {}
+    set_by: set[str] = set()
     for constant, text in texts.items():
-        if f"${device.id}." in text:
-            for name in sorted(wanted, key=len, reverse=True):
-                ms = device.parameters[name].type == "ms"
-                value = wanted[name] // tick_ms if ms else wanted[name]
-                text = text.replace(f"${device.id}.{name}", _tla(value))
-            found[constant] = text
+        names = _PARAMETER.findall(text)
+        if constant in known and any(group == device.id for group, _ in names):
+            set_by.update(name for _, name in names)
+            found[constant] = _PARAMETER.sub(
+                lambda match: _tla(
+                    wanted[match[2]] // tick_ms
+                    if device.parameters[match[2]].type == "ms"
+                    else wanted[match[2]]
+                ),
+                text,
+            )
+    for name in wanted:
+        if name not in set_by:
+            raise Unjudged(
+                f"spec/{document}/traces.toml: no constant of the model is set by {device.id}.{name}"
+            )
     return found
 
 
@@ -209,7 +228,8 @@ def every_pair(
     """Graphs so that each value of each parameter is there with each value of each other one.
 
     Values are those of `graphs`, all choices that interface.toml declares, and each time one tick longer than
-    in the first graph; sets of modes go together. The defaults are there too. What the specification refuses is left out, with a line.
+    in the first graph; sets of modes go together. The defaults are there too. What the specification refuses
+    is left out, with a line.
     """
     first, device = graphs[0], graphs[0].device
     names = [name for name, of in device.parameters.items() if of.type != "function"]
@@ -247,15 +267,13 @@ def every_pair(
 def _pairs(names: list[str], values: Mapping[str, list[Any]], modes: list[str]) -> list[dict[str, Any]]:
     """Each value with each; the sets of modes that levels permit go together, as they are in one graph."""
     groups = [[name] for name in names if name not in modes] + ([modes] if modes else [])
-    rows = [
-        [{name: values[name][min(n, len(values[name]) - 1)] for name in group} for n in range(_most(group, values))]
-        for group in groups
-    ]
+    rows = []
+    for group in groups:
+        most = max(len(values[name]) for name in group)
+        rows.append(
+            [{name: values[name][min(n, len(values[name]) - 1)] for name in group} for n in range(most)]
+        )
     return [{**a, **b} for one, other in combinations(rows, 2) for a, b in product(one, other)]
-
-
-def _most(group: list[str], values: Mapping[str, list[Any]]) -> int:
-    return max(len(values[name]) for name in group)
 
 
 def _in(pair: Params, row: Params) -> bool:

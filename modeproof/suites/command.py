@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import json
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -22,6 +23,7 @@ from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
 from modeproof.kit.text import as_record, joint_word, write_json
 from modeproof.kit.vectors import EXACT, SETTLED, Suite
+from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
 from modeproof.suites.kinds import SUITES
@@ -30,7 +32,14 @@ from modeproof.suites.write import NoCases
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `conform` to the commands."""
-    return kit_command.add_parser(commands, run=run)
+    parser: argparse.ArgumentParser = kit_command.add_parser(commands, run=run)
+    parser.add_argument(
+        "--param",
+        action="append",
+        metavar="NAME=VALUE",
+        help="judge the program at these parameters; those that are not named have their defaults",
+    )
+    return parser
 
 
 def run(args: argparse.Namespace) -> int:
@@ -51,18 +60,22 @@ def _program(args: argparse.Namespace) -> int:
     document, device = find_target(place, args.target, args.document)
     if not device.published and args.builtin is None:
         raise Unjudged(f"{args.target} is not a published target; --builtin compares our own code")
+    params = read_params(args.param, device) if args.param else None
     if args.vectors is not None:
+        if params is not None:
+            raise Unjudged("--param needs --suite: a vector file is for the parameters that it was made for")
         suites = [kit_command.open_vectors(args)]
     else:
         with only_one(place):
             make_graphs(place, open_runs(place, document, args.target), args.quiet)
-            suites = _suites(place, document, args)
+            suites = _suites(place, document, args, params)
     started = time.time()
     verdicts = kit_command.judge(args, suites)
     for suite, verdict in zip(suites, verdicts, strict=True):
         if args.case is not None or args.vectors is not None or args.adapter is None:
             continue
         manner = [] if args.relation == EXACT else [args.relation]
+        manner += [suite.path.parent.name] if params is not None else []
         record = evidence.make(
             kind="conformance",
             id="_".join(["adapter", args.target, suite.name, *manner]),
@@ -82,7 +95,25 @@ def _program(args: argparse.Namespace) -> int:
     return EXIT[joint_word(verdicts)]
 
 
-def _suites(place: Path, document: str, args: argparse.Namespace) -> list[Suite]:
+def read_params(texts: Sequence[str], device: Device) -> dict[str, Any]:
+    """`NAME=VALUE` for each parameter, the value as JSON or as it stands. Raises Unjudged for another
+    form."""
+    params: dict[str, Any] = {}
+    for text in texts:
+        name, sign, value = text.partition("=")
+        if not sign or name not in device.parameters or name in params:
+            known = ", ".join(device.parameters) or "none"
+            raise Unjudged(f"--param {text!r}: NAME=VALUE, each name once; {device.id} has: {known}")
+        try:
+            params[name] = json.loads(value)
+        except ValueError:
+            params[name] = value
+    return params
+
+
+def _suites(
+    place: Path, document: str, args: argparse.Namespace, params: Mapping[str, Any] | None
+) -> list[Suite]:
     """The suites asked for, made where they are missing. Raises Unjudged where there is none.
 
     One that was not named itself is left out where the target has no cases of its kind.
@@ -90,7 +121,7 @@ def _suites(place: Path, document: str, args: argparse.Namespace) -> list[Suite]
     found = []
     for name in chosen_suites(args.suite, args.relation):
         try:
-            found.append(ready_suite(place, document, args.target, name, say))
+            found.append(ready_suite(place, document, args.target, name, say, params))
         except NoCases:
             if name in (args.suite or ()):
                 raise
@@ -121,6 +152,10 @@ def _builtin(args: argparse.Namespace) -> int:
     runs = open_runs(place, document, args.target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {args.target}")
+    if args.param:
+        raise Unjudged(
+            "--param needs --suite; --builtin alone compares the graphs that the register declares"
+        )
     if args.case is not None:
         raise Unjudged("--case needs --suite or --vectors; --builtin alone replays every transition")
     code = load_implementation(args.builtin, document, device.id)

@@ -20,8 +20,8 @@ class Kind:
     `counted_by` is what makes a transition besides state and step: the column or the next state. `relations`
     are those by which a program can be judged with it, the closest first; `fast` suites end within a minute
     or so, and one that is slow is `published` all the same if it says so. Not `always` is there a suite of
-    every target. `variants` gives the graphs that are walked for those of the OPEN runs; with `pairs` these are
-    joined by graphs at which each value of each parameter is there with each of each other.
+    every target. `variants` gives the graphs that are walked for those of the OPEN runs; with `pairs` these
+    are joined by graphs at which each value of each parameter is there with each of each other.
     """
 
     plan: Plan
@@ -145,21 +145,22 @@ SUITES = {
             "milliseconds, above 65,535 ms, and the longest allowed, in scans as long; what has its default "
             "is not sent; at each, every step of every control state is taken at every time in it"
         ),
-        hypothesis="the program treats parameters alike that stand in the same proportion to the times of scans",
+        hypothesis="the program treats parameters alike that are in proportion to the times of the scans",
         does_not_show="each value of each parameter; three choices at once; a change while the program runs",
         counted_by="column",
         variants=parameters.variants,
         pairs=True,
-        fast=False,
     ),
     "soak": Kind(
         plan=soak.plan,
         guarantees=(
-            "in control states nothing changes for 300, 40,000 and 66,000 scans; for each step a way round that "
-            "takes it is gone 300 times, and a shortest one 66,000 times; 100,000 scans mix them; after each, "
+            "in control states nothing changes for 300, 40,000 and 66,000 scans; for each step "
+            "a way round that "
+            "takes it is gone 300 times, and a shortest one 66,000 times; 100,000 scans mix "
+            "them; after each, "
             "every step of every control state is taken, and no reset comes between"
         ),
-        hypothesis="what a program counts beside the specification, it counts in scans or rounds, in 16 bits at most",
+        hypothesis="what a program counts beside the specification are scans or rounds, in 16 bits at most",
         does_not_show="counters of 32 bits; a combination of rounds that does not occur; days",
         counted_by="next state",
         variants=soak.first,

@@ -22,7 +22,8 @@ from modeproof.suites.tour import walks
 from modeproof.tlc.tla_values import canonical, parse
 
 TICKS_MS = (7, 16_001, 1 << 16, 1, 1 << 15, 251)
-"""Lengths of a tick: odd; sums above 16 bits; as many ms as 16 bits do not tell from 0; the least; and others."""
+"""Lengths of a tick: odd; sums above 16 bits; as many ms as 16 bits do not tell from 0; the least; and
+others."""
 
 
 def variants(graphs: Sequence[DeviceGraph]) -> list[DeviceGraph]:
@@ -34,7 +35,9 @@ def variants(graphs: Sequence[DeviceGraph]) -> list[DeviceGraph]:
         if not scalable(graph):
             continue
         tick, device = tick_of(graph), graph.device
-        times = [(of.maximum, graph.params[name]) for name, of in device.parameters.items() if of.type == "ms"]
+        times = [
+            (of.maximum, graph.params[name]) for name, of in device.parameters.items() if of.type == "ms"
+        ]
         longest = min((most * tick // value for most, value in times if most and value > 0), default=1 << 16)
         ticks = [*TICKS_MS, longest] if graph is graphs[0] else [TICKS_MS[turn % len(TICKS_MS)]]
         turn += graph is not graphs[0]
@@ -72,7 +75,9 @@ def one_of_each(device: DeviceGraph, columns: Columns) -> list[list[int]]:
         memory = parse(view)
         time = [canonical(memory[n]) for n in clocks if isinstance(memory, tuple | list) and n < len(memory)]
         control, chosen = control_state(device, state), []
-        for column, (step, after) in enumerate(zip(columns.step_of[state], columns.next_of[state], strict=True)):
+        for column, (step, after) in enumerate(
+            zip(columns.step_of[state], columns.next_of[state], strict=True)
+        ):
             key = (control, *time, graph.steps[step], control_state(device, after), lengths[column])
             if key not in seen:
                 seen.add(key)

@@ -30,7 +30,8 @@ HOLD = 2
 """Scans for which settled inputs are held at least before outputs are compared."""
 
 Change = tuple[Any, ...]
-"""A settled row of outputs, the changed input with its new value, and the step that leads out of the state."""
+"""A settled row of outputs, the changed input with its new value, and the step that leads out of the
+state."""
 Node = tuple[int, int]
 """A settled state and the letter that is held."""
 Triple = tuple[int, int, int]

@@ -2,12 +2,12 @@
 
 - waits: in every control state nothing changes for 300 scans; in the nearest ones, and in one for each row of
   outputs, for 40,000; in the first for 66,000.
-- rounds: for each step a shortest way round that takes it is gone 300 times: as many selections in one insertion,
-  as many keys in a row, as many errors; the shortest ways are gone 66,000 times.
+- rounds: for each step a shortest way round that takes it is gone 300 times: as many selections in one
+  insertion, as many keys in a row, as many errors; the shortest ways are gone 66,000 times.
 - a mixture: the same ways in an order that only looks random, each up to 200 times, 100,000 scans in all.
 
-No reset comes between. After each, a walk takes every step of every control state that can be reached from there,
-so that what has overflowed shows.
+No reset comes between. After each, a walk takes every step of every control state that can be reached from
+there, so that what has overflowed shows.
 """
 
 from __future__ import annotations
@@ -79,10 +79,13 @@ class _Soak:
     def _stay(self, state: int) -> int | None:
         """A letter that leaves the state as it is, with time if there is one."""
         stays = [letter for letter, after in enumerate(self.graph.next_of[state]) if after == state]
-        return max(stays, key=lambda letter: (self.device.alphabet[letter]["dt_ms"] > 0, letter), default=None)
+        return max(
+            stays, key=lambda letter: (self.device.alphabet[letter]["dt_ms"] > 0, letter), default=None
+        )
 
     def _rounds(self) -> list[tuple[str, int, Way]]:
-        """For each step the shortest way round through a move of it: its name, where it begins, its letters."""
+        """For each step the shortest way round through a move of it: its name, where it begins, its
+        letters."""
         best: dict[int, tuple[int, Way]] = {}
         for state in self.states:
             for (step, after), letter in self.moves[state].items():
@@ -117,10 +120,13 @@ class _Soak:
 
     def _script(self, why: str, state: int, way: Way, count: int) -> Script:
         letters = [*self.ways[state], *(way * count)]
-        return self._tailed(f"{why}, {count:,} times" if len(way) > 1 else f"{why} for {count:,} scans", letters)
+        return self._tailed(
+            f"{why}, {count:,} times" if len(way) > 1 else f"{why} for {count:,} scans", letters
+        )
 
     def _mixture(self, rounds: Sequence[tuple[str, int, Way]]) -> Script:
-        chosen, letters, state = random.Random(SEED), [], self.graph.initial
+        chosen, state = random.Random(SEED), self.graph.initial
+        letters: list[int] = []
         while len(letters) < MIXED:
             _, to, way = rounds[chosen.randrange(len(rounds))]
             there = self._back(state, to, len(self.control) + 1)

@@ -7,8 +7,8 @@ The graph has a few lengths of time only. Two kinds of cases go beyond them:
   Before the last piece the outputs are as before, after it as the graph has them. A program that rounds the
   time of each scan is too slow or too fast.
 - long waits: where a state stays as it is however long the inputs are held, they are held for more than
-  32,768 ms and for about 65,536 ms, in scans of about a second where the times of the graph are short. A program
-  whose timer overflows begins anew.
+  32,768 ms and for about 65,536 ms, in scans of about a second where the times of the graph are short. A
+  program whose timer overflows begins anew.
 
 After each come inputs by which outputs tell the right state from those of the same control state at another
 time. That times add up is taken for granted. A time comes in pieces where nothing can happen before it is
