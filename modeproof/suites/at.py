@@ -238,7 +238,7 @@ def every_pair(
     for name in names:
         of, known = device.parameters[name], [row[name] for row in have]
         if of.type == "ms":
-            known = [*known, have[0][name] + tick_of(first)]
+            known = [*known, have[0][name] + tick_of(first), *([0] if of.minimum == 0 else [])]
         more = [False, True] if of.type == "bool" else list(of.values)
         values[name] = [value for n, value in enumerate(known + more) if value not in (known + more)[:n]]
     modes = [name for name in names if device.parameters[name].type == "modes"]

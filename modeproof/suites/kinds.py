@@ -154,7 +154,7 @@ SUITES = {
     "soak": Kind(
         plan=soak.plan,
         guarantees=(
-            "in control states nothing changes for 300, 40,000 and 66,000 scans; for each step "
+            "in control states nothing changes for 300 scans, and in some for 66,000; for each step "
             "a way round that "
             "takes it is gone 300 times, and a shortest one 66,000 times; 100,000 scans mix "
             "them; after each, "
