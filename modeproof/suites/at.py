@@ -106,6 +106,8 @@ def graph_at(place: Path, document: str, target: str, params: Params, tick_ms: i
     assert base.graph is not None, "an OPEN run"
     times = [abs(value) for value in _times(device, wanted)]
     tick = 1 if base.graph.tick_ms == 1 else tick_ms or gcd(*times) or base.graph.tick_ms
+    if not tick_ms and tick == max(times, default=0):  # a time of one tick would never come in two scans
+        tick //= next((ticks for ticks in range(2, MOST_TICKS + 1) if tick % ticks == 0), 1)
     most = MOST_TICKS * (MOST_TICKS if tick == 1 else 1)
     if (longest := max(times, default=0)) > tick * most:
         raise Unjudged(

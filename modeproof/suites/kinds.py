@@ -165,6 +165,7 @@ SUITES = {
         counted_by="next state",
         variants=soak.first,
         fast=False,
+        always=False,
     ),
 }
 """All suites by name."""
