@@ -65,20 +65,25 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
 
 
 def one_of_each(device: DeviceGraph, columns: Columns) -> list[list[int]]:
-    """For each state the columns so that each step is taken from each control state at each time in it."""
-    graph = device.graph
+    """For each state the columns so that each step is taken from each control state at each time in it.
+
+    What it leaves in flags of the memory counts as another step.
+    """
+    graph, memory = device.graph, device.device.memory
+    clocks = [n for n, of in enumerate(memory.values()) if of.type == "ms"]
+    flags = [n for n, of in enumerate(memory.values()) if of.type == "bool"]
+    views = [parse(view) for view in graph.views]
+    lengths = [device.alphabet[members[0]]["dt_ms"] for members in columns.members]
+    states = range(len(views))
+    control = [control_state(device, state) for state in states]
+    time, left = ([tuple(canonical(view[n]) for n in kind) for view in views] for kind in (clocks, flags))
     seen: set[Any] = set()
     wanted: list[list[int]] = []
-    clocks = [n for n, of in enumerate(device.device.memory.values()) if of.type == "ms"]
-    lengths = [device.alphabet[members[0]]["dt_ms"] for members in columns.members]
-    for state, view in enumerate(graph.views):
-        memory = parse(view)
-        time = [canonical(memory[n]) for n in clocks if isinstance(memory, tuple | list) and n < len(memory)]
-        control, chosen = control_state(device, state), []
-        for column, (step, after) in enumerate(
-            zip(columns.step_of[state], columns.next_of[state], strict=True)
-        ):
-            key = (control, *time, graph.steps[step], control_state(device, after), lengths[column])
+    for state in states:
+        chosen = []
+        rows = zip(columns.step_of[state], columns.next_of[state], lengths, strict=True)
+        for column, (step, after, length) in enumerate(rows):
+            key = (control[state], time[state], step, control[after], left[after], length)
             if key not in seen:
                 seen.add(key)
                 chosen.append(column)

@@ -30,8 +30,8 @@ Way = tuple[int, ...]
 
 
 def plan(device: DeviceGraph, columns: Columns) -> Scripts:
-    """The cases for one graph."""
-    return Scripts(_Soak(device).cases())
+    """The cases for one graph, the short ones first."""
+    return Scripts(sorted(_Soak(device).cases(), key=lambda script: len(script.shots)))
 
 
 def first(graphs: Sequence[DeviceGraph]) -> list[DeviceGraph]:
@@ -45,6 +45,7 @@ class _Soak:
         self.control = [control_state(device, state) for state in range(len(self.graph.views))]
         self.ways = {state: way for state, way in enumerate(ways_from_power_up(device)) if way is not None}
         self.states = sorted(self.ways, key=lambda state: (len(self.ways[state]), state))
+        self.shots = [Shot(letter) for letter in range(len(device.alphabet))]
         self.moves = [self._moves(state) for state in range(len(self.control))]
 
     def _moves(self, state: int) -> dict[tuple[int, int], int]:
@@ -147,7 +148,9 @@ class _Soak:
                 taken.add((self.control[state], self.graph.step_of[state][letter]))
                 state = self.graph.next_of[state][letter]
                 letters.append(letter)
-        return Script(why, [Shot(letter) for letter in letters], about=tuple(range(begins, len(letters))))
+        return Script(
+            why, [self.shots[letter] for letter in letters], about=tuple(range(begins, len(letters)))
+        )
 
     def _untaken(self, state: int, taken: set[tuple[str, int]]) -> Way | None:
         """A shortest way whose last move takes a step that was not taken from its control state."""
