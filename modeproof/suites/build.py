@@ -96,7 +96,7 @@ def ready_suite(
         devices = [graph_at(place, document, target, params)]
     else:
         devices = [load_device_graph(place, run) for run in runs]
-        if SUITES[suite].pairs:
+        if suite in SUITES and SUITES[suite].pairs:
             devices += every_pair(place, document, devices, on_built)
     contract = load_contract(place, document, devices[0].device, list(devices[0].forms.modes))
     stats = write_suite(
