@@ -26,6 +26,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 if __name__ == "__main__":
@@ -40,10 +41,10 @@ from modeproof.kit.vectors import Suite, case_id, open_suite, read_lines  # noqa
 HERE = Path(__file__).resolve().parent
 PACK, PAGE, VECTORS = HERE / "faults.toml", HERE / "README.md", HERE / "vectors"
 FOLDER = ROOT / "examples/c"
-SUITES = {"brief": False, "tour": False, "words": False, "wp": False, "times": False, "none": True}
-"""For each suite whether its faults need a reason: why they pass all suites."""
-WHOLE, PARTS = "brief", ("tour", "words", "wp", "times")
+WHOLE, PARTS = "brief", ("tour", "words", "wp", "times", "parameters", "soak")
 """The suite of which the pack holds all, and those of which it holds what catches a fault."""
+SUITES = dict.fromkeys((WHOLE, *PARTS), False) | {"none": True}
+"""For each suite whether its faults need a reason: why they pass all suites."""
 COMPILE = ("gcc", "-std=c99", "-O0", "-w")
 """Not optimized: most of the time goes into compiling. No warnings: mistakes are the point."""
 
@@ -83,8 +84,8 @@ def headers() -> tuple[str, ...]:
 class Fault:
     """One edit of one file: `old`, which stands there exactly once, becomes `new`.
 
-    `breaks` names clauses and findings. `suite` is the first that catches it of brief, tour, words, wp and
-    times; none of them catches one that has a `reason`.
+    `breaks` names clauses and findings. `suite` is the first that catches it of brief, tour, words, wp,
+    times, parameters and soak; none of them catches one that has a `reason`.
     """
 
     id: str
@@ -278,7 +279,10 @@ def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path, progr
 
 
 def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -> list[str]:
-    """The header, and of each case that catches a fault what comes up to the scan that does."""
+    """The header, and of each case that catches a fault what comes up to the scan that does.
+
+    Of the case before it the reset and the first scan: a program may remember them.
+    """
     suite = open_suite(path)
     ends: dict[str, int] = {}
     for fault in faults:
@@ -286,23 +290,32 @@ def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -
         if found is None:
             raise Unjudged(f"{fault.id}: the suite {suite.name} does not catch it")
         ends[found.case.id] = max(ends.get(found.case.id, 0), found.scan)
-    rows = []
+    rows: list[dict[str, Any]] = []
     lines = read_lines(path)
     header = json.loads(next(lines))
+    before: dict[str, Any] = {}
     for line in lines:
         row = json.loads(line)
         if row["id"] in ends:
-            row["scans"] = row["scans"][: ends[row["id"]]]
-            row["why"] = f"beginning of {row['id']}: {row['why']}"
-            going_in = [(scan["dt_ms"], scan["in"]) for scan in row["scans"]]
-            row["id"] = case_id(header["target"], row["params"], going_in)
-            rows.append(row)
+            if before and before["params"] != row["params"]:
+                rows.append(_beginning(header, before, 1))
+            rows.append(_beginning(header, row, ends[row["id"]]))
+            before = {}
+        else:
+            before = row | {"scans": row["scans"][:1]}
     header |= {
         "guarantees": f"what of the suite {suite.name} catches a program of the faulty pack",
         "cases": len(rows),
         "scans": sum(len(row["scans"]) for row in rows),
     }
     return [json.dumps(row, separators=(",", ":")) for row in (header, *rows)]
+
+
+def _beginning(header: Mapping[str, Any], row: dict[str, Any], scans: int) -> dict[str, Any]:
+    """The first scans of a case, as a case of its own."""
+    kept = row["scans"][:scans]
+    id = case_id(header["target"], row["params"], [(scan["dt_ms"], scan["in"]) for scan in kept])
+    return row | {"scans": kept, "why": f"beginning of {row['id']}: {row['why']}", "id": id}
 
 
 def _write(path: Path, lines: Iterable[str]) -> None:

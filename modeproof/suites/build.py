@@ -19,6 +19,7 @@ from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
+from modeproof.suites.at import every_pair
 from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
@@ -61,7 +62,11 @@ def suite_file(place: Path, document: str, target: str, suite: str) -> Path:
 
 
 def ready_suite(
-    place: Path, document: str, target: str, suite: str, on_built: Callable[[str], None] = lambda line: None
+    place: Path,
+    document: str,
+    target: str,
+    suite: str,
+    on_built: Callable[[str], None] = lambda line: None,
 ) -> Suite:
     """Open a suite of a target, and build it before when it is missing or older than its sources.
 
@@ -81,6 +86,8 @@ def ready_suite(
         except KitUnjudged:
             pass  # a leftover of another version is built anew
     devices = [load_device_graph(place, run) for run in runs]
+    if suite in SUITES and SUITES[suite].pairs:
+        devices += every_pair(place, document, devices, on_built)
     contract = load_contract(place, document, devices[0].device, list(devices[0].forms.modes))
     stats = write_suite(
         path,

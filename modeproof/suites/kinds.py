@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from modeproof.graph.device import DeviceGraph
 from modeproof.kit.vectors import EXACT, MONITOR, SETTLED
-from modeproof.suites import refusals, sequences, sic, times, words
+from modeproof.suites import parameters, refusals, sequences, sic, soak, times, words
 from modeproof.suites.script import Plan
 from modeproof.suites.tour import every_step, every_transition
 from modeproof.suites.walks import covering, telling
@@ -17,7 +19,9 @@ class Kind:
 
     `counted_by` is what makes a transition besides state and step: the column or the next state. `relations`
     are those by which a program can be judged with it, the closest first; `fast` suites end within a minute
-    or so. Not `always` is there a suite of every target.
+    or so, and one that is slow is `published` all the same if it says so. Not `always` is there a suite of
+    every target. `variants` gives the graphs that are walked for those of the OPEN runs; with `pairs` these
+    are joined by graphs at which each value of each parameter is there with each of each other.
     """
 
     plan: Plan
@@ -28,6 +32,9 @@ class Kind:
     relations: tuple[str, ...] = (EXACT, MONITOR)
     fast: bool = True
     always: bool = True
+    published: bool = True
+    variants: Callable[[Sequence[DeviceGraph]], list[DeviceGraph]] = list
+    pairs: bool = False
 
 
 SUITES = {
@@ -38,6 +45,7 @@ SUITES = {
         does_not_show="a memory of the program beyond the states of the graph; inputs that were not used",
         counted_by="column",
         fast=False,
+        published=False,
     ),
     "brief": Kind(
         plan=covering(every_step),
@@ -64,6 +72,7 @@ SUITES = {
         ),
         counted_by="column",
         fast=False,
+        published=False,
     ),
     "words": Kind(
         plan=words.plan,
@@ -97,7 +106,8 @@ SUITES = {
         plan=sic.plan,
         guarantees=(
             "inputs change one at a time and are held until all has settled; every step from every state to "
-            "every next state that such changes can take is taken; the header lists the others"
+            "every next state that such changes can take is taken, and each value that leads out of a state "
+            "with each settled row of outputs there; the header lists the others"
         ),
         hypothesis="the program settles in the scans given, and treats all inputs of a column alike",
         does_not_show="what outputs are while they settle; the transitions that single changes do not reach",
@@ -126,6 +136,35 @@ SUITES = {
         hypothesis="none beyond these inputs: they are examples",
         does_not_show="anything off the ways that are drawn",
         counted_by="next state",
+        always=False,
+    ),
+    "parameters": Kind(
+        plan=parameters.plan,
+        guarantees=(
+            "each choice of a parameter is there with each choice of each other one; times are odd, a few "
+            "milliseconds, above 65,535 ms, and the longest allowed, in scans as long; what has its default "
+            "is not sent; at each, every step of every control state is taken at every time in it"
+        ),
+        hypothesis="the program treats parameters alike that are in proportion to the times of the scans",
+        does_not_show="each value of each parameter; three choices at once; a change while the program runs",
+        counted_by="column",
+        variants=parameters.variants,
+        pairs=True,
+    ),
+    "soak": Kind(
+        plan=soak.plan,
+        guarantees=(
+            "in control states nothing changes for 300 scans, and in some for 66,000; for each step "
+            "a way round that "
+            "takes it is gone 300 times, and a shortest one 66,000 times; 100,000 scans mix "
+            "them; after each, "
+            "every step of every control state is taken, and no reset comes between"
+        ),
+        hypothesis="what a program counts beside the specification are scans or rounds, in 16 bits at most",
+        does_not_show="counters of 32 bits; a combination of rounds that does not occur; days",
+        counted_by="next state",
+        variants=soak.first,
+        fast=False,
         always=False,
     ),
 }

@@ -9,7 +9,8 @@ compared.
 All states and held inputs that can be reached so are searched, breadth first; so the transitions that the
 header lists under `not_so` are those that no sequence of single changes within the alphabet takes. For each
 other transition (state, step and next state) there is a case that takes it, and for each settled state and
-step one for every state in which it can settle after it.
+step one for every state in which it can settle after it. Where a change leads out of a state, each value that
+does is tried with each row of outputs that stands there: each level with each selection that it forbids.
 """
 
 from __future__ import annotations
@@ -28,6 +29,9 @@ from modeproof.suites.script import Alphabet, Script, Scripts, Shot, control_sta
 HOLD = 2
 """Scans for which settled inputs are held at least before outputs are compared."""
 
+Change = tuple[Any, ...]
+"""A settled row of outputs, the changed input with its new value, and the step that leads out of the
+state."""
 Node = tuple[int, int]
 """A settled state and the letter that is held."""
 Triple = tuple[int, int, int]
@@ -53,7 +57,7 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
         for state, (steps, nexts) in enumerate(zip(device.graph.step_of, device.graph.next_of, strict=True))
         for step, after in set(zip(steps, nexts, strict=True))
     }
-    missed = every - set(search.found)
+    missed = every - set(search.found)  # what else was found are changes
     names = device.graph.steps
     all_of = Counter(names[step] for _, step, _ in every)
     not_so = Counter(names[step] for _, step, _ in missed)
@@ -80,7 +84,7 @@ class _Search:
         self.later = {n: self.inputs.later(n, self.least) for n in held}
         self.settled: dict[Node, tuple[int, ...] | None] = {}
         self.parent: dict[Node, _Event] = {}
-        self.found: dict[Triple, _Event] = {}
+        self.found: dict[Triple | Change, _Event] = {}
         self.depth: dict[Node, int] = {}
         self.unsettled = 0
 
@@ -114,6 +118,8 @@ class _Search:
         event = _Event(node, letter, to)
         before, step = origin, self.graph.step_of[origin][letter]
         self.found.setdefault((before, step, -1 - path[-1]), event)
+        if state is not None and after != origin:
+            self.found.setdefault(self._change(origin, node[1], letter, step), event)
         for n, reached in enumerate(path):
             triple = (before, step, reached)
             if triple not in self.found:
@@ -127,6 +133,11 @@ class _Search:
             self.first = event
         self.depth[to] = 0 if state is None else self.depth[node] + 1
         return to
+
+    def _change(self, state: int, held: int, letter: int, step: int) -> Change:
+        old, new = self.device.alphabet[held], self.device.alphabet[letter]
+        values = tuple((name, value) for name, value in new.items() if value != old[name])
+        return ("change", self.device.seen[state], values, step)
 
     def _settle(self, state: int, held: int) -> tuple[int, ...] | None:
         """The states from `state` on while the letter is held, to the last of the hold; None if never."""
@@ -151,7 +162,7 @@ class _Search:
     def cases(self) -> Iterator[Script]:
         """Cases that take every transition found, those that need most events first."""
         left = dict(self.found)
-        order = sorted(left, key=lambda triple: -self.depth.get(left[triple].before, -1))
+        order = sorted(left, key=lambda wanted: -self.depth.get(left[wanted].before, -1))
         for triple in order:
             if triple in left:
                 script, taken = self._script(triple, left[triple])
@@ -159,7 +170,7 @@ class _Search:
                     left.pop(transition, None)
                 yield script
 
-    def _script(self, triple: Triple, event: _Event) -> tuple[Script, set[Triple]]:
+    def _script(self, triple: Triple | Change, event: _Event) -> tuple[Script, set[Triple | Change]]:
         chain = [event]
         while chain[-1] is not self.first:
             chain.append(self.parent[chain[-1].before])
@@ -171,13 +182,18 @@ class _Search:
                 for pattern in inner:
                     self._take(walk, step.before[1], step.before[1], pattern)
                 walk.pattern = last
+                moved = self.graph.step_of[walk.state][step.letter]
+                walk.taken.add(self._change(walk.state, step.before[1], step.letter, moved))
             else:
                 walk.pattern = self.inputs.own(step.letter)
             self._take(walk, step.letter, step.to[1], walk.pattern)
         if triple not in walk.taken:
             raise Unjudged(f"{self.device.name}: a case of the suite sic does not take what it must")
-        control = control_state(self.device, triple[0])
-        why = f"single changes of inputs lead to {self.graph.steps[triple[1]]} in {control}"
+        state, step = event.before[0], triple[-1]
+        if triple[0] != "change":
+            state, step = triple[:2]
+        control = control_state(self.device, state)
+        why = f"single changes of inputs lead to {self.graph.steps[step]} in {control}"
         return Script(why, walk.shots, about=(walk.last,)), walk.taken
 
     def _take(self, walk: _Walk, letter: int, held: int, pattern: Pattern) -> None:
@@ -201,7 +217,7 @@ class _Walk:
     state: int
     pattern: Pattern = ()
     shots: list[Shot] = field(default_factory=list)
-    taken: set[Triple] = field(default_factory=set)
+    taken: set[Triple | Change] = field(default_factory=set)
     last: int = 0
 
 

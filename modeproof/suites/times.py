@@ -7,7 +7,8 @@ The graph has a few lengths of time only. Two kinds of cases go beyond them:
   Before the last piece the outputs are as before, after it as the graph has them. A program that rounds the
   time of each scan is too slow or too fast.
 - long waits: where a state stays as it is however long the inputs are held, they are held for more than
-  32,768 ms and for about 65,536 ms. A program whose timer overflows begins anew.
+  32,768 ms and for about 65,536 ms, in scans of about a second where the times of the graph are short. A
+  program whose timer overflows begins anew.
 
 After each come inputs by which outputs tell the right state from those of the same control state at another
 time. That times add up is taken for granted. A time comes in pieces where nothing can happen before it is
@@ -30,7 +31,7 @@ STATES = 4
 """So many states of a control state have long waits at most, and twice as many have pieces."""
 SIGNED, UNSIGNED = 1 << 15, 1 << 16
 LONGEST_WAIT = 200
-"""Scans; where the longest time of the graph is too short for that there are no long waits."""
+"""Scans; where the longest time of the graph is too short for that, scans last a second or a little more."""
 
 
 def plan(device: DeviceGraph, columns: Columns) -> Scripts:
@@ -118,10 +119,12 @@ class _Search:
 
     def waits(self, longest: int) -> Iterator[Script]:
         """Cases in which nothing happens for long."""
-        if UNSIGNED // longest > LONGEST_WAIT:
-            return
         around = UNSIGNED // longest
-        lengths = (SIGNED // longest + 2, around - 1, around, around + 1)
+        scan = longest
+        lengths = [length * longest for length in (SIGNED // longest + 2, around - 1, around, around + 1)]
+        if around > LONGEST_WAIT:
+            scan = -(-1000 // longest) * longest
+            lengths = [SIGNED + 2 * longest, *(UNSIGNED - n * longest for n in (2, 1, 0))]
         long = [n for n, letter in enumerate(self.device.alphabet) if letter["dt_ms"] == longest]
         done: dict[str, int] = {}
         for state in self.states:
@@ -132,10 +135,13 @@ class _Search:
             done[control] = done.get(control, 0) + 1
             for turn, length in enumerate(lengths):
                 letter = stays[(state + turn) * 5 % len(stays)]
-                why = f"in {control}, nothing changes for {length * longest:,} ms"
-                yield from self._probed(why, state, [Shot(letter)] * length, state, others=[])
+                why = f"in {control}, nothing changes for {length:,} ms"
+                last = length % scan
+                wait = [Shot(letter, {"dt_ms": scan} if scan > longest else {})] * (length // scan)
+                wait += [Shot(letter, {"dt_ms": last})] if last else []
+                yield from self._probed(why, state, wait, state, others=[])
                 for leaving, after in self._out(state):
-                    shots = [*[Shot(letter)] * length, Shot(leaving)]
+                    shots = [*wait, Shot(leaving)]
                     yield from self._probed(why, state, shots, after, others=[])
 
     def _out(self, state: int) -> Iterator[tuple[int, int]]:

@@ -139,7 +139,7 @@ def _publish(place: Path, args: argparse.Namespace) -> int:
     targets = published(place)
     if not targets:
         raise Unjudged("no published target has graphs, so there is nothing to publish")
-    _make(place, targets, [name for name, kind in SUITES.items() if kind.fast], leave_out=True)
+    _make(place, targets, [name for name, kind in SUITES.items() if kind.published], leave_out=True)
     done = publish(place, targets)
     for name in done.removed:
         print(f"{name}: removed, it is no suite of a published target")

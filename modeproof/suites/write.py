@@ -85,6 +85,7 @@ def write_suite(
         raise Unjudged(f"no suite {suite!r}; there are: {', '.join(SUITES)}")
     if not devices or len({(device.document, device.device.id) for device in devices}) != 1:
         raise Unjudged("a suite is built from the graphs of one target")
+    devices = SUITES[suite].variants(devices)
     writer = _Writer(suite, devices, citations)
     for number, device in enumerate(devices):
         writer.add(number, device)

@@ -190,7 +190,7 @@ def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[s
         (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
         (
             ["lamp", "--adapter", "x", "--suite", "toru"],
-            "no suite 'toru'; there are: tour, brief, wp, words, refusals, sic, times, sequences",
+            "no suite 'toru'; there are: tour, brief, wp, words, refusals, sic, times, sequences, parameters",
         ),
         (["lamp", "--adapter", "x", "--vectors", "none.jsonl"], "No such file"),
     ],

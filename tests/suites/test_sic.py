@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from modeproof.ground.places import root
 from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
@@ -21,6 +22,23 @@ def scan(m):
     last.append(exact(m))
     return last[-3]
 """
+
+
+LEVELS, SELECTIONS = ["0F0F", "0FF0", "3333", "33CC", "3C3C"], ["0FF0", "3333", "33CC", "3C3C", "0F0F"]
+
+
+@pytest.mark.deep
+def test_each_level_is_tried_with_each_selection_that_it_forbids() -> None:
+    found = set()
+    for case in open_suite(root() / "vectors/fplc/sic.jsonl.gz").cases():
+        settled = before = ""
+        for scan in case.scans:
+            if settled in LEVELS and scan.inputs["MW03"] != before and scan.inputs["MW03"] in SELECTIONS:
+                level, mode = LEVELS.index(settled), SELECTIONS.index(scan.inputs["MW03"])
+                found.update({(level, mode)} if "PERMITS_1" not in case.params and mode > level else ())
+            before = scan.inputs["MW03"]
+            settled = scan.outputs["MW01"] if scan.compared else settled
+    assert len(found) == 10
 
 
 @pytest.fixture

@@ -60,6 +60,20 @@ def test_an_overflowing_timer_passes_the_tour_but_not_this(tmp_path: Path, bits:
         assert run_suite(open_suite(tmp_path / name), starter(tmp_path, fault)).word == word
 
 
+def test_a_timer_overflows_where_the_times_of_the_graph_are_short(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The lamp for 20 ms: a wait of 65 s would take thousands of scans of such times."""
+    monkeypatch.setattr(printed, "TICK_MS", 10)
+    write_suite(tmp_path / "t", "times", [lamp_graph(tmp_path, lines())])
+    suite = open_suite(tmp_path / "t")
+    assert max(scan.dt_ms for case in suite.cases() for scan in case.scans) == 1000
+    assert run_suite(suite, starter(tmp_path, "LIMIT = 20")).word == CONFORMS
+    for bits in (1 << 15, 1 << 16):
+        fault = "LIMIT = 20\n" + OVERFLOW.replace("BITS", str(bits))
+        assert run_suite(suite, starter(tmp_path, fault)).word == DIFFERS
+
+
 def uneven_lamp(folder: Path, monkeypatch: pytest.MonkeyPatch) -> DeviceGraph:
     """The lamp for 10 ms, with times in its graph of which none measures the others."""
     letters = [
