@@ -382,7 +382,9 @@ class _Clock:
         self._began, self._meant = time.monotonic(), 0
 
     def check(self, passed_ms: int) -> None:
-        """After each group, which takes so long in the case. Raises Unjudged when too much time has gone by beside the times of the case."""
+        """After each group, which takes so long in the case. Raises Unjudged when too much time has gone by
+        beside it.
+        """
         self._meant += passed_ms * self._slow
         over = (time.monotonic() - self._began) * 1000 - self._meant
         if self._least and over > self._least:
