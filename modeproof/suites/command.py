@@ -59,8 +59,8 @@ def _program(args: argparse.Namespace) -> int:
             suites = _suites(place, document, args)
     started = time.time()
     verdicts = kit_command.judge(args, suites)
-    for suite, verdict in zip(suites, verdicts, strict=True):
-        if args.case is not None or args.vectors is not None or args.adapter is None:
+    for suite, verdict in zip(suites, verdicts, strict=False):  # an interrupted run has fewer
+        if args.case is not None or args.vectors is not None or args.adapter is None or args.param:
             continue
         manner = [] if args.relation == EXACT else [args.relation]
         record = evidence.make(
@@ -121,8 +121,9 @@ def _builtin(args: argparse.Namespace) -> int:
     runs = open_runs(place, document, args.target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {args.target}")
-    if args.case is not None:
-        raise Unjudged("--case needs --suite or --vectors; --builtin alone replays every transition")
+    if args.case is not None or args.param:
+        option = "--case" if args.case is not None else "--param"
+        raise Unjudged(f"{option} needs --suite or --vectors; --builtin alone replays every transition")
     code = load_implementation(args.builtin, document, device.id)
     progress = Progress(quiet=args.quiet)
     found: list[tuple[Run, Comparison]] = []
