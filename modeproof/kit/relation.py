@@ -264,8 +264,9 @@ class Session:
                 for name, values in allowed.items():
                     values.append(row[name])
             held = max(self.latency, last - first) + STABLE
-            for after, out in enumerate(self._held(case, first, event, held)):
-                failure = self._passing(last, event, out, allowed, wanted, after)
+            times = self._times(case, first, last, held)
+            for after, out in enumerate(self._held(case.id, first, event, times)):
+                failure = self._passing(last, event, out, allowed, wanted, after, times[after])
                 if failure is None and after > held - STABLE and _differ(out, wanted, self.compared):
                     when = f"held for {after} scans, and not what it settles to"
                     failure = self._difference(last, wanted, out, when, after)
@@ -275,24 +276,31 @@ class Session:
                     return replace(failure, since=first)
             before = wanted
             if clock is not None:
-                clock.check(event)
+                clock.check(sum(scan.dt_ms for scan in case.scans[first : last + 1]))
         return None
 
-    def _held(self, case: Case, first: int, event: Scan, held: int) -> Iterator[Mapping[str, Any]]:
+    def _times(self, case: Case, first: int, last: int, held: int) -> list[int]:
+        """The times of an event and of the scans in which its inputs are held: those of the case, as far as
+        it has some, for in them something may happen by its time.
+        """
+        own = [scan.dt_ms * self.options.slow for scan in case.scans[first : last + 1]]
+        held_for = [ms or self.options.hold_ms for ms in own[1:]]
+        return [own[0], *held_for, *[self.options.hold_ms] * (held - len(held_for))]
+
+    def _held(self, id: str, first: int, event: Scan, times: Sequence[int]) -> Iterator[Mapping[str, Any]]:
         """The outputs after an event and in the scans in which its inputs are held."""
-        times = [event.dt_ms * self.options.slow, *[self.options.hold_ms] * held]
         if self.hello.lists and self._adapter is not None:
             outs: Sequence[Mapping[str, Any]] = []
             for start in range(0, len(times), BATCH):
-                self._where = (case.id, f"{first + 1}, held for {start} scans and more")
+                self._where = (id, f"{first + 1}, held for {start} scans and more")
                 outs = self._adapter.scans([(dt_ms, event.inputs) for dt_ms in times[start : start + BATCH]])
                 for n, out in enumerate(outs, start):
-                    self._where = (case.id, f"{first + 1}, held for {n} scans")
+                    self._where = (id, f"{first + 1}, held for {n} scans")
                     self.scans += 1
                     yield self._checked(out)
             return
         for n, dt_ms in enumerate(times):
-            self._where = (case.id, f"{first + 1}, held for {n} scans")
+            self._where = (id, f"{first + 1}, held for {n} scans")
             self.scans += 1
             yield self._checked(self.program.scan(dt_ms, event.inputs))
 
@@ -304,10 +312,10 @@ class Session:
         allowed: Mapping[str, Sequence[Any]],
         wanted: Mapping[str, Any],
         after: int,
+        dt_ms: int,
     ) -> Failure | None:
         """What must hold in every scan, settled or not."""
         if self.watch is not None:
-            dt_ms = self.options.hold_ms if after else event.dt_ms * self.options.slow
             broken = self.watch.scan(dt_ms, event.inputs, out)
             if broken is not None:
                 return self._broken(at, broken, wanted, out, after)
@@ -373,9 +381,11 @@ class _Clock:
         self._least = min((scan.dt_ms for scan in case.scans if scan.dt_ms), default=0) * options.slow
         self._began, self._meant = time.monotonic(), 0
 
-    def check(self, event: Scan) -> None:
-        """After each group. Raises Unjudged when too much time has gone by beside the times of the case."""
-        self._meant += event.dt_ms * self._slow
+    def check(self, passed_ms: int) -> None:
+        """After each group, which takes so long in the case. Raises Unjudged when too much time has gone by
+        beside it.
+        """
+        self._meant += passed_ms * self._slow
         over = (time.monotonic() - self._began) * 1000 - self._meant
         if self._least and over > self._least:
             raise Unjudged(

@@ -188,6 +188,6 @@ def campaign(programs: list[Faulty], most: int, enough: int = 10**9) -> Counts:
 
 if __name__ == "__main__":
     numbers = [int(word) for word in sys.argv[1:]]
-    done = campaign(chosen(numbers[0] if numbers else 200), 20, numbers[1] if len(numbers) > 1 else 10_000)
+    done = campaign(chosen(numbers[0] if numbers else 200), 60, numbers[1] if len(numbers) > 1 else 10_000)
     print(done, *done.wrong[:20], sep="\n")
     sys.exit(bool(done.wrong))

@@ -8,14 +8,24 @@ import pytest
 
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.builtin import Builtin, reference
-from modeproof.kit.judge import Plan, run_suite
-from tests.kit.faulty import ROOT, campaign, cases_of, chosen, faulty_programs, suite_of
+from modeproof.kit.judge import Options, Plan, run_suite
+from tests.kit.faulty import ROOT, TARGETS, campaign, cases_of, chosen, faulty_programs, suite_of
 
 
 def test_no_reproduction_accuses_a_right_program() -> None:
     counts = campaign(chosen(8, ["sf_edm"]), 5)
     assert counts.found >= 4 and counts.replayed > 30 and counts.shorter > 5, str(counts)
     assert counts.wrong == []
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("target", sorted(TARGETS, reverse=True))
+def test_a_right_program_settles_as_every_target_demands(target: str) -> None:
+    """Also where every scan of a case takes time, in which something may happen while inputs are held."""
+    suite = suite_of(target, "sic")
+    assert suite is not None
+    verdict = run_suite(suite, lambda: Builtin("refimpl", suite), plan=Plan(Options("settled"), effort=0))
+    assert (verdict.word, verdict.reason) == ("CONFORMS", "")
 
 
 @pytest.mark.deep
