@@ -51,9 +51,7 @@ def test_a_whole_cache_is_used(tools: Toolchain, made: Path) -> None:
     assert "Mapped static" in said and "crc" not in said.lower()
 
 
-def test_a_cache_is_used_with_its_own_bytes_and_jar_alone(
-    tools: Toolchain, made: Path, tmp_path: Path
-) -> None:
+def test_a_cache_is_used_with_its_own_jar_alone(tools: Toolchain, made: Path, tmp_path: Path) -> None:
     """Its size and date stay as they were, as those of the jar would: Java looks at no more."""
     cache = shutil.copy(made, tmp_path / "start.aot")
     assert start_up_options(tools, cache) == []
