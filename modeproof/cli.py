@@ -5,12 +5,15 @@ Exit status 0: as expected; 1: not as expected; 2: could not be judged (and then
 
 from __future__ import annotations
 
+import _thread
 import argparse
 import contextlib
 import importlib
 import os
 import signal
 import sys
+import threading
+import time
 from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import Any, NoReturn
@@ -42,9 +45,11 @@ JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report",
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
     given = sys.argv[1:] if argv is None else argv
-    args = make_parser(given).parse_args(given)
+    args = argparse.Namespace(debug="--debug" in given)
+    hook = sys.unraisablehook
     previous = _stop_on_signals()
     try:
+        args = make_parser(given).parse_args(given)
         place = root()
         sys.path[:] = [str(place), *(path for path in sys.path if path != str(place))]
         if args.command in JUDGES:
@@ -56,8 +61,13 @@ def main(argv: list[str] | None = None) -> int:
             raise
         _complain(error.message)
     except KeyboardInterrupt:
+        if signal.SIGTERM in previous:  # the main thread; a second Ctrl-C would only spoil the end
+            previous[signal.SIGINT] = signal.signal(signal.SIGINT, signal.SIG_IGN)
+        exec("")  # else Python, interrupted inside another exec, ends itself by the signal and not with 2
         _stop_tools()
         _complain("interrupted: no verdict; what was finished before is kept")
+        if hook is sys.__unraisablehook__:  # objects that were cut off half made complain as they go
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
     except BrokenPipeError:
         # Whoever read our output has gone; Python would complain once more while flushing at exit.
         with contextlib.suppress(OSError):
@@ -75,6 +85,7 @@ def main(argv: list[str] | None = None) -> int:
         text = " ".join(str(error).split())[:300]
         _complain(f"internal error: {type(error).__name__}: {text} (--debug shows where)")
     finally:
+        sys.unraisablehook = hook
         for number, handler in previous.items():
             signal.signal(number, handler)
     return EXIT_UNJUDGED
@@ -123,7 +134,27 @@ def _stop_tools() -> None:
 
 
 def _stop_on_signals() -> dict[int, Any]:
-    """Treat SIGTERM and SIGHUP like Ctrl-C, so that Java never outlives us."""
+    """Treat SIGTERM and SIGHUP like Ctrl-C, so that Java never outlives us.
+
+    Where Ctrl-C meets us while an object is being deleted (z3 has many), Python drops it: it comes again,
+    until `main` has heard it.
+    """
+
+    def again() -> None:
+        time.sleep(0.02)
+        while sys.unraisablehook is dropped and signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+            _thread.interrupt_main()
+            time.sleep(0.02)
+
+    def dropped(unraisable: sys.UnraisableHookArgs) -> None:
+        if issubclass(unraisable.exc_type, KeyboardInterrupt):
+            threading.Thread(target=again, daemon=True).start()
+        else:
+            hook(unraisable)
+
+    hook = sys.unraisablehook
+    if threading.current_thread() is threading.main_thread():
+        sys.unraisablehook = dropped
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
         raise KeyboardInterrupt

@@ -38,6 +38,8 @@ def only_one(place: Path) -> Iterator[None]:
             os.pwrite(handle, f"{os.getpid()}\n".encode(), 0)
         except OSError as error:
             raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
+        for left in build(place).glob("evidence/*/.*.part"):  # of a run that was killed while it wrote
+            left.unlink(missing_ok=True)
         yield
     finally:
         os.close(handle)

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import functools
 import importlib
+import os
+import signal
+import sys
+import threading
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
@@ -29,6 +34,30 @@ def observer_of_code() -> Any:
 def proofs_module(name: str) -> Any:
     """A module of the room `proofs`. Raises Unjudged when it, or a solver, cannot be imported."""
     try:
-        return importlib.import_module(name)
+        module = importlib.import_module(name)
+        if "z3" in sys.modules:
+            _hear_interrupts(sys.modules["z3"])
+        return module
     except ImportError as error:
         raise Unjudged(f"proofs cannot be run: {error}") from None
+
+
+@functools.cache
+def _hear_interrupts(z3: Any) -> None:
+    """Let Ctrl-C reach Python, and end the query at which z3 works.
+
+    Else z3 takes it for itself: it answers `unknown`, and all goes on. Python acts on a signal only when z3
+    has returned, but tells a pipe at once.
+    """
+    z3.set_param("ctrl_c", False)
+    if threading.current_thread() is not threading.main_thread():
+        return
+    read, write = os.pipe()
+    os.set_blocking(write, False)
+    signal.set_wakeup_fd(write, warn_on_full_buffer=False)
+
+    def listen() -> None:
+        while os.read(read, 64):
+            z3.main_ctx().interrupt()
+
+    threading.Thread(target=listen, daemon=True).start()

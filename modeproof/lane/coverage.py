@@ -13,6 +13,7 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import write_json
+from modeproof.ground.proofs import proofs_module
 from modeproof.report.verdicts import status_of
 
 
@@ -41,7 +42,7 @@ def cover_document(place: Path, document: str, progress: Any) -> dict[str, Any]:
     started = time.time()
     devices: dict[str, Any] = {}
     try:
-        coverage = importlib.import_module("proofs.explorer.coverage")
+        coverage = proofs_module("proofs.explorer.coverage")
         errors = importlib.import_module("proofs.explorer.errors")
         known = importlib.import_module(f"proofs.{document}.devices").DEVICES
     except ImportError as error:

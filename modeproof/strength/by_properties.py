@@ -11,7 +11,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.made import cfg_text
 from modeproof.strength.campaign import Answers, Judges
@@ -20,6 +19,7 @@ from modeproof.strength.mutant import Mutant
 from modeproof.strength.operators import mutants
 from modeproof.strength.register import Tier, path_of
 from modeproof.strength.results import digest, without_comments
+from modeproof.tlc.start_up import entries
 
 GRAPHS = "all graphs"
 """Stands for the tiers that compare graphs."""
@@ -90,7 +90,7 @@ class ByProperties(Judges):
         version = "pinned" if tools.pinned else "not pinned"
         return {
             "tla2tools": {"version": version, "sha256": tools.jar_sha256},
-            "java": evidence.tool(tools.java_version, tools.java),
+            "java": entries(tools)["java"],
         }
 
     def lines_of(self, mutant: Mutant) -> Sequence[str]:

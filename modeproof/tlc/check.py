@@ -29,6 +29,7 @@ from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
+from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain
 
 _STATES_A_SECOND = {"LIVE": 8_000, "OPEN": 50_000}
@@ -280,13 +281,7 @@ def _record(
         started=started,
         seconds=outcome.seconds if outcome is not None else time.time() - started,
         inputs=evidence.hashes(place, sorted(paths)),
-        tools={
-            "tlc": {
-                "version": (outcome.log.version if outcome is not None else "") or "not started",
-                "sha256": tools.jar_sha256,
-            },
-            "java": evidence.tool(tools.java_version, tools.java),
-        },
+        tools=entries(tools, outcome.log.version if outcome is not None else ""),
         result=_result(place, run, tools, judgement, outcome),
         reason=judgement.reason,
     )

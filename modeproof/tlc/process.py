@@ -167,7 +167,7 @@ def run_tlc(
         if run.kind == "OPEN":
             graph.parent.mkdir(parents=True, exist_ok=True)
             graph.unlink(missing_ok=True)
-            part = graph.with_suffix(".txt.part")
+            part = metadir / "graph"
             with part.open("wb", buffering=1 << 20) as stream:
                 outcome = _follow(run, command, folder, metadir, logs, stream, on_progress, on_lines, None)
                 stream.flush()
@@ -180,11 +180,9 @@ def run_tlc(
             ):
                 part.replace(graph)
                 return _with_graph(outcome, graph)
-            part.unlink(missing_ok=True)
             return outcome
         return _follow(run, command, folder, metadir, logs, None, on_progress, None, watch)
     except OSError as error:
-        graph.with_suffix(".txt.part").unlink(missing_ok=True)
         raise Unjudged(f"{run.name}: {error.strerror or error} ({error.filename or logs})") from None
     finally:
         shutil.rmtree(metadir, ignore_errors=True)

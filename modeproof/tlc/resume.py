@@ -17,6 +17,7 @@ import msgspec
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.runs import Run
+from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain
 
 
@@ -28,9 +29,8 @@ def declaration_sha256(run: Run) -> str:
 
 def current_tools(tools: Toolchain) -> dict[str, Mapping[str, str | None]]:
     """What the evidence of a run made now would say of its tools, without the version that TLC prints."""
-    own = evidence.own_tools()
-    java = evidence.tool(tools.java_version, tools.java)
-    return {**own, "java": java, "tlc": {"sha256": tools.jar_sha256}}
+    made = entries(tools)
+    return {**evidence.own_tools(), "java": made["java"], "tlc": {"sha256": tools.jar_sha256}}
 
 
 def why_stale(place: Path, run: Run, tools: Toolchain | None = None) -> str:

@@ -19,6 +19,7 @@ from modeproof.kit.command import quoted
 from modeproof.kit.errors import plain
 from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome
+from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace.exact import Scans
 from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not
@@ -191,13 +192,7 @@ def _write(
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),
-        tools={
-            "tlc": {
-                "version": (outcome.log.version if outcome is not None else "") or "not started",
-                "sha256": tools.jar_sha256,
-            },
-            "java": evidence.tool(tools.java_version, tools.java),
-        },
+        tools=entries(tools, outcome.log.version if outcome is not None else ""),
         result={
             "target": target.id,
             "log": {

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
 
+from modeproof.ground.places import TREE
 from modeproof.lane import doctor
 
 
@@ -41,5 +43,30 @@ def test_without_a_browser_nothing_needed_is_missing(monkeypatch: pytest.MonkeyP
 
 
 def test_a_package_that_is_missing_is_named() -> None:
-    found = doctor._module("no_such_module", "no-such-package")
+    found = doctor._package(TREE, "no_such_module", "no-such-package")
     assert not found.good and found.mend == "run `make venv`"
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "words"),
+    [
+        ("solve/__init__.py", "edited = True", "solve/__init__.py was changed since it was installed"),
+        ("requirements.lock", "solve==2 --hash=x", "1, and requirements.lock has 2"),
+        ("requirements.lock", "solve==1 --hash=x", "1"),
+    ],
+)
+def test_a_changed_package_is_not_as_in_the_lock(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str, text: str, words: str
+) -> None:
+    for name in ("solve", "solve-1.dist-info"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "solve/__init__.py").write_text("")
+    empty = "47DEQpj8HBSa-_TImW-5JCeuQeRkm5NMpJWZG3hSuFU"
+    (tmp_path / "solve-1.dist-info/RECORD").write_text(f"solve/__init__.py,sha256={empty},0\n")
+    (tmp_path / "solve-1.dist-info/METADATA").write_text("Metadata-Version: 2.1\nName: solve\nVersion: 1\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "solve", raising=False)
+    assert doctor._package(tmp_path, "solve", "solve").good
+    (tmp_path / path).write_text(text)
+    found = doctor._package(tmp_path, "solve", "solve")
+    assert (found.found, found.good) == (words, words == "1")

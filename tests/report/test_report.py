@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import json
 import re
 from pathlib import Path
@@ -18,6 +20,7 @@ from modeproof.report import build, parts
 from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble, gather
+from modeproof.report.vendored import tables
 from tests.report.paper import change, put, without
 from tests.report.whole import make_whole, put_graph, stale
 
@@ -164,6 +167,15 @@ def test_a_figure_shows_its_source_and_has_a_known_hash(root: Path) -> None:
     used = set(re.findall(r'data-source="([^"]+)"', html))
     assert {one for one in used if one not in sources and one not in folders} == set()
     assert "build/evidence/box/MC_Box.json" in used and "build/evidence/box/" in folders
+
+
+def test_the_page_runs_its_own_scripts_and_no_other(root: Path) -> None:
+    html = make(root).html
+    (policy,) = re.findall(r"script-src ([^;]*);", html)
+    own = [text.encode() for text in re.findall(r"<script>(.*?)</script>", html, re.DOTALL)]
+    named = {base64.b64encode(hashlib.sha256(text).digest()).decode() for text in (*own, tables()[0])}
+    assert len(own) == 4 and set(policy.split()) == {f"'sha256-{digest}'" for digest in named}
+    assert " on" not in {name[:3] for name in re.findall(r"<\w+[^>]*?( on\w+)=", html)}
 
 
 def test_every_inner_link_leads_somewhere_and_ids_are_unique(root: Path) -> None:

@@ -77,7 +77,7 @@ def test_a_listed_run_without_its_cfg_is_a_problem(tmp_path: Path) -> None:
     assert register_problems(root, "toy") == ("run MC_toy: models/MC_toy.cfg is missing",)
 
 
-def test_a_main_run_moved_to_the_exhaustive_lane_is_a_problem(tmp_path: Path) -> None:
+def test_a_main_run_outside_the_full_lane_is_noticed(tmp_path: Path) -> None:
     root = with_runs(tmp_path, declaration("MC_toy").replace('["smoke", "full"]', '["exhaustive"]'))
     words = "run MC_toy: the main run of the environment honest is not in the lane full"
     assert register_problems(root, "toy") == (words,)

