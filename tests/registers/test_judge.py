@@ -201,6 +201,7 @@ def test_a_clause_of_two_devices_needs_both(tree: Any) -> None:
     runs = (tree.root / "spec/door/runs.toml").read_text(encoding="utf-8")
     opened = runs[runs.index('[[run]]\nid = "OPEN_Latch"') :]
     tree.write("spec/door/runs.toml", runs + opened.replace("Latch", "Bell").replace("latch", "bell"))
+    tree.pin()
     assert problems(tree) == []
     tree.edit("spec/door/clauses.toml", '["latch"]', '["latch", "bell"]')
     assert problems(tree) == [
@@ -238,6 +239,7 @@ def test_a_step_that_no_run_shows_to_fire_is_found(tree: Any) -> None:
     text = (tree.root / "spec/door/runs.toml").read_text(encoding="utf-8")
     tree.write("spec/door/runs.toml", text[: text.index('[[run]]\nid = "OPEN_Latch"')])
     tree.edit("spec/door/runs.toml", '["open_seen"]', '["open_seen", "OpenLatch"]')
+    tree.pin()
     assert problems(tree) == ["spec/door/runs.toml: no run shows that these steps of latch fire: CloseLatch"]
 
 
