@@ -95,6 +95,13 @@ def test_an_unfit_map_is_refused_with_line_and_symbol(tmp_path: Path, old: str, 
     assert said in str(caught.value) and "\n" not in str(caught.value)
 
 
+def test_a_symbol_cannot_write_to_the_terminal(tmp_path: Path) -> None:
+    path = written(tmp_path, ("CODE,MW1,WORD", "\x1b]0;x\x07\u202eCODE,MW1,WORD"))
+    with pytest.raises(Unjudged, match="unknown symbol") as caught:
+        read_map(path, INPUTS, OUTPUTS, PARAMETERS)
+    assert str(caught.value).isprintable()
+
+
 pieces = st.sampled_from(
     [*GOOD.replace("\n", ",").split(","), ",", "\n", '"', "\0", "", "-", "DB70000.DBW0", "MW99999", "é"]
 )
