@@ -29,7 +29,8 @@ class DeviceGraph:
 
     `alphabet` holds for each input of the graph the values of all inputs and `dt_ms`; `rows` for each state
     the outputs that depend on the state alone; `passed` names the output that repeats an input of the same
-    scan; `params` are wire values, as the run declares them; `place` is where the document's room is.
+    scan; `params` are wire values, as the run declares them; `place` is where the document's room is;
+    `tick_ms` is the length of a tick in the model.
     """
 
     document: str
@@ -44,6 +45,7 @@ class DeviceGraph:
     classes: tuple[InputClass, ...]
     copied: Copied | None = None
     place: Path | None = None
+    tick_ms: int = 1
 
     @property
     def name(self) -> str:
@@ -194,6 +196,7 @@ def join(
         classes=() if place is None else load_classes(place, document, device.id, alphabet),
         copied=None if place is None else load_copied(place, document, device.id, alphabet),
         place=place,
+        tick_ms=tick_ms,
     )
 
 

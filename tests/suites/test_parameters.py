@@ -21,6 +21,7 @@ from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.at import every_pair, graph_at, scaled, tick_of
 from modeproof.suites.build import make_graphs
+from modeproof.suites.parameters import variants
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
 from tests.kit.lamps import Lamp
@@ -119,3 +120,21 @@ def test_graphs_at_other_parameters_are_those_of_the_reference(edm: Path) -> Non
             assert not compare(wrong, code, lambda done, total: None, codes=True).equal
     with pytest.raises(Unjudged, match="no parameter"):
         graph_at(edm, "edm", "sf_edm", {"T": 1})
+
+
+def test_a_model_that_counts_in_milliseconds_keeps_its_ticks(tmp_path: Path) -> None:
+    """Its limits may be absolute: with a limit of 150 ms, 151 ms in other ticks are no 7 ms."""
+    absolute = replace(lamp_graph(tmp_path), tick_ms=1)
+    assert variants([absolute]) == [replace(absolute, params={})]
+    assert len(variants([lamp_graph(tmp_path)])) > 3
+
+
+PUBLISHED = sorted((root() / "vectors").glob("*/*.jsonl.gz"))
+NEW = [path for path in PUBLISHED if path.name.split(".")[0] in ("parameters", "soak", "times", "sic")]
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("path", NEW, ids=lambda path: f"{path.parent.name}_{path.name.split('.')[0]}")
+def test_the_reference_conforms_to_every_published_walk(path: Path) -> None:
+    """Expected values come from the specification's graphs; a wrong scale would indict a right program."""
+    assert main(["conform", path.parent.name, "--vectors", str(path), "--builtin", "refimpl", "--quiet"]) == 0
