@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from modeproof.cli import main
 from modeproof.graph.device import load_device_graph, open_runs
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
