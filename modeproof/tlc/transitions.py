@@ -17,7 +17,7 @@ from modeproof.registers.cfg import COMMENT, Cfg
 from modeproof.tlc.parse_tree import Definition, Node, ParseTree, Place, conjuncts
 
 PREFIX = "Every_"
-_EXTENDS = re.compile(r"^EXTENDS\s+((?:\w+\s*,\s*)*\w+)", re.MULTILINE)
+EXTENDS = re.compile(r"^EXTENDS\s+((?:\w+\s*,\s*)*\w+)", re.MULTILINE)
 _STATE, _ACTION = 1, 2
 """Levels of an expression: up to 1 it speaks of one state, up to 2 of one transition."""
 
@@ -74,7 +74,7 @@ def _visible(tree: ParseTree) -> Iterator[str]:
             continue
         seen.add(module)
         yield module
-        found = _EXTENDS.search("\n".join(tree.texts[module]))
+        found = EXTENDS.search("\n".join(tree.texts[module]))
         waiting += re.split(r"\s*,\s*", found.group(1)) if found else []
 
 
