@@ -21,7 +21,7 @@ from typing import Any
 
 import msgspec
 
-from modeproof.graph.device import DeviceGraph, graph_file, load_device_graph, open_runs
+from modeproof.graph.device import DeviceGraph, graph_file, load_device_graph, open_runs, read_device_graph
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import build
@@ -177,7 +177,7 @@ def _by_tlc(place: Path, base: Run, device: Device, wanted: Params, tick_ms: int
                 f"{device.id}: no graph with {_shown(device, wanted)}: the specification refuses these "
                 f"parameters, or TLC failed: {' '.join(words[0].split())[:200]}"
             )
-    return load_device_graph(place, run)
+    return read_device_graph(place, run)  # its name holds a hash of every text that it rests on
 
 
 def _constants(
