@@ -80,7 +80,7 @@ def recheck(root: Path, file: Path) -> Recheck:
             found.append(Difference("differs", str(page), why, DIFFERS))
         found += _attachments(record, texts[record])
     files = listed[file]
-    found += [*_compare(root, files), *_tools(root)]
+    found += [*_compare(root, files), *_tools(root, "".join(texts.values()))]
     return Recheck(len(files), tuple(dict.fromkeys(found)))
 
 
@@ -134,12 +134,14 @@ def _compare(root: Path, files: Mapping[str, str]) -> Iterator[Difference]:
                 yield Difference("new", name, "the report does not know it", DIFFERS)
 
 
-def _tools(root: Path) -> Iterator[Difference]:
-    """The tools that made the evidence, and are not what they were."""
+def _tools(root: Path, text: str) -> Iterator[Difference]:
+    """The tools that made evidence and are not what they were, but for what the report says itself."""
     made: dict[str, list[str]] = {}
     for path in sorted(root.glob("build/evidence/*/*.json")):
         with contextlib.suppress(Unjudged):  # a file that is damaged is not as the report has it
             for name in other_tools(read(path)):
+                if f"{path.stem} ({name}" in text:
+                    continue
                 made.setdefault(name, []).append(f"{path.parent.name}/{path.stem}")
     for name, ids in made.items():
         why = f"was changed since it made the evidence of {few(ids)}"

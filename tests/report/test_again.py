@@ -119,6 +119,9 @@ def test_evidence_of_another_tool_is_no_evidence(
     monkeypatch.setattr(made_by, "solvers", dict)
     assert main(["report", "--verify"]) == 1
     assert f"{tool} (the tool): was changed since it made the evidence of box/" in capsys.readouterr().out
+    assert main(["report"]) == 2
+    capsys.readouterr()
+    assert main(["report", "--verify"]) == 0, "the report says so itself"
     (trouble,) = [t for t in make(root).troubles if "another text" in t.what]
     assert trouble.status == HOLE and f"{tool} (the tool)" in trouble.what
 
