@@ -279,7 +279,7 @@ def test_nothing_is_written_to_another_plc(magic: bytes, suite: Suite) -> None:
         assert memory_of(plc) == before
 
 
-def test_a_plc_that_is_no_rig_any_more_is_left_alone(suite: Suite, plc: Plc, tmp_path: Path) -> None:
+def test_a_plc_that_stops_being_a_rig_is_left(suite: Suite, plc: Plc, tmp_path: Path) -> None:
     path = tmp_path / "map.csv"
     path.write_text(STEPPED, encoding="utf-8")
     with s7.connect(plc.address, path, suite) as program:
@@ -310,7 +310,7 @@ def test_what_was_written_is_put_back_at_the_end(suite: Suite, plc: Plc, tmp_pat
     assert plc.scans == 1, "to put it back starts no scan"
 
 
-def test_without_the_word_that_it_is_a_rig_nobody_is_called(
+def test_without_the_option_for_rigs_nobody_is_called(
     suite: Suite, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     arguments = ["fplc", "--host", "127.0.0.1:1", "--map", "m.csv", "--vectors", str(suite.path)]
