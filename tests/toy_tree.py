@@ -81,7 +81,6 @@ def declaration(name: str, **changes: str | int) -> str:
     fields: dict[str, str | int] = {
         "module": "Toy",
         "cfg": f"models/{name}.cfg",
-        "kind": name.split("_")[0],
         "environment": "honest",
         "strength": "a counter up to 4",
         "workers": 1,

@@ -101,7 +101,7 @@ def _tables(document: Document) -> dict[str, str]:
     Raises Unjudged with the command that is needed where there is neither.
     """
     place, name = document.root, document.name
-    wanted = [telling.run for telling in tellings(document)]
+    wanted = [telling.run for _, telling in tellings(document)]
     if not wanted:
         return {}
     declared = {run.id: run for run in load_runs(place, name)}

@@ -11,14 +11,12 @@ import hashlib
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
-from modeproof.registers.load import read_register
-from modeproof.registers.rows import Document, Finding, Problem, Property
+from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
 
@@ -35,15 +33,6 @@ _MANY = 3
 """Of a finding with more counterexamples than this, the line names only the first ones."""
 
 
-@dataclass(frozen=True)
-class Telling:
-    """A counterexample that the page shows as a table, with its story before it."""
-
-    finding: Finding
-    run: str
-    story: str
-
-
 def page_name(document: str) -> str:
     """The path of a document's page."""
     return f"docs/{document}.md"
@@ -54,14 +43,10 @@ def picture_name(document: str) -> str:
     return f"docs/{document}-growth.svg"
 
 
-def tellings(document: Document) -> tuple[Telling, ...]:
+def tellings(document: Document) -> tuple[tuple[Finding, Telling], ...]:
     """The counterexamples that findings.toml marks as telling: safety first, then in its order."""
-    rows = {row["id"]: row for row in read_register(document.root, document.name, "findings")["finding"]}
-    return tuple(
-        Telling(finding, rows[finding.id]["telling"]["run"], rows[finding.id]["telling"]["story"])
-        for finding in sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
-        if "telling" in rows[finding.id]
-    )
+    ranked = sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
+    return tuple((finding, finding.telling) for finding in ranked if finding.telling)
 
 
 def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
@@ -82,18 +67,18 @@ def check_document_page(document: Document, sources: Sources) -> list[Problem]:
     problems = [
         Problem(
             document.source("findings"),
-            telling.finding.id,
+            finding.id,
             f"telling: {telling.run} is no counterexample of it",
         )
-        for telling in tellings(document)
-        if _run(document, telling.run) is None or telling.run not in telling.finding.evidence
+        for finding, telling in tellings(document)
+        if _run(document, telling.run) is None or telling.run not in finding.evidence
     ]
     name = page_name(document.name)
     if problems or not (document.root / name).is_file():
         return problems
     text = read_text(document.root, document.root / name)
     tables = tables_of(document, text)
-    for telling in tellings(document):
+    for _, telling in tellings(document):
         if tables.get(telling.run) is None:
             cause = f"the table of {telling.run} is missing, was changed by hand, or its run has changed"
             problems.append(Problem(name, "", f"{cause}; {REMEDY}"))
@@ -257,7 +242,7 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
         "scan, or one step of somebody else, with what it read and what stands afterwards; **bold** is new.\n"
         "`dt` is the time since the scan before, in ticks of the model.\n"
     )
-    for trace in found:
+    for finding, trace in found:
         run, table = _run(document, trace.run), tables[trace.run]
         mark = f"trace {trace.run} {_digest(document, trace.run, table)}"
         assert run is not None
@@ -266,7 +251,7 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
             f"{_sentence(falls.sentence)} (`{falls.id}`)" if falls is not None else f"`{run.property}`"
         )
         yield (
-            f"### {trace.finding.id}: {trace.finding.title}\n\n"
+            f"### {finding.id}: {finding.title}\n\n"
             f"{_sentence(trace.story)}\n\n"
             f"What fails: {requirement}\n\n"
             f"<!-- begin {mark} -->\n{table}<!-- end trace -->\n\n"
@@ -355,7 +340,7 @@ def _after(lengths: set[int]) -> str:
 def _faults(document: Document) -> Iterator[str]:
     if not document.faults:
         return
-    summary = read_register(document.root, document.name, "faults").get("summary", "")
+    summary = document.faults_summary
     rows = []
     for fault in document.faults:
         falls = "; ".join(f"`{fall.property}`: {fall.needs}" for fall in fault.falls)

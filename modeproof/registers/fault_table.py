@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from typing import get_args
 
 from modeproof.ground.errors import suggestion
-from modeproof.registers.rows import Document, Problem
-from modeproof.registers.schema import schema
+from modeproof.registers.rows import Document, FaultClass, Problem
 
 CELL = re.compile(r"(?P<row>.+) at (?P<column>[^:,]+)(?P<rest>[^:]*): (?P<what>.+)")
 """A witness that is a cell of a matrix."""
@@ -18,8 +18,9 @@ def check_faults(document: Document) -> Iterator[Problem]:
     if not document.faults:
         return
     file = document.source("faults")
-    classes: list[str] = schema("faults")["properties"]["fault"]["items"]["properties"]["class"]["enum"]
-    for missing in [name for name in classes if name not in {fault.kind for fault in document.faults}]:
+    for missing in [
+        name for name in get_args(FaultClass) if name not in {fault.kind for fault in document.faults}
+    ]:
         yield Problem(file, missing, "no row for this class of faults")
     runs = {run.id: run for run in document.runs}
     properties = {prop.id: prop for prop in document.properties}

@@ -5,73 +5,70 @@ A document without the file has no rendered traces.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
+
+from msgspec import Meta, field
 
 from modeproof.registers.load import read_register
+from modeproof.registers.typed import Entry, LowerName, Name, Names, SomeNames, SomeTexts, Text, typed
 
 
-@dataclass(frozen=True)
-class Words:
+class Words(Entry, frozen=True, kw_only=True):
     """Signals whose words mean something by one table (an operator: number -> word); `says` names the
     number.
     """
 
-    table: str
-    says: str
-    signals: tuple[str, ...]
+    table: Name
+    says: Text
+    signals: SomeNames
 
 
-@dataclass(frozen=True)
-class Vector:
+class Vector(Entry, frozen=True, kw_only=True):
     """Boolean signals that are shown in one column, each by its label; `says` comes before the labels."""
 
-    id: str
-    signals: tuple[str, ...]
-    labels: tuple[str, ...]
+    id: Name
+    signals: SomeNames
+    labels: SomeTexts
     says: str = ""
 
 
-@dataclass(frozen=True)
-class Replay:
+class Replay(Entry, frozen=True, kw_only=True):
     """The operators of a device's module: first state, scan of one input, record of the outputs."""
 
-    init: str
-    scan: str
-    outputs: str
-    short: str
+    init: Name
+    scan: Name
+    outputs: Name
+    short: Text
     """The name of the device in a table."""
 
 
-@dataclass(frozen=True)
-class Top:
+class Top(Entry, frozen=True, kw_only=True):
     """One module that runs check. `next` is the step relation that finds out a step which was not recorded,
     `wires` the record of all that stands on the wires, `inputs` what a device read in the step just executed.
 
     `columns` are those of a table: signals, vectors, variables; a device stands for its state.
     """
 
-    next: str
-    wires: str
-    columns: tuple[str, ...]
-    inputs: Mapping[str, str]
+    next: Name
+    wires: Name
+    columns: SomeNames
+    inputs: dict[LowerName, Text]
 
 
-@dataclass(frozen=True)
-class Traces:
+class Traces(Entry, frozen=True, kw_only=True):
     """The whole register. `step` is the variable with the step's name, written where the constant `recorded`
     is true, and `with_step` are the variables written with it.
     """
 
-    step: str
-    recorded: str
-    with_step: tuple[str, ...]
-    nobody: Mapping[str, str]
-    words: tuple[Words, ...]
-    vectors: tuple[Vector, ...]
-    devices: Mapping[str, Replay]
-    tops: Mapping[str, Top]
+    step: Name
+    recorded: Name
+    with_step: Names = ()
+    nobody: dict[str, str] = field(default_factory=dict)
+    words: tuple[Words, ...] = field(default=(), name="word")
+    vectors: tuple[Vector, ...] = field(default=(), name="vector")
+    devices: Annotated[dict[LowerName, Replay], Meta(min_length=1)]
+    tops: Annotated[dict[Name, Top], Meta(min_length=1)]
 
 
 def has_replay(root: Path, name: str) -> bool:
@@ -81,20 +78,4 @@ def has_replay(root: Path, name: str) -> bool:
 
 def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
-    table = read_register(root, name, "replay")
-    return Traces(
-        step=table["step"],
-        recorded=table["recorded"],
-        with_step=tuple(table.get("with_step", [])),
-        nobody=dict(table.get("nobody", {})),
-        words=tuple(Words(row["table"], row["says"], tuple(row["signals"])) for row in table.get("word", [])),
-        vectors=tuple(
-            Vector(row["id"], tuple(row["signals"]), tuple(row["labels"]), row.get("says", ""))
-            for row in table.get("vector", [])
-        ),
-        devices={key: Replay(**row) for key, row in table["devices"].items()},
-        tops={
-            key: Top(row["next"], row["wires"], tuple(row["columns"]), dict(row["inputs"]))
-            for key, row in table["tops"].items()
-        },
-    )
+    return typed(Traces, read_register(root, name, "replay"), f"spec/{name}/replay.toml")

@@ -1,12 +1,43 @@
-"""The typed rows of the registers. Every field means what docs and schemas say; lists keep their order."""
+"""The typed rows of the registers. Every field means what docs say; lists keep their order."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated, Literal
+
+from msgspec import Meta, field
 
 from modeproof.registers.runs import Run
+from modeproof.registers.typed import (
+    Clauses,
+    Entry,
+    LowerName,
+    Name,
+    Names,
+    RowId,
+    RunId,
+    Sha256,
+    SomeNames,
+    SomeTexts,
+    Text,
+    Texts,
+)
+
+FaultClass = Literal[
+    "corruption",
+    "repetition",
+    "wrong sequence",
+    "loss",
+    "delay",
+    "insertion",
+    "masquerade",
+    "wrong address",
+    "stuck wire",
+    "lost wire",
+    "extra wire",
+]
 
 
 @dataclass(frozen=True)
@@ -21,74 +52,72 @@ class Problem:
         return f"{self.file}: {self.place}: {self.text}" if self.place else f"{self.file}: {self.text}"
 
 
-@dataclass(frozen=True)
-class About:
-    """Which paper it is, and what of it we had."""
+class About(Entry, frozen=True, kw_only=True):
+    """Which paper it is, and what of it we had. `prefix` begins its clause ids, `sha256` is of the seed."""
 
-    title: str
+    title: Text
     number: str
-    edition: str
-    publisher: str
-    prefix: str
-    seed: str
-    sha256: str
-    available: tuple[str, ...]
-    not_available: tuple[str, ...]
-    not_endorsed: str
-    sources: tuple[str, ...] = ()
+    edition: Text
+    publisher: Text
+    prefix: Annotated[str, Meta(pattern="^[A-Z]+$", description="capital letters")]
+    seed: Text
+    sha256: Sha256
+    available: SomeTexts
+    not_available: Texts
+    not_endorsed: Text
+    sources: Texts = ()
 
 
-@dataclass(frozen=True)
-class Clause:
+class Clause(Entry, frozen=True, kw_only=True):
     """One thing that the document says. `device` lists whose behaviour it is."""
 
-    id: str
-    title: str
-    text: str
-    kind: str
-    device: tuple[str, ...]
+    id: Annotated[str, Meta(pattern=r"^[A-Z]+(-[A-Z0-9]+)+$", description="a clause id such as AB-2-18")]
+    title: Text
+    text: Text
+    kind: Literal["behaviour", "property", "assumption", "not modelled"]
+    device: tuple[LowerName, ...]
     because: str = ""
     pages: str = ""
     figure: str = ""
 
 
-@dataclass(frozen=True)
-class Signal:
+class Signal(Entry, frozen=True, kw_only=True):
     """One memory variable, input, output or parameter of a device.
 
     `python` and `tla` are its names in the implementation and the specification (`tla` is empty when the
-    specification leaves it out). `default` is None where none is declared.
+    specification leaves it out); `tag` is that of the document's own wiring. `project`: our own choice, which
+    the document does not print. Parameters alone may be required or have a default, which is None where none
+    is declared.
     """
 
     name: str
-    type: str
-    clauses: tuple[str, ...]
-    why: str
-    python: str
-    tla: str
+    type: Literal["word", "bool", "mode", "modes", "text", "int", "ms", "function"]
+    clauses: Clauses
+    why: Text
+    python: Name
+    tla: Annotated[str, Meta(pattern=r"^([A-Za-z_]\w*)?$", description="a name, or empty")]
     tag: str = ""
-    minimum: int | None = None
-    maximum: int | None = None
+    minimum: int | None = field(default=None, name="min")
+    maximum: int | None = field(default=None, name="max")
     values: tuple[str, ...] = ()
     default: int | str | bool | list[int] | None = None
     required: bool = False
     project: bool = False
 
 
-@dataclass(frozen=True)
-class Device:
+class Device(Entry, frozen=True, kw_only=True):
     """One device or function block with all its names."""
 
-    id: str
-    title: str
-    module: str
+    id: LowerName
+    title: Text
+    module: Name
     published: bool
-    states: tuple[str, ...]
-    steps: tuple[str, ...]
-    memory: Mapping[str, Signal]
-    inputs: Mapping[str, Signal]
-    outputs: Mapping[str, Signal]
-    parameters: Mapping[str, Signal]
+    states: SomeNames
+    steps: SomeNames
+    memory: dict[Name, Signal]
+    inputs: dict[Name, Signal]
+    outputs: dict[Name, Signal]
+    parameters: dict[Name, Signal]
 
 
 @dataclass(frozen=True)
@@ -100,93 +129,98 @@ class Interface:
     devices: Mapping[str, Device]
 
 
-@dataclass(frozen=True)
-class Property:
+class Property(Entry, frozen=True, kw_only=True):
     """What must be true. `tla` is its operator in `module`; `antecedent` the witness that it is not empty."""
 
-    id: str
-    title: str
-    sentence: str
-    hazard: str
-    clauses: tuple[str, ...]
-    tla: str
-    module: str
-    kind: str
-    environments: tuple[str, ...]
+    id: Name
+    title: Text
+    sentence: Text
+    hazard: Text
+    clauses: Clauses
+    tla: Name
+    module: Name
+    kind: Literal["invariant", "action", "liveness", "refinement"]
+    environments: Annotated[tuple[LowerName, ...], Meta(min_length=1)]
     antecedent: str
-    findings: tuple[str, ...] = ()
+    findings: tuple[RowId, ...] = ()
     reason: str = ""
 
 
-@dataclass(frozen=True)
-class Finding:
-    """Where the document is wrong or silent, and what was decided."""
+class Telling(Entry, frozen=True, kw_only=True):
+    """The counterexample of a finding that the document's page shows, and the story before it."""
 
-    id: str
-    title: str
-    clauses: tuple[str, ...]
+    run: Text
+    story: Text
+
+
+class Finding(Entry, frozen=True, kw_only=True):
+    """Where the document is wrong or silent, and what was decided.
+
+    `tries` are the readings, by the names that they have in the specification, that runs of its evidence try;
+    `parameter` is the constant of the specification that leaves the choice to the project.
+    """
+
+    id: RowId
+    title: Text
+    clauses: Clauses
     says: str
-    readings: tuple[str, ...]
-    consequence: str
-    decision: str
-    severity: str
-    """The key `class` of the register: safety, availability or wording."""
+    readings: SomeTexts
+    consequence: Text
+    decision: Text
+    severity: Literal["safety", "availability", "wording"] = field(name="class")
     drawing_could_settle: bool
-    tries: tuple[str, ...] = ()
-    """The readings, by the names that they have in the specification, that runs of its evidence try."""
+    tries: Texts = ()
     parameter: str = ""
-    """The constant of the specification that leaves the choice to the project."""
-    evidence: tuple[str, ...] = ()
+    evidence: Texts = ()
     evidence_open: str = ""
+    telling: Telling | None = None
 
 
-@dataclass(frozen=True)
-class Assumption:
+class Assumption(Entry, frozen=True, kw_only=True):
     """What is taken for granted; `breaks` lists the runs that show what happens without it."""
 
-    id: str
-    title: str
-    text: str
-    kind: str
-    clauses: tuple[str, ...]
-    who: str
-    check: str
-    breaks: tuple[str, ...] = ()
+    id: RowId
+    title: Text
+    text: Text
+    kind: Literal["assumption", "abstraction", "merged step"]
+    clauses: Clauses
+    who: Text
+    check: Text
+    breaks: tuple[RunId, ...] = ()
     breaks_open: str = ""
 
 
-@dataclass(frozen=True)
-class Fall:
+class Fall(Entry, frozen=True, kw_only=True):
     """A property that falls under a class of faults: the run that shows it, and what it takes."""
 
-    property: str
-    run: str
-    needs: str
+    property: Name
+    run: RunId
+    needs: Text
 
 
-@dataclass(frozen=True)
-class Fault:
-    """One class of faults from outside: what detects it, what holds, what falls, what nothing detects."""
+class Fault(Entry, frozen=True, kw_only=True):
+    """One class of faults from outside: what detects it, what holds, what falls, what nothing detects.
 
-    id: str
-    kind: str
-    """The key `class` of the register: the class of the communication error list, or of wires."""
-    title: str
-    model: str
-    detected_by: tuple[str, ...]
-    not_detected: str
-    holds: tuple[str, ...] = ()
-    runs: tuple[str, ...] = ()
+    `kind` is the class of the communication error list, or of wires.
+    """
+
+    id: LowerName
+    kind: FaultClass = field(name="class")
+    title: Text
+    model: Text
+    detected_by: Texts
+    not_detected: Text
+    holds: Names = ()
+    runs: tuple[RunId, ...] = ()
     falls: tuple[Fall, ...] = ()
     not_modelled: str = ""
 
 
-@dataclass(frozen=True)
-class Matrix:
+class Matrix(Entry, frozen=True, kw_only=True):
     """A run whose witnesses are the cells of a table: `ROW at COLUMN: WHAT`."""
 
-    run: str
-    title: str
+    run: RunId
+    title: Text
 
 
 @dataclass(frozen=True)
@@ -203,6 +237,7 @@ class Document:
     assumptions: tuple[Assumption, ...]
     runs: tuple[Run, ...]
     faults: tuple[Fault, ...] = ()
+    faults_summary: str = ""
     matrix: Matrix | None = None
 
     @property

@@ -7,7 +7,6 @@ specification; its cfg is then made (modeproof/registers/made.py).
 from __future__ import annotations
 
 import builtins
-from collections import Counter
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -16,7 +15,7 @@ import msgspec
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.files import read_toml
-from modeproof.registers.typed import typed
+from modeproof.registers.typed import Count, Entry, Name, RunId, Sha256, Text, only_keys, tables, typed
 
 Kind = Literal["MC", "LIVE", "NEG", "WIT", "OPEN"]
 Lane = Literal["smoke", "full", "exhaustive"]
@@ -29,17 +28,13 @@ EXPECTED: Mapping[str, str] = {
     "WIT": "REACHED",
 }
 OWN_OF_BASE = (
-    *("id", "kind", "expect", "lanes", "cfg_sha256", "distinct", "generated", "trace_length", "properties"),
+    *("id", "lanes", "cfg_sha256", "distinct", "generated", "trace_length", "properties"),
     *("property", "witnesses", "clauses", "findings", "why"),
 )
 """What a run never takes from its base."""
 
-Name = Annotated[str, msgspec.Meta(pattern=r"^[A-Za-z_]\w*$")]
-Count = Annotated[int, msgspec.Meta(ge=1)]
-Text = Annotated[str, msgspec.Meta(min_length=1)]
 
-
-class Graph(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class Graph(Entry, frozen=True, kw_only=True):
     """What an OPEN run says about the graph that it prints.
 
     `states` and `edges` are counts (None until pinned), `tick_ms` is the length of one tick of the model;
@@ -54,7 +49,7 @@ class Graph(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     edges: Count | None = None
 
 
-class Run(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class Run(Entry, frozen=True, kw_only=True):
     """One declared TLC run.
 
     Heap in MiB, time limit in seconds. `distinct`, `generated`, `trace_length` and `cfg_sha256` are pins:
@@ -66,10 +61,11 @@ class Run(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     """
 
     document: str
-    id: Annotated[str, msgspec.Meta(pattern=r"^(MC|NEG|WIT|LIVE|OPEN)_\w+$")]
+    id: RunId
     module: Name
     cfg: Annotated[str, msgspec.Meta(pattern=r"^models/\w+\.cfg$")]
     kind: Kind
+    """What the id begins with."""
     lanes: tuple[Lane, ...]
     environment: Annotated[str, msgspec.Meta(pattern=r"^[a-z][a-z_]*$")]
     strength: str = ""
@@ -88,7 +84,7 @@ class Run(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True)
     distinct: Count | None = None
     generated: Count | None = None
     trace_length: Count | None = None
-    cfg_sha256: Annotated[str, msgspec.Meta(pattern=r"^[0-9a-f]{64}$")] | None = None
+    cfg_sha256: Sha256 | None = None
     graph: Graph | None = None
     clauses: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
@@ -125,19 +121,10 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
     """
     source = f"spec/{document}/runs.toml"
     data = read_toml(root, root / "spec" / document / "runs.toml")
-    tables = data.pop("run", [])
     if data.pop("document", document) != document:
         raise Unjudged(f"{source}: document is not the name of its folder, {document!r}")
-    if data:
-        raise Unjudged(f"{source}: unknown key {sorted(data)[0]!r}; allowed: document, run")
-    if not isinstance(tables, list) or not all(isinstance(values, dict) for values in tables):
-        raise Unjudged(f"{source}: `run` must be a list of tables ([[run]])")
-    if not tables:
-        raise Unjudged(f"{source}: no run is declared")
-    rows = {str(values.get("id", "?")): values for values in tables}
-    for name, times in Counter(str(values.get("id", "?")) for values in tables).items():
-        if times > 1:
-            raise Unjudged(f"{source}: run {name} is declared twice")
+    only_keys(source, data, ("document", "run"))
+    rows = tables(source, data, "run")
     found = {name: _run(document, source, values) for name, values in rows.items() if "base" not in values}
     for name, values in rows.items():
         if "base" in values:
@@ -147,13 +134,11 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
 
 def _run(document: str, source: str, values: Mapping[str, Any]) -> Run:
     place = f"{source}: run {values.get('id', '?')}"
-    table = {"kind": str(values.get("id", "")).split("_")[0], **values, "document": document}
-    if "document" in values:
-        raise Unjudged(f"{place}: unknown key 'document'")
-    expect = table.pop("expect", None)
-    run = typed(Run, table, place)
-    if expect not in (None, run.expect):
-        raise Unjudged(f"{place}: a run of kind {run.kind} expects {run.expect}, not {expect!r}")
+    for key in ("document", "kind"):
+        if key in values:
+            raise Unjudged(f"{place}: unknown key {key!r}")
+    kind = str(values.get("id", "")).partition("_")[0]
+    run = typed(Run, {**values, "kind": kind if kind in EXPECTED else "MC", "document": document}, place)
     _check_kind(place, run)
     return run
 
@@ -195,14 +180,8 @@ def _derived(
 
 
 def _check_kind(place: str, run: Run) -> None:
-    for key in ("lanes", "properties", "witnesses", "readings"):
-        names = getattr(run, key)
-        if len(set(names)) != len(names):
-            raise Unjudged(f"{place}: {key} holds a name twice: {list(names)!r}")
     if not run.lanes:
         raise Unjudged(f"{place}: lanes must name some of {', '.join(LANES)}")
-    if not run.id.startswith(f"{run.kind}_"):
-        raise Unjudged(f"{place}: the id of a run of kind {run.kind} starts with {run.kind}_")
     if not run.base and (run.readings or run.constants or run.specification or run.view is not None):
         raise Unjudged(f"{place}: reading, constants, specification and view belong to a run with a base")
     if run.kind in ("LIVE", "OPEN") and run.workers != 1:

@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 import msgspec
 
 from modeproof.registers.files import read_toml
-from modeproof.registers.typed import typed
+from modeproof.registers.typed import Entry, typed
 
 WHAT = {
     "spec": ("the specification", "a property"),
@@ -24,7 +24,7 @@ Count = Annotated[int, msgspec.Meta(ge=0)]
 Hash = Annotated[str, msgspec.Meta(pattern=r"^[0-9a-f]{16}$")]
 
 
-class Score(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class Score(Entry, frozen=True, kw_only=True):
     """One campaign over every mutant: how many had each verdict, and a hash of each text that it rests on.
 
     earlier_text: it was judged on a text before the present one.
@@ -48,7 +48,7 @@ class Score(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         return self.killed + self.survived + self.unmeasured
 
 
-class _Record(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class _Record(Entry, frozen=True, kw_only=True):
     document: str
     campaign: tuple[Score, ...]
 

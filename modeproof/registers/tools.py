@@ -2,25 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal
+
+import msgspec
+from msgspec import Meta
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.files import read_toml
-from modeproof.registers.schema import check_schema
+from modeproof.registers.runs import Kind
+from modeproof.registers.typed import Count, Entry, SomeTexts, Text, only_keys, typed_rows
 
 SOURCE = "docs/tools.toml"
+Link = Annotated[str, Meta(pattern="^https://[^ ]+$", description="an address that begins with https://")]
 
 
-@dataclass(frozen=True)
-class Check:
+class Check(Entry, frozen=True, kw_only=True):
     """The check of one engine by another. `kind` is the kind of evidence of the comparison."""
 
-    engine: str
-    by: str
-    kind: str
+    engine: Text
+    by: Text
+    kind: Literal["conformance", "agreement", "proof", "coverage", "strength", "registers"]
+
+
+class _Holds(Entry, frozen=True, kw_only=True):
+    """One condition as the register writes it: one of these keys, and `of`."""
+
+    of: tuple[Kind, ...] = ()
+    word_absent: SomeTexts | None = None
+    cfg_absent: SomeTexts | None = None
+    text_absent: SomeTexts | None = None
+    option: Text | None = None
+    option_absent: Text | None = None
+    workers: Count | None = None
+    collision_below: Annotated[float, Meta(gt=0)] | None = None
+    queue_empty: bool | None = None
+    jar_pinned: bool | None = None
+    solvers_agree: bool | None = None
+    compared: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -34,20 +54,29 @@ class Condition:
     of: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
-class ToolProblem:
-    """One known problem of a tool, and its judgement (not reached, covered, only refuses)."""
+class ToolProblem(Entry, frozen=True, kw_only=True):
+    """One known problem of a tool, and its judgement."""
 
-    id: str
-    tool: str
-    title: str
-    reference: str
-    what: str
-    affects: str
-    judgement: str
-    because: str
-    also: tuple[str, ...] = ()
-    holds: tuple[Condition, ...] = field(default=())
+    id: Annotated[str, Meta(pattern="^[A-Za-z0-9]+-[0-9]+$", description="an id such as TLC-1")]
+    tool: Literal["tlc", "z3", "cvc5", "java", "python"]
+    title: Text
+    reference: Link
+    what: Text
+    affects: Text
+    judgement: Literal["not reached", "covered", "only refuses"]
+    because: Text
+    also: tuple[Link, ...] = ()
+    holding: tuple[_Holds, ...] = msgspec.field(default=(), name="holds")
+
+    @property
+    def holds(self) -> tuple[Condition, ...]:
+        """What a machine checks of `because`."""
+        return tuple(
+            Condition(name, value, entry.of)
+            for entry in self.holding
+            for name, value in msgspec.structs.asdict(entry).items()
+            if name != "of" and value is not None
+        )
 
 
 @dataclass(frozen=True)
@@ -61,25 +90,10 @@ class Tools:
 def load_tools(root: Path) -> Tools:
     """Read the register. Raises Unjudged with one line when it is missing or wrong."""
     data = read_toml(root, root / SOURCE)
-    check_schema("tools", SOURCE, data)
-    problems = tuple(_problem(row) for row in data["problem"])
-    ids = [problem.id for problem in problems]
-    for id in ids:
-        if ids.count(id) > 1:
-            raise Unjudged(f"{SOURCE}: problem {id} is declared twice")
-    return Tools(tuple(Check(**row) for row in data["check"]), problems)
-
-
-def _problem(row: Mapping[str, Any]) -> ToolProblem:
-    return ToolProblem(
-        **{key: value for key, value in row.items() if key not in ("also", "holds")},
-        also=tuple(row.get("also", ())),
-        holds=tuple(_condition(row["id"], condition) for condition in row.get("holds", ())),
-    )
-
-
-def _condition(id: str, table: Mapping[str, Any]) -> Condition:
-    names = [key for key in table if key != "of"]
-    if len(names) != 1:
-        raise Unjudged(f"{SOURCE}: problem {id}: a condition under `holds` has exactly one key besides `of`")
-    return Condition(names[0], table[names[0]], tuple(table.get("of", ())))
+    only_keys(SOURCE, data, ("check", "problem"))
+    found = Tools(typed_rows(Check, SOURCE, data, "check"), typed_rows(ToolProblem, SOURCE, data, "problem"))
+    for problem in found.problems:
+        if len(problem.holds) != len(problem.holding):
+            place = f"{SOURCE}: [[problem]] {problem.id}"
+            raise Unjudged(f"{place}: a condition under `holds` has exactly one key besides `of`")
+    return found

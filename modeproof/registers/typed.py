@@ -3,79 +3,187 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from typing import Any, TypeVar, get_args
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any, TypeVar, get_args, get_origin
 
 import msgspec
+from msgspec import Meta
 
 from modeproof.ground.errors import Unjudged, suggestion
+
+Row = TypeVar("Row")
+Table = Mapping[str, Any]
+
+Text = Annotated[str, Meta(min_length=1)]
+Texts = tuple[Text, ...]
+SomeTexts = Annotated[Texts, Meta(min_length=1)]
+Name = Annotated[
+    str, Meta(pattern=r"^[A-Za-z_]\w*$", description="a name of letters, digits and underscores")
+]
+Names = tuple[Name, ...]
+SomeNames = Annotated[Names, Meta(min_length=1)]
+LowerName = Annotated[
+    str, Meta(pattern=r"^[a-z][a-z0-9_]*$", description="a lower-case name such as mode_name")
+]
+Clauses = tuple[
+    Annotated[str, Meta(pattern=r"^[A-Z]+(-[A-Z0-9]+)+$", description="a clause id such as AB-2-18")], ...
+]
+RowId = Annotated[str, Meta(pattern=r"^[A-Z]+-[0-9]+[a-z]?$", description="an id such as E-01 or A-01")]
+RunId = Annotated[
+    str, Meta(pattern=r"^(MC|NEG|WIT|LIVE|OPEN)_\w+$", description="the id of a run such as MC_Door")
+]
+Sha256 = Annotated[
+    str, Meta(pattern=r"^[0-9a-f]{64}$", description="a SHA-256 of 64 lower-case hexadecimal digits")
+]
+Count = Annotated[int, Meta(ge=1)]
 
 _PLACE = re.compile(r" - at `(?:key in )?\$\.?(.*)`$")
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`")
 _MISSING = re.compile(r"Object missing required field `(.+)`")
-_VALUE = re.compile(r"Invalid enum value (.+)")
+_WORDS = {
+    "str": "a text in quotes",
+    "int": "an integer",
+    "float": "a number",
+    "bool": "true or false",
+    "array": "a list",
+    "object": "a table",
+}
 
-Row = TypeVar("Row")
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A table of a register: no key but those declared."""
 
 
-def typed(kind: type[Row], values: Mapping[str, Any], place: str) -> Row:
-    """The row that a table holds. Raises Unjudged: `place`, the key, what is wrong, what is allowed."""
+def typed(kind: type[Row], values: Table, place: str) -> Row:
+    """The row that a table holds. Raises Unjudged: `place`, the key, what is wrong, what is allowed.
+
+    A list of texts that holds one of them twice is refused as well.
+    """
     try:
-        return msgspec.convert(values, kind)
+        row = msgspec.convert(values, kind)
     except msgspec.ValidationError as error:
-        raise Unjudged(f"{place}: {_explained(kind, str(error))}") from None
+        raise Unjudged(f"{place}: {_explained(kind, values, str(error))}") from None
+    for key, value in msgspec.structs.asdict(row).items() if isinstance(row, msgspec.Struct) else ():
+        if isinstance(value, tuple):
+            for n, entry in enumerate(value):
+                if isinstance(entry, str) and entry in value[:n]:
+                    raise Unjudged(f"{place}: {key} holds {entry!r} twice")
+    return row
 
 
-def _explained(kind: type, text: str) -> str:
+def only_keys(source: str, data: Table, known: Iterable[str]) -> None:
+    """Raises Unjudged for a key that a file must not have on its top floor."""
+    known = list(known)
+    for key in data:
+        if key not in known:
+            raise Unjudged(f"{source}: unknown key {key!r}; {suggestion(key, known)}")
+
+
+def tables(source: str, data: Table, key: str) -> dict[str, Table]:
+    """The list of tables ([[key]]) of a file, each by its id. Raises Unjudged: none, or an id twice."""
+    rows = data.get(key, [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        raise Unjudged(f"{source}: `{key}` must be a list of tables ([[{key}]])")
+    if not rows:
+        raise Unjudged(f"{source}: there is no [[{key}]]")
+    ids = [str(row.get("id", f"number {number}")) for number, row in enumerate(rows, 1)]
+    for n, row_id in enumerate(ids):
+        if row_id in ids[:n]:
+            first = ids.index(row_id) + 1
+            raise Unjudged(f"{source}: [[{key}]] {row_id}: declared twice (rows {first} and {n + 1})")
+    return dict(zip(ids, rows, strict=True))
+
+
+def typed_rows(kind: type[Row], source: str, data: Table, key: str) -> tuple[Row, ...]:
+    """The rows of such a list. Raises Unjudged like `tables` and `typed`."""
+    return tuple(
+        typed(kind, row, f"{source}: [[{key}]] {row_id}") for row_id, row in tables(source, data, key).items()
+    )
+
+
+def _explained(kind: Any, values: Any, text: str) -> str:
     found = _PLACE.search(text)
     path = found.group(1) if found else ""
     text = _PLACE.sub("", text)
-    said = f"{path}: " if path else ""
+    here, value, shown = _at(kind, values, path)
+    said = f"{shown}: " if shown else ""
     if match := _UNKNOWN.fullmatch(text):
-        return f"{said}unknown key {match.group(1)!r}; {suggestion(match.group(1), _keys(kind, path))}"
+        known = [field.encode_name for field in _fields(here).values()]
+        return f"{said}unknown key {match.group(1)!r}; {suggestion(match.group(1), known)}"
     if match := _MISSING.fullmatch(text):
         return f"{said}key {match.group(1)!r} is missing"
-    if match := _VALUE.fullmatch(text):
-        value = match.group(1).strip("'")
-        return f"{said}{value!r} is not allowed; {suggestion(value, _allowed(_at(kind, path)))}"
-    return said + text[0].lower() + text[1:]
+    if text.startswith("Invalid enum value"):
+        return f"{said}{value!r} is not allowed; {suggestion(str(value), _allowed(here))}"
+    return said + _plainly(here, value, text)
 
 
-def _keys(kind: type, path: str) -> tuple[str, ...]:
-    struct = next((part for part in _parts(_at(kind, path)) if _is_struct(part)), None)
-    return tuple(field.encode_name for field in msgspec.structs.fields(struct)) if struct else ()
+def _plainly(kind: Any, value: Any, text: str) -> str:
+    """A fault of a single value: what it must be, and what it is."""
+    given = repr(value) if len(repr(value)) <= 60 else f"{value!r:.57}..."
+    if "of length >= 1" in text:
+        return "must not be empty"
+    if "matching regex" in text:
+        metas = [meta for meta in get_args(kind) if isinstance(meta, Meta)]
+        described = next((meta.description for meta in metas if meta.description), None)
+        return (
+            f"{given} is not {described or text.partition(' matching ')[2].replace('regex', 'of the form')}"
+        )
+    if match := re.fullmatch(r"Expected `(?:int|float|int \| null)` (>=|>) ([\d.]+)", text):
+        return f"{given} is too small; it must be {'at least' if match[1] == '>=' else 'above'} {match[2]}"
+    if match := re.fullmatch(r"Expected `(.+?)`, got `.+`", text):
+        names = [_WORDS.get(name, name) for name in match[1].split(" | ") if name != "null"]
+        return f"must be {' or '.join(names)}, not {given}"
+    return text[0].lower() + text[1:]
 
 
-def _at(kind: Any, path: str) -> Any:
-    """The type of what stands at a path such as `graph.states` or `lanes[0]`."""
+def _at(kind: Any, values: Any, path: str) -> tuple[Any, Any, str]:
+    """What stands at a path such as `graph.states` or `lanes[...]`: its type, its value, and where it is.
+
+    msgspec does not say which entry of a list or table is wrong: it is the first that does not fit its type.
+    """
+    shown = ""
     for part in re.findall(r"\w+|\[\S*?\]", path):
+        kind = next((choice for choice in _parts(kind) if get_args(choice) or _is_struct(choice)), kind)
         if part.startswith("["):
-            kind = next(
-                (
-                    get_args(choice)[-1 if dict is choice else 0]
-                    for choice in _parts(kind)
-                    if get_args(choice)
-                ),
-                None,
+            keyed = isinstance(values, Mapping)
+            entry_kind = get_args(kind)[1 if keyed else 0]
+            entries = values.items() if keyed else enumerate(values)
+            key, values = next(
+                ((key, entry) for key, entry in entries if not _fits(entry, entry_kind)), ("", None)
             )
+            kind, shown = entry_kind, f"{shown}.{key}" if keyed else f"{shown}[{key}]"
         else:
-            struct = next((choice for choice in _parts(kind) if _is_struct(choice)), None)
-            fields = (
-                {field.encode_name: field.type for field in msgspec.structs.fields(struct)} if struct else {}
-            )
-            kind = fields.get(part)
-    return kind
+            field = _fields(kind).get(part)
+            kind, values = field.type if field else None, values.get(part) if values else None
+            shown = f"{shown}.{part}"
+    return kind, values, shown.lstrip(".")
+
+
+def _fits(value: Any, kind: Any) -> bool:
+    try:
+        msgspec.convert(value, kind)
+    except msgspec.ValidationError:
+        return False
+    return True
 
 
 def _is_struct(kind: Any) -> bool:
     return isinstance(kind, type) and issubclass(kind, msgspec.Struct)
 
 
+def _fields(kind: Any) -> dict[str, msgspec.structs.FieldInfo]:
+    """The fields of a struct by the keys that a file has for them; none of what is no struct."""
+    struct = next((part for part in _parts(kind) if _is_struct(part)), None)
+    return {field.encode_name: field for field in msgspec.structs.fields(struct)} if struct else {}
+
+
 def _parts(kind: Any) -> tuple[Any, ...]:
-    """The members of a union; else the type alone."""
+    """The members of a union, without what is annotated; else the type alone."""
+    if get_origin(kind) is Annotated:
+        return _parts(get_args(kind)[0])
     members = get_args(kind)
-    return members if type(None) in members else (kind,)
+    return tuple(part for member in members for part in _parts(member)) if type(None) in members else (kind,)
 
 
-def _allowed(kind: Any) -> tuple[str, ...]:
-    return tuple(value for value in get_args(kind) if isinstance(value, str))
+def _allowed(kind: Any) -> list[str]:
+    return [value for part in _parts(kind) for value in get_args(part) if isinstance(value, str)]

@@ -6,17 +6,48 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated
+
+from msgspec import Meta
 
 from modeproof.graph.values import ValueForms
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import documents
 from modeproof.registers.load import load_interface, read_register
 from modeproof.registers.rows import Device
+from modeproof.registers.typed import Entry, LowerName, Name, Text, typed_rows
 
 PLACEHOLDER = re.compile(r"\$([a-z][a-z0-9_]*)\.(\w+)")
 SEEN, WORDS = "seen", "words"
 """Placeholders that stand for what the log shows, not for a parameter."""
+
+
+Hex = Annotated[
+    str, Meta(pattern="^[0-9A-F]{4}$", description="a word of four upper-case hexadecimal digits")
+]
+
+
+class _Device(Entry, frozen=True, kw_only=True):
+    scan: Text
+    row: Text
+    view: Text
+
+
+class _Copies(Entry, frozen=True, kw_only=True):
+    one: Hex
+    other: Hex
+
+
+class _Row(Entry, frozen=True, kw_only=True):
+    """A row of traces.toml."""
+
+    id: LowerName
+    module: Name
+    init: Text
+    constants: dict[Name, str]
+    devices: Annotated[dict[LowerName, _Device], Meta(min_length=1)]
+    anywhere: str = ""
+    copies: _Copies | None = None
 
 
 @dataclass(frozen=True)
@@ -69,38 +100,35 @@ def targets_of(place: Path, document: str) -> tuple[Target, ...]:
     """
     if not (place / "spec" / document / "traces.toml").is_file():
         return ()
-    table = read_register(place, document, "traces")
+    source = f"spec/{document}/traces.toml"
+    rows = typed_rows(_Row, source, read_register(place, document, "traces", "target"), "target")
     interface = load_interface(place, document)
     forms = ValueForms([int(mode) for mode in interface.constants.get("MODES", ())])
-    return tuple(_target(place, document, row, interface.devices, forms) for row in table["target"])
+    return tuple(_target(place, document, row, interface.devices, forms) for row in rows)
 
 
 def _target(
-    place: Path, document: str, row: Mapping[str, Any], devices: Mapping[str, Device], forms: ValueForms
+    place: Path, document: str, row: _Row, devices: Mapping[str, Device], forms: ValueForms
 ) -> Target:
-    source = f"spec/{document}/traces.toml: [[target]] {row['id']}"
-    for name in row["devices"]:
+    source = f"spec/{document}/traces.toml: [[target]] {row.id}"
+    for name in row.devices:
         if name not in devices:
             raise Unjudged(f"{source}: no device {name!r}; {suggestion(name, devices)}")
-    if not (place / "spec" / document / f"{row['module']}.tla").is_file():
-        raise Unjudged(f"{source}: {row['module']}.tla is missing")
-    for constant, text in row["constants"].items():
+    if not (place / "spec" / document / f"{row.module}.tla").is_file():
+        raise Unjudged(f"{source}: {row.module}.tla is missing")
+    for constant, text in row.constants.items():
         for group, name in PLACEHOLDER.findall(text):
-            _check_placeholder(f"{source}: {constant}", group, name, row["devices"], devices)
-    copies = row.get("copies")
+            _check_placeholder(f"{source}: {constant}", group, name, list(row.devices), devices)
     return Target(
         document=document,
-        id=row["id"],
-        module=row["module"],
-        init=row["init"],
-        anywhere=row.get("anywhere", ""),
-        constants=row["constants"],
-        parts={
-            name: Part(devices[name], one["scan"], one["row"], one["view"])
-            for name, one in row["devices"].items()
-        },
+        id=row.id,
+        module=row.module,
+        init=row.init,
+        anywhere=row.anywhere,
+        constants=row.constants,
+        parts={name: Part(devices[name], own.scan, own.row, own.view) for name, own in row.devices.items()},
         forms=forms,
-        copies=None if copies is None else (int(copies["one"], 16), int(copies["other"], 16)),
+        copies=None if row.copies is None else (int(row.copies.one, 16), int(row.copies.other, 16)),
     )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from msgspec import structs
+
 from modeproof.graph.chart import Chart, Move, chart
 from tests.graph.printed import lamp_graph, lines
 
@@ -46,12 +48,12 @@ def test_a_control_state_claims_no_output_that_differs_within_it(tmp_path: Path)
 
 def test_a_declared_state_that_is_never_entered_counts_none(tmp_path: Path) -> None:
     device = lamp_graph(tmp_path)
-    more = replace(device, device=replace(device.device, states=("Off", "On", "Broken")))
+    more = replace(device, device=structs.replace(device.device, states=("Off", "On", "Broken")))
     found = chart(more)
     assert found is not None and found.states["Broken"] == 0
 
 
 def test_without_a_control_state_there_is_no_chart(tmp_path: Path) -> None:
     device = lamp_graph(tmp_path)
-    assert chart(replace(device, device=replace(device.device, states=("Dark", "Bright")))) is None
-    assert chart(replace(device, device=replace(device.device, states=("Off",)))) is None
+    assert chart(replace(device, device=structs.replace(device.device, states=("Dark", "Bright")))) is None
+    assert chart(replace(device, device=structs.replace(device.device, states=("Off",)))) is None

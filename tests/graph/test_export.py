@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from msgspec import structs
 
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.export import as_export, export_file, view_names, write_export
@@ -23,7 +24,7 @@ def lamp(folder: Path) -> DeviceGraph:
     """The lamp, with a declared memory."""
     graph = lamp_graph(folder)
     memory = {"state": signal("state", "text"), "elapsed": signal("elapsed", "ms", minimum=0)}
-    return replace(graph, device=replace(graph.device, memory=memory))
+    return replace(graph, device=structs.replace(graph.device, memory=memory))
 
 
 def run_of() -> Run:

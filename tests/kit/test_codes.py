@@ -13,6 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from msgspec import structs
 
 from modeproof.graph.device import DeviceGraph
 from modeproof.graph.equal import compare
@@ -39,8 +40,8 @@ ON_THE_CODE = {
 def project_graph(folder: Path) -> DeviceGraph:
     """The lamp, whose document prints no word for MW."""
     graph = lamp_graph(folder)
-    outputs = {**graph.device.outputs, CODES: replace(graph.device.outputs[CODES], project=True)}
-    return replace(graph, device=replace(graph.device, outputs=outputs))
+    outputs = {**graph.device.outputs, CODES: structs.replace(graph.device.outputs[CODES], project=True)}
+    return replace(graph, device=structs.replace(graph.device, outputs=outputs))
 
 
 def made(folder: Path, name: str, contract: Mapping[str, Any] = CONTRACT) -> Suite:

@@ -44,7 +44,7 @@ files = { "spec/door/Latch.tla" = "0123456789abcdef" }
 def made(root: Path) -> str:
     """The page as the registers of the door give it, with a table of its counterexample."""
     document = load_document(root, "door")
-    return page(document, read_sources(document), {one.run: TABLE for one in tellings(document)})
+    return page(document, read_sources(document), {telling.run: TABLE for _, telling in tellings(document)})
 
 
 def problems(root: Path) -> list[str]:
@@ -162,7 +162,7 @@ def test_each_document_has_its_page_with_telling_counterexamples(name: str) -> N
     document = load_document(repository_root(), name)
     text = (repository_root() / page_name(name)).read_text(encoding="utf-8")
     assert 3 <= len(tellings(document)) <= 5
-    assert set(tables_of(document, text)) == {one.run for one in tellings(document)}
+    assert set(tables_of(document, text)) == {telling.run for _, telling in tellings(document)}
     for finding in document.findings:
         assert f"**{finding.id}" in text
     assert {score.what for score in load_scores(repository_root(), name)} == {"spec", "impl", "vectors"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import msgspec
 import pytest
 
 from modeproof.ground.places import documents, root
@@ -20,7 +21,7 @@ def document() -> Document:
 
 def changed(document: Document, **fields: object) -> Document:
     """The document with its first fault changed."""
-    first: Fault = replace(document.faults[0], **fields)  # type: ignore[arg-type]
+    first: Fault = msgspec.structs.replace(document.faults[0], **fields)
     return replace(document, faults=(first, *document.faults[1:]))
 
 
@@ -52,7 +53,7 @@ def test_unknown_runs_and_properties_are_found(document: Document) -> None:
 def test_a_run_that_shows_something_else_is_found(document: Document) -> None:
     falls = [fall for one in document.faults for fall in one.falls]
     first, other = falls[0], next(fall for fall in falls if fall.property != falls[0].property)
-    wrong = Fall(first.property, other.run, "nothing")
+    wrong = Fall(property=first.property, run=other.run, needs="nothing")
     assert f"{other.run} does not show that {first.property} falls" in texts(
         changed(document, falls=(wrong,))
     )
@@ -65,4 +66,6 @@ def test_a_property_unchecked_by_its_row_is_found(document: Document) -> None:
 
 
 def test_a_matrix_whose_run_has_no_cells_is_found(document: Document) -> None:
-    assert "no run whose witnesses are cells" in texts(replace(document, matrix=Matrix("MC_Nothing", "copy")))
+    assert "no run whose witnesses are cells" in texts(
+        replace(document, matrix=Matrix(run="MC_Nothing", title="copy"))
+    )

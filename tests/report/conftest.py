@@ -65,7 +65,6 @@ RUN = """
 id = "{id}"
 module = "BoxOpen"
 cfg = "models/{id}.cfg"
-kind = "{kind}"
 lanes = ["full"]
 environment = "arbitrary"
 strength = "{strength}"
@@ -209,7 +208,7 @@ box = "Scanned"
 def declared(name: str, strength: str, pins: str) -> str:
     """The [[run]] table of one run."""
     digest = hashlib.sha256(CFGS[name].encode()).hexdigest()
-    return RUN.format(id=name, kind=name.split("_")[0], strength=strength, hash=digest, pins=pins)
+    return RUN.format(id=name, strength=strength, hash=digest, pins=pins)
 
 
 def tried(name: str, reading: str, pins: str) -> str:

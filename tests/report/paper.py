@@ -63,7 +63,6 @@ def make_paper(root: Path) -> Path:
     with (folder / "runs.toml").open("a") as runs:
         digest = hashlib.sha256(b"SPECIFICATION Spec\n").hexdigest()
         text = declared("MC_Box", "the bounds of MC_Box", witness).replace("MC_Box", "WIT_Box")
-        text = text.replace('kind = "MC"', 'kind = "WIT"')
         runs.write(
             "".join(
                 f'cfg_sha256 = "{digest}"\n' if "cfg_sha256" in one else f"{one}\n"
@@ -84,7 +83,7 @@ def declare_graph(root: Path, counts: str = "") -> None:
     graph = f'[run.graph]\ndevice = "box"\ntick_ms = 10\n{counts}'
     text = declared("MC_Box", "any door", graph).replace("MC_Box", "OPEN_Box")
     with (root / "spec" / "box" / "runs.toml").open("a") as runs:
-        runs.write(text.replace('kind = "MC"', 'kind = "OPEN"'))
+        runs.write(text)
 
 
 def change(path: Path, old: str, new: str) -> None:

@@ -63,7 +63,6 @@ RUNS = """
 id = "OPEN_Lamp"
 module = "LampOpen"
 cfg = "models/OPEN_Lamp.cfg"
-kind = "OPEN"
 lanes = ["smoke"]
 environment = "arbitrary"
 workers = 1

@@ -38,7 +38,6 @@ RUNS = """
 id = "OPEN_Lamp"
 module = "Lamp"
 cfg = "models/OPEN_Lamp.cfg"
-kind = "OPEN"
 lanes = ["full"]
 environment = "arbitrary"
 strength = "all of it"

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import structs
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
@@ -227,8 +228,10 @@ def test_an_output_without_documented_values_is_omitted_and_named(tmp_path: Path
     log = lines(tmp_path, '{"target":"fplc"}', SCAN)
     assert without_codes(log, FPLC) is log
     part = FPLC.parts["fplc"]
-    outputs = {**part.device.outputs, "MW01": replace(part.device.outputs["MW01"], project=True)}
-    target = replace(FPLC, parts={"fplc": replace(part, device=replace(part.device, outputs=outputs))})
+    outputs = {**part.device.outputs, "MW01": structs.replace(part.device.outputs["MW01"], project=True)}
+    target = replace(
+        FPLC, parts={"fplc": replace(part, device=structs.replace(part.device, outputs=outputs))}
+    )
     left = without_codes(log, target)
     assert left.not_compared == ("MW01",) and [dict(row.outputs) for row in left.rows] == [{"ERROR": True}]
     assert "MW01" in log.observed("fplc") and "MW01" not in left.observed("fplc")
