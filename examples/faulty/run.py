@@ -281,7 +281,7 @@ def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path, progr
 def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -> list[str]:
     """The header, and of each case that catches a fault what comes up to the scan that does.
 
-    Of the case before it the reset and the first scan: a program may remember them.
+    Of a case with other parameters than the one before also the first scan: a program may remember them.
     """
     suite = open_suite(path)
     ends: dict[str, int] = {}
@@ -293,16 +293,12 @@ def _beginnings(path: Path, faults: Sequence[Fault], made: Mapping[str, Path]) -
     rows: list[dict[str, Any]] = []
     lines = read_lines(path)
     header = json.loads(next(lines))
-    before: dict[str, Any] = {}
+    sent: Any = None
     for line in lines:
         row = json.loads(line)
-        if row["id"] in ends:
-            if before and before["params"] != row["params"]:
-                rows.append(_beginning(header, before, 1))
-            rows.append(_beginning(header, row, ends[row["id"]]))
-            before = {}
-        else:
-            before = row | {"scans": row["scans"][:1]}
+        if row["id"] in ends or row["params"] != sent:
+            rows.append(_beginning(header, row, ends.get(row["id"], 1)))
+        sent = row["params"]
     header |= {
         "guarantees": f"what of the suite {suite.name} catches a program of the faulty pack",
         "cases": len(rows),
