@@ -72,8 +72,7 @@ def check_vectors(root: Path) -> list[Problem]:
 
     room = root / ROOM
     paths = sorted(room.glob("*/*.jsonl.gz"))
-    sums = room / SUMS
-    listed = dict(line.split("  ")[::-1] for line in sums.read_text().splitlines()) if sums.is_file() else {}
+    listed = _sums(root)
     names = {path.relative_to(room).as_posix() for path in paths}
     lost = [Problem(f"{ROOM}/{name}", "", "is not there") for name in sorted(set(listed) - names)]
     return lost + [
@@ -81,6 +80,21 @@ def check_vectors(root: Path) -> list[Problem]:
         for path in paths
         for text in _faults(path, listed.get(path.relative_to(room).as_posix()), digest)
     ]
+
+
+def published(root: Path, target: str, suite: str) -> Path | None:
+    """The published file of a suite, if it is sealed, whole and of the specification as it is now."""
+    name = f"{target}/{suite}.jsonl.gz"
+    if not (root / ROOM / name).is_file():
+        return None
+    faults = _faults(root / ROOM / name, _sums(root).get(name), lambda source: _sha256(root / source))
+    return None if any(faults) else root / ROOM / name
+
+
+def _sums(root: Path) -> dict[str, str]:
+    """The SHA-256 of each published file, as SHA256SUMS says."""
+    sums = root / ROOM / SUMS
+    return dict(line.split("  ")[::-1] for line in sums.read_text().splitlines()) if sums.is_file() else {}
 
 
 def sums_text(room: Path) -> str:

@@ -21,8 +21,9 @@ from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
 from modeproof.kit.text import as_record, joint_word, write_json
-from modeproof.kit.vectors import EXACT, SETTLED, Suite
+from modeproof.kit.vectors import EXACT, SETTLED, Suite, open_suite
 from modeproof.registers.runs import Run
+from modeproof.registers.vector_files import published
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
@@ -57,7 +58,6 @@ def _program(args: argparse.Namespace) -> int:
         suites = [kit_command.open_vectors(args)]
     else:
         with only_one(place):
-            make_graphs(place, open_runs(place, document, args.target), args.quiet)
             suites = _suites(place, document, args)
     started = time.time()
     verdicts = kit_command.judge(args, suites)
@@ -85,13 +85,17 @@ def _program(args: argparse.Namespace) -> int:
 
 
 def _suites(place: Path, document: str, args: argparse.Namespace) -> list[Suite]:
-    """The suites asked for, made where they are missing. Raises Unjudged where there is none.
+    """The suites asked for, made where none is published or it is of another text. Raises Unjudged.
 
     One that was not named itself is left out where the target has no cases of its kind.
     """
     found = []
     for name in chosen_suites(args.suite, args.relation):
+        if path := published(place, args.target, name):
+            found.append(open_suite(path))
+            continue
         try:
+            make_graphs(place, open_runs(place, document, args.target), args.quiet)
             found.append(ready_suite(place, document, args.target, name, say))
         except NoCases:
             if name in (args.suite or ()):
