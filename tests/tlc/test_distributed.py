@@ -103,7 +103,6 @@ def root(tmp_path_factory: pytest.TempPathFactory) -> Path:
         names = ["TypeOK", *rest.split()[1:]]
         lines += [
             f'[[run]]\nid = "{name}"\nmodule = "Grid"\ncfg = "models/{name}.cfg"',
-            f'kind = "{name.split("_")[0]}"',
             'lanes = ["exhaustive"]\nworkers = 1\nheap_mb = 256\ntimeout_s = 600\nenvironment = "honest"',
             f'strength = "a grid"\nproperties = {names!r}\ncfg_sha256 = "{sha256(cfg)}"'.replace("'", '"'),
         ]
