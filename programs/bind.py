@@ -8,9 +8,11 @@ binding. Texts such as AFTER_RESET are an INT or an enumeration that counts them
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import z3
@@ -18,7 +20,7 @@ import z3
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers import Signal
 from programs.reference import Reference
-from programs.symbolic import Slot, slots
+from programs.terms import Slot, slots
 from programs.tree import Array, Scalar, Source, Unit
 
 DT = "dt_ms"
@@ -44,12 +46,24 @@ class Binding:
         known = [name for group in groups for name in self.reference.signals(group)]
         for name in (*self.names, *self.fixed, *self.left_out):
             if name not in known:
-                raise Unjudged(f"binding: {self.reference.device.name} has no {name}; {suggestion(name, known)}")
+                raise Unjudged(
+                    f"binding: {self.reference.device.name} has no {name}; {suggestion(name, known)}"
+                )
         for name in self.left_out:
             if name not in self.reference.signals("outputs"):
                 raise Unjudged(f"binding: {name} is no output, so it cannot be left out")
         if not self.compared:
             raise Unjudged("binding: no output is compared")
+        try:
+            defaults = {
+                name: tuple(mode in signal.default for mode in range(5))
+                if signal.type == "modes"
+                else signal.default
+                for name, signal in self.reference.signals("parameters").items()
+            }
+            self.reference.start({**defaults, **self.fixed_parameters()})
+        except (ValueError, TypeError) as error:
+            raise Unjudged(f"binding: {error}") from None
         unused = set(self._inputs) - set(self.bound_paths)
         if unused:
             name = sorted(unused)[0]
@@ -68,23 +82,29 @@ class Binding:
 
     def _path(self, name: str, section: str) -> str | None:
         """The program's variable for a signal, in upper case; None: it has none."""
+        known = [key for key, variable in self.unit.variables.items() if variable.section == section]
         if name in self.names:
-            wanted = [self.names[name]]
-        else:
-            wanted = [name, re.sub(r"_ms$", "", name), name.replace("_", "")]
-        known = {key: variable for key, variable in self.unit.variables.items() if variable.section == section}
-        for word in wanted:
-            for key in known:
-                if key == word.upper() or key.replace("_", "") == word.upper().replace("_", ""):
-                    return key
-        if name in self.names:
-            raise self.unit.place.refuse(f"the binding names {self.names[name]!r}, which is no {section} of it")
+            wanted = self.names[name].upper()
+            if wanted not in known:
+                raise self.unit.place.refuse(
+                    f"the binding names {self.names[name]!r}, which is no {section}; "
+                    + suggestion(wanted, known)
+                )
+            return wanted
+        for loose in (False, True):
+            words = {_plain_name(word, loose) for word in (name, re.sub(r"_ms$", "", name))}
+            found = [key for key in known if _plain_name(key, loose) in words]
+            if len(found) > 1:
+                raise self.unit.place.refuse(f"{name} could be {' or '.join(found)}; bind it")
+            if found:
+                return found[0]
         return None
 
     @cached_property
     def _given(self) -> dict[str, tuple[str, Signal]]:
         """For each input path of the program the place of the reference's term, and the signal."""
         found: dict[str, tuple[str, Signal]] = {}
+        taken: dict[str, str] = {}
         for group in ("inputs", "parameters"):
             for name, signal in self.reference.signals(group).items():
                 path = self._path(name, "input")
@@ -92,7 +112,12 @@ class Binding:
                     if group == "inputs":
                         raise self.unit.place.refuse(f"{self.unit.name} has no input {name}")
                     continue
+                if path in taken:
+                    raise self.unit.place.refuse(f"{taken[path]} and {name} are both bound to {path}")
+                taken[path] = name
                 kind = self.unit.variables[path].type
+                if group == "inputs" and signal.type in ("int", "ms"):
+                    raise self.unit.place.refuse(f"{name}: inputs of type {signal.type} are not supported")
                 if signal.type == "modes":
                     if not isinstance(kind, Array) or kind.high - kind.low != 4:
                         raise self.unit.variables[path].place.refuse(f"{name} is an ARRAY [0..4] OF BOOL")
@@ -103,14 +128,29 @@ class Binding:
                     found[path] = (name, signal)
         return found
 
-    def _check(self, name: str, signal: Signal, kind: object) -> None:
+    def _check(self, name: str, signal: Signal, kind: object, inward: bool = True) -> None:
+        """Refuse a variable that cannot hold the values of a signal, or is of another type."""
         fitting = {
-            "bool": ("bool",), "word": ("bits",), "mode": ("int",), "int": ("int", "bits"), "ms": ("time", "int"),
+            "bool": ("bool",),
+            "word": ("bits",),
+            "mode": ("int",),
+            "int": ("int", "bits"),
+            "ms": ("time", "int"),
             "text": ("int", "enum"),
-        }[signal.type]  # fmt: skip
+        }.get(signal.type, ())
         if not isinstance(kind, Scalar) or kind.kind not in fitting:
             shown = kind.name if isinstance(kind, Scalar) else "no single value"
-            raise self.unit.place.refuse(f"{name} is of type {signal.type}, and the program's is {shown}")
+            advice = "" if fitting or inward else "; list it under left_out"
+            raise self.unit.place.refuse(
+                f"{name} is of type {signal.type}, and the program's is {shown}{advice}"
+            )
+        if kind.kind == "bits" and kind.width != 16:
+            raise self.unit.place.refuse(f"{name} has 16 bits, and {kind.name} has {kind.width}")
+        low, high = {"mode": (-1, 4), "text": (0, len(signal.values) - 1)}.get(signal.type, (0, 0))
+        if inward and not kind.low <= low <= high <= kind.high:
+            raise self.unit.place.refuse(f"{name} is {low}..{high}, and {kind.name} {kind.low}..{kind.high}")
+        if kind.kind == "enum" and kind.high != high:
+            raise self.unit.place.refuse(f"{name} has {high + 1} values, and {kind.name} has {kind.high + 1}")
 
     @property
     def bound_paths(self) -> tuple[str, ...]:
@@ -141,7 +181,9 @@ class Binding:
         for name, signal in self.reference.signals("parameters").items():
             if name in self.free_parameters:
                 if name in self.fixed:
-                    raise Unjudged(f"binding: {name} is an input of {self.unit.name}, so it has no single value")
+                    raise Unjudged(
+                        f"binding: {name} is an input of {self.unit.name}, so it has no single value"
+                    )
                 continue
             value = self.fixed.get(name, signal.default)
             if value is None:
@@ -176,10 +218,13 @@ class Binding:
         for name in self.reference.signals("outputs"):
             if name in self.left_out:
                 continue
-            if self._path(name, "output") is None:
+            path = self._path(name, "output")
+            if path is None:
                 raise self.unit.place.refuse(
                     f"{self.unit.name} has no output {name}; bind it, or list it under left_out"
                 )
+            signal = self.reference.signals("outputs")[name]
+            self._check(name, signal, self.unit.variables[path].type, inward=False)
             found.append(name)
         return tuple(found)
 
@@ -205,7 +250,7 @@ class Binding:
             if index:
                 key = path.partition("[")[0]
                 array = found.setdefault(key, [False] * 5)
-                array[int(index.rstrip("]"))] = int(index.rstrip("]")) in given[name]
+                array[int(index.rstrip("]"))] = given[name][int(index.rstrip("]"))]
             elif signal.type == "text":
                 found[path] = signal.values.index(given[name])
             else:
@@ -218,5 +263,64 @@ class Binding:
         found = {}
         for name in self.compared:
             value, signal = by_key[self._path(name, "output") or ""], self.reference.signals("outputs")[name]
-            found[name] = signal.values[value] if signal.type == "text" else value
+            known = signal.type == "text" and 0 <= value < len(signal.values)
+            found[name] = signal.values[value] if known else value
         return found
+
+    # ------------------------------------------------------------ parameters
+
+    def fixed_parameters(self) -> dict[str, Any]:
+        """The value of each parameter that the program does not take, as the code of the reference has it."""
+        modes = {
+            name for name, signal in self.reference.signals("parameters").items() if signal.type == "modes"
+        }
+        return {
+            name: tuple(mode in value for mode in range(5)) if name in modes else value
+            for name, value in self.values.items()
+        }
+
+    def allows(self, parameters: Mapping[str, Any]) -> bool:
+        """Whether the verdict is about these parameters."""
+        if any(parameters[name] != value for name, value in self.fixed_parameters().items()):
+            return False
+        return all(
+            slot.type.low <= int(parameters[self._given[path][0]]) <= slot.type.high
+            for path, slot in self._inputs.items()
+            if slot.type.kind in ("int", "time") and self._given[path][1].type in ("ms", "int")
+        )
+
+    def narrowed(self) -> list[str]:
+        """The parameters whose range the program's own type makes smaller, in words."""
+        found = []
+        for path, slot in self._inputs.items():
+            name, signal = self._given[path]
+            if signal.type in ("ms", "int"):
+                low, high = signal.minimum or 0, signal.maximum
+                if high is None or not slot.type.low <= low <= high <= slot.type.high:
+                    bottom, top = max(low, slot.type.low), min(high or slot.type.high, slot.type.high)
+                    found.append(f"{name} {bottom}..{top}")
+        return found
+
+
+def _plain_name(name: str, loose: bool) -> str:
+    return name.upper().replace("_", "") if loose else name.upper()
+
+
+def read_binding(path: Path) -> dict[str, Any]:
+    """The arguments `names`, `fixed` and `left_out` of a Binding from a TOML file. Raises Unjudged."""
+    try:
+        table = tomllib.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{path}: no TOML: {error}") from None
+    keys = {"names": dict, "parameters": dict, "left_out": list}
+    for key, value in table.items():
+        if key not in keys:
+            raise Unjudged(f"{path}: unknown key {key!r}; {suggestion(key, keys)}")
+        if not isinstance(value, keys[key]):
+            raise Unjudged(f"{path}: {key}: a {'table' if keys[key] is dict else 'list of names'} is needed")
+    names, left_out = table.get("names", {}), table.get("left_out", [])
+    if not all(isinstance(value, str) for value in (*names.values(), *left_out)):
+        raise Unjudged(f"{path}: [names] and left_out hold names in quotation marks")
+    return {"names": names, "fixed": table.get("parameters", {}), "left_out": tuple(left_out)}

@@ -41,6 +41,7 @@ BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
     "RS": ({"S": BOOL, "R1": BOOL}, {"Q1": BOOL}),
 }
 """The standard blocks: inputs and outputs."""
+MOST_TURNS = 1000
 DEEPEST = 20
 """Blocks within blocks."""
 _COMPARE = ("=", "<>", "<", "<=", ">", ">=")
@@ -50,9 +51,8 @@ _SHIFTS = ("SHL", "SHR", "ROL", "ROR")
 def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
     for found in reached(source, unit, ()):
-        if not found.of("output"):
-            if found is unit:
-                raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
+        if not found.of("output") and found is unit:
+            raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
         Types(source, found).body(found.body)
 
 
@@ -107,6 +107,7 @@ class Types:
 
     def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
         """The type of an expression; a bare number takes the type that is wanted."""
+        kind: Type | None
         if (member := self.enum_member(expression)) is not None:
             return member[0]
         match expression:
@@ -152,7 +153,9 @@ class Types:
         if not isinstance(kind, Instance):
             raise place.refuse(f".{name}: only an instance of a block has members here")
         if kind.block.upper() in BLOCKS:
-            known: dict[str, Type] = {key: value for group in BLOCKS[kind.block.upper()] for key, value in group.items()}
+            known: dict[str, Type] = {
+                key: value for group in BLOCKS[kind.block.upper()] for key, value in group.items()
+            }
         else:
             unit = self.source.units[kind.block.upper()]
             known = {name: variable.type for name, variable in unit.of("input", "output").items()}
@@ -171,7 +174,9 @@ class Types:
             raise place.refuse(f"a value of kind {' or '.join(kinds)} is needed here, and this is {shown}")
         return kind
 
-    def pair(self, left: Expression, right: Expression, place: Place, wanted: Scalar | None) -> tuple[Scalar, Scalar]:
+    def pair(
+        self, left: Expression, right: Expression, place: Place, wanted: Scalar | None
+    ) -> tuple[Scalar, Scalar]:
         """The types of two operands; a bare number takes that of the other."""
         every = ("bool", "bits", "int", "time", "enum")
         if isinstance(left, Literal) and left.type is None:
@@ -266,8 +271,8 @@ class Types:
                     self.body(otherwise)
                 case For(control, start, end, step, inner, place):
                     self.scalar(control, place, ("int",))
-                    for part in (start, end, *((step,) if step is not None else ())):
-                        self.constant(part)
+                    by = 1 if step is None else self.constant(step)
+                    self.turns(control, self.constant(start), self.constant(end), by)
                     if any(self.writes(inner, control.name)):
                         raise place.refuse(f"the loop writes its control variable {control.name}")
                     self.body(inner)
@@ -276,10 +281,23 @@ class Types:
                 case Return():
                     pass
 
+    def turns(self, control: Name, low: int, high: int, by: int) -> None:
+        """Refuse a loop that is too long, or after which its control variable is outside its type."""
+        kind = self.written(control, control.place)
+        if by == 0 or abs(high - low) // abs(by) > MOST_TURNS:
+            raise control.place.refuse(f"FOR: at most {MOST_TURNS:,} turns, and a step other than 0")
+        for value in (low, high, high + by):
+            self.fits(value, kind, control.place)
+
     def writes(self, body: Body, name: str) -> Iterator[bool]:
         for statement in body:
             if isinstance(statement, Assign) and isinstance(statement.target, Name):
                 yield statement.target.name.upper() == name.upper()
+            if isinstance(statement, Call):
+                for _, target in statement.outputs:
+                    yield isinstance(target, Name) and target.name.upper() == name.upper()
+            if isinstance(statement, For):
+                yield statement.control.name.upper() == name.upper()
             for inner in inner_bodies(statement):
                 yield from self.writes(inner, name)
 
@@ -294,13 +312,31 @@ class Types:
                 return -int(value)
             case Name(name, place):
                 variable = self.unit.variables.get(name.upper())
-                if variable is not None and variable.section == "constant" and isinstance(variable.initial, int):
+                if (
+                    variable is not None
+                    and variable.section == "constant"
+                    and isinstance(variable.initial, int)
+                ):
                     return int(variable.initial)
                 raise place.refuse(f"{name}: a constant is needed here")
         raise expression.place.refuse("a constant is needed here")
 
     def assigned(self, target: Expression, value: Expression, place: Place) -> None:
         """Refuse an assignment to what must not be written, or of another kind."""
+        kind = self.written(target, place)
+        given = self.of(value, kind)
+        if (
+            not isinstance(given, Scalar)
+            or given.kind != kind.kind
+            or (kind.kind == "enum" and given != kind)
+        ):
+            shown = given.name if isinstance(given, Scalar) else "no single value"
+            raise place.refuse(f"{kind.name} := {shown} needs a conversion")
+        if kind.kind == "bits" and given.high > kind.high:
+            raise place.refuse(f"{kind.name} := {given.name} needs a conversion")
+
+    def written(self, target: Expression, place: Place) -> Scalar:
+        """The type of what is written. Refuse what must not be."""
         kind = self.of(target)
         if not isinstance(kind, Scalar):
             raise place.refuse("whole arrays and instances are not assigned here")
@@ -310,13 +346,10 @@ class Types:
         if isinstance(root, Name):
             section = self.unit.variables[root.name.upper()].section
             if section in ("constant", "input"):
-                raise place.refuse(f"{root.name} is {'CONSTANT' if section == 'constant' else 'an input'} and is written")
-        given = self.of(value, kind)
-        if not isinstance(given, Scalar) or given.kind != kind.kind or (kind.kind == "enum" and given != kind):
-            shown = given.name if isinstance(given, Scalar) else "no single value"
-            raise place.refuse(f"{kind.name} := {shown} needs a conversion")
-        if kind.kind == "bits" and given.high > kind.high:
-            raise place.refuse(f"{kind.name} := {given.name} needs a conversion")
+                raise place.refuse(
+                    f"{root.name} is {'CONSTANT' if section == 'constant' else 'an input'} and is written"
+                )
+        return kind
 
     def call(
         self,
@@ -335,9 +368,25 @@ class Types:
                 if key is None:
                     raise place.refuse(f"{kind.block} has no {name}; {suggestion(name, known)}")
                 wanted = known[key]
-                given = self.of(expression, wanted if isinstance(wanted, Scalar) else None)
-                if not (isinstance(given, Scalar) and isinstance(wanted, Scalar) and given.kind == wanted.kind):
+                if not isinstance(wanted, Scalar):
+                    raise place.refuse(
+                        f"{name} of {kind.block}: arrays and instances are not handed over here"
+                    )
+                given = self.of(expression, wanted)
+                alike = isinstance(given, Scalar) and given.kind == wanted.kind
+                if not alike or (wanted.kind == "enum" and given != wanted):
                     raise place.refuse(f"{name} of {kind.block} is of another type")
+                assert isinstance(given, Scalar)
+                if pairs is outputs:
+                    self.written(expression, place)
+                    if (
+                        not given.low <= wanted.low <= wanted.high <= given.high
+                        or (given.kind == "bits"
+                        and given != wanted)
+                    ):
+                        raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
+                elif wanted.kind == "bits" and given.high > wanted.high:
+                    raise place.refuse(f"{name} := {given.name} needs a conversion")
 
 
 def sides(source: Source, kind: Instance) -> tuple[Mapping[str, Type], Mapping[str, Type]]:
@@ -346,7 +395,8 @@ def sides(source: Source, kind: Instance) -> tuple[Mapping[str, Type], Mapping[s
         return BLOCKS[kind.block.upper()]
     unit = source.units[kind.block.upper()]
     ins, outs = (
-        {name: variable.type for name, variable in unit.of(section).items()} for section in ("input", "output")
+        {name: variable.type for name, variable in unit.of(section).items()}
+        for section in ("input", "output")
     )
     return ins, outs
 
@@ -365,10 +415,10 @@ def inner_bodies(statement: object) -> Iterator[Body]:
 
 
 _PARAMETERS = {
-    **{name: ("IN1", "IN2") for name in ("MIN", "MAX")},
+    **dict.fromkeys(("MIN", "MAX"), ("IN1", "IN2")),
     "LIMIT": ("MN", "IN", "MX"),
     "SEL": ("G", "IN0", "IN1"),
-    **{name: ("IN", "N") for name in _SHIFTS},
+    **dict.fromkeys(_SHIFTS, ("IN", "N")),
 }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from importlib import import_module
@@ -14,10 +14,10 @@ from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import documents
 from modeproof.ground.places import root as repository_root
 from modeproof.registers import Signal, load_interface
-from proofs.explorer.device import Device, symbol_of
+from proofs.explorer.device import Device
 from proofs.explorer.ends import Fork, Tree, in_terms
 from proofs.explorer.explore import explore
-from proofs.explorer.records import evaluated_plain, symbols, terms, unvalidated
+from proofs.explorer.records import symbols, terms
 from proofs.explorer.scanned import Scanned, Scans, control, scans_of
 
 
@@ -117,7 +117,9 @@ class Reference:
 
     def _outside(self, which: str) -> dict[str, Any]:
         record = self.parameters if which == "parameters" else self.device.inputs()
-        return _leaves(in_terms(record, {**self.device.register.inputs, **self.device.register.parameters}), ())
+        return _leaves(
+            in_terms(record, {**self.device.register.inputs, **self.device.register.parameters}), ()
+        )
 
     @cached_property
     def input_terms(self) -> Leaves:
@@ -137,16 +139,17 @@ class Reference:
     def _step(self, scans: Scans) -> Step:
         read: Mapping[int, Scanned] = scans.read
         leave = ("params", self.device.control)
-        after = {place: {} for place in _leaves(next(iter(read.values())).before, leave)}
-        table = {key: (_leaves(scan.after, leave), self._output_leaves(scan.sends)) for key, scan in read.items()}
+        table = {
+            key: (_leaves(scan.after, leave), self._output_leaves(scan.sends)) for key, scan in read.items()
+        }
         number = {name: z3.IntVal(n) for n, name in enumerate(self.controls)}
-        made = {
-            place: tree_value(scans.root, lambda end, place=place: table[id(end)][0][place]) for place in after
-        }
-        names = next(iter(table.values()))[1]
-        outputs = {
-            place: tree_value(scans.root, lambda end, place=place: table[id(end)][1][place]) for place in names
-        }
+
+        def joined(part: int, place: str) -> Any:
+            return tree_value(scans.root, lambda end: table[id(end)][part][place])
+
+        first = next(iter(read.values()))
+        made = {place: joined(0, place) for place in _leaves(first.before, leave)}
+        outputs = {place: joined(1, place) for place in next(iter(table.values()))[1]}
         where = tree_value(scans.root, lambda end: number[control(self.device, read[id(end)].after)])
         return Step(scans.control, scans.scan.premise, made, where, outputs)
 
@@ -171,18 +174,65 @@ class Reference:
         return _leaves(next(iter(scans.read.values())).before, ("params", self.device.control))
 
     @cached_property
+    def memory_ranges(self) -> z3.BoolRef:
+        """What every scan takes for granted of the memory before it, beside the parameters."""
+        state = scans_of(self.device)[0].scan.state
+        own = [symbol for symbol in symbols(state) if str(symbol.term).startswith("before.")]
+        return z3.And([z3.BoolVal(True), *(symbol.premise for symbol in own)])
+
+    @cached_property
     def power_up(self) -> tuple[str, Leaves]:
         """The control state and the memory at power-up, over the parameters."""
-        found = explore(self.device.module.power_up, (self.parameters,), self.device.parameters_fit(self.parameters))
+        found = explore(
+            self.device.module.power_up, (self.parameters,), self.device.parameters_fit(self.parameters)
+        )
         if len(found.paths) != 1 or found.paths[0].raised is not None:
-            raise Unjudged(f"{self.device.name}: power-up depends on parameters in a way that is not supported")
+            raise Unjudged(
+                f"{self.device.name}: power-up depends on parameters in a way that is not supported"
+            )
         state = found.paths[0].result
         record = in_terms(state, {**self.device.register.inputs, **self.device.register.memory})
         return control(self.device, state), _leaves(record, ("params", self.device.control))
 
-    def plain_parameters(self, values: Mapping[str, Any]) -> Any:
-        """A Params record of plain values, by the names of the code."""
-        return self.device.module.Params(**values)
+    # ------------------------------------------------------------ with plain values
+
+    def plain(self, group: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Numbers of a solver for `inputs` or `parameters` as values of the code."""
+        found: dict[str, Any] = {}
+        for name, signal in self.signals(group).items():
+            if signal.type == "modes":
+                found[name] = tuple(bool(values[f"{name}[{mode}]"]) for mode in range(5))
+            else:
+                found[name] = signal.values[values[name]] if signal.type == "text" else values[name]
+        return found
+
+    def from_wire(self, group: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Values of a test vector as values of the code."""
+        return {name: _from_wire(signal, values[name]) for name, signal in self.signals(group).items()}
+
+    def start(self, parameters: Mapping[str, Any]) -> Any:
+        """The state at power-up. Raises ValueError for parameters that the code refuses."""
+        return self.device.module.power_up(self.device.module.Params(**parameters))
+
+    def scan(self, state: Any, dt_ms: int, inputs: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
+        """One scan: the state after it, and the outputs by their names."""
+        after, sends = self.device.module.step(state, self.device.module.Inputs(dt_ms, **inputs))
+        return after, {name: getattr(sends, name) for name in self.signals("outputs")}
+
+    def plain_memory(self, state: Any) -> tuple[str, dict[str, Any]]:
+        """The control state, and every other value of a state by its place."""
+        values = {place: leaf for place, leaf in terms(state) if place in self.memory_terms}
+        return control(self.device, state), values
 
 
-__all__ = ["Reference", "evaluated_plain", "reference", "symbol_of", "targets", "unvalidated"]
+def _from_wire(signal: Signal, value: Any) -> Any:
+    match signal.type:
+        case "word":
+            return int(value, 16)
+        case "mode":
+            return -1 if value is None else value
+        case "modes":
+            return tuple(mode in value for mode in range(5))
+        case "text":
+            return value or ""
+    return value

@@ -6,6 +6,7 @@ Integers and times that leave their range stop the run (`Overflow`), or wrap if 
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -46,7 +47,7 @@ class _Returned(Exception):
 
 
 def default(kind: Type, initial: object) -> Any:
-    """The value of a variable at power-up. IEC 61131-3: 0, FALSE or the first member where none is declared."""
+    """The value of a variable at power-up: 0, FALSE or the first member where none is declared."""
     if isinstance(kind, Array):
         given = list(initial) if isinstance(initial, tuple) else []
         size = kind.high - kind.low + 1
@@ -127,7 +128,7 @@ class Standard:
 
 
 class Machine:
-    """A program at power-up. wrap: integers and times wrap as two's complement instead of stopping the run."""
+    """A program at power-up. wrap: integers and times wrap as two's complement; else they stop the run."""
 
     def __init__(self, source: Source, unit: Unit, wrap: bool = False) -> None:
         self.source, self.unit, self.wrap = source, unit, wrap
@@ -149,10 +150,8 @@ class Machine:
         """One call of a unit of the program's own."""
         for name, variable in frame.unit.of("temp").items():
             frame.values[name.upper()] = default(variable.type, variable.initial)
-        try:
+        with contextlib.suppress(_Returned):
             self.body(frame, frame.unit.body)
-        except _Returned:
-            pass
 
     def body(self, frame: Frame, body: Body) -> None:
         for statement in body:
@@ -211,7 +210,9 @@ class Machine:
         if kind.kind not in ("int", "time") or kind.low <= value <= kind.high:
             return value
         if not self.wrap:
-            raise Overflow(f"{place.file}:{place.line}: {value} is outside {kind.name}, {kind.low}..{kind.high}")
+            raise Overflow(
+                f"{place.file}:{place.line}: {value} is outside {kind.name}, {kind.low}..{kind.high}"
+            )
         return (value - kind.low) % (kind.high - kind.low + 1) + kind.low
 
     def read(self, frame: Frame, target: Expression) -> Any:
@@ -327,7 +328,8 @@ class Machine:
         if kind.kind == "bits":
             return int(value) & kind.high
         if given.kind == "bits" and kind.kind == "int" and value > kind.high:
-            return value - (kind.high - kind.low + 1) if given.high <= kind.high - kind.low else value
+            signed = given.high <= kind.high - kind.low
+            return self.ranged(value - (kind.high - kind.low + 1) if signed else value, kind, node.place)
         return self.ranged(int(value), kind, node.place)
 
 

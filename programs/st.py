@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -47,6 +48,8 @@ from programs.tree import (
 
 LARGEST = 1_000_000
 """Bytes of a source file."""
+LONGEST = 1000
+"""Elements of an array."""
 SECTIONS = {"var_input": "input", "var_output": "output", "var_block": "var", "var_temp": "temp"}
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
@@ -54,7 +57,12 @@ _TIME_PART = re.compile(r"(\d+(?:\.\d+)?)(ms|us|ns|d|h|m|s)", re.IGNORECASE)
 _UNIT_MS = {"d": 86_400_000, "h": 3_600_000, "m": 60_000, "s": 1000, "ms": 1}
 _SCL = (
     (re.compile(r"\{[^{}]*\}"), ""),
-    (re.compile(r"^\s*(?:REGION\b.*|END_REGION\b.*|VERSION\s*:.*|BEGIN\s*)$", re.MULTILINE | re.IGNORECASE), ""),
+    (
+        re.compile(
+            r"^\s*(?:REGION\b.*|END_REGION\b.*|VERSION\s*:.*|BEGIN\s*)$", re.MULTILINE | re.IGNORECASE
+        ),
+        "",
+    ),
     (re.compile(r'"(\w+)"'), r"\1"),
     (re.compile(r"(?<![\w#])#(?=[A-Za-z_])"), ""),
 )
@@ -91,16 +99,22 @@ def read_text(text: str, file: str) -> list[Unit]:
     """The program units of one text. Raises Unjudged like `read_sources`."""
     scl = file.lower().endswith(".scl")
     for pattern, new in _SCL if scl else ():
-        text = pattern.sub(lambda match, new=new: match.expand(new) + "\n" * match[0].count("\n"), text)
+        text = pattern.sub(_keeping_lines(new), text)
     text = _MEMBER.sub(lambda match: match[0] if match[1].upper() in _PREFIXES else f"{match[1]}.", text)
     root = _PARSER.parse(text.encode("utf-8")).root_node
     if root.has_error:
         fault = next(_faults(root))
         shown = " ".join(fault.text.decode("utf-8", "replace").split())[:40]
         raise Place(file, fault.start_point[0] + 1).refuse(
-            f"{shown!r} is missing or not Structured Text" if fault.is_missing else f"syntax error at {shown!r}"
+            f"{shown!r} is missing or not Structured Text"
+            if fault.is_missing
+            else f"syntax error at {shown!r}"
         )
     return _Reader(file).units(root)
+
+
+def _keeping_lines(new: str) -> Callable[[re.Match[str]], str]:
+    return lambda match: match.expand(new) + "\n" * match[0].count("\n")
 
 
 def _faults(node: Any) -> Iterator[Any]:
@@ -112,6 +126,16 @@ def _faults(node: Any) -> Iterator[Any]:
         yield node
 
 
+def _statements(node: Any) -> Iterator[Any]:
+    """Every statement of a tree, so that none can be left out unseen."""
+    waiting = [node]
+    while waiting:
+        here = waiting.pop()
+        if here.is_named and here.type.endswith("_statement") and here.type != "empty_statement":
+            yield here
+        waiting += here.children
+
+
 def time_ms(text: str, place: Place) -> int:
     """T#1h2m3.5s in milliseconds. Raises Unjudged for what is no whole number of them."""
     body = text.partition("#")[2].replace("_", "")
@@ -119,13 +143,15 @@ def time_ms(text: str, place: Place) -> int:
     parts = _TIME_PART.findall(digits)
     if not parts or "".join(f"{number}{unit}" for number, unit in parts).lower() != digits.lower():
         raise place.refuse(f"{text}: not a time such as T#1s500ms")
-    whole = 0.0
+    whole = Fraction(0)
     for number, unit in parts:
         if unit.lower() not in _UNIT_MS:
             raise place.refuse(f"{text}: times are whole milliseconds here")
-        whole += float(number) * _UNIT_MS[unit.lower()]
+        whole += Fraction(number) * _UNIT_MS[unit.lower()]
     if whole != int(whole):
         raise place.refuse(f"{text}: times are whole milliseconds here")
+    if not TIME.low <= sign * whole <= TIME.high:
+        raise place.refuse(f"{text}: outside TIME, {TIME.low}..{TIME.high} ms")
     return sign * int(whole)
 
 
@@ -135,6 +161,7 @@ class _Reader:
     def __init__(self, file: str) -> None:
         self.file = file
         self.types: dict[str, Type] = {}
+        self.read = 0
 
     def place(self, node: Any) -> Place:
         return Place(self.file, node.start_point[0] + 1)
@@ -153,7 +180,9 @@ class _Reader:
         return node.child_by_field_name(name)
 
     def fields(self, node: Any, name: str) -> list[Any]:
-        return [child for child in node.children_by_field_name(name) if child.is_named and child.type != "comment"]
+        return [
+            child for child in node.children_by_field_name(name) if child.is_named and child.type != "comment"
+        ]
 
     # ------------------------------------------------------------ declarations
 
@@ -168,6 +197,9 @@ class _Reader:
                 found.append(self.unit(node))
             else:
                 raise self.refuse(node)
+        there = sum(1 for _ in _statements(root))
+        if self.read != there:
+            raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         return found
 
     def unit(self, node: Any) -> Unit:
@@ -204,6 +236,8 @@ class _Reader:
                 raise self.refuse(child, "AT: variables at addresses are not supported; give it a name alone")
             declared = self.type(self.field(child, "type"), "")
             initial = self.initial(self.fields(child, "initial_value"), declared, self.place(child))
+            if kind == "retain" and isinstance(declared, Instance):
+                raise self.refuse(child, "VAR RETAIN: an instance of a block is not supported there")
             for name in self.fields(child, "names"):
                 yield Variable(self.text(name), declared, kind, initial, self.place(name))
 
@@ -222,6 +256,8 @@ class _Reader:
             if len(ranges) != 1:
                 raise self.refuse(node, "an array has one range here")
             low, high = (self.constant(self.field(ranges[0], part)) for part in ("lower", "upper"))
+            if not low <= high < low + LONGEST:
+                raise self.refuse(node, f"an array has 1 to {LONGEST:,} elements, not {low}..{high}")
             return Array(low, high, self.type(self.field(node, "element_type"), ""))
         if node.type == "enumerated_type_inline":
             names = []
@@ -230,7 +266,9 @@ class _Reader:
                 if value is not None and self.constant(value) != number:
                     raise self.refuse(member, "an enumeration counts from 0 by 1 here")
                 names.append(self.text(self.field(member, "name")))
-            return Scalar(name or f"enum at line {node.start_point[0] + 1}", "enum", 0, len(names) - 1, tuple(names))
+            return Scalar(
+                name or f"enum at line {node.start_point[0] + 1}", "enum", 0, len(names) - 1, tuple(names)
+            )
         raise self.refuse(node)
 
     def constant(self, node: Any) -> int:
@@ -265,10 +303,14 @@ class _Reader:
             if value.name not in declared.names:
                 raise self.refuse(node, f"{declared.name} has no {value.name}")
             return declared.names.index(value.name)
-        if isinstance(value, Literal):
-            return value.value
-        if isinstance(value, Unary) and value.operator == "-":
-            return self.constant(node)
+        number = value.operand if isinstance(value, Unary) and value.operator == "-" else value
+        if isinstance(number, Literal) and isinstance(declared, Scalar):
+            given = value.value if isinstance(value, Literal) else self.constant(node)
+            kind = "bool" if isinstance(given, bool) else number.type.kind if number.type else ""
+            fits = declared.kind in ("int", "bits") if not kind else kind == declared.kind
+            if not fits or not declared.low <= given <= declared.high:
+                raise self.refuse(node, f"initial value {self.text(node)}: no value of {declared.name}")
+            return given
         raise self.refuse(node, f"initial value {self.text(node)}: a literal is needed here")
 
     # ------------------------------------------------------------ statements
@@ -278,10 +320,13 @@ class _Reader:
         return tuple(found)
 
     def statement(self, node: Any) -> Statement:
+        self.read += 1
         place = self.place(node)
         match node.type:
             case "assignment_statement":
-                return Assign(self.target(self.field(node, "left")), self.expression(self.field(node, "right")), place)
+                return Assign(
+                    self.target(self.field(node, "left")), self.expression(self.field(node, "right")), place
+                )
             case "if_statement":
                 branches = [(self.field(node, "condition"), self.fields(node, "consequence"))]
                 otherwise: Body = ()
@@ -335,7 +380,8 @@ class _Reader:
     def call(self, node: Any, place: Place) -> Call:
         if node.type != "call_expression":
             raise self.refuse(node)
-        inputs, outputs = [], []
+        inputs: list[tuple[str, Expression]] = []
+        outputs: list[tuple[str, Expression]] = []
         for argument in self.named(self.field(node, "arguments")):
             if argument.type != "named_argument":
                 raise self.refuse(argument, "a block is called with named arguments: instance(NAME := value)")

@@ -7,17 +7,31 @@ clock; any other one remembers how long ago it was started.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import z3
 
-from programs.check import Types, arguments, inner_bodies
+from programs.check import Types, arguments
 from programs.run import default
+from programs.terms import (
+    FALSE,
+    TRUE,
+    Env,
+    between,
+    both,
+    choose,
+    constant,
+    either,
+    in_range,
+    merge,
+    negated,
+    singles,
+    standard_call,
+    truncated,
+)
 from programs.tree import (
-    BOOL,
-    TIME,
     Array,
     Assign,
     Binary,
@@ -42,21 +56,6 @@ from programs.tree import (
     Unit,
 )
 
-TRUE, FALSE = z3.BoolVal(True), z3.BoolVal(False)
-Env = dict[str, Any]
-"""Terms by the path of the variable, such as `TIMER.ET` or `WORDS[2]`."""
-INT = Scalar("DINT", "int", -(2**31), 2**31 - 1)
-
-
-@dataclass(frozen=True)
-class Slot:
-    """One single value of memory: its path, its type, its value at power-up (None: any, RETAIN)."""
-
-    path: str
-    type: Scalar
-    initial: bool | int | None
-    section: str
-
 
 @dataclass(frozen=True)
 class Obligation:
@@ -74,69 +73,6 @@ class Scan:
     after: Mapping[str, Any]
     outputs: Mapping[str, Any]
     obligations: tuple[Obligation, ...]
-
-
-def symbol(kind: Scalar, name: str) -> Any:
-    """A symbol for a value of this type."""
-    if kind.kind == "bool":
-        return z3.Bool(name)
-    return z3.BitVec(name, kind.width) if kind.kind == "bits" else z3.Int(name)
-
-
-def constant(kind: Scalar, value: bool | int) -> Any:
-    """A value of this type as a term."""
-    if kind.kind == "bool":
-        return z3.BoolVal(bool(value))
-    return z3.BitVecVal(int(value), kind.width) if kind.kind == "bits" else z3.IntVal(int(value))
-
-
-def in_range(kind: Scalar, term: Any) -> z3.BoolRef:
-    """The values of this type; TRUE where the sort says it all."""
-    if kind.kind in ("bool", "bits"):
-        return TRUE
-    return z3.And(term >= kind.low, term <= kind.high)
-
-
-def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
-    """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants."""
-    for key, variable in unit.variables.items():
-        if variable.section in ("temp", "constant"):
-            continue
-        kind: Type = variable.type
-        path = f"{above}{key}"
-        if isinstance(kind, Instance):
-            if kind.block.upper() in source.units:
-                yield from slots(source, source.units[kind.block.upper()], f"{path}.")
-            else:
-                yield from _standard(kind.block.upper(), path)
-            continue
-        value = default(kind, variable.initial)
-        for place, single, initial in _singles(kind, path, value):
-            yield Slot(place, single, None if variable.section == "retain" else initial, variable.section)
-
-
-def _singles(kind: Type, path: str, value: Any) -> Iterator[tuple[str, Scalar, Any]]:
-    if isinstance(kind, Array):
-        for n, number in enumerate(range(kind.low, kind.high + 1)):
-            yield from _singles(kind.element, f"{path}[{number}]", value[n])
-    elif isinstance(kind, Scalar):
-        yield path, kind, value
-
-
-def _standard(block: str, path: str) -> Iterator[Slot]:
-    pins: dict[str, Scalar] = {}
-    if block in ("TON", "TOF", "TP"):
-        pins = {"IN": BOOL, "PT": TIME, "Q": BOOL, "ET": TIME, "before": BOOL, "age": INT}
-        if block != "TON":
-            pins["running"] = BOOL
-    elif block in ("R_TRIG", "F_TRIG"):
-        pins = {"CLK": BOOL, "Q": BOOL, "before": BOOL}
-    elif block == "SR":
-        pins = {"S1": BOOL, "R": BOOL, "Q1": BOOL}
-    else:
-        pins = {"S": BOOL, "R1": BOOL, "Q1": BOOL}
-    for name, kind in pins.items():
-        yield Slot(f"{path}.{name}", kind, kind is not BOOL and 0, "var")
 
 
 @dataclass
@@ -161,7 +97,9 @@ class Translator:
     def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
         """One call of a unit; `here`: the condition under which it happens."""
         for name, variable in unit.of("temp").items():
-            for path, kind, value in _singles(variable.type, f"{above}{name.upper()}", default(variable.type, variable.initial)):
+            for path, kind, value in singles(
+                variable.type, f"{above}{name.upper()}", default(variable.type, variable.initial)
+            ):
                 env[path] = constant(kind, value)
         self.body(_Context(self, Types(self.source, unit), above), unit.body, env, here)
 
@@ -171,9 +109,9 @@ class Translator:
         for n, statement in enumerate(body):
             if not z3.is_false(returned):
                 rest = dict(env)
-                more = self.body(at, body[n:], rest, _and(here, _not(returned)))
-                _merge(env, returned, dict(env), rest)
-                return _or(returned, more)
+                more = self.body(at, body[n:], rest, both(here, negated(returned)))
+                merge(env, returned, dict(env), rest)
+                return either(returned, more)
             returned = self.statement(at, statement, env, here)
             if z3.is_true(returned):
                 return returned
@@ -196,7 +134,8 @@ class Translator:
                 asked = []
                 for ranges, inner in clauses:
                     hits = [
-                        _between(kind, term, at.types.constant(low), at.types.constant(high)) for low, high in ranges
+                        between(kind, term, at.types.constant(low), at.types.constant(high))
+                        for low, high in ranges
                     ]
                     asked.append((z3.Or(*hits) if len(hits) > 1 else hits[0], inner))
                 return self.branches(at, asked, otherwise, env, here)
@@ -219,7 +158,9 @@ class Translator:
                 return TRUE
         return FALSE
 
-    def branches(self, at: _Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+    def branches(
+        self, at: _Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
+    ) -> z3.BoolRef:
         if not branches:
             return self.body(at, otherwise, env, here)
         asked, inner = branches[0]
@@ -230,12 +171,14 @@ class Translator:
         if z3.is_false(condition):
             return self.branches(at, branches[1:], otherwise, env, here)
         yes, no = dict(env), dict(env)
-        first = self.body(at, inner, yes, _and(here, condition))
-        second = self.branches(at, branches[1:], otherwise, no, _and(here, _not(condition)))
-        _merge(env, condition, yes, no)
-        return _or(_and(condition, first), _and(_not(condition), second))
+        first = self.body(at, inner, yes, both(here, condition))
+        second = self.branches(at, branches[1:], otherwise, no, both(here, negated(condition)))
+        merge(env, condition, yes, no)
+        return either(both(condition, first), both(negated(condition), second))
 
-    def invoke(self, at: _Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef) -> None:
+    def invoke(
+        self, at: _Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
+    ) -> None:
         path = at.path(instance, env, here)
         kind = at.types.of(instance)
         assert isinstance(kind, Instance)
@@ -248,7 +191,7 @@ class Translator:
         if kind.block.upper() in self.source.units:
             self.call(self.source.units[kind.block.upper()], f"{path}.", env, here)
         else:
-            _standard_call(kind.block.upper(), path, env)
+            standard_call(kind.block.upper(), path, env)
         for name, target in outputs:
             at.store(target, env[f"{path}.{name.upper()}"], env, here)
 
@@ -266,7 +209,9 @@ class Translator:
 
     def ranged(self, term: Any, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
         """The term within the range of its type: as an obligation, or wrapped."""
-        if kind.kind not in ("int", "time") or z3.is_int_value(term) and kind.low <= term.as_long() <= kind.high:
+        if kind.kind not in ("int", "time") or (
+            z3.is_int_value(term) and kind.low <= term.as_long() <= kind.high
+        ):
             return term
         if self.wrap:
             return (term - kind.low) % (kind.high - kind.low + 1) + kind.low
@@ -304,14 +249,16 @@ class _Context:
             self.bounds(array, index, target.place, here)
             for number in range(array.low, array.high + 1):
                 key = f"{base}[{number}]"
-                env[key] = _if(z3.simplify(index == number), term, env[key])
+                env[key] = choose(z3.simplify(index == number), term, env[key])
         else:
             env[self.path(target, env, here)] = term
 
     def bounds(self, array: Array, index: Any, place: Place, here: z3.BoolRef) -> None:
         inside = z3.simplify(z3.And(index >= array.low, index <= array.high))
         if not z3.is_true(inside):
-            self.translator.owe(z3.Implies(here, inside), f"an index stays within {array.low}..{array.high}", place)
+            self.translator.owe(
+                z3.Implies(here, inside), f"an index stays within {array.low}..{array.high}", place
+            )
 
     def value(self, expression: Expression, env: Env, here: z3.BoolRef, wanted: Scalar | None = None) -> Any:
         """The term of an expression."""
@@ -335,7 +282,7 @@ class _Context:
         match expression:
             case Unary("NOT", operand, _):
                 term = self.value(operand, env, here, wanted)
-                return _not(term) if kind.kind == "bool" else ~term
+                return negated(term) if kind.kind == "bool" else ~term
             case Unary(_, operand, place):
                 return self.translator.ranged(-self.value(operand, env, here, wanted), kind, place, here)
             case Binary():
@@ -357,7 +304,7 @@ class _Context:
             terms = [env[f"{base}[{number}]"] for number in range(array.low, array.high + 1)]
         found = terms[-1]
         for number, term in reversed(list(zip(range(array.low, array.high), terms, strict=False))):
-            found = _if(z3.simplify(index == number), term, found)
+            found = choose(z3.simplify(index == number), term, found)
         return found
 
     def binary(self, node: Binary, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None) -> Any:
@@ -399,9 +346,9 @@ class _Context:
             case ">=":
                 return left >= right
             case "AND":
-                return _and(left, right)
+                return both(left, right)
             case "OR":
-                return _or(left, right)
+                return either(left, right)
             case "XOR":
                 return z3.Xor(left, right)
             case "+":
@@ -412,11 +359,13 @@ class _Context:
                 return self.translator.ranged(left * right, kind, node.place, here)
         if not (z3.is_int_value(right) and right.as_long() != 0):
             self.translator.owe(z3.Implies(here, right != 0), "no division by zero", node.place)
-        quotient = _truncated(left, right)
+        quotient = truncated(left, right)
         term = quotient if node.operator == "/" else left - right * quotient
         return self.translator.ranged(term, kind, node.place, here)
 
-    def function(self, node: Function, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None) -> Any:
+    def function(
+        self, node: Function, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None
+    ) -> Any:
         given = arguments(node)
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
             term, by = self.value(given[0], env, here, wanted), self.types.constant(given[1])
@@ -428,11 +377,13 @@ class _Context:
             return self.converted(node, given[0], kind, env, here)
         if node.name == "SEL":
             no, yes = (self.value(value, env, here, kind) for value in given[1:])
-            return _if(self.value(given[0], env, here), yes, no)
+            return choose(self.value(given[0], env, here), yes, no)
         values = [self.value(value, env, here, kind) for value in given]
         match node.name:
             case "ABS":
-                return self.translator.ranged(z3.If(values[0] < 0, -values[0], values[0]), kind, node.place, here)
+                return self.translator.ranged(
+                    z3.If(values[0] < 0, -values[0], values[0]), kind, node.place, here
+                )
             case "MIN":
                 return z3.If(values[0] <= values[1], values[0], values[1])
             case "MAX":
@@ -442,7 +393,9 @@ class _Context:
                 return z3.If(low > values[2], values[2], low)
         return values[0]
 
-    def converted(self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef) -> Any:
+    def converted(
+        self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef
+    ) -> Any:
         given = self.types.of(argument)
         term = self.value(argument, env, here)
         assert isinstance(given, Scalar)
@@ -454,98 +407,13 @@ class _Context:
                 return z3.ZeroExt(kind.width - given.width, term)
             return z3.Extract(kind.width - 1, 0, term)
         if given.kind == "bits":
-            signed = kind.kind == "int" and kind.low < 0 and given.high <= kind.high - kind.low and given.high > kind.high
-            return z3.BV2Int(term, is_signed=signed)
+            signed = (
+                kind.kind == "int"
+                and kind.low < 0
+                and given.high <= kind.high - kind.low
+                and given.high > kind.high
+            )
+            return self.translator.ranged(z3.BV2Int(term, is_signed=signed), kind, node.place, here)
         if kind.kind == "bits":
             return z3.Int2BV(term, kind.width)
         return self.translator.ranged(term, kind, node.place, here)
-
-
-def _standard_call(block: str, path: str, env: Env) -> None:
-    """One call of a standard block. `age` is the time since its last start, in ms."""
-
-    def pin(name: str) -> Any:
-        return env[f"{path}.{name}"]
-
-    def put(name: str, term: Any) -> None:
-        env[f"{path}.{name}"] = term
-
-    if block in ("TON", "TOF", "TP"):
-        signal, before = pin("IN"), pin("before")
-        if block == "TON":
-            put("age", z3.If(_and(signal, _not(before)), z3.IntVal(0), pin("age")))
-            put("ET", z3.If(signal, _limited(pin("age"), pin("PT")), z3.IntVal(0)))
-            put("Q", _and(signal, pin("age") >= pin("PT")))
-        elif block == "TOF":
-            starts = _and(_not(signal), before)
-            put("age", z3.If(starts, z3.IntVal(0), pin("age")))
-            runs = _and(_not(signal), _or(starts, pin("running")))
-            put("ET", z3.If(signal, z3.IntVal(0), z3.If(runs, _limited(pin("age"), pin("PT")), pin("ET"))))
-            put("Q", _or(signal, z3.If(runs, pin("age") < pin("PT"), pin("Q"))))
-            put("running", _and(runs, pin("age") < pin("PT")))
-        else:
-            starts = z3.And(_not(pin("running")), signal, _not(before))
-            put("age", z3.If(starts, z3.IntVal(0), pin("age")))
-            runs = _or(starts, pin("running"))
-            goes_on = _and(runs, pin("age") < pin("PT"))
-            shown = z3.If(runs, _limited(pin("age"), pin("PT")), pin("ET"))
-            put("ET", z3.If(_and(_not(goes_on), _not(signal)), z3.IntVal(0), shown))
-            put("Q", z3.If(runs, goes_on, pin("Q")))
-            put("running", goes_on)
-        put("before", signal)
-    elif block in ("R_TRIG", "F_TRIG"):
-        clock, before = pin("CLK"), pin("before")
-        put("Q", _and(clock, _not(before)) if block == "R_TRIG" else _and(_not(clock), before))
-        put("before", clock)
-    elif block == "SR":
-        put("Q1", _or(pin("S1"), _and(_not(pin("R")), pin("Q1"))))
-    else:
-        put("Q1", _and(_not(pin("R1")), _or(pin("S"), pin("Q1"))))
-
-
-def _limited(age: Any, limit: Any) -> Any:
-    return z3.If(age <= limit, age, z3.If(limit >= 0, limit, z3.IntVal(0)))
-
-
-def _between(kind: Scalar, term: Any, low: int, high: int) -> z3.BoolRef:
-    if low == high:
-        return term == constant(kind, low)  # type: ignore[no-any-return]
-    if kind.kind == "bits":
-        return z3.And(z3.UGE(term, low), z3.ULE(term, high))
-    return z3.And(term >= low, term <= high)
-
-
-def _truncated(left: Any, right: Any) -> Any:
-    """IEC division rounds towards zero; that of SMT-LIB leaves a remainder of 0 or more."""
-    size = z3.If(left < 0, -left, left) / z3.If(right < 0, -right, right)
-    return z3.If((left < 0) == (right < 0), size, -size)
-
-
-def _merge(env: Env, condition: z3.BoolRef, yes: Env, no: Env) -> None:
-    for key in {**yes, **no}:
-        if key in yes and key in no:
-            env[key] = _if(condition, yes[key], no[key])
-
-
-def _if(condition: z3.BoolRef, yes: Any, no: Any) -> Any:
-    if z3.is_true(condition) or yes.eq(no):
-        return yes
-    return no if z3.is_false(condition) else z3.If(condition, yes, no)
-
-
-def _not(term: z3.BoolRef) -> z3.BoolRef:
-    if z3.is_true(term) or z3.is_false(term):
-        return FALSE if z3.is_true(term) else TRUE
-    return z3.Not(term)
-
-
-def _and(left: z3.BoolRef, right: z3.BoolRef) -> z3.BoolRef:
-    if z3.is_false(left) or z3.is_false(right):
-        return FALSE
-    if z3.is_true(left):
-        return right
-    return left if z3.is_true(right) else z3.And(left, right)
-
-
-def _or(left: z3.BoolRef, right: z3.BoolRef) -> z3.BoolRef:
-    return _not(_and(_not(left), _not(right)))

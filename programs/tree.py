@@ -74,7 +74,10 @@ TIME: Final = Scalar("TIME", "time", -(2**31), 2**31 - 1)
 SCALARS: Final[Mapping[str, Scalar]] = {
     "BOOL": BOOL,
     "SAFEBOOL": BOOL,
-    **{name: Scalar(name, "bits", 0, 2**bits - 1) for name, bits in (("BYTE", 8), ("WORD", 16), ("DWORD", 32))},
+    **{
+        name: Scalar(name, "bits", 0, 2**bits - 1)
+        for name, bits in (("BYTE", 8), ("WORD", 16), ("DWORD", 32))
+    },
     **{f"SAFE{name}": Scalar(name, "bits", 0, 2**bits - 1) for name, bits in (("BYTE", 8), ("WORD", 16))},
     **_integers(),
     "SAFEINT": Scalar("INT", "int", -(2**15), 2**15 - 1),
@@ -246,7 +249,9 @@ class Unit:
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""
-        return {variable.name: variable for variable in self.variables.values() if variable.section in sections}
+        return {
+            variable.name: variable for variable in self.variables.values() if variable.section in sections
+        }
 
 
 @dataclass(frozen=True)
@@ -268,5 +273,7 @@ class Source:
         found = [unit for name, unit in self.units.items() if name not in used]
         if len(found) != 1:
             names = ", ".join(unit.name for unit in found) or "none"
-            raise Unjudged(f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME")
+            raise Unjudged(
+                f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME"
+            )
         return found[0]
