@@ -55,13 +55,7 @@ class Binding:
         if not self.compared:
             raise Unjudged("binding: no output is compared")
         try:
-            defaults = {
-                name: tuple(mode in signal.default for mode in range(5))
-                if signal.type == "modes"
-                else signal.default
-                for name, signal in self.reference.signals("parameters").items()
-            }
-            self.reference.start({**defaults, **self.fixed_parameters()})
+            self.reference.start(self.reference.with_defaults(self.fixed_parameters()))
         except (ValueError, TypeError) as error:
             raise Unjudged(f"binding: {error}") from None
         unused = set(self._inputs) - set(self.bound_paths)
@@ -271,13 +265,7 @@ class Binding:
 
     def fixed_parameters(self) -> dict[str, Any]:
         """The value of each parameter that the program does not take, as the code of the reference has it."""
-        modes = {
-            name for name, signal in self.reference.signals("parameters").items() if signal.type == "modes"
-        }
-        return {
-            name: tuple(mode in value for mode in range(5)) if name in modes else value
-            for name, value in self.values.items()
-        }
+        return {name: self.reference.in_code(name, value) for name, value in self.values.items()}
 
     def allows(self, parameters: Mapping[str, Any]) -> bool:
         """Whether the verdict is about these parameters."""

@@ -379,10 +379,8 @@ class Types:
                 assert isinstance(given, Scalar)
                 if pairs is outputs:
                     self.written(expression, place)
-                    if (
-                        not given.low <= wanted.low <= wanted.high <= given.high
-                        or (given.kind == "bits"
-                        and given != wanted)
+                    if not given.low <= wanted.low <= wanted.high <= given.high or (
+                        given.kind == "bits" and given != wanted
                     ):
                         raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
                 elif wanted.kind == "bits" and given.high > wanted.high:

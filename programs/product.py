@@ -184,8 +184,10 @@ class Product:
     def fixpoint(
         self, samples: Mapping[Pair, Sequence[Values]], until: float, tell: Callable[[str], None] = print
     ) -> None:
-        """Find all pairs and their inductive relations. Raises TimeoutError: no answer, too many pairs, or the
-        clock (`time.monotonic`) is past `until`."""
+        """Find all pairs and their inductive relations.
+
+        Raises TimeoutError: no answer, too many pairs, or the clock (`time.monotonic`) is past `until`.
+        """
         pair, values = self.start
         first = z3.Solver()
         first.set("timeout", LIMIT_MS)
@@ -202,9 +204,7 @@ class Product:
             if len(self.nodes) > MOST_PAIRS:
                 raise TimeoutError(f"more than {MOST_PAIRS:,} pairs of states")
             if time.monotonic() > until:
-                raise TimeoutError(
-                    f"the time is over after {len(self.nodes)} pairs; the last is {shown(here)}"
-                )
+                raise TimeoutError(f"the time is over at pair {shown(here)}")
 
     def _scan_from(self, pair: Pair, samples: Mapping[Pair, Sequence[Values]]) -> Iterator[Pair]:
         """Follow all scans from a pair; yields each pair that is new or became weaker."""

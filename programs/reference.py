@@ -210,6 +210,18 @@ class Reference:
         """Values of a test vector as values of the code."""
         return {name: _from_wire(signal, values[name]) for name, signal in self.signals(group).items()}
 
+    def in_code(self, name: str, value: Any) -> Any:
+        """The value of a parameter in a register or in TOML as a value of the code."""
+        if self.signals("parameters")[name].type != "modes":
+            return value
+        return tuple(mode in value for mode in range(5))
+
+    def with_defaults(self, values: Mapping[str, Any]) -> dict[str, Any]:
+        """These parameters, and the default of each other one that has one."""
+        signals = self.signals("parameters")
+        defaults = {name: of.default for name, of in signals.items() if of.default is not None}
+        return {**{name: self.in_code(name, value) for name, value in defaults.items()}, **values}
+
     def start(self, parameters: Mapping[str, Any]) -> Any:
         """The state at power-up. Raises ValueError for parameters that the code refuses."""
         return self.device.module.power_up(self.device.module.Params(**parameters))

@@ -91,7 +91,7 @@ def _steps(
 
 
 def _parameters(binding: Binding, parameters: Mapping[str, Any]) -> Values:
-    found = {}
+    found: Values = {}
     for name, signal in binding.reference.signals("parameters").items():
         value = parameters[name]
         if signal.type == "modes":
