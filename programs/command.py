@@ -81,7 +81,8 @@ def text_of(found: Verdict, seconds: float) -> Iterator[str]:
             yield f"  missing     {found.missing}"
     for label, text in _about(found):
         yield f"  {label:<11} {text}"
-    yield f"  effort      {len(found.product.nodes)} pairs, {found.product.queries} questions, {seconds:.1f} s CPU"
+    pairs, queries = len(found.product.nodes), found.product.queries
+    yield f"  effort      {pairs} pairs, {queries} questions, {seconds:.1f} s CPU"
 
 
 def _about(found: Verdict) -> Iterator[tuple[str, str]]:
