@@ -50,7 +50,7 @@ _SHIFTS = ("SHL", "SHR", "ROL", "ROR")
 
 def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
-    for found in reached(source, unit, ()):
+    for found in list(reached(source, unit, ())):
         if not found.of("output") and found is unit:
             raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
         Types(source, found).body(found.body)
