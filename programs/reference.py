@@ -208,7 +208,8 @@ class Reference:
 
     def from_wire(self, group: str, values: Mapping[str, Any]) -> dict[str, Any]:
         """Values of a test vector as values of the code."""
-        return {name: _from_wire(signal, values[name]) for name, signal in self.signals(group).items()}
+        signals = self.signals(group)
+        return {name: _from_wire(signals[name], value) for name, value in values.items()}
 
     def in_code(self, name: str, value: Any) -> Any:
         """The value of a parameter in a register or in TOML as a value of the code."""

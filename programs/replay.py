@@ -159,16 +159,17 @@ def published(product: Product, folder: Path) -> Difference | Replayed:
         found: list[Difference] = []
         try:
             for case in open_suite(path).cases():
-                parameters = reference.from_wire("parameters", case.params)
+                given = reference.from_wire("parameters", case.params)
+                parameters = reference.with_defaults(given)
                 if case.requests or not case.reset or not binding.allows(parameters):
                     continue
                 if scans + len(case.scans) > MOST_SCANS:
                     continue
-                given = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
+                taken = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
                 where = f"published vector {case.id} of {name}"
-                cases, scans = cases + 1, scans + len(given)
+                cases, scans = cases + 1, scans + len(taken)
                 found += filter(
-                    None, _steps(binding, product.wrap, parameters, given, where, product, samples)
+                    None, _steps(binding, product.wrap, parameters, taken, where, product, samples)
                 )
         except KitUnjudged as error:
             raise Unjudged(str(error)) from None

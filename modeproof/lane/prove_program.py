@@ -16,8 +16,8 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser: argparse.ArgumentParser = commands.add_parser(
         "prove-program",
         help="prove a program in Structured Text equal to a target, or show where it differs",
-        description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after which "
-        "they differ. UNKNOWN (2): neither.",
+        description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
+        "which they differ. UNKNOWN (2): neither.",
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="Structured Text")
     parser.add_argument("--target", required=True, metavar="T", help="a published target, as in vectors/")
