@@ -74,6 +74,12 @@ def test_the_example_is_proved_equal() -> None:
     assert len(found.product.nodes) == 24 and found.replayed is not None and found.replayed.cases > 100
 
 
+@pytest.mark.deep
+@pytest.mark.parametrize("path", [path for path in sorted(EDM.parent.glob("*.st")) if path != EDM])
+def test_every_other_example_is_proved_equal(path: Path) -> None:
+    assert judged(path, path.stem).word == "PROVED"
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_refuted_by_published_vectors(name: str, tmp_path: Path) -> None:
