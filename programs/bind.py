@@ -24,6 +24,8 @@ from programs.terms import Slot, slots
 from programs.tree import Array, Scalar, Source, Unit
 
 DT = "dt_ms"
+SCAN_TIME = Signal(name=DT, type="ms", clauses=(), why="", python=DT, tla="", minimum=0)
+"""The time since the scan before, which a program may take as an input."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ class Binding:
 
     def __post_init__(self) -> None:
         groups = ("inputs", "outputs", "parameters")
-        known = [name for group in groups for name in self.reference.signals(group)]
+        known = [DT, *(name for group in groups for name in self.reference.signals(group))]
         for name in (*self.names, *self.fixed, *self.left_out):
             if name not in known:
                 raise Unjudged(
@@ -120,6 +122,10 @@ class Binding:
                 else:
                     self._check(name, signal, kind)
                     found[path] = (name, signal)
+        path = self._path(DT, "input")
+        if path is not None:
+            self._check(DT, SCAN_TIME, self.unit.variables[path].type)
+            found[path] = (DT, SCAN_TIME)
         return found
 
     def _check(self, name: str, signal: Signal, kind: object, inward: bool = True) -> None:
@@ -201,7 +207,7 @@ class Binding:
                 found.append(terms[name] == int(value))
         for path, slot in self._inputs.items():
             term = self.term(path)
-            if slot.type.kind in ("int", "time") and z3.is_int(term) and self._given[path][0] in terms:
+            if slot.type.kind in ("int", "time") and z3.is_int(term) and self._given[path][0] in {DT, *terms}:
                 found.append(z3.And(term >= slot.type.low, term <= slot.type.high))
         return tuple(found)
 
@@ -235,9 +241,11 @@ class Binding:
             found[name] = term
         return found
 
-    def plain_inputs(self, inputs: Mapping[str, Any], parameters: Mapping[str, Any]) -> dict[str, Any]:
+    def plain_inputs(
+        self, inputs: Mapping[str, Any], parameters: Mapping[str, Any], dt_ms: int
+    ) -> dict[str, Any]:
         """Plain values for the interpreter, by the names of the program; texts as their numbers."""
-        given = {**inputs, **parameters}
+        given = {**inputs, **parameters, DT: dt_ms}
         found: dict[str, Any] = {}
         for path, (place, signal) in self._given.items():
             name, _, index = place.partition("[")
@@ -274,8 +282,14 @@ class Binding:
         return all(
             slot.type.low <= int(parameters[self._given[path][0]]) <= slot.type.high
             for path, slot in self._inputs.items()
-            if slot.type.kind in ("int", "time") and self._given[path][1].type in ("ms", "int")
+            if slot.type.kind in ("int", "time") and self._given[path][0] in parameters
         )
+
+    @property
+    def longest_scan(self) -> int | None:
+        """The longest elapsed time that the program's own input for it can hold, in ms; None: no limit."""
+        tops = [self._inputs[path].type.high for path, (name, _) in self._given.items() if name == DT]
+        return tops[0] if tops else None
 
     def narrowed(self) -> list[str]:
         """The parameters whose range the program's own type makes smaller, in words."""

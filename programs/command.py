@@ -104,7 +104,9 @@ def _about(found: Verdict) -> Iterator[tuple[str, str]]:
             ]
         ),
     )
-    yield "inputs", "every value, any elapsed time of whole milliseconds"
+    longest = binding.longest_scan
+    most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
+    yield "inputs", f"every value, {most} of whole milliseconds"
     yield "numbers", "wrap" if found.product.wrap else "stay within their types"
     if found.replayed is not None:
         yield (

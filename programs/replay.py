@@ -79,7 +79,9 @@ def _steps(
         expected.append({name: row[name] for name in binding.compared})
         stopped = ""
         try:
-            given.append(binding.plain_outputs(machine.scan(binding.plain_inputs(inputs, parameters), dt_ms)))
+            given.append(
+                binding.plain_outputs(machine.scan(binding.plain_inputs(inputs, parameters, dt_ms), dt_ms))
+            )
         except Overflow as error:
             stopped = error.message
         if stopped or given[-1] != expected[-1]:
@@ -163,7 +165,8 @@ def published(product: Product, folder: Path) -> Difference | Replayed:
                 parameters = reference.with_defaults(given)
                 if case.requests or not case.reset or not binding.allows(parameters):
                     continue
-                if scans + len(case.scans) > MOST_SCANS:
+                longest = max(scan.dt_ms for scan in case.scans)
+                if scans + len(case.scans) > MOST_SCANS or longest > (binding.longest_scan or longest):
                     continue
                 taken = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
                 where = f"published vector {case.id} of {name}"

@@ -79,7 +79,7 @@ def _walk(
             return z3.substitute(term, *where)
 
         solver.push()
-        solver.add(put(product.binding.reference.steps[pair[0]].premise))
+        solver.add(put(z3.And(product.binding.reference.steps[pair[0]].premise, product.assumed)))
         if left == 0:
             solver.add(put(z3.Not(doubt.formula)))
             found = [*read, scan_inputs] if product.ask(solver) == z3.sat else None
