@@ -280,9 +280,9 @@ class Binding:
         if any(parameters[name] != value for name, value in self.fixed_parameters().items()):
             return False
         return all(
-            slot.type.low <= int(parameters[self._given[path][0]]) <= slot.type.high
+            slot.type.low <= parameters[self._given[path][0]] <= slot.type.high
             for path, slot in self._inputs.items()
-            if slot.type.kind in ("int", "time") and self._given[path][0] in parameters
+            if type(parameters.get(self._given[path][0])) is int
         )
 
     @property
