@@ -26,7 +26,10 @@ REFUSED = {
     "an unknown name": ("y := z;", "z is not declared"),
     "an unknown pin": ("VAR t : TON; END_VAR t(INN := TRUE);", "TON has no INN; did you mean 'IN'"),
     "a written input": ("x := 1;", "x is an input and is written"),
-    "an output to an input": ("VAR t : TON; END_VAR t(IN := TRUE, ET => x);", "x is an input and is written"),
+    "an output to an input": (
+        "VAR_INPUT b : BOOL; END_VAR VAR t : TON; END_VAR t(IN := TRUE, Q => b);",
+        "b is an input and is written",
+    ),
     "a counter": ("VAR t : CTU2; END_VAR t();", "no type or block 'CTU2'"),
     "a narrower value": ("VAR b : BYTE; w : WORD; END_VAR b := w;", "BYTE := WORD needs a conversion"),
     "a value of another kind": ("y := TRUE;", "INT := BOOL needs a conversion"),

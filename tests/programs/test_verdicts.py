@@ -138,6 +138,17 @@ def test_an_edit_without_effect_is_proved(tmp_path: Path) -> None:
     assert judged(changed(tmp_path, *level), "sf_edm").word == "PROVED"
 
 
+def test_the_scan_time_may_be_an_input(tmp_path: Path) -> None:
+    path = changed(tmp_path, "MonitoringTime : TIME;", "MonitoringTime : TIME; dt_ms : TIME;")
+    text = path.read_text("utf-8").replace(
+        "END_FUNCTION_BLOCK", "Ready := Ready OR dt_ms = T#77ms;\nEND_FUNCTION_BLOCK"
+    )
+    path.write_text(text, "utf-8")
+    found = judged(path, "sf_edm", vectors=tmp_path)
+    assert found.word == "REFUTED" and replayed(found).scans[-1][0] == 77
+    assert "elapsed times up to 2,147,483,647" in "\n".join(text_of(found, 1.0))
+
+
 # ---------------------------------------------------------------- what would make a proof worthless
 
 
