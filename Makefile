@@ -8,6 +8,7 @@ PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys
 PY := .venv/bin/python
 STAMP := .venv/requirements.lock
 AWLSIM := .venv/awlsim.lock
+GRAMMAR := .venv/grammar.lock
 
 verify: $(STAMP)
 	@$(PY) -m modeproof verify
@@ -17,10 +18,10 @@ smoke: $(STAMP)
 
 # Two processes; tests that share what is made once are in one of them (tests/groups.py). The first tier sees every kind of
 # check fail once; the second (marked deep) has every planted fault, samples of the campaigns and the compiled programs.
-test: $(STAMP) $(AWLSIM)
+test: $(STAMP) $(AWLSIM) $(GRAMMAR)
 	@$(PY) -m pytest -n 2 --dist loadscope -m "not deep"
 
-test-deep: $(STAMP) $(AWLSIM)
+test-deep: $(STAMP) $(AWLSIM) $(GRAMMAR)
 	@$(PY) -m pytest -n 2 --dist loadscope -m deep
 
 bench: $(STAMP) $(AWLSIM)
@@ -36,7 +37,7 @@ doctor:
 lint: $(STAMP)
 	@$(PY) -m ruff format --check . && $(PY) -m ruff check . && $(PY) -m mypy
 
-venv: $(STAMP) $(AWLSIM)
+venv: $(STAMP) $(AWLSIM) $(GRAMMAR)
 
 # The stamp is a copy of the lock, written last: a build that was cut short is built again, and a lock whose date
 # changed but whose text did not is no reason to build.
@@ -57,6 +58,14 @@ $(AWLSIM): examples/awl/requirements.lock $(STAMP)
 	@if cmp -s $< $@ && $(PY) -c 'import awlsim' 2>/dev/null; then touch $@; else \
 	  AWLSIM_CYTHON_BUILD=0 $(PY) -m pip --disable-pip-version-check install --quiet --require-hashes --no-deps \
 	    --no-build-isolation --no-binary awlsim -r $< && \
+	  cp $< $@; \
+	fi
+
+# The grammar of Structured Text, which PyPI has as source, built like awlsim (its C part with gcc).
+$(GRAMMAR): programs/requirements.lock $(STAMP)
+	@if cmp -s $< $@ && $(PY) -c 'import tree_sitter_iec61131_3_st' 2>/dev/null; then touch $@; else \
+	  $(PY) -m pip --disable-pip-version-check install --quiet --require-hashes --no-deps --no-build-isolation \
+	    --no-binary tree-sitter-iec61131-3-st -r $< && \
 	  cp $< $@; \
 	fi
 

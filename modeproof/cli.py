@@ -25,6 +25,7 @@ COMMANDS = {
     "verify": "modeproof.lane.verify",
     "check": "modeproof.tlc.command",
     "prove": "modeproof.lane.prove",
+    "prove-program": "modeproof.lane.prove_program",
     "conform": "modeproof.suites.command",
     "vectors": "modeproof.suites.vectors_command",
     "map": "modeproof.suites.map_command",

@@ -14,7 +14,7 @@ from pathlib import Path
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.rows import Document, Interface, Problem
 
-OURS = ("modeproof", "refimpl", "proofs", "examples", "tests")
+OURS = ("modeproof", "refimpl", "proofs", "programs", "examples", "tests")
 
 ORDINARY = frozenset({"ERROR"})
 """Declared names that are also ordinary words of any program."""
@@ -32,6 +32,10 @@ class Rule:
 RULES = (
     Rule("refimpl", ("refimpl",), stdlib_only=True),
     Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
+    Rule(
+        "programs",
+        ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
+    ),
     Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
     Rule(
         "modeproof/report",

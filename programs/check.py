@@ -1,0 +1,433 @@
+"""Types of a program: what every name and expression is, and the refusal of what is not in the subset."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from modeproof.ground.errors import suggestion
+from programs.tree import (
+    BOOL,
+    SCALARS,
+    TIME,
+    Array,
+    Assign,
+    Binary,
+    Body,
+    Call,
+    Case,
+    Expression,
+    For,
+    Function,
+    If,
+    Index,
+    Instance,
+    Literal,
+    Member,
+    Name,
+    Place,
+    Return,
+    Scalar,
+    Source,
+    Type,
+    Unary,
+    Unit,
+)
+
+BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
+    **{name: ({"IN": BOOL, "PT": TIME}, {"Q": BOOL, "ET": TIME}) for name in ("TON", "TOF", "TP")},
+    **{name: ({"CLK": BOOL}, {"Q": BOOL}) for name in ("R_TRIG", "F_TRIG")},
+    "SR": ({"S1": BOOL, "R": BOOL}, {"Q1": BOOL}),
+    "RS": ({"S": BOOL, "R1": BOOL}, {"Q1": BOOL}),
+}
+"""The standard blocks: inputs and outputs."""
+MOST_TURNS = 1000
+DEEPEST = 20
+"""Blocks within blocks."""
+_COMPARE = ("=", "<>", "<", "<=", ">", ">=")
+_SHIFTS = ("SHL", "SHR", "ROL", "ROR")
+
+
+def check(source: Source, unit: Unit) -> None:
+    """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
+    for found in list(reached(source, unit, ())):
+        if not found.of("output") and found is unit:
+            raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
+        Types(source, found).body(found.body)
+
+
+def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit]:
+    """The unit and every unit that it has an instance of, each once."""
+    if unit.name in above or len(above) > DEEPEST:
+        raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
+    seen = {unit.name}
+    yield unit
+    for variable in unit.variables.values():
+        kind = variable.type
+        while isinstance(kind, Array):
+            kind = kind.element
+            if isinstance(kind, Instance):
+                raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
+        if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
+            below = source.units.get(kind.block.upper())
+            if below is None:
+                raise variable.place.refuse(
+                    f"{variable.name}: no type or block {kind.block!r} is known; "
+                    + suggestion(kind.block, [*BLOCKS, *(found.name for found in source.units.values())])
+                )
+            for found in reached(source, below, (*above, unit.name)):
+                if found.name not in seen:
+                    seen.add(found.name)
+                    yield found
+
+
+@dataclass(frozen=True)
+class Types:
+    """The types within one unit."""
+
+    source: Source
+    unit: Unit
+
+    def enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
+        """The enumeration and the number of a name that is a member of one and no variable."""
+        if isinstance(expression, Name) and expression.name.upper() not in self.unit.variables:
+            for kind in self._enumerations():
+                if expression.name in kind.names:
+                    return kind, kind.names.index(expression.name)
+        if isinstance(expression, Member) and isinstance(expression.of, Name):
+            for kind in self._enumerations():
+                if kind.name.upper() == expression.of.name.upper() and expression.name in kind.names:
+                    return kind, kind.names.index(expression.name)
+        return None
+
+    def _enumerations(self) -> Iterator[Scalar]:
+        for kind in (*self.unit.enumerations.values(), *(v.type for v in self.unit.variables.values())):
+            if isinstance(kind, Scalar) and kind.kind == "enum":
+                yield kind
+
+    def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
+        """The type of an expression; a bare number takes the type that is wanted."""
+        kind: Type | None
+        if (member := self.enum_member(expression)) is not None:
+            return member[0]
+        match expression:
+            case Literal(value, None, place):
+                kind = wanted if wanted is not None and wanted.kind in ("int", "bits") else SCALARS["DINT"]
+                if wanted is BOOL and value in (0, 1):
+                    kind = BOOL
+                self.fits(int(value), kind, place)
+                return kind
+            case Literal(_, kind, _):
+                assert kind is not None
+                return kind
+            case Name(name, place):
+                variable = self.unit.variables.get(name.upper())
+                if variable is None:
+                    known = [found.name for found in self.unit.variables.values()]
+                    raise place.refuse(f"{name} is not declared; {suggestion(name, known)}")
+                return variable.type
+            case Member(of, name, place):
+                return self.member(self.of(of), name, place)
+            case Index(of, index, place):
+                kind = self.of(of)
+                if not isinstance(kind, Array):
+                    raise place.refuse("only an array has an index")
+                self.scalar(index, place, ("int",))
+                return kind.element
+            case Unary(operator, operand, place):
+                kinds = ("bool", "bits") if operator == "NOT" else ("int", "time")
+                return self.scalar(operand, place, kinds, wanted)
+            case Binary():
+                return self.binary(expression, wanted)
+            case Function():
+                return self.function(expression, wanted)
+        raise AssertionError(expression)
+
+    def fits(self, value: int, kind: Scalar, place: Place) -> None:
+        """Refuse a number outside the range of its type."""
+        if kind.kind in ("int", "bits") and not kind.low <= value <= kind.high:
+            raise place.refuse(f"{value} is outside {kind.name}, {kind.low}..{kind.high}")
+
+    def member(self, kind: Type, name: str, place: Place) -> Type:
+        """The type of a variable of an instance."""
+        if not isinstance(kind, Instance):
+            raise place.refuse(f".{name}: only an instance of a block has members here")
+        if kind.block.upper() in BLOCKS:
+            known: dict[str, Type] = {
+                key: value for group in BLOCKS[kind.block.upper()] for key, value in group.items()
+            }
+        else:
+            unit = self.source.units[kind.block.upper()]
+            known = {name: variable.type for name, variable in unit.of("input", "output").items()}
+        for key, found in known.items():
+            if key.upper() == name.upper():
+                return found
+        raise place.refuse(f"{kind.block} has no {name}; {suggestion(name, known)}")
+
+    def scalar(
+        self, expression: Expression, place: Place, kinds: tuple[str, ...], wanted: Scalar | None = None
+    ) -> Scalar:
+        """The type of an expression that must be of one of these kinds."""
+        kind = self.of(expression, wanted)
+        if not isinstance(kind, Scalar) or kind.kind not in kinds:
+            shown = kind.name if isinstance(kind, Scalar) else "no single value"
+            raise place.refuse(f"a value of kind {' or '.join(kinds)} is needed here, and this is {shown}")
+        return kind
+
+    def pair(
+        self, left: Expression, right: Expression, place: Place, wanted: Scalar | None
+    ) -> tuple[Scalar, Scalar]:
+        """The types of two operands; a bare number takes that of the other."""
+        every = ("bool", "bits", "int", "time", "enum")
+        if isinstance(left, Literal) and left.type is None:
+            second = self.scalar(right, place, every, wanted)
+            return self.scalar(left, place, every, second), second
+        first = self.scalar(left, place, every, wanted)
+        return first, self.scalar(right, place, every, first)
+
+    def binary(self, node: Binary, wanted: Scalar | None) -> Scalar:
+        if node.operator in _COMPARE:
+            first, second = self.pair(node.left, node.right, node.place, None)
+            if first.kind != second.kind or (first.kind == "enum" and first != second):
+                raise node.place.refuse(f"{first.name} and {second.name} are not compared")
+            if first.kind in ("bool", "enum") and node.operator not in ("=", "<>"):
+                raise node.place.refuse(f"{node.operator} needs numbers")
+            return BOOL
+        first, second = self.pair(node.left, node.right, node.place, wanted)
+        kinds = {first.kind, second.kind}
+        if node.operator in ("AND", "OR", "XOR"):
+            if kinds == {"bool"} or kinds == {"bits"}:
+                return max(first, second, key=lambda kind: kind.high)
+        elif node.operator in ("+", "-", "*", "/", "MOD"):
+            if kinds == {"int"}:
+                return max(first, second, key=lambda kind: (kind.high - kind.low, kind.high))
+            if kinds == {"time"} and node.operator in "+-":
+                return TIME
+            if (first.kind, second.kind) == ("time", "int") and node.operator in "*/":
+                return TIME
+        raise node.place.refuse(f"{node.operator} of {first.name} and {second.name} is not supported")
+
+    def function(self, node: Function, wanted: Scalar | None) -> Scalar:
+        values = arguments(node)
+        place = node.place
+        if node.name in ("ABS",):
+            return self.scalar(values[0], place, ("int",), wanted)
+        if node.name in ("MIN", "MAX"):
+            first, second = self.pair(values[0], values[1], place, wanted)
+            if first != second or first.kind not in ("int", "time"):
+                raise place.refuse(f"{node.name} needs two values of one type")
+            return first
+        if node.name == "LIMIT":
+            kinds = [self.scalar(value, place, ("int", "time"), wanted) for value in values]
+            if len(set(kinds)) != 1:
+                raise place.refuse("LIMIT needs three values of one type")
+            return kinds[0]
+        if node.name == "SEL":
+            self.scalar(values[0], place, ("bool",))
+            first, second = self.pair(values[1], values[2], place, wanted)
+            if first != second:
+                raise place.refuse("SEL needs two values of one type")
+            return first
+        if node.name in _SHIFTS:
+            if not isinstance(values[1], Literal):
+                raise place.refuse(f"{node.name} by a number that is no literal is not supported")
+            return self.scalar(values[0], place, ("bits",), wanted)
+        start, _, end = node.name.partition("_TO_")
+        if end in SCALARS and (start in SCALARS or not start):
+            return self.conversion(node, values[0], SCALARS.get(start), SCALARS[end])
+        if node.name == "MOVE":
+            return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
+        raise place.refuse(f"function {node.name} is not supported")
+
+    def conversion(self, node: Function, value: Expression, start: Scalar | None, end: Scalar) -> Scalar:
+        given = self.scalar(value, node.place, ("bool", "bits", "int", "time", "enum"), start)
+        if start is not None and given.kind != start.kind:
+            raise node.place.refuse(f"{node.name} of a {given.name}")
+        if given.kind != end.kind and "bool" in (given.kind, end.kind) and end.kind == "bool":
+            raise node.place.refuse(f"{node.name} is not supported; compare with 0")
+        return end
+
+    # ------------------------------------------------------------ statements
+
+    def body(self, body: Body) -> None:
+        """Look at every statement."""
+        for statement in body:
+            match statement:
+                case Assign(target, value, place):
+                    self.assigned(target, value, place)
+                case If(branches, otherwise, place):
+                    for asked, inner in branches:
+                        self.scalar(asked, place, ("bool",))
+                        self.body(inner)
+                    self.body(otherwise)
+                case Case(subject, clauses, otherwise, place):
+                    kind = self.scalar(subject, place, ("int", "enum", "bits"))
+                    for ranges, inner in clauses:
+                        for end in (end for pair in ranges for end in pair):
+                            if self.scalar(end, place, (kind.kind,), kind).kind != kind.kind:
+                                raise place.refuse("a label of CASE is of another type")
+                            self.constant(end)
+                        self.body(inner)
+                    self.body(otherwise)
+                case For(control, start, end, step, inner, place):
+                    self.scalar(control, place, ("int",))
+                    by = 1 if step is None else self.constant(step)
+                    self.turns(control, self.constant(start), self.constant(end), by)
+                    if any(self.writes(inner, control.name)):
+                        raise place.refuse(f"the loop writes its control variable {control.name}")
+                    self.body(inner)
+                case Call(instance, inputs, outputs, place):
+                    self.call(instance, inputs, outputs, place)
+                case Return():
+                    pass
+
+    def turns(self, control: Name, low: int, high: int, by: int) -> None:
+        """Refuse a loop that is too long, or after which its control variable is outside its type."""
+        kind = self.written(control, control.place)
+        if by == 0 or abs(high - low) // abs(by) > MOST_TURNS:
+            raise control.place.refuse(f"FOR: at most {MOST_TURNS:,} turns, and a step other than 0")
+        for value in (low, high, high + by):
+            self.fits(value, kind, control.place)
+
+    def writes(self, body: Body, name: str) -> Iterator[bool]:
+        for statement in body:
+            if isinstance(statement, Assign) and isinstance(statement.target, Name):
+                yield statement.target.name.upper() == name.upper()
+            if isinstance(statement, Call):
+                for _, target in statement.outputs:
+                    yield isinstance(target, Name) and target.name.upper() == name.upper()
+            if isinstance(statement, For):
+                yield statement.control.name.upper() == name.upper()
+            for inner in inner_bodies(statement):
+                yield from self.writes(inner, name)
+
+    def constant(self, expression: Expression) -> int:
+        """The value of a literal, of a member of an enumeration or of a CONSTANT."""
+        if (member := self.enum_member(expression)) is not None:
+            return member[1]
+        match expression:
+            case Literal(value, _, _):
+                return int(value)
+            case Unary("-", Literal(value, _, _), _):
+                return -int(value)
+            case Name(name, place):
+                variable = self.unit.variables.get(name.upper())
+                if (
+                    variable is not None
+                    and variable.section == "constant"
+                    and isinstance(variable.initial, int)
+                ):
+                    return int(variable.initial)
+                raise place.refuse(f"{name}: a constant is needed here")
+        raise expression.place.refuse("a constant is needed here")
+
+    def assigned(self, target: Expression, value: Expression, place: Place) -> None:
+        """Refuse an assignment to what must not be written, or of another kind."""
+        kind = self.written(target, place)
+        given = self.of(value, kind)
+        if (
+            not isinstance(given, Scalar)
+            or given.kind != kind.kind
+            or (kind.kind == "enum" and given != kind)
+        ):
+            shown = given.name if isinstance(given, Scalar) else "no single value"
+            raise place.refuse(f"{kind.name} := {shown} needs a conversion")
+        if kind.kind == "bits" and given.high > kind.high:
+            raise place.refuse(f"{kind.name} := {given.name} needs a conversion")
+
+    def written(self, target: Expression, place: Place) -> Scalar:
+        """The type of what is written. Refuse what must not be."""
+        kind = self.of(target)
+        if not isinstance(kind, Scalar):
+            raise place.refuse("whole arrays and instances are not assigned here")
+        root = target
+        while isinstance(root, Index):
+            root = root.of
+        if isinstance(root, Name):
+            section = self.unit.variables[root.name.upper()].section
+            if section in ("constant", "input"):
+                raise place.refuse(
+                    f"{root.name} is {'CONSTANT' if section == 'constant' else 'an input'} and is written"
+                )
+        return kind
+
+    def call(
+        self,
+        instance: Expression,
+        inputs: tuple[tuple[str, Expression], ...],
+        outputs: tuple[tuple[str, Expression], ...],
+        place: Place,
+    ) -> None:
+        kind = self.of(instance)
+        if not isinstance(kind, Instance):
+            raise place.refuse("only an instance of a block is called")
+        ins, outs = sides(self.source, kind)
+        for pairs, known in ((inputs, ins), (outputs, outs)):
+            for name, expression in pairs:
+                key = next((key for key in known if key.upper() == name.upper()), None)
+                if key is None:
+                    raise place.refuse(f"{kind.block} has no {name}; {suggestion(name, known)}")
+                wanted = known[key]
+                if not isinstance(wanted, Scalar):
+                    raise place.refuse(
+                        f"{name} of {kind.block}: arrays and instances are not handed over here"
+                    )
+                given = self.of(expression, wanted)
+                alike = isinstance(given, Scalar) and given.kind == wanted.kind
+                if not alike or (wanted.kind == "enum" and given != wanted):
+                    raise place.refuse(f"{name} of {kind.block} is of another type")
+                assert isinstance(given, Scalar)
+                if pairs is outputs:
+                    self.written(expression, place)
+                    if not given.low <= wanted.low <= wanted.high <= given.high or (
+                        given.kind == "bits" and given != wanted
+                    ):
+                        raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
+                elif wanted.kind == "bits" and given.high > wanted.high:
+                    raise place.refuse(f"{name} := {given.name} needs a conversion")
+
+
+def sides(source: Source, kind: Instance) -> tuple[Mapping[str, Type], Mapping[str, Type]]:
+    """Inputs and outputs of a block with their types."""
+    if kind.block.upper() in BLOCKS:
+        return BLOCKS[kind.block.upper()]
+    unit = source.units[kind.block.upper()]
+    ins, outs = (
+        {name: variable.type for name, variable in unit.of(section).items()}
+        for section in ("input", "output")
+    )
+    return ins, outs
+
+
+def inner_bodies(statement: object) -> Iterator[Body]:
+    """The bodies within a statement."""
+    match statement:
+        case If(branches, otherwise, _):
+            yield from (inner for _, inner in branches)
+            yield otherwise
+        case Case(_, clauses, otherwise, _):
+            yield from (inner for _, inner in clauses)
+            yield otherwise
+        case For(_, _, _, _, inner, _):
+            yield inner
+
+
+_PARAMETERS = {
+    **dict.fromkeys(("MIN", "MAX"), ("IN1", "IN2")),
+    "LIMIT": ("MN", "IN", "MX"),
+    "SEL": ("G", "IN0", "IN1"),
+    **dict.fromkeys(_SHIFTS, ("IN", "N")),
+}
+
+
+def arguments(node: Function) -> list[Expression]:
+    """The arguments in their order, whether they are given by position or by name."""
+    names = _PARAMETERS.get(node.name, ("IN",))
+    if len(node.arguments) != len(names):
+        raise node.place.refuse(f"{node.name} has {len(names)} arguments here, not {len(node.arguments)}")
+    if all(not name for name, _ in node.arguments):
+        return [value for _, value in node.arguments]
+    given = dict(node.arguments)
+    if set(given) != set(names):
+        raise node.place.refuse(f"the arguments of {node.name} are {', '.join(names)}")
+    return [given[name] for name in names]

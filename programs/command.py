@@ -1,0 +1,186 @@
+"""The command `prove-program`: a program in Structured Text against a published target."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.places import root
+from programs.bind import Binding, read_binding
+from programs.check import check
+from programs.product import Product
+from programs.reference import reference
+from programs.replay import Difference
+from programs.st import read_sources
+from programs.verdict import Verdict, judge
+
+EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
+TRUSTED = "the reader and translator of programs, the model of the timers, the binding, the path explorer, z3"
+
+
+def run(args: argparse.Namespace) -> int:
+    """Judge the program and print the verdict; the exit status is that of the verdict."""
+    started = time.process_time()
+    product = make(args.files, args.target, args.unit, args.binding, args.wrap)
+
+    def tell(text: str) -> None:
+        if sys.stderr.isatty():
+            print(f"\r{text:<100}", end="", file=sys.stderr, flush=True)
+
+    found = judge(product, root() / "vectors" / args.target, args.seconds, tell)
+    tell("")
+    seconds = time.process_time() - started
+    print("\n".join(text_of(found, seconds)))
+    if args.json is not None:
+        record = json.dumps(record_of(found, seconds), indent=1, ensure_ascii=False)
+        args.json.write_text(record + "\n", "utf-8")
+    return EXIT[found.word]
+
+
+def make(
+    files: list[Path], target: str, unit: str | None = None, binding: Path | None = None, wrap: bool = False
+) -> Product:
+    """The program beside the target. Raises Unjudged with file, line and cause."""
+    of = reference(target)
+    source = read_sources(files)
+    if unit is None:
+        chosen = source.main()
+    elif unit.upper() in source.units:
+        chosen = source.units[unit.upper()]
+    else:
+        names = [found.name for found in source.units.values()]
+        raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(unit, names)}")
+    check(source, chosen)
+    given: Mapping[str, Any] = {} if binding is None else read_binding(binding)
+    return Product(Binding(of, source, chosen, **given), wrap)
+
+
+# ---------------------------------------------------------------- what is printed
+
+
+def text_of(found: Verdict, seconds: float) -> Iterator[str]:
+    """The verdict in lines."""
+    binding = found.product.binding
+    name = f"{binding.unit.kind} {binding.unit.name} of {', '.join(binding.source.files)}"
+    target = f"{binding.reference.device.name} ({binding.reference.document})"
+    match found.word:
+        case "PROVED":
+            yield f"PROVED: {name} has the outputs of {target} in every scan from power-up, for ever"
+        case "REFUTED":
+            yield f"REFUTED: {name} is not equal to {target}"
+            assert found.difference is not None
+            yield from _difference(found.difference)
+        case "UNKNOWN":
+            yield f"UNKNOWN: {name} and {target}: no proof and no difference"
+            yield f"  missing     {found.missing}"
+    for label, text in _about(found):
+        yield f"  {label:<11} {text}"
+    pairs, queries = len(found.product.nodes), found.product.queries
+    yield f"  effort      {pairs} pairs, {queries} questions, {seconds:.1f} s CPU"
+
+
+def _about(found: Verdict) -> Iterator[tuple[str, str]]:
+    binding, signals = found.product.binding, found.product.binding.reference.signals("parameters")
+    yield "compared", ", ".join(binding.compared)
+    yield "left out", ", ".join(binding.left_out) or "no output"
+    narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
+    free = []
+    for name in binding.free_parameters:
+        signal = signals[name]
+        whole = f"{name} {signal.minimum or 0}..{signal.maximum}" if signal.type in ("ms", "int") else name
+        free.append(narrowed.get(name, whole))
+    yield (
+        "parameters",
+        "; ".join(
+            [
+                f"any {', '.join(free)}" if free else "none is an input of the program",
+                *(f"{name} = {value}" for name, value in binding.values.items()),
+            ]
+        ),
+    )
+    longest = binding.longest_scan
+    most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
+    yield "inputs", f"every value, {most} of whole milliseconds"
+    yield "numbers", "wrap" if found.product.wrap else "stay within their types"
+    if found.replayed is not None:
+        yield (
+            "vectors",
+            f"{found.replayed.cases} published cases, {found.replayed.scans:,} scans, no difference",
+        )
+    if found.word == "PROVED":
+        yield "trusted", TRUSTED
+
+
+def _difference(found: Difference) -> Iterator[str]:
+    yield f"  found by    {found.found_by}; replayed on the reference and on the program's interpreter"
+    yield "  set         " + (_row(found.parameters) or "no parameters")
+    before: Mapping[str, Any] = {}
+    for number, (dt_ms, inputs) in enumerate(found.scans, 1):
+        changed = {
+            name: value for name, value in inputs.items() if name not in before or before[name] != value
+        }
+        before = inputs
+        yield f"  scan {number:<6} after {dt_ms} ms: {_row(changed) or 'the same inputs'}"
+        if number < len(found.scans):
+            yield f"              both: {_row(found.expected[number - 1])}"
+    if found.stopped:
+        yield f"    reference {_row(found.expected[-1])}"
+        yield f"    program   stops: {found.stopped}"
+        return
+    for name, value in found.expected[-1].items():
+        own = found.given[-1][name]
+        mark = "   <- differs" if own != value else ""
+        yield f"              {name:<16} reference {_shown(value):<8} program {_shown(own)}{mark}"
+
+
+def _row(values: Mapping[str, Any]) -> str:
+    return ", ".join(f"{name}={_shown(value)}" for name, value in values.items())
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(int(value))
+    if isinstance(value, tuple):
+        return "{" + ",".join(str(mode) for mode, there in enumerate(value) if there) + "}"
+    return f"{value} ({value:04X}H)" if isinstance(value, int) and value > 9 else str(value)
+
+
+def record_of(found: Verdict, seconds: float) -> dict[str, Any]:
+    """The verdict as JSON."""
+    binding = found.product.binding
+    record: dict[str, Any] = {
+        "command": "prove-program",
+        "verdict": found.word,
+        "status": EXIT[found.word],
+        "unit": binding.unit.name,
+        "sources": dict(binding.source.files),
+        "target": binding.reference.device.name,
+        "compared": list(binding.compared),
+        "left_out": list(binding.left_out),
+        "free_parameters": list(binding.free_parameters),
+        "narrowed": binding.narrowed(),
+        "fixed_parameters": binding.values,
+        "wrap": found.product.wrap,
+        "pairs": len(found.product.nodes),
+        "queries": found.product.queries,
+        "cpu_seconds": round(seconds, 1),
+        "missing": found.missing,
+    }
+    if found.difference is not None:
+        difference = found.difference
+        record["difference"] = {
+            "found_by": difference.found_by,
+            "parameters": difference.parameters,
+            "scans": [{"dt_ms": dt_ms, "in": inputs} for dt_ms, inputs in difference.scans],
+            "reference": difference.expected,
+            "program": difference.given,
+            "differing": difference.differing,
+            "stopped": difference.stopped,
+        }
+    return record

@@ -1,0 +1,419 @@
+"""One scan of a program as solver terms: the memory after it, its outputs, and what must not happen.
+
+BOOL is a Bool, bit strings are bit vectors, integers, enumerations and times are unbounded integers with an
+obligation for each range that the program must not leave. A timer that is called once in every scan needs no
+clock; any other one remembers how long ago it was started.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import z3
+
+from programs.check import Types, arguments
+from programs.run import default
+from programs.terms import (
+    FALSE,
+    TRUE,
+    Env,
+    between,
+    both,
+    choose,
+    constant,
+    either,
+    in_range,
+    merge,
+    negated,
+    singles,
+    standard_call,
+    truncated,
+)
+from programs.tree import (
+    Array,
+    Assign,
+    Binary,
+    Body,
+    Call,
+    Case,
+    Expression,
+    For,
+    Function,
+    If,
+    Index,
+    Instance,
+    Literal,
+    Member,
+    Name,
+    Place,
+    Return,
+    Scalar,
+    Source,
+    Type,
+    Unary,
+    Unit,
+)
+
+
+@dataclass(frozen=True)
+class Obligation:
+    """What must hold in every scan so that the program stays within its types."""
+
+    formula: z3.BoolRef
+    text: str
+    place: Place
+
+
+@dataclass(frozen=True)
+class Scan:
+    """A scan from any memory: terms over the symbols of memory, of the inputs and of `dt_ms`."""
+
+    after: Mapping[str, Any]
+    outputs: Mapping[str, Any]
+    obligations: tuple[Obligation, ...]
+
+
+@dataclass
+class Translator:
+    """Translates one scan of a unit. wrap: integers and times wrap instead of owing their range."""
+
+    source: Source
+    unit: Unit
+    wrap: bool = False
+    obligations: list[Obligation] = field(default_factory=list)
+
+    def scan(self, memory: Mapping[str, Any], dt_ms: Any) -> Scan:
+        """One scan from this memory, inputs included."""
+        env: Env = dict(memory)
+        for path in memory:
+            if path.endswith(".age"):
+                env[path] = env[path] + dt_ms
+        self.call(self.unit, "", env, TRUE)
+        outputs = {name: env[name.upper()] for name in self.unit.of("output")}
+        return Scan({path: env[path] for path in memory}, outputs, tuple(self.obligations))
+
+    def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
+        """One call of a unit; `here`: the condition under which it happens."""
+        for name, variable in unit.of("temp").items():
+            for path, kind, value in singles(
+                variable.type, f"{above}{name.upper()}", default(variable.type, variable.initial)
+            ):
+                env[path] = constant(kind, value)
+        self.body(_Context(self, Types(self.source, unit), above), unit.body, env, here)
+
+    def body(self, at: _Context, body: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+        """Carry out a body in `env`; returns the condition under which RETURN was met in it."""
+        returned = FALSE
+        for n, statement in enumerate(body):
+            if not z3.is_false(returned):
+                rest = dict(env)
+                more = self.body(at, body[n:], rest, both(here, negated(returned)))
+                merge(env, returned, dict(env), rest)
+                return either(returned, more)
+            returned = self.statement(at, statement, env, here)
+            if z3.is_true(returned):
+                return returned
+        return returned
+
+    def statement(self, at: _Context, statement: Any, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+        match statement:
+            case Assign(target, value, place):
+                kind = at.types.of(target)
+                assert isinstance(kind, Scalar)
+                given = at.types.of(value, kind)
+                term = self.fitted(at.value(value, env, here, kind), given, kind, place, here)
+                at.store(target, term, env, here)
+            case If(branches, otherwise, _):
+                return self.branches(at, list(branches), otherwise, env, here)
+            case Case(subject, clauses, otherwise, _):
+                term = at.value(subject, env, here)
+                kind = at.types.of(subject)
+                assert isinstance(kind, Scalar)
+                asked = []
+                for ranges, inner in clauses:
+                    hits = [
+                        between(kind, term, at.types.constant(low), at.types.constant(high))
+                        for low, high in ranges
+                    ]
+                    asked.append((z3.Or(*hits) if len(hits) > 1 else hits[0], inner))
+                return self.branches(at, asked, otherwise, env, here)
+            case For(control, start, end, step, inner, place):
+                low, high = at.types.constant(start), at.types.constant(end)
+                by = 1 if step is None else at.types.constant(step)
+                if by == 0 or abs(high - low) // abs(by) > 1000:
+                    raise place.refuse("FOR: at most 1,000 turns, and a step other than 0")
+                turns = range(low, high + (1 if by > 0 else -1), by)
+                path = f"{at.above}{control.name.upper()}"
+                for number in turns:
+                    env[path] = z3.IntVal(number)
+                    returned = self.body(at, inner, env, here)
+                    if not z3.is_false(returned):
+                        raise place.refuse("RETURN within FOR is not supported")
+                env[path] = z3.IntVal(low + by * len(turns))
+            case Call(instance, inputs, outputs, place):
+                self.invoke(at, instance, inputs, outputs, env, here)
+            case Return():
+                return TRUE
+        return FALSE
+
+    def branches(
+        self, at: _Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
+    ) -> z3.BoolRef:
+        if not branches:
+            return self.body(at, otherwise, env, here)
+        asked, inner = branches[0]
+        condition = asked if isinstance(asked, z3.ExprRef) else at.value(asked, env, here)
+        condition = z3.simplify(condition)
+        if z3.is_true(condition):
+            return self.body(at, inner, env, here)
+        if z3.is_false(condition):
+            return self.branches(at, branches[1:], otherwise, env, here)
+        yes, no = dict(env), dict(env)
+        first = self.body(at, inner, yes, both(here, condition))
+        second = self.branches(at, branches[1:], otherwise, no, both(here, negated(condition)))
+        merge(env, condition, yes, no)
+        return either(both(condition, first), both(negated(condition), second))
+
+    def invoke(
+        self, at: _Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
+    ) -> None:
+        path = at.path(instance, env, here)
+        kind = at.types.of(instance)
+        assert isinstance(kind, Instance)
+        for name, expression in inputs:
+            wanted = at.types.member(kind, name, instance.place)
+            assert isinstance(wanted, Scalar)
+            given = at.types.of(expression, wanted)
+            term = self.fitted(at.value(expression, env, here, wanted), given, wanted, instance.place, here)
+            env[f"{path}.{name.upper()}"] = term
+        if kind.block.upper() in self.source.units:
+            self.call(self.source.units[kind.block.upper()], f"{path}.", env, here)
+        else:
+            standard_call(kind.block.upper(), path, env)
+        for name, target in outputs:
+            at.store(target, env[f"{path}.{name.upper()}"], env, here)
+
+    def fitted(self, term: Any, given: Type, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
+        """A term of the type `given` as a value of the type `kind`."""
+        assert isinstance(given, Scalar)
+        inside = kind.low <= given.low and given.high <= kind.high
+        return self.widened(term, given, kind) if inside else self.ranged(term, kind, place, here)
+
+    def widened(self, term: Any, given: Type, kind: Scalar) -> Any:
+        """A bit string as a longer one."""
+        if kind.kind == "bits" and isinstance(given, Scalar) and given.width < kind.width:
+            return z3.ZeroExt(kind.width - given.width, term)
+        return term
+
+    def ranged(self, term: Any, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
+        """The term within the range of its type: as an obligation, or wrapped."""
+        if kind.kind not in ("int", "time") or (
+            z3.is_int_value(term) and kind.low <= term.as_long() <= kind.high
+        ):
+            return term
+        if self.wrap:
+            return (term - kind.low) % (kind.high - kind.low + 1) + kind.low
+        self.owe(z3.Implies(here, in_range(kind, term)), f"a value stays within {kind.name}", place)
+        return term
+
+    def owe(self, formula: z3.BoolRef, text: str, place: Place) -> None:
+        """Note an obligation."""
+        self.obligations.append(Obligation(formula, text, place))
+
+
+@dataclass(frozen=True)
+class _Context:
+    """Where a body stands: the translator, the types of its unit, and the path above its variables."""
+
+    translator: Translator
+    types: Types
+    above: str
+
+    def path(self, target: Expression, env: Env, here: z3.BoolRef) -> str:
+        """The path of a target without a free index."""
+        match target:
+            case Name(name, _):
+                return f"{self.above}{name.upper()}"
+            case Member(of, name, _):
+                return f"{self.path(of, env, here)}.{name.upper()}"
+        raise target.place.refuse("an element of an array is not supported here")
+
+    def store(self, target: Expression, term: Any, env: Env, here: z3.BoolRef) -> None:
+        """Give a target its new value."""
+        if isinstance(target, Index):
+            array = self.types.of(target.of)
+            assert isinstance(array, Array)
+            base, index = self.path(target.of, env, here), z3.simplify(self.value(target.index, env, here))
+            self.bounds(array, index, target.place, here)
+            for number in range(array.low, array.high + 1):
+                key = f"{base}[{number}]"
+                env[key] = choose(z3.simplify(index == number), term, env[key])
+        else:
+            env[self.path(target, env, here)] = term
+
+    def bounds(self, array: Array, index: Any, place: Place, here: z3.BoolRef) -> None:
+        inside = z3.simplify(z3.And(index >= array.low, index <= array.high))
+        if not z3.is_true(inside):
+            self.translator.owe(
+                z3.Implies(here, inside), f"an index stays within {array.low}..{array.high}", place
+            )
+
+    def value(self, expression: Expression, env: Env, here: z3.BoolRef, wanted: Scalar | None = None) -> Any:
+        """The term of an expression."""
+        if (member := self.types.enum_member(expression)) is not None:
+            return z3.IntVal(member[1])
+        kind = self.types.of(expression, wanted)
+        match expression:
+            case Literal(value, _, _):
+                assert isinstance(kind, Scalar)
+                return constant(kind, value)
+            case Name(name, _):
+                variable = self.types.unit.variables[name.upper()]
+                if variable.section == "constant" and isinstance(kind, Scalar):
+                    return constant(kind, default(kind, variable.initial))
+                return env[self.path(expression, env, here)]
+            case Member():
+                return env[self.path(expression, env, here)]
+            case Index(of, index, place):
+                return self.element(of, z3.simplify(self.value(index, env, here)), place, env, here)
+        assert isinstance(kind, Scalar)
+        match expression:
+            case Unary("NOT", operand, _):
+                term = self.value(operand, env, here, wanted)
+                return negated(term) if kind.kind == "bool" else ~term
+            case Unary(_, operand, place):
+                return self.translator.ranged(-self.value(operand, env, here, wanted), kind, place, here)
+            case Binary():
+                return self.binary(expression, kind, env, here, wanted)
+            case Function():
+                return self.function(expression, kind, env, here, wanted)
+        raise AssertionError(expression)
+
+    def element(self, of: Expression, index: Any, place: Place, env: Env, here: z3.BoolRef) -> Any:
+        array = self.types.of(of)
+        assert isinstance(array, Array) and isinstance(of, Name | Member)
+        self.bounds(array, index, place, here)
+        variable = self.types.unit.variables.get(of.name.upper()) if isinstance(of, Name) else None
+        if variable is not None and variable.section == "constant" and isinstance(array.element, Scalar):
+            values = default(array, variable.initial)
+            terms = [constant(array.element, value) for value in values]
+        else:
+            base = self.path(of, env, here)
+            terms = [env[f"{base}[{number}]"] for number in range(array.low, array.high + 1)]
+        found = terms[-1]
+        for number, term in reversed(list(zip(range(array.low, array.high), terms, strict=False))):
+            found = choose(z3.simplify(index == number), term, found)
+        return found
+
+    def binary(self, node: Binary, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None) -> Any:
+        compares = node.operator in ("=", "<>", "<", "<=", ">", ">=")
+        first, second = self.types.pair(node.left, node.right, node.place, None if compares else wanted)
+        left, right = self.value(node.left, env, here, first), self.value(node.right, env, here, second)
+        if first.kind == "bits":
+            wider = first if first.width >= second.width else second
+            left, right = (
+                self.translator.widened(left, first, wider),
+                self.translator.widened(right, second, wider),
+            )
+            match node.operator:
+                case "AND":
+                    return left & right
+                case "OR":
+                    return left | right
+                case "XOR":
+                    return left ^ right
+                case "<":
+                    return z3.ULT(left, right)
+                case "<=":
+                    return z3.ULE(left, right)
+                case ">":
+                    return z3.UGT(left, right)
+                case ">=":
+                    return z3.UGE(left, right)
+        match node.operator:
+            case "=":
+                return left == right
+            case "<>":
+                return left != right
+            case "<":
+                return left < right
+            case "<=":
+                return left <= right
+            case ">":
+                return left > right
+            case ">=":
+                return left >= right
+            case "AND":
+                return both(left, right)
+            case "OR":
+                return either(left, right)
+            case "XOR":
+                return z3.Xor(left, right)
+            case "+":
+                return self.translator.ranged(left + right, kind, node.place, here)
+            case "-":
+                return self.translator.ranged(left - right, kind, node.place, here)
+            case "*":
+                return self.translator.ranged(left * right, kind, node.place, here)
+        if not (z3.is_int_value(right) and right.as_long() != 0):
+            self.translator.owe(z3.Implies(here, right != 0), "no division by zero", node.place)
+        quotient = truncated(left, right)
+        term = quotient if node.operator == "/" else left - right * quotient
+        return self.translator.ranged(term, kind, node.place, here)
+
+    def function(
+        self, node: Function, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None
+    ) -> Any:
+        given = arguments(node)
+        if node.name in ("SHL", "SHR", "ROL", "ROR"):
+            term, by = self.value(given[0], env, here, wanted), self.types.constant(given[1])
+            if node.name in ("ROL", "ROR"):
+                rotate = z3.RotateLeft if node.name == "ROL" else z3.RotateRight
+                return rotate(term, by % kind.width)
+            return term << by if node.name == "SHL" else z3.LShR(term, by)
+        if "_TO_" in node.name:
+            return self.converted(node, given[0], kind, env, here)
+        if node.name == "SEL":
+            no, yes = (self.value(value, env, here, kind) for value in given[1:])
+            return choose(self.value(given[0], env, here), yes, no)
+        values = [self.value(value, env, here, kind) for value in given]
+        match node.name:
+            case "ABS":
+                return self.translator.ranged(
+                    z3.If(values[0] < 0, -values[0], values[0]), kind, node.place, here
+                )
+            case "MIN":
+                return z3.If(values[0] <= values[1], values[0], values[1])
+            case "MAX":
+                return z3.If(values[0] >= values[1], values[0], values[1])
+            case "LIMIT":
+                low = z3.If(values[1] < values[0], values[0], values[1])
+                return z3.If(low > values[2], values[2], low)
+        return values[0]
+
+    def converted(
+        self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef
+    ) -> Any:
+        given = self.types.of(argument)
+        term = self.value(argument, env, here)
+        assert isinstance(given, Scalar)
+        if given.kind == "bool" and kind.kind != "bool":
+            term = z3.If(term, constant(kind, 1), constant(kind, 0))
+            return term
+        if given.kind == "bits" and kind.kind == "bits":
+            if given.width < kind.width:
+                return z3.ZeroExt(kind.width - given.width, term)
+            return z3.Extract(kind.width - 1, 0, term)
+        if given.kind == "bits":
+            signed = (
+                kind.kind == "int"
+                and kind.low < 0
+                and given.high <= kind.high - kind.low
+                and given.high > kind.high
+            )
+            return self.translator.ranged(z3.BV2Int(term, is_signed=signed), kind, node.place, here)
+        if kind.kind == "bits":
+            return z3.Int2BV(term, kind.width)
+        return self.translator.ranged(term, kind, node.place, here)

@@ -1,0 +1,180 @@
+"""Values of a program as solver terms: its memory slot by slot, and the standard blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import z3
+
+from programs.run import default
+from programs.tree import BOOL, TIME, Array, Instance, Scalar, Source, Type, Unit
+
+TRUE, FALSE = z3.BoolVal(True), z3.BoolVal(False)
+Env = dict[str, Any]
+"""Terms by the path of the variable, such as `TIMER.ET` or `WORDS[2]`."""
+INT = Scalar("DINT", "int", -(2**31), 2**31 - 1)
+
+
+@dataclass(frozen=True)
+class Slot:
+    """One single value of memory: its path, its type, its value at power-up (None: any, RETAIN)."""
+
+    path: str
+    type: Scalar
+    initial: bool | int | None
+    section: str
+
+
+def symbol(kind: Scalar, name: str) -> Any:
+    """A symbol for a value of this type."""
+    if kind.kind == "bool":
+        return z3.Bool(name)
+    return z3.BitVec(name, kind.width) if kind.kind == "bits" else z3.Int(name)
+
+
+def constant(kind: Scalar, value: bool | int) -> Any:
+    """A value of this type as a term."""
+    if kind.kind == "bool":
+        return z3.BoolVal(bool(value))
+    return z3.BitVecVal(int(value), kind.width) if kind.kind == "bits" else z3.IntVal(int(value))
+
+
+def in_range(kind: Scalar, term: Any) -> z3.BoolRef:
+    """The values of this type; TRUE where the sort says it all."""
+    if kind.kind in ("bool", "bits"):
+        return TRUE
+    return z3.And(term >= kind.low, term <= kind.high)
+
+
+def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
+    """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants."""
+    for key, variable in unit.variables.items():
+        if variable.section in ("temp", "constant"):
+            continue
+        kind: Type = variable.type
+        path = f"{above}{key}"
+        if isinstance(kind, Instance):
+            if kind.block.upper() in source.units:
+                yield from slots(source, source.units[kind.block.upper()], f"{path}.")
+            else:
+                yield from _standard(kind.block.upper(), path)
+            continue
+        value = default(kind, variable.initial)
+        for place, single, initial in singles(kind, path, value):
+            yield Slot(place, single, None if variable.section == "retain" else initial, variable.section)
+
+
+def singles(kind: Type, path: str, value: Any) -> Iterator[tuple[str, Scalar, Any]]:
+    if isinstance(kind, Array):
+        for n, number in enumerate(range(kind.low, kind.high + 1)):
+            yield from singles(kind.element, f"{path}[{number}]", value[n])
+    elif isinstance(kind, Scalar):
+        yield path, kind, value
+
+
+def _standard(block: str, path: str) -> Iterator[Slot]:
+    pins: dict[str, Scalar] = {}
+    if block in ("TON", "TOF", "TP"):
+        pins = {"IN": BOOL, "PT": TIME, "Q": BOOL, "ET": TIME, "before": BOOL, "age": INT}
+        if block != "TON":
+            pins["running"] = BOOL
+    elif block in ("R_TRIG", "F_TRIG"):
+        pins = {"CLK": BOOL, "Q": BOOL, "before": BOOL}
+    elif block == "SR":
+        pins = {"S1": BOOL, "R": BOOL, "Q1": BOOL}
+    else:
+        pins = {"S": BOOL, "R1": BOOL, "Q1": BOOL}
+    for name, kind in pins.items():
+        yield Slot(f"{path}.{name}", kind, kind is not BOOL and 0, "var")
+
+
+def standard_call(block: str, path: str, env: Env) -> None:
+    """One call of a standard block. `age` is the time since its last start, in ms."""
+
+    def pin(name: str) -> Any:
+        return env[f"{path}.{name}"]
+
+    def put(name: str, term: Any) -> None:
+        env[f"{path}.{name}"] = term
+
+    if block in ("TON", "TOF", "TP"):
+        signal, before = pin("IN"), pin("before")
+        if block == "TON":
+            put("age", z3.If(both(signal, negated(before)), z3.IntVal(0), pin("age")))
+            put("ET", z3.If(signal, _limited(pin("age"), pin("PT")), z3.IntVal(0)))
+            put("Q", both(signal, pin("age") >= pin("PT")))
+        elif block == "TOF":
+            starts = both(negated(signal), before)
+            put("age", z3.If(starts, z3.IntVal(0), pin("age")))
+            runs = both(negated(signal), either(starts, pin("running")))
+            put("ET", z3.If(signal, z3.IntVal(0), z3.If(runs, _limited(pin("age"), pin("PT")), pin("ET"))))
+            put("Q", either(signal, z3.If(runs, pin("age") < pin("PT"), pin("Q"))))
+            put("running", both(runs, pin("age") < pin("PT")))
+        else:
+            starts = z3.And(negated(pin("running")), signal, negated(before))
+            put("age", z3.If(starts, z3.IntVal(0), pin("age")))
+            runs = either(starts, pin("running"))
+            goes_on = both(runs, pin("age") < pin("PT"))
+            shown = z3.If(runs, _limited(pin("age"), pin("PT")), pin("ET"))
+            put("ET", z3.If(both(negated(goes_on), negated(signal)), z3.IntVal(0), shown))
+            put("Q", z3.If(runs, goes_on, pin("Q")))
+            put("running", goes_on)
+        put("before", signal)
+    elif block in ("R_TRIG", "F_TRIG"):
+        clock, before = pin("CLK"), pin("before")
+        put("Q", both(clock, negated(before)) if block == "R_TRIG" else both(negated(clock), before))
+        put("before", clock)
+    elif block == "SR":
+        put("Q1", either(pin("S1"), both(negated(pin("R")), pin("Q1"))))
+    else:
+        put("Q1", both(negated(pin("R1")), either(pin("S"), pin("Q1"))))
+
+
+def _limited(age: Any, limit: Any) -> Any:
+    return z3.If(age <= limit, age, z3.If(limit >= 0, limit, z3.IntVal(0)))
+
+
+def between(kind: Scalar, term: Any, low: int, high: int) -> z3.BoolRef:
+    if low == high:
+        return term == constant(kind, low)
+    if kind.kind == "bits":
+        return z3.And(z3.UGE(term, low), z3.ULE(term, high))
+    return z3.And(term >= low, term <= high)
+
+
+def truncated(left: Any, right: Any) -> Any:
+    """IEC division rounds towards zero; that of SMT-LIB leaves a remainder of 0 or more."""
+    size = z3.If(left < 0, -left, left) / z3.If(right < 0, -right, right)
+    return z3.If((left < 0) == (right < 0), size, -size)
+
+
+def merge(env: Env, condition: z3.BoolRef, yes: Env, no: Env) -> None:
+    for key in {**yes, **no}:
+        if key in yes and key in no:
+            env[key] = choose(condition, yes[key], no[key])
+
+
+def choose(condition: z3.BoolRef, yes: Any, no: Any) -> Any:
+    if z3.is_true(condition) or yes.eq(no):
+        return yes
+    return no if z3.is_false(condition) else z3.If(condition, yes, no)
+
+
+def negated(term: z3.BoolRef) -> z3.BoolRef:
+    if z3.is_true(term) or z3.is_false(term):
+        return FALSE if z3.is_true(term) else TRUE
+    return z3.Not(term)
+
+
+def both(left: z3.BoolRef, right: z3.BoolRef) -> z3.BoolRef:
+    if z3.is_false(left) or z3.is_false(right):
+        return FALSE
+    if z3.is_true(left):
+        return right
+    return left if z3.is_true(right) else z3.And(left, right)
+
+
+def either(left: z3.BoolRef, right: z3.BoolRef) -> z3.BoolRef:
+    return negated(both(negated(left), negated(right)))

@@ -1,0 +1,279 @@
+"""The language into which PLC programs are read: types, expressions, statements, program units.
+
+Integers have their IEC 61131-3 ranges, bit strings their width, times are whole milliseconds. Every node
+knows its line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+from modeproof.ground.errors import Unjudged
+
+
+@dataclass(frozen=True)
+class Place:
+    """A line of a source file."""
+
+    file: str
+    line: int
+
+    def refuse(self, text: str) -> Unjudged:
+        """The refusal of what stands there, in one line."""
+        return Unjudged(f"{self.file}:{self.line}: {text}")
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """A type of single values. kind: bool, bits, int, time or enum; `low` and `high` are its range."""
+
+    name: str
+    kind: str
+    low: int = 0
+    high: int = 1
+    names: tuple[str, ...] = ()
+    """Of an enumeration."""
+
+    @property
+    def width(self) -> int:
+        """Bits of a bit string."""
+        return self.high.bit_length()
+
+
+@dataclass(frozen=True)
+class Array:
+    """An array with bounds that are known; `low` and `high` are both inside."""
+
+    low: int
+    high: int
+    element: Type
+
+
+@dataclass(frozen=True)
+class Instance:
+    """An instance of a function block, the program's own or one of the standard."""
+
+    block: str
+
+
+Type = Scalar | Array | Instance
+
+
+def _integers() -> dict[str, Scalar]:
+    found = {}
+    for prefix, bits in (("S", 8), ("", 16), ("D", 32), ("L", 64)):
+        found[f"{prefix}INT"] = Scalar(f"{prefix}INT", "int", -(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+        found[f"U{prefix}INT"] = Scalar(f"U{prefix}INT", "int", 0, 2**bits - 1)
+    return found
+
+
+BOOL: Final = Scalar("BOOL", "bool")
+TIME: Final = Scalar("TIME", "time", -(2**31), 2**31 - 1)
+SCALARS: Final[Mapping[str, Scalar]] = {
+    "BOOL": BOOL,
+    "SAFEBOOL": BOOL,
+    **{
+        name: Scalar(name, "bits", 0, 2**bits - 1)
+        for name, bits in (("BYTE", 8), ("WORD", 16), ("DWORD", 32))
+    },
+    **{f"SAFE{name}": Scalar(name, "bits", 0, 2**bits - 1) for name, bits in (("BYTE", 8), ("WORD", 16))},
+    **_integers(),
+    "SAFEINT": Scalar("INT", "int", -(2**15), 2**15 - 1),
+    "TIME": TIME,
+    "SAFETIME": TIME,
+}
+"""The types of single values by their names. Safety types are those of their values."""
+
+
+# ---------------------------------------------------------------- expressions
+
+
+@dataclass(frozen=True)
+class Literal:
+    """A value that stands in the source; `type` is None for a bare number, which takes that of its place."""
+
+    value: bool | int
+    type: Scalar | None
+    place: Place
+
+
+@dataclass(frozen=True)
+class Name:
+    """A variable."""
+
+    name: str
+    place: Place
+
+
+@dataclass(frozen=True)
+class Member:
+    """A variable of an instance, or a member of an enumeration (`Colour.Red`, `Colour#Red`)."""
+
+    of: Expression
+    name: str
+    place: Place
+
+
+@dataclass(frozen=True)
+class Index:
+    """An element of an array."""
+
+    of: Expression
+    index: Expression
+    place: Place
+
+
+@dataclass(frozen=True)
+class Unary:
+    """NOT or -."""
+
+    operator: str
+    operand: Expression
+    place: Place
+
+
+@dataclass(frozen=True)
+class Binary:
+    """AND OR XOR, comparison, + - * / MOD."""
+
+    operator: str
+    left: Expression
+    right: Expression
+    place: Place
+
+
+@dataclass(frozen=True)
+class Function:
+    """A call of a standard function; arguments by position, or by their standard names."""
+
+    name: str
+    arguments: tuple[tuple[str, Expression], ...]
+    place: Place
+
+
+Expression = Literal | Name | Member | Index | Unary | Binary | Function
+Target = Name | Member | Index
+
+
+# ---------------------------------------------------------------- statements
+
+
+@dataclass(frozen=True)
+class Assign:
+    """A value for a variable."""
+
+    target: Expression
+    value: Expression
+    place: Place
+
+
+@dataclass(frozen=True)
+class If:
+    """The first branch whose condition is true, else the last body."""
+
+    branches: tuple[tuple[Expression, Body], ...]
+    otherwise: Body
+    place: Place
+
+
+@dataclass(frozen=True)
+class Case:
+    """The first clause that has the value; each clause lists single values and ranges (low, high)."""
+
+    subject: Expression
+    clauses: tuple[tuple[tuple[tuple[Expression, Expression], ...], Body], ...]
+    otherwise: Body
+    place: Place
+
+
+@dataclass(frozen=True)
+class For:
+    """A loop whose bounds are constants."""
+
+    control: Name
+    start: Expression
+    end: Expression
+    step: Expression | None
+    body: Body
+    place: Place
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call of an instance: its inputs, and where outputs go (`=>`)."""
+
+    instance: Expression
+    inputs: tuple[tuple[str, Expression], ...]
+    outputs: tuple[tuple[str, Expression], ...]
+    place: Place
+
+
+@dataclass(frozen=True)
+class Return:
+    """The end of this call of the unit."""
+
+    place: Place
+
+
+Statement = Assign | If | Case | For | Call | Return
+Body = tuple[Statement, ...]
+
+
+# ---------------------------------------------------------------- program units
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One declared variable. section: input, output, var, temp, constant or retain."""
+
+    name: str
+    type: Type
+    section: str
+    initial: object
+    """bool, int, or a tuple of them; None: the default of its type."""
+    place: Place
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A PROGRAM or FUNCTION_BLOCK: its variables in order, and what one call of it does."""
+
+    name: str
+    kind: str
+    variables: Mapping[str, Variable]
+    body: Body
+    place: Place
+    enumerations: Mapping[str, Scalar] = field(default_factory=dict)
+
+    def of(self, *sections: str) -> dict[str, Variable]:
+        """The variables of these sections, by the names in the source."""
+        return {
+            variable.name: variable for variable in self.variables.values() if variable.section in sections
+        }
+
+
+@dataclass(frozen=True)
+class Source:
+    """All units that were read, by their names in upper case: IEC names do not depend on case."""
+
+    units: Mapping[str, Unit]
+    files: Mapping[str, str]
+    """The SHA-256 of each file."""
+
+    def main(self) -> Unit:
+        """The unit that no other unit has an instance of. Raises Unjudged: there is none, or several."""
+        used = {
+            variable.type.block.upper()
+            for unit in self.units.values()
+            for variable in unit.variables.values()
+            if isinstance(variable.type, Instance)
+        }
+        found = [unit for name, unit in self.units.items() if name not in used]
+        if len(found) != 1:
+            names = ", ".join(unit.name for unit in found) or "none"
+            raise Unjudged(
+                f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME"
+            )
+        return found[0]

@@ -1,0 +1,101 @@
+"""What the reader refuses: with file, line and construct, and never by leaving it out."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof.cli import main
+from modeproof.ground.errors import Unjudged
+from programs.check import check
+from programs.st import read_text, time_ms
+from programs.tree import Place, Source
+
+HEAD = "FUNCTION_BLOCK B\nVAR_INPUT x : INT; END_VAR VAR_OUTPUT y : INT; END_VAR\n"
+END = "\nEND_FUNCTION_BLOCK\n"
+REFUSED = {
+    "a loop without bounds": ("WHILE x > 0 DO y := 1; END_WHILE", "while statement is not supported"),
+    "an early end of a loop": ("FOR y := 1 TO 2 DO EXIT; END_FOR", "exit statement is not supported"),
+    "a pointer": ("VAR p : POINTER TO INT; END_VAR y := 1;", "is not supported"),
+    "a real number": ("VAR r : REAL; END_VAR y := 1;", "type REAL is not supported"),
+    "an address": ("VAR r AT %I0.0 : BOOL; END_VAR y := 1;", "AT: variables at addresses"),
+    "an in-out": ("VAR_IN_OUT z : INT; END_VAR y := 1;", "in out"),
+    "an unknown function": ("y := SQRT(x);", "function SQRT is not supported"),
+    "an unknown block": ("VAR t : TONE; END_VAR y := 1;", "did you mean 'TON'"),
+    "an unknown name": ("y := z;", "z is not declared"),
+    "an unknown pin": ("VAR t : TON; END_VAR t(INN := TRUE);", "TON has no INN; did you mean 'IN'"),
+    "a written input": ("x := 1;", "x is an input and is written"),
+    "an output to an input": (
+        "VAR_INPUT b : BOOL; END_VAR VAR t : TON; END_VAR t(IN := TRUE, Q => b);",
+        "b is an input and is written",
+    ),
+    "a counter": ("VAR t : CTU2; END_VAR t();", "no type or block 'CTU2'"),
+    "a narrower value": ("VAR b : BYTE; w : WORD; END_VAR b := w;", "BYTE := WORD needs a conversion"),
+    "a value of another kind": ("y := TRUE;", "INT := BOOL needs a conversion"),
+    "a number that is too large": ("y := 40000;", "40000 is outside INT"),
+    "a first value that is too large": ("VAR z : SINT := 200; END_VAR y := 1;", "no value of SINT"),
+    "a time that is too long": ("VAR z : TIME := T#30d; END_VAR y := 1;", "outside TIME"),
+    "two of one name": ("VAR Y : INT; END_VAR y := 1;", "Y is declared twice"),
+    "a retained timer": ("VAR RETAIN t : TON; END_VAR y := 1;", "an instance of a block is not supported"),
+    "a block in itself": ("VAR b : B; END_VAR y := 1;", "B calls B: a block must not contain itself"),
+    "a syntax error": ("y := := 1;", "syntax error"),
+    "a nested comment": ("(* (* inner *) y := 2; *) y := 1;", "syntax error"),
+    "a write to the loop variable": ("FOR y := 1 TO 3 DO y := 5; END_FOR", "writes its control variable y"),
+}
+
+
+def refusal(text: str) -> str:
+    """The line that refuses a text."""
+    with pytest.raises(Unjudged) as caught:
+        source = Source({unit.name.upper(): unit for unit in read_text(text, "b.st")}, {"b.st": ""})
+        check(source, source.units["B"])
+    return caught.value.message
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_not_supported_is_refused(name: str) -> None:
+    body, cause = REFUSED[name]
+    said = refusal(HEAD + body + END)
+    assert cause in said and said.startswith(("b.st:3:", "b.st:1: B calls"))
+
+
+def test_a_program_without_outputs_is_refused() -> None:
+    assert "nothing to compare" in refusal("FUNCTION_BLOCK B\nVAR x : INT; END_VAR x := 1;" + END)
+
+
+def test_a_skipped_statement_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    from programs import st
+
+    monkeypatch.setattr(st._Reader, "body", lambda self, nodes: ())
+    assert "0 of 1 statements were read" in refusal(HEAD + "y := x;" + END)
+
+
+def test_times_are_exact_milliseconds() -> None:
+    place = Place("b.st", 1)
+    assert time_ms("T#1h2m3.5s", place) == 3_723_500
+    assert time_ms("TIME#-4.35s", place) == -4350
+    for text in ("T#1us", "T#0.5ms", "T#5", "T#s"):
+        with pytest.raises(Unjudged):
+            time_ms(text, place)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "cause"),
+    [
+        (["nothing.st"], "nothing.st: cannot be read"),
+        (["--target", "sf_emd"], "did you mean 'sf_edm'"),
+        (["--unit", "SF_EMD"], "no unit 'SF_EMD'"),
+        (["--binding", "no.toml"], "no.toml: cannot be read"),
+    ],
+)
+def test_the_command_says_what_is_missing(
+    arguments: list[str], cause: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    given = [] if arguments[0].endswith(".st") else ["examples/st/sf_edm.st"]
+    target = [] if "--target" in arguments else ["--target", "sf_edm"]
+    place = Path(__file__).parents[2]
+    paths = [str(place / one) if one.endswith(".st") else one for one in (*given, *arguments)]
+    assert main(["prove-program", *paths, *target]) == 2
+    said = capsys.readouterr()
+    assert cause in said.err and said.err.count("\n") == 1 and said.out == ""

@@ -1,0 +1,194 @@
+"""What one scan of a program does: by the interpreter, and by the translator against it."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+from typing import Any
+
+import pytest
+import z3
+
+from modeproof.ground.errors import Unjudged
+from programs.check import check
+from programs.replay import memory_of
+from programs.run import Machine, Overflow
+from programs.st import read_text
+from programs.symbolic import Translator
+from programs.terms import constant, slots, symbol
+from programs.tree import Source
+
+KITCHEN = Path(__file__).with_name("kitchen.st")
+
+
+def machine(declared: str, body: str, wrap: bool = False) -> Machine:
+    """A block with the input `x : INT; in : BOOL` and these further variables."""
+    text = (
+        f"FUNCTION_BLOCK B\nVAR_INPUT x : INT; in : BOOL; END_VAR\n{declared}\n{body}\nEND_FUNCTION_BLOCK\n"
+    )
+    source = Source({unit.name.upper(): unit for unit in read_text(text, "b.st")}, {})
+    check(source, source.main())
+    return Machine(source, source.main(), wrap)
+
+
+def outputs_of(declared: str, body: str, scans: list[tuple[int, dict[str, Any]]]) -> list[Any]:
+    """The output `y` after each scan."""
+    of = machine(declared, body)
+    return [of.scan(inputs, dt_ms)["y"] for dt_ms, inputs in scans]
+
+
+def timed(block: str, pattern: str, pin: str = "Q") -> list[Any]:
+    """The pin of a timer of 20 ms, called every 10 ms with IN by the pattern."""
+    kind = "BOOL" if pin == "Q" else "TIME"
+    declared = f"VAR_OUTPUT y : {kind}; END_VAR VAR t : {block}; END_VAR"
+    body = f"t(IN := in, PT := T#20ms); y := t.{pin};"
+    return outputs_of(declared, body, [(10, {"in": one == "1"}) for one in pattern])
+
+
+def row(text: str) -> list[bool]:
+    """A row of booleans."""
+    return [one == "1" for one in text]
+
+
+def test_a_ton_is_on_after_its_time() -> None:
+    assert timed("TON", "0111101110") == row("0001100010")
+    assert timed("TON", "0111101110", "ET") == [0, 0, 10, 20, 20, 0, 0, 10, 20, 0]
+
+
+def test_a_tof_stays_on_for_its_time() -> None:
+    assert timed("TOF", "0011000100110") == row("0011110111111")
+    assert timed("TOF", "0011000", "ET") == [0, 0, 0, 0, 0, 10, 20]
+
+
+def test_a_tp_gives_one_pulse_of_its_length() -> None:
+    assert timed("TP", "0111110100") == row("0110000110")
+    assert timed("TP", "0111110", "ET") == [0, 0, 10, 20, 20, 20, 0]
+
+
+def test_time_stands_still_within_a_scan() -> None:
+    declared = "VAR_OUTPUT y : TIME; END_VAR VAR t : TON; END_VAR"
+    body = "t(IN := in, PT := T#1s); t(IN := in, PT := T#1s); y := t.ET;"
+    assert outputs_of(declared, body, [(10, {"in": True})] * 3) == [0, 10, 20]
+
+
+def test_division_rounds_towards_zero() -> None:
+    declared = "VAR_OUTPUT y : INT; END_VAR"
+    assert outputs_of(declared, "y := x / 2;", [(1, {"x": -7}), (1, {"x": 7})]) == [-3, 3]
+    assert outputs_of(declared, "y := x MOD 2;", [(1, {"x": -7}), (1, {"x": 7})]) == [-1, 1]
+
+
+@pytest.mark.parametrize(
+    ("declared", "body", "cause"),
+    [
+        ("", "y := 1 / x;", "division by zero"),
+        ("", "y := x - 32767 - 2;", "outside INT"),
+        ("VAR a : ARRAY [1..3] OF INT; END_VAR", "y := a[x];", "index 0 is outside 1..3"),
+        ("VAR d : DWORD := 16#FFFFFFFF; END_VAR", "y := DWORD_TO_INT(d);", "outside INT"),
+    ],
+)
+def test_what_leaves_its_type_stops_the_run(declared: str, body: str, cause: str) -> None:
+    of = machine(f"VAR_OUTPUT y : INT; END_VAR {declared}", body)
+    with pytest.raises(Overflow, match=cause):
+        of.scan({"x": 0, "in": False}, 1)
+
+
+def test_numbers_wrap_where_they_may() -> None:
+    of = machine("VAR_OUTPUT y : INT; END_VAR", "y := x + 1;", wrap=True)
+    assert of.scan({"x": 32767, "in": False}, 1) == {"y": -32768}
+
+
+def test_temporary_variables_begin_anew() -> None:
+    declared = "VAR_OUTPUT y : INT; END_VAR VAR_TEMP z : INT := 4; END_VAR"
+    assert outputs_of(declared, "z := z + 1; y := z;", [(1, {})] * 2) == [5, 5]
+
+
+def test_variables_without_a_value_begin_at_zero() -> None:
+    declared = "VAR_OUTPUT y : INT; END_VAR VAR z : INT; w : INT := 3; END_VAR"
+    assert outputs_of(declared, "y := z + w; z := 1;", [(1, {})] * 2) == [3, 4]
+
+
+def test_return_ends_the_call() -> None:
+    declared = "VAR_OUTPUT y : INT; END_VAR"
+    body = "y := 1; IF in THEN RETURN; END_IF y := 2;"
+    assert outputs_of(declared, body, [(1, {"in": True}), (1, {"in": False})]) == [1, 2]
+
+
+# ---------------------------------------------------------------- against the translator
+
+
+def difference_of_translator(text: str, seed: int, scans: int, wrap: bool = False) -> str:
+    """Run random scans; where interpreter and terms do not agree, the first such place; else nothing."""
+    source = Source({unit.name.upper(): unit for unit in read_text(text, "kitchen.st")}, {})
+    unit = source.main()
+    check(source, unit)
+    known = {slot.path: slot for slot in slots(source, unit)}
+    memory = {path: symbol(slot.type, path) for path, slot in known.items()}
+    dt = z3.Int("dt")
+    scan = Translator(source, unit, wrap).scan(memory, dt)
+    paths = [path for path in known if path in scan.after]
+    terms = [z3.And(*(one.formula for one in scan.obligations), True), *(scan.after[path] for path in paths)]
+    all_of = z3.Function("all", *(term.sort() for term in terms), z3.BoolSort())(*terms)
+    values, of = random.Random(seed), Machine(source, unit, wrap)
+    for number in range(scans):
+        inputs = {name: _random(values, kind.type) for name, kind in unit.of("input").items()}
+        dt_ms = values.choice((0, 1, 10, 15, 30))
+        before = memory_of(of) | {name.upper(): value for name, value in inputs.items()}
+        where = [(memory[path], constant(slot.type, before[path])) for path, slot in known.items()]
+        where.append((dt, z3.IntVal(dt_ms)))
+
+        found = z3.simplify(z3.substitute(all_of, *where))
+        owed = z3.is_true(found.arg(0))
+        try:
+            of.scan(inputs, dt_ms)
+        except Overflow as error:
+            if owed:
+                return f"scan {number}: only the interpreter stops: {error}"
+            of = Machine(source, unit, wrap)
+            continue
+        if not owed:
+            return f"scan {number}: only the terms owe something"
+        after = memory_of(of)
+        for place, path in enumerate(paths, 1):
+            if not found.arg(place).eq(constant(known[path].type, after[path])):
+                return f"scan {number}: {path} is {after[path]}, the term gives {found.arg(place)}"
+    return ""
+
+
+def _random(values: random.Random, kind: Any) -> Any:
+    if kind.kind == "bool":
+        return values.random() < 0.5
+    if kind.kind == "bits":
+        return values.getrandbits(16)
+    if kind.kind == "time":
+        return values.choice((0, 10, 20, 25))
+    return values.choice((0, 1, 2, 3, 4, 5, 10, -1, -5, -6, values.randint(-32768, 32767)))
+
+
+def test_translator_agrees_with_the_interpreter() -> None:
+    assert difference_of_translator(KITCHEN.read_text("utf-8"), 1, 300) == ""
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("wrap", [False, True])
+@pytest.mark.parametrize("seed", range(4))
+def test_translator_agrees_over_many_random_scans(seed: int, wrap: bool) -> None:
+    assert difference_of_translator(KITCHEN.read_text("utf-8"), seed, 1500, wrap) == ""
+
+
+def test_another_timer_edge_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    from programs import symbolic
+
+    right = symbolic.standard_call
+
+    def wrong(block: str, path: str, env: dict[str, Any]) -> None:
+        right(block, path, env)
+        if block == "TON":
+            env[f"{path}.Q"] = z3.And(env[f"{path}.IN"], env[f"{path}.age"] > env[f"{path}.PT"])
+
+    monkeypatch.setattr(symbolic, "standard_call", wrong)
+    assert "Q6 is True, the term gives False" in difference_of_translator(KITCHEN.read_text("utf-8"), 1, 60)
+
+
+def test_a_loop_that_leaves_its_type_is_refused() -> None:
+    with pytest.raises(Unjudged, match="4: 256 is outside USINT"):
+        machine("VAR_OUTPUT y : INT; END_VAR VAR i : USINT; END_VAR", "FOR i := 0 TO 255 DO y := 1; END_FOR")
