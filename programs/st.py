@@ -9,7 +9,6 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +16,7 @@ import tree_sitter
 import tree_sitter_iec61131_3_st
 
 from modeproof.ground.errors import Unjudged
+from programs.times import time_ms
 from programs.tree import (
     SCALARS,
     TIME,
@@ -53,8 +53,6 @@ LONGEST = 1000
 SECTIONS = {"var_input": "input", "var_output": "output", "var_block": "var", "var_temp": "temp"}
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
-_TIME_PART = re.compile(r"(\d+(?:\.\d+)?)(ms|us|ns|d|h|m|s)", re.IGNORECASE)
-_UNIT_MS = {"d": 86_400_000, "h": 3_600_000, "m": 60_000, "s": 1000, "ms": 1}
 _SCL = (
     (re.compile(r"\{[^{}]*\}"), ""),
     (
@@ -134,25 +132,6 @@ def _statements(node: Any) -> Iterator[Any]:
         if here.is_named and here.type.endswith("_statement") and here.type != "empty_statement":
             yield here
         waiting += here.children
-
-
-def time_ms(text: str, place: Place) -> int:
-    """T#1h2m3.5s in milliseconds. Raises Unjudged for what is no whole number of them."""
-    body = text.partition("#")[2].replace("_", "")
-    sign, digits = (-1, body[1:]) if body.startswith("-") else (1, body)
-    parts = _TIME_PART.findall(digits)
-    if not parts or "".join(f"{number}{unit}" for number, unit in parts).lower() != digits.lower():
-        raise place.refuse(f"{text}: not a time such as T#1s500ms")
-    whole = Fraction(0)
-    for number, unit in parts:
-        if unit.lower() not in _UNIT_MS:
-            raise place.refuse(f"{text}: times are whole milliseconds here")
-        whole += Fraction(number) * _UNIT_MS[unit.lower()]
-    if whole != int(whole):
-        raise place.refuse(f"{text}: times are whole milliseconds here")
-    if not TIME.low <= sign * whole <= TIME.high:
-        raise place.refuse(f"{text}: outside TIME, {TIME.low}..{TIME.high} ms")
-    return sign * int(whole)
 
 
 class _Reader:

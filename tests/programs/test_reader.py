@@ -9,7 +9,8 @@ import pytest
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs.check import check
-from programs.st import read_text, time_ms
+from programs.st import read_text
+from programs.times import time_ms
 from programs.tree import Place, Source
 
 HEAD = "FUNCTION_BLOCK B\nVAR_INPUT x : INT; END_VAR VAR_OUTPUT y : INT; END_VAR\n"
