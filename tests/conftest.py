@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path, PurePath
 from typing import Any
@@ -14,6 +15,9 @@ from tests.groups import group_of
 from tests.tiers import divide
 
 no_hurry()
+signal.signal(signal.SIGINT, signal.default_int_handler)  # whoever started us may have them ignored, as nohup
+for number in (signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else [])):
+    signal.signal(number, signal.SIG_DFL)
 HERE = Path(__file__).resolve().parent
 
 

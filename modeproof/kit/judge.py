@@ -346,7 +346,7 @@ def _steps(case: Case, failure: Failure) -> list[int]:
     steps: dict[int, None] = {}
     for n in range(failure.first, failure.at + 1):
         scan, before = case.scans[n], case.scans[n - 1].outputs if n else {}
-        if any(before.get(name) != scan.outputs[name] for name in failure.expected):
+        if any(before.get(name) != scan.outputs.get(name) for name in failure.expected):
             steps[scan.step] = None
     every = dict.fromkeys(scan.step for scan in case.scans[failure.first : failure.at + 1])
     return list(steps or every)

@@ -191,7 +191,7 @@ def test_a_file_in_which_every_scan_settles_shows_nothing(tmp_path: Path) -> Non
     assert verdict.word == "UNJUDGED" and "no output was compared" in verdict.reason
 
 
-def test_a_part_of_a_case_never_gets_the_word_of_the_suite(tmp_path: Path) -> None:
+def test_a_part_of_a_case_gets_its_own_word(tmp_path: Path) -> None:
     suite = made(tmp_path, "tour")
     case = next(iter(suite.cases()))
     for part, said in ((None, f"case {case.id} of tour"), ("1", f"scans 1 of case {case.id} of tour")):

@@ -196,7 +196,7 @@ def write_vectors(path: Path, suite: str, cases: Sequence[Sequence[bool]], **cha
         "steps": [{"name": "Count", "clauses": [], "findings": [], "transitions": 1}],
         "cases": len(rows),
         "scans": scans,
-        "graphs": [{"initial": 0}],
+        "graphs": [{"initial": 0, "params": {}, "views": ["0"]}],
     }
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text("".join(json.dumps(row) + "\n" for row in (header, *rows)), encoding="utf-8")

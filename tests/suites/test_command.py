@@ -177,7 +177,7 @@ def test_a_wrong_adapter_differs_and_the_command_given_repeats_it(
 
 def test_own_parameters_need_a_suite_to_be_put_in(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet", "--param", "T_ms=1"]) == 2
-    assert "--param needs --suite or --vectors" in capsys.readouterr().err
+    assert "--param and --relation need --suite or --vectors" in capsys.readouterr().err
 
 
 def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -39,7 +39,7 @@ def test_what_was_built_is_published_unless_it_is_the_same(
     assert files[0].read_bytes() == packed_otherwise
 
 
-def test_a_file_that_other_code_of_ours_makes_the_same_is_kept(tmp_path: Path) -> None:
+def test_a_file_that_other_code_makes_the_same_is_kept(tmp_path: Path) -> None:
     def packed(name: str, code: str, spec: str, case: str = "{}") -> Path:
         sources = {"modeproof/suites/tour.py": code, "spec/toy/Lamp.tla": spec}
         lines = [json.dumps({"cases": 1, "sources": sources}), case]

@@ -88,7 +88,8 @@ def test_accepting_one_wrong_form_differs_without_judging_the_program(
     suite: Suite, tmp_path: Path, skipped: str, shown: str
 ) -> None:
     verdict = run_suite(suite, starter(tmp_path, STRICT.replace("SKIPPED", skipped)))
-    assert verdict.word == DIFFERS and "says nothing about the program" in verdict.reason
+    assert verdict.word == DIFFERS, verdict.reason
+    assert "says nothing about the program" in verdict.reason
     found = verdict.difference
     assert found is not None and found.step == "protocol" and shown in found.case.why
     assert "to be refused" in as_text(verdict) and "refuse" in str(

@@ -60,7 +60,7 @@ def test_an_overflowing_timer_passes_the_tour_but_not_this(tmp_path: Path, bits:
         assert run_suite(open_suite(tmp_path / name), starter(tmp_path, fault)).word == word
 
 
-def test_a_timer_overflows_where_the_times_of_the_graph_are_short(
+def test_a_timer_overflows_where_the_graph_has_short_times(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The lamp for 20 ms: a wait of 65 s would take thousands of scans of such times."""
