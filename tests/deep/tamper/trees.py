@@ -62,7 +62,7 @@ class Case:
 
     `old` stands once in `file`; `new` takes its place, or, None, the file is gone. command: `stage DOCUMENT`
     is what `make verify` does with its registers; anything else is a command of modeproof. says: a part of
-    what is printed. pending: who is to mend it (another piece of work that is merged later).
+    what is printed.
     """
 
     name: str
@@ -72,7 +72,6 @@ class Case:
     command: str
     status: int
     says: str
-    pending: str = ""
 
 
 class Copy:
