@@ -134,8 +134,8 @@ RECORDS = (
         '<<"EDGE", <<"Shut", 0>>, "CallBeacon", 1, <<"Calling", 0>>>>',
         '<<"EDGE", <<"Shut", 0>>, "CallBeacon", 1, <<"Shut", 0>>>>',
         "conform gate --builtin refimpl --quiet",
-        1,
-        "DIFFERS",
+        0,  # the edited graph is not used: the right one is made anew
+        "TLC makes OPEN_Gate first",
     ),
     vectors(
         "an input in the vectors is changed",

@@ -29,6 +29,7 @@ def sluice(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Copy]:
     root = with_the_sixth(empty_root(tmp_path_factory.mktemp("sluice") / "root"))
     (root / "modeproof").unlink()
     shutil.copytree(ROOT / "modeproof", root / "modeproof", ignore=LEFT_OUT, copy_function=linked)
+    (root / "vectors").mkdir(exist_ok=True)
     made = Copy(root)
     for command in ("verify --quiet", *BRIEF, "report"):
         status, said = made.judged(command)
