@@ -253,6 +253,7 @@ def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
     assert found.word == "PROVED" and "DiagCode" not in found.product.binding.compared
 
 
+@pytest.mark.deep
 def test_another_parameter_is_another_verdict(tmp_path: Path) -> None:
     path = tmp_path / "binding.toml"
     path.write_text("[parameters]\nAFTER_RESET = 'at_once'\n", "utf-8")
