@@ -36,13 +36,13 @@ from __future__ import annotations
 
 import itertools
 import random
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.registers.files import read_toml
 
 RANDOM_WORDS = 64
 _FIELDS = {
@@ -117,10 +117,7 @@ def _rows(
     path = place / "spec" / document / "classes.toml"
     if not path.is_file():
         return []
-    try:
-        rows = tomllib.loads(path.read_text(encoding="utf-8")).get("class", [])
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise Unjudged(f"{path.name} of {document}: {error}") from None
+    rows = read_toml(place, path).get("class", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise Unjudged(f"{path.name} of {document}: [[class]] tables were expected")
     found = [

@@ -58,15 +58,3 @@ class Graph:
                     before[after] = (state, n)
                     queue.append(after)
         return tuple(before)
-
-    def path_to(self, state: int) -> tuple[int, ...]:
-        """The inputs of a shortest way from power-up to `state`. Raises ValueError when there is none."""
-        before = self.shortest_paths()
-        inputs: list[int] = []
-        while state != self.initial:
-            move = before[state]
-            if move is None:
-                raise ValueError(f"state {state} cannot be reached")
-            state, n = move
-            inputs.append(n)
-        return tuple(reversed(inputs))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from modeproof.kit.errors import plain
 
@@ -29,6 +29,12 @@ class Unjudged(Exception):
     def message(self) -> str:
         """The line to print."""
         return str(self.args[0])
+
+
+def first_of(problems: Sequence[str]) -> str:
+    """The first problem, and how many more there are; "" where there is none."""
+    more = f" (and {len(problems) - 1} more)" if len(problems) > 1 else ""
+    return f"{problems[0]}{more}" if problems else ""
 
 
 def suggestion(name: str, allowed: Iterable[str]) -> str:

@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from modeproof.ground import evidence
+from modeproof.ground.errors import first_of
 from modeproof.report.again import agreement_problems
 
 ID = "agreement"
@@ -60,9 +61,7 @@ def compare(
         inputs=inputs,
         tools=tools,
         result={"rows": rows, "problems": problems},
-        reason=problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
-        if problems
-        else "",
+        reason=first_of(problems),
     )
     evidence.write(place, record)
     return record

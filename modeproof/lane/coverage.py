@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import write_json
 from modeproof.ground.proofs import proofs_module
@@ -89,9 +89,7 @@ def cover_document(place: Path, document: str, progress: Any) -> dict[str, Any]:
         inputs=evidence.hashes(place, paths),
         tools={"z3": evidence.package("z3-solver")},
         result={"devices": devices, "problems": problems},
-        reason=problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
-        if problems
-        else "",
+        reason=first_of(problems),
     )
     evidence.write(place, record)
     return record

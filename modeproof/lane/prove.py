@@ -25,8 +25,7 @@ from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents
 from modeproof.lane.summary import counted
-from modeproof.report.proofs import never_needed
-from modeproof.report.verdicts import status_of
+from modeproof.report.verdicts import never_needed, status_of
 
 
 def add_parser(commands: Any) -> None:

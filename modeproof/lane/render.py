@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
@@ -29,13 +29,10 @@ from modeproof.report.scan_table import scan_table
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import recorded, walk_all
 
-if TYPE_CHECKING:
-    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
-
-def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, or 1 where --check finds drift, and raises Unjudged."""
-    parser = subparsers.add_parser(
+    parser = commands.add_parser(
         "render",
         help="make docs/<document>.md and the blocks in README.md anew",
         description="Makes the page of each document from its registers, with tables of its most telling "
@@ -45,7 +42,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     add_document_option(parser)
     parser.add_argument("--check", action="store_true", help="write nothing; say which pages would change")
     parser.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:

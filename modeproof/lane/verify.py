@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, chosen_documents, root
@@ -69,7 +69,7 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
         }
         if problems:
             verdict = "DIFFERS"
-            reason = problems[0] + (f" (and {len(problems) - 1} more)" if len(problems) > 1 else "")
+            reason = first_of(problems)
     except Unjudged as error:
         verdict, reason = "UNJUDGED", error.message
     paths = sorted((place / "spec" / document).glob("*.toml"))

@@ -10,7 +10,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
@@ -24,13 +24,10 @@ from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import read_walk, recorded, walk_all
 from modeproof.tlc.walk_module import Recorded
 
-if TYPE_CHECKING:
-    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
-
-def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, or 2 where a trace could not be followed."""
-    parser = subparsers.add_parser(
+    parser = commands.add_parser(
         "walks",
         help="follow every recorded counterexample once more: what stood on the wires, for the report",
         description="Follows the counterexamples in build/evidence/ with TLC, one start for each module, and "
@@ -40,7 +37,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     add_document_option(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:

@@ -5,27 +5,24 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import add_document_option, chosen_documents
 from modeproof.ground.places import root as repository_root
 from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.citations import read_sources
-from modeproof.registers.files import write_text
 from modeproof.registers.judge import Judgement, judge, judge_tree
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import repin
 from modeproof.registers.rows import Problem
 from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text
 
-if TYPE_CHECKING:
-    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
 
-
-def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0 as expected, 1 not as expected, and raises Unjudged."""
-    parser = subparsers.add_parser(
+    parser = commands.add_parser(
         "registers",
         help="judge the registers and the matrix from clause to vector",
         description="Judges the registers of every document: schemas, contradictions, citations, orphans, "
@@ -38,7 +35,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     parser.add_argument("--repin", action="store_true", help="pin what properties and theorems say now")
     parser.add_argument("--reason", metavar="TEXT", help="why the pins move; kept beside them")
     parser.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:
@@ -65,9 +61,10 @@ def run(args: argparse.Namespace) -> int:
         print(f"  {problem}")
     print(f"registers: {'as expected' if not problems else f'not as expected, {len(problems)} problems'}")
     if args.json:
-        write_text(args.json, json.dumps(record(judgements, tree), indent=2, ensure_ascii=False) + "\n")
+        text = json.dumps(record(judgements, tree), indent=2, ensure_ascii=False) + "\n"
+        write_whole(args.json, text.encode("utf-8"))
     if args.csv:
-        write_text(args.csv, matrix_csv(judgements[0].rows))
+        write_whole(args.csv, matrix_csv(judgements[0].rows).encode("utf-8"))
     as_expected = not problems and all(judgement.as_expected for judgement in judgements)
     return EXIT_AS_EXPECTED if as_expected else EXIT_NOT_AS_EXPECTED
 

@@ -1,9 +1,7 @@
-"""Reading TOML and writing results, so that every failure is one line with place and cause."""
+"""Reading texts and TOML, so that every failure is one line with place and cause."""
 
 from __future__ import annotations
 
-import os
-import tempfile
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -38,22 +36,3 @@ def read_toml(root: Path, path: Path) -> dict[str, Any]:
         return tomllib.loads(read_text(root, path))
     except tomllib.TOMLDecodeError as error:
         raise Unjudged(f"{shown(root, path)}: not valid TOML: {error}") from None
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write all of the file or nothing of it. Raises Unjudged when the place cannot be written."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as stream:
-            stream.write(text)
-        temporary.chmod(0o644)
-        temporary.replace(path)
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
-    finally:
-        temporary.unlink(missing_ok=True)

@@ -17,8 +17,9 @@ from pathlib import Path
 import msgspec
 
 from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.cfg import Cfg, Constant, parse_cfg
-from modeproof.registers.files import read_text, write_text
+from modeproof.registers.files import read_text
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import Module, closure, read_modules
 
@@ -69,7 +70,7 @@ def reading_problems(modules: Mapping[str, Module]) -> Iterator[tuple[str, str, 
 def _fault(modules: Mapping[str, Module], replacement: Replacement) -> str:
     """Says why TLC cannot replace the decided operator; empty when it can."""
     own = {name.name: name for name in modules[replacement.module].definitions}
-    reached = _closure(modules, replacement.module)
+    reached = closure(modules, replacement.module)
     decided = [(m, d) for m in reached for d in m.definitions if d.name == replacement.replaced]
     if own[replacement.operator].local:
         return "is LOCAL, so that it cannot take the place of another"
@@ -101,10 +102,6 @@ def used(bodies: Mapping[str, str], name: str) -> set[str]:
     return reached
 
 
-def _closure(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
-    return closure(dict(modules), name)
-
-
 def replaced_by(modules: Mapping[str, Module], run: Run) -> tuple[Replacement, ...]:
     """What the readings of a run replace.
 
@@ -119,7 +116,7 @@ def replacing(
 ) -> tuple[Replacement, ...]:
     """What readings replace in a module and all that it extends. Raises Unjudged like `replaced_by`."""
     every = replacements(modules)
-    there = {extended.name for extended in _closure(modules, module)}
+    there = {extended.name for extended in closure(modules, module)}
     found: dict[str, Replacement] = {}
     for reading in readings:
         own = [replacement for replacement in every if replacement.reading == reading]
@@ -146,7 +143,7 @@ def replacing(
 
 def decided_modules(modules: Mapping[str, Module], name: str) -> set[str]:
     """The modules that a module of readings extends, without other modules of readings."""
-    return {module.name for module in _closure(modules, name) if not module.name.endswith(SUFFIX)}
+    return {module.name for module in closure(modules, name) if not module.name.endswith(SUFFIX)}
 
 
 def read_cfg(root: Path, run: Run) -> Cfg:
@@ -204,6 +201,6 @@ def make(root: Path, run: Run) -> tuple[Path, Run]:
     Raises Unjudged like `cfg_text`, or when the files cannot be written.
     """
     config = root / run.config
-    write_text(config.with_suffix(".tla"), module_text(root, run))
-    write_text(config, cfg_text(root, run))
+    write_whole(config.with_suffix(".tla"), module_text(root, run).encode("utf-8"))
+    write_whole(config, cfg_text(root, run).encode("utf-8"))
     return config.parent, msgspec.structs.replace(run, module=run.id, cfg=config.name, base="")

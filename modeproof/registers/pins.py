@@ -22,9 +22,10 @@ import msgspec
 import tomlkit
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.citations import Sources
-from modeproof.registers.files import read_text, read_toml, write_text
+from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import used, words_of
 from modeproof.registers.python_source import PythonModule
 from modeproof.registers.rows import Document, Problem
@@ -114,7 +115,7 @@ def repin(document: Document, sources: Sources, reason: str) -> list[str]:
                     rows[name].comment(f"{time.strftime('%Y-%m-%d', time.gmtime())}: {reason}")
                 lines.append(f"{document.name}: {table}.{name}: {was or 'none'} -> {value}")
     if lines:
-        write_text(path, tomlkit.dumps(old))
+        write_whole(path, tomlkit.dumps(old).encode("utf-8"))
     return lines
 
 

@@ -18,7 +18,7 @@ def readings_of(document: Document, modules: Mapping[str, Module]) -> tuple[str,
     """The readings of a document: those of its own modules, and of shared ones that a run could use."""
     reached: set[str] = set()
     for name in {run.module for run in document.runs}:
-        reached |= {module.name for module in closure(dict(modules), name)}
+        reached |= {module.name for module in closure(modules, name)}
     own = f"spec/{document.name}/"
     return tuple(
         dict.fromkeys(
@@ -128,7 +128,7 @@ def check_tops(document: Document, modules: Mapping[str, Module]) -> Iterator[Pr
         if module not in traces.tops:
             yield Problem(file, f"tops.{module}", f"missing; {run} checks that module")
     for module, top in traces.tops.items():
-        defined = {name for reached in closure(dict(modules), module) for name in reached.defined}
+        defined = {name for reached in closure(modules, module) for name in reached.defined}
         names = {top.next, top.wires, *(text.split("(")[0] for text in top.inputs.values())}
         for name in sorted(names - defined) if defined else ():
             yield Problem(file, f"tops.{module}", f"{module}.tla and what it extends do not define {name}")

@@ -52,9 +52,8 @@ RULES = (
         "modeproof/registers",
         (
             "modeproof.registers",
-            "modeproof.ground.errors",
-            "modeproof.ground.places",
-            "modeproof.ground.reason",
+            *("modeproof.ground.errors", "modeproof.ground.evidence.files"),
+            *("modeproof.ground.places", "modeproof.ground.reason"),
         ),
     ),
 )

@@ -7,6 +7,7 @@ names, and SANY judges the rest.
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -84,15 +85,15 @@ def read_modules(root: Path, document: str) -> dict[str, Module]:
     return found
 
 
-def closure(modules: dict[str, Module], name: str) -> tuple[Module, ...]:
-    """The module and all that it extends or instantiates, as far as they are ours."""
+def closure(modules: Mapping[str, Module], name: str, instances: bool = True) -> tuple[Module, ...]:
+    """The module and all that it extends or (`instances`) instantiates, as far as they are ours."""
     reached: dict[str, Module] = {}
     waiting = [name]
     while waiting:
         module_name = waiting.pop()
         if module_name in modules and module_name not in reached:
-            reached[module_name] = modules[module_name]
-            waiting += [*modules[module_name].extends, *modules[module_name].instances]
+            found = reached[module_name] = modules[module_name]
+            waiting += [*found.extends, *(found.instances if instances else ())]
     return tuple(reached.values())
 
 

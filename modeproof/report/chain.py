@@ -78,11 +78,7 @@ class Traced:
 
 def traced(sources: Sources, document: Document) -> Traced:
     """The matrix with results: orphans first, then what is not as expected, then the register's order."""
-    key = f"traced {document.name}"
-    if key not in sources.cache:
-        sources.cache[key] = _traced(sources, document)
-    found: Traced = sources.cache[key]
-    return found
+    return sources.once(f"traced {document.name}", lambda: _traced(sources, document))
 
 
 def _traced(sources: Sources, document: Document) -> Traced:

@@ -153,11 +153,7 @@ class Claim:
 
 def claims(sources: Sources, document: Document) -> tuple[Claim, ...]:
     """Every property of the document in every environment, in the order of the register."""
-    key = f"claims {document.name}"
-    if key not in sources.cache:
-        sources.cache[key] = tuple(_claims(sources, document))
-    found: tuple[Claim, ...] = sources.cache[key]
-    return found
+    return sources.once(f"claims {document.name}", lambda: tuple(_claims(sources, document)))
 
 
 def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
@@ -232,33 +228,30 @@ def agreement(sources: Sources, document: Document) -> Mapping[tuple[str, str], 
 
 def texts_of(sources: Sources, document: Document) -> Texts:
     """Specification, reference implementation and proofs of a document as texts, read once."""
-    key = f"texts {document.name}"
-    if key not in sources.cache:
-        try:
-            texts = read_sources(document)
-            files = [
-                *(m.file for m in texts.modules.values()),
-                *(m.file for m in (*texts.refimpl, *texts.proofs)),
-            ]
-            for file in files:
-                sources.content(file)
-            sources.cache[key] = texts, ""
-        except Unjudged as error:
-            sources.cache[key] = Texts({}, (), ()), error.message
-    found: Texts = sources.cache[key][0]
-    return found
+    return _texts(sources, document)[0]
 
 
 def fault_of_texts(sources: Sources, document: Document) -> str:
     """Why the texts of a document cannot be read; empty where they can."""
-    texts_of(sources, document)
-    return str(sources.cache[f"texts {document.name}"][1])
+    return _texts(sources, document)[1]
+
+
+def _texts(sources: Sources, document: Document) -> tuple[Texts, str]:
+    def read() -> tuple[Texts, str]:
+        try:
+            texts = read_sources(document)
+        except Unjudged as error:
+            return Texts({}, (), ()), error.message
+        every = (texts.modules.values(), texts.refimpl, texts.proofs)
+        for file in (module.file for modules in every for module in modules):
+            sources.content(file)
+        return texts, ""
+
+    return sources.once(f"texts {document.name}", read)
 
 
 def citations_of(sources: Sources, document: Document) -> tuple[Citation, ...]:
     """Who cites what, found once."""
-    key = f"citations {document.name}"
-    if key not in sources.cache:
-        sources.cache[key] = citations(document, texts_of(sources, document))
-    found: tuple[Citation, ...] = sources.cache[key]
-    return found
+    return sources.once(
+        f"citations {document.name}", lambda: citations(document, texts_of(sources, document))
+    )

@@ -23,11 +23,7 @@ class Codes:
 
 def codes_of(sources: Sources, document: Document) -> dict[str, Codes]:
     """The codes by signal; nothing for a signal whose words have no meaning, or no known one."""
-    key = f"codes {document.name}"
-    if key not in sources.cache:
-        sources.cache[key] = _read(sources, document)
-    found: dict[str, Codes] = sources.cache[key]
-    return found
+    return sources.once(f"codes {document.name}", lambda: _read(sources, document))
 
 
 def _read(sources: Sources, document: Document) -> dict[str, Codes]:

@@ -6,7 +6,7 @@ import argparse
 import json
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import build
@@ -17,16 +17,13 @@ from modeproof.report.part import plain
 from modeproof.report.recheck import PAGE, recheck
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Trouble
 
-if TYPE_CHECKING:
-    Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
-
 WORDS = {NOTE: "NOTE", DIFFERS: "NOT AS EXPECTED", HOLE: "NOT THERE"}
 BESIDE = "build/report"
 
 
-def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, 1 (not as expected) or 2 (something is missing)."""
-    parser = subparsers.add_parser(
+    parser = commands.add_parser(
         "report",
         help="the assessor's report: one HTML file, from registers and evidence",
         description="Makes build/report/report.html and report.json from the registers and from what lies in "
@@ -51,7 +48,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON")
     parser.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:

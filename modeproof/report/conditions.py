@@ -11,7 +11,7 @@ from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run
 from modeproof.registers.tools import Condition
 from modeproof.report.claims import LANE, texts_of
-from modeproof.report.sources import Evidence, Figure, Sources
+from modeproof.report.sources import Evidence, Figure, Sources, few
 
 FINGERPRINTS = 2**64
 """So many fingerprints of states there are."""
@@ -32,17 +32,12 @@ def judged(sources: Sources, condition: Condition) -> Met:
     return _JUDGES[condition.name](sources, condition)
 
 
-def _few(names: list[str]) -> str:
-    every = sorted(dict.fromkeys(names))
-    return ", ".join(every[:3]) + (f" and {len(every) - 3} more" if len(every) > 3 else "")
-
-
 def _met(says: str, bad: list[str], count: int, lost: list[str] | None = None) -> Met:
     """What came of it: `bad` speaks against it; of `lost` nothing is known, for it is stale or not there."""
     if bad:
-        return Met(False, says, f"not so: {_few(bad)}")
+        return Met(False, says, f"not so: {few(sorted(set(bad)))}")
     if lost:
-        return Met(None, says, f"not there, or of another text: {_few(lost)}")
+        return Met(None, says, f"not there, or of another text: {few(sorted(set(lost)))}")
     return Met(True, says, f"{count} looked at") if count else Met(None, says, "nothing to judge it by")
 
 

@@ -5,12 +5,12 @@ What is declared and has no evidence is an error, never a pass; what only anothe
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from xml.etree import ElementTree
 
 from modeproof.registers.rows import Document
-from modeproof.report.cell_text import for_xml
 from modeproof.report.claims import LANE, theorem_rows
 from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import DIFFERS, Evidence, Sources
@@ -32,6 +32,12 @@ class _Case:
 
 
 SKIPPED = 3
+_FORBIDDEN = re.compile("[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def _for_xml(text: str) -> str:
+    """A text without characters that XML 1.0 has no way to write."""
+    return _FORBIDDEN.sub("\ufffd", text)
 
 
 def junit(sources: Sources) -> bytes:
@@ -66,7 +72,7 @@ def _element(document: Document, one: _Case) -> ElementTree.Element:
     properties = ElementTree.SubElement(case, "properties")
 
     def say(name: str, value: str) -> None:
-        ElementTree.SubElement(properties, "property", name=name, value=for_xml(value))
+        ElementTree.SubElement(properties, "property", name=name, value=_for_xml(value))
 
     for clause in one.clauses:
         say("clause", clause)
@@ -79,10 +85,10 @@ def _element(document: Document, one: _Case) -> ElementTree.Element:
         say("evidence", one.evidence.path)
         say("sha256", one.evidence.sha256)
     if one.status == SKIPPED:
-        ElementTree.SubElement(case, "skipped", message=for_xml(one.message))
+        ElementTree.SubElement(case, "skipped", message=_for_xml(one.message))
     elif one.status:
         tag = "failure" if one.status == DIFFERS else "error"
-        ElementTree.SubElement(case, tag, message=for_xml(one.message), type=tag)
+        ElementTree.SubElement(case, tag, message=_for_xml(one.message), type=tag)
     return case
 
 

@@ -6,10 +6,10 @@ What is missing is kept as a trouble, never dropped.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import read
@@ -19,6 +19,7 @@ from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 from modeproof.report.again import contradiction
 
+T = TypeVar("T")
 NOTE, DIFFERS, HOLE = 0, 1, 2
 """What a trouble is: something to know, which changes no status; something is not as expected or contradicts
 something else; something is not there."""
@@ -102,6 +103,13 @@ class Sources:
     troubles: tuple[Trouble, ...] = ()
     cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
+
+    def once(self, key: str, make: Callable[[], T]) -> T:
+        """What is made under this key, the first time that it is asked for."""
+        if key not in self.cache:
+            self.cache[key] = make()
+        found: T = self.cache[key]
+        return found
 
     def of_kind(self, document: str, kind: str) -> list[Evidence]:
         """The evidence of a document of one kind (tlc, conformance, proof, agreement, registers, ..)."""

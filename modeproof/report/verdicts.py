@@ -91,3 +91,15 @@ def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere:
     seconds = sum(float(r["seconds"]) for r in runs)
     distinct = worst["result"].get("distinct")
     return Line(row.id, verdict, environment, worst["strength"], distinct, seconds, status, str(worst["id"]))
+
+
+def never_needed(records: Sequence[Record]) -> list[str]:
+    """Premises, by name, that some theorem has and no proof of any theorem needs."""
+    names = dict.fromkeys(name for record in records for name in record["result"]["unused"])
+    needed = {
+        name
+        for record in records
+        for name in record["result"]["premises"]
+        if name not in record["result"]["unused"]
+    }
+    return [name for name in names if name not in needed]

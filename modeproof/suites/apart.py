@@ -29,11 +29,6 @@ class Apart:
                 return
             self.rounds.append(now)
 
-    @property
-    def minimal(self) -> bool:
-        """Whether every two states can be told apart."""
-        return len(set(self.rounds[-1])) == len(self._next)
-
     def sequence(self, state: int, other: int) -> tuple[int, ...] | None:
         """Columns after which the outputs differ; empty when they differ already, None when they never do."""
         if self.rounds[-1][state] == self.rounds[-1][other]:

@@ -19,18 +19,15 @@ from modeproof.suites.build import find_target
 from modeproof.suites.contract import declare, declare_parameters
 
 
-def add_parser(commands: Any) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add `map`; its exit status is 0, or 2 for a map that cannot be used."""
     text = "where the signals of a target lie in the memory of a PLC: write a map to start from, or check one"
-    parser: argparse.ArgumentParser = commands.add_parser(
-        "map", help=text, description=text[0].upper() + text[1:] + "."
-    )
+    parser = commands.add_parser("map", help=text, description=text[0].upper() + text[1:] + ".")
     parser.add_argument("target", metavar="TARGET", help="a device of the interface register")
     parser.add_argument("--document", metavar="NAME", help="the document of the target, where two have one")
     parser.add_argument("--out", type=Path, metavar="FILE", help="write there instead of to standard output")
     parser.add_argument("--check", type=Path, metavar="FILE", help="instead: check this map")
     parser.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:

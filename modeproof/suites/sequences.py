@@ -45,7 +45,6 @@ from __future__ import annotations
 import itertools
 import operator
 import re
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,6 +53,7 @@ from typing import Any
 from modeproof.graph.columns import Columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged
+from modeproof.registers.files import read_toml
 from modeproof.suites.script import Alphabet, Script, Scripts, Shot
 
 FILE = "sequences.toml"
@@ -84,12 +84,7 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
 
 def _read(place: Path, document: str) -> dict[str, Any]:
     path = place / "spec" / document / FILE
-    if not path.is_file():
-        return {}
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise Unjudged(f"spec/{document}/{FILE}: {error}") from None
+    return read_toml(place, path) if path.is_file() else {}
 
 
 @dataclass(frozen=True)

@@ -30,9 +30,9 @@ SPARE = 20_000
 """So many scans more than that are some seconds, and no reason to look for a shorter tour."""
 
 
-def add_parser(commands: Any) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add `vectors`; its exit status is 0 as expected, 1 not as expected."""
-    parser: argparse.ArgumentParser = commands.add_parser(
+    parser = commands.add_parser(
         "vectors",
         help="build, check and show the test suites",
         description="Builds the test suites from the graphs, checks the files, and shows what is in them.",
@@ -71,7 +71,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
     show.add_argument("--csv", action="store_true", help="as a table for a trace tool")
     show.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:

@@ -70,7 +70,6 @@ def write_suite(
     *,
     citations: Citations = no_citations,
     sources: Mapping[str, str] | None = None,
-    generator: str = "modeproof",
     contract: Mapping[str, Any] | None = None,
     texts: Mapping[str, str] | None = None,
 ) -> Stats:
@@ -91,7 +90,7 @@ def write_suite(
         writer.add(number, device)
     if not writer.cases:
         raise NoCases(f"{devices[0].device.id} {suite}: the suite would have no cases")
-    header = writer.header(dict(sources or {}), generator, contract)
+    header = writer.header(dict(sources or {}), contract)
     header["texts"] = _cited_texts(header, texts or {})
     _write_lines(path, [_line(header), *writer.cases])
     return writer.stats()
@@ -211,9 +210,7 @@ class _Writer:
             findings.update(of_step[1])
         return sorted(clauses), sorted(findings)
 
-    def header(
-        self, sources: Mapping[str, str], generator: str, contract: Mapping[str, Any] | None
-    ) -> dict[str, Any]:
+    def header(self, sources: Mapping[str, str], contract: Mapping[str, Any] | None) -> dict[str, Any]:
         device = self.device.device
         modes = list(self.device.forms.modes)
         kind = self.kind
@@ -232,7 +229,7 @@ class _Writer:
             "guarantees": kind.guarantees,
             "hypothesis": kind.hypothesis,
             "does_not_show": kind.does_not_show + _codes(self.device.codes),
-            "generator": generator,
+            "generator": "modeproof",
             "sources": dict(sorted(sources.items())),
             "cases": len(self.cases),
             "scans": self.scans,

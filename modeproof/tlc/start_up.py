@@ -18,8 +18,9 @@ from pathlib import Path
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence import sha256
 from modeproof.ground.evidence.files import write_whole
-from modeproof.tlc.toolchain import Toolchain, find_toolchain, sha256
+from modeproof.tlc.toolchain import Toolchain, find_toolchain
 
 CACHE = Path(sys.prefix) / "tlc-start.aot"
 _TIME_LIMIT_S = 120.0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib.util
 import os
 import shutil
@@ -12,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence import sha256
 
 JAR_SHA256 = "58c6df9a1045beb341ee947bc640fe8d89988ad1d0b700e392aa8dd97502129a"
 JAR_VERSION = "TLC2 2.15 (rev d5b5a7f)"
@@ -28,15 +28,6 @@ class Toolchain:
     jar: Path
     jar_sha256: str
     pinned: bool
-
-
-def sha256(path: Path) -> str:
-    """SHA-256 of a file, in hexadecimal. Raises Unjudged when the file cannot be read."""
-    try:
-        with path.open("rb") as stream:
-            return hashlib.file_digest(stream, "sha256").hexdigest()
-    except OSError as error:
-        raise Unjudged(f"{path}: {error.strerror or error}") from None
 
 
 def find_java() -> Path:

@@ -36,7 +36,7 @@ from modeproof.registers.tla import read_modules
 from modeproof.tlc import walk_module
 from modeproof.tlc.process import run_tlc
 from modeproof.tlc.tla_values import TlaError, parse
-from modeproof.tlc.toolchain import Toolchain, sha256
+from modeproof.tlc.toolchain import Toolchain
 from modeproof.tlc.walk_module import (
     AT_ONCE,
     Plan,
@@ -92,7 +92,7 @@ def spec_hashes(place: Path, document: str) -> dict[str, str]:
     common = (place / "spec" / "common").glob("*.tla")
     found = evidence.hashes(place, sorted([*folder.glob("*.tla"), *common, folder / "replay.toml"]))
     own = (Path(__file__), Path(walk_module.__file__))
-    return found | {f"modeproof/tlc/{path.name}": sha256(path) for path in own}
+    return found | {f"modeproof/tlc/{path.name}": evidence.sha256(path) for path in own}
 
 
 def read_walk(place: Path, document: str, trace: Recorded) -> dict[str, Any] | None:

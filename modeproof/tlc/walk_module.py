@@ -13,7 +13,7 @@ from modeproof.registers.files import read_text
 from modeproof.registers.made import Replacement, replacing, root_module
 from modeproof.registers.replay import Top, Traces
 from modeproof.registers.rows import Device, Interface
-from modeproof.registers.tla import WORD, Module
+from modeproof.registers.tla import WORD, Module, closure
 
 DUMMY = "<<>>"
 """Given to a constant that no operator asked for here depends on."""
@@ -44,14 +44,7 @@ class Recorded:
 
 def extended(modules: Mapping[str, Module], name: str) -> tuple[Module, ...]:
     """A module of ours and all that it extends."""
-    reached: dict[str, Module] = {}
-    waiting = [name]
-    while waiting:
-        module = waiting.pop()
-        if module in modules and module not in reached:
-            reached[module] = modules[module]
-            waiting += modules[module].extends
-    return tuple(reached.values())
+    return closure(modules, name, instances=False)
 
 
 def constants_of(place: Path, modules: Mapping[str, Module], trace: Recorded) -> Mapping[str, Constant]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 import re
 import sys
 import time
@@ -38,9 +37,9 @@ times in ms and words; TLC's judgement is the exact one. A log shows one run: no
 machine would do otherwise."""
 
 
-def add_parser(commands: Any) -> argparse.ArgumentParser:
+def add_parser(commands: Any) -> None:
     """Add `trace` to the commands."""
-    parser: argparse.ArgumentParser = commands.add_parser(
+    parser = commands.add_parser(
         "trace",
         help="judge a recorded log of a device, or of the whole system, by the specification",
         description=_DESCRIPTION,
@@ -78,7 +77,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
-    return parser
 
 
 def run(args: argparse.Namespace) -> int:
@@ -197,7 +195,7 @@ def _write(
             "target": target.id,
             "log": {
                 "name": args.log.name,
-                "sha256": _sha256(args.log),
+                "sha256": evidence.sha256(args.log),
                 "lines": len(log.rows),
             },
             "from": args.begins,
@@ -208,11 +206,6 @@ def _write(
     )
     evidence.write(place, record)
     return record
-
-
-def _sha256(path: Path) -> str:
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def _reason(found: Judgement) -> str:

@@ -9,7 +9,6 @@ between them and its scan time allow, first with the inputs of the one and then 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,12 +17,11 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import build
 from modeproof.registers.runs import Run
+from modeproof.registers.tla import closure, read_modules
 from modeproof.tlc.messages import essence
-from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.tla_values import TlaError, canonical, parse
 from modeproof.tlc.toolchain import Toolchain
-from modeproof.tlc.transitions import EXTENDS
 from modeproof.trace.module import Reading, constants, read_inputs
 from modeproof.trace.targets import Target
 
@@ -161,14 +159,9 @@ class _Work:
 
     def _variables(self) -> tuple[str, ...]:
         """Those of the target's module and of all that it extends; an instance has none of its own."""
-        folder = self.place / "spec"
-        tree = read_tree(folder / self.target.document, self.target.module, self.tools, folder / "common")
-        modules = [self.target.module]
-        for module in modules:
-            extended = EXTENDS.search(tree.files[module].read_text(encoding="utf-8"))
-            names = re.split(r"\s*,\s*", extended.group(1)) if extended else ()
-            modules += [name for name in names if name in tree.files and name not in modules]
-        return tuple(dict.fromkeys(name for module in modules for name in tree.variables.get(module, ())))
+        modules = read_modules(self.place, self.target.document)
+        whole = closure(modules, self.target.module, instances=False)
+        return tuple(sorted({name for module in whole for name in module.variables}))
 
     def end(self, reading: Reading, first: int) -> int:
         """Where the piece ends that begins with line `first`."""

@@ -85,7 +85,6 @@ class Guards:
         match = CALL.fullmatch(scan)
         self._root = None if match is None else tree.find(match.group(1))
         self._argument = "" if match is None else match.group(2)
-        self._with_steps: dict[str, bool] = {}
 
     def paths(self, step: str) -> list[tuple[Conjunct, ...]]:
         """For each place where the scan can take the step, all conditions of it, in order."""

@@ -31,7 +31,7 @@ def test_a_whole_graph_is_read_in_both_forms(tmp_path: Path, form: type[str]) ->
     assert graph.views[graph.initial] == '<<"Off", {}, 0>>'
     assert graph.edges_of_steps() == {"StayOff": 15, "SwitchOn": 3, "StayOn": 18, "Expire": 18}
     assert graph.outputs[graph.initial] == {"LAMP": False, "MW": 0}
-    assert graph.path_to(2) == (12, 1)
+    assert graph.shortest_paths() == (None, (0, 12), (1, 1))
 
 
 def test_an_edge_that_was_lost_is_noticed(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from modeproof.report.proofs import never_needed
+from modeproof.report.verdicts import never_needed
 
 
 def record(name: str, premises: list[str], unused: list[str]) -> dict[str, Any]:

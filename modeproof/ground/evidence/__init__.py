@@ -16,6 +16,7 @@ from modeproof.ground.evidence.record import (
     other_tools,
     own_tools,
     package,
+    sha256,
     solvers,
     tool,
 )
@@ -33,6 +34,7 @@ __all__ = [
     "package",
     "read",
     "read_document",
+    "sha256",
     "solvers",
     "tool",
     "write",

@@ -17,9 +17,13 @@ from modeproof.ground.errors import Unjudged
 SCHEMA_VERSION = 1
 
 
-def _sha256(path: Path) -> str:
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, "sha256").hexdigest()
+def sha256(path: Path) -> str:
+    """SHA-256 of a file, in hexadecimal. Raises Unjudged when the file cannot be read."""
+    try:
+        with path.open("rb") as stream:
+            return hashlib.file_digest(stream, "sha256").hexdigest()
+    except OSError as error:
+        raise Unjudged(f"{path}: {error.strerror or error}") from None
 
 
 def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
@@ -30,9 +34,7 @@ def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
     found: dict[str, str] = {}
     for path in paths:
         try:
-            found[path.resolve().relative_to(place.resolve()).as_posix()] = _sha256(path)
-        except OSError as error:
-            raise Unjudged(f"{path}: {error.strerror or error}") from None
+            found[path.resolve().relative_to(place.resolve()).as_posix()] = sha256(path)
         except ValueError:
             raise Unjudged(f"{path}: lies outside {place}") from None
     return dict(sorted(found.items()))
@@ -40,10 +42,7 @@ def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
 
 def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
     """One entry of `tools`: a version, and the hash of the file that was run when there is one."""
-    try:
-        return {"version": version, "sha256": None if path is None else _sha256(path)}
-    except OSError as error:
-        raise Unjudged(f"{path}: {error.strerror or error}") from None
+    return {"version": version, "sha256": None if path is None else sha256(path)}
 
 
 @cache

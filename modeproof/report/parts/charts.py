@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from modeproof.registers.citations import Citation
 from modeproof.registers.rows import Device, Document
+from modeproof.report.claims import citations_of
 from modeproof.report.drawing.state_chart import Box, Step, state_chart
 from modeproof.report.part import Part, Picture
 from modeproof.report.sources import HOLE, Evidence, Figure, Sources, Trouble
-from modeproof.report.steps import Cited, of_steps
 
 ERROR_WORDS = ("error", "fault")
 """In the name of a control state, or of an output that is on in it (any case): then it is one of error."""
@@ -38,7 +39,7 @@ def _device(sources: Sources, document: Document, device: Device, troubles: list
         return row | {"chart": None, "variants": []}
     (run, first), *others = found.items()
     return row | {
-        "chart": _chart(document, device, run, first, of_steps(sources, document, device)),
+        "chart": _chart(document, device, run, first, _cited(sources, document, device)),
         "variants": [_variant(name, one, first) for name, one in others],
     }
 
@@ -67,6 +68,16 @@ def _charts(
     return found
 
 
+def _cited(sources: Sources, document: Document, device: Device) -> dict[str, Citation]:
+    """By step of the device: the clauses and findings named over its action in the specification."""
+    actions = {f"{device.module}!{step}": step for step in device.steps}
+    return {
+        actions[citation.name]: citation
+        for citation in citations_of(sources, document)
+        if citation.kind == "definition" and citation.room == "spec" and citation.name in actions
+    }
+
+
 def _is_chart(value: Any) -> bool:
     """Whether a piece of evidence holds a chart as modeproof.graph.chart makes it."""
     return (
@@ -78,7 +89,7 @@ def _is_chart(value: Any) -> bool:
 
 
 def _chart(
-    document: Document, device: Device, run: str, piece: Evidence, cites: Mapping[str, Cited]
+    document: Document, device: Device, run: str, piece: Evidence, cites: Mapping[str, Citation]
 ) -> dict[str, Any]:
     chart = piece.result["chart"]
     boxes = [
@@ -113,8 +124,8 @@ def _chart(
                 "from": move["source"],
                 "step": move["step"],
                 "to": move["target"],
-                "clauses": cites.get(move["step"], Cited()).clauses,
-                "findings": cites.get(move["step"], Cited()).findings,
+                "clauses": cites[move["step"]].clauses if move["step"] in cites else (),
+                "findings": cites[move["step"]].findings if move["step"] in cites else (),
                 "transitions": Figure(move["transitions"], piece.path),
             }
             for move in chart["moves"]

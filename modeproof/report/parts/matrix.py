@@ -8,18 +8,20 @@ from collections.abc import Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
-from modeproof.report.cell_text import for_csv
 from modeproof.report.chain import Chain, Link, Traced, traced
 from modeproof.report.claims import fault_of_texts
 from modeproof.report.junit import junit
 from modeproof.report.part import Part
-from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble
+from modeproof.report.sources import DIFFERS, HOLE, Figure, Sources, Trouble, few
 
 ID = "matrix"
 HEADS = (
     *("document", "clause", "kind", "title", "device", "action", "definition", "step", "property"),
     *("theorem", "vector", "finding", "assumption", "result", "lacks"),
 )
+
+FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""What a formula of a spreadsheet begins with."""
 
 
 def part(sources: Sources) -> Part:
@@ -46,9 +48,8 @@ def _orphans(document: Document, found: Traced) -> list[Trouble]:
     items += [f"{problem.file}: {problem.place}: {problem.text}" for problem in found.astray]
     if not items:
         return []
-    more = f" and {len(items) - 1} more" if len(items) > 1 else ""
     command = f"modeproof registers --document {document.name}"
-    return [Trouble(DIFFERS, ID, f"{document.name}: orphans: {items[0]}{more}", command, tuple(items))]
+    return [Trouble(DIFFERS, ID, f"{document.name}: orphans: {few(items, 1)}", command, tuple(items))]
 
 
 def _document(document: Document, found: Traced) -> dict[str, Any]:
@@ -124,8 +125,9 @@ def _line(chain: Chain) -> list[str]:
 
 
 def _csv(lines: Sequence[Sequence[str]]) -> bytes:
+    """The lines, in which no spreadsheet takes a cell for a formula."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(HEADS)
-    writer.writerows([for_csv(cell) for cell in line] for line in lines)
+    writer.writerows([f"'{cell}" if cell.startswith(FORMULA) else cell for cell in line] for line in lines)
     return out.getvalue().encode("utf-8")

@@ -8,10 +8,9 @@ from typing import Any
 from modeproof.registers.rows import Document
 from modeproof.report.claims import theorem_result, theorem_rows
 from modeproof.report.part import Part
-from modeproof.report.proofs import never_needed
 from modeproof.report.snapshot import as_it_counts
 from modeproof.report.sources import Evidence, Figure, Sources
-from modeproof.report.verdicts import status_of
+from modeproof.report.verdicts import never_needed, status_of
 
 ID = "proofs"
 SOLVERS = ("z3", "cvc5")
