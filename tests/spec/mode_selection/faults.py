@@ -9,48 +9,27 @@ from dataclasses import dataclass
 
 from tests.spec.mode_selection.planted import Base, Fault
 
+SMALL = (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),)
+SMALL_OF_CLASSES = (('VECTORS = "classes"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),)
+SILENT = (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),)
 KEY_FLOWS = Base("MC_KeyFlows_smoke")
 NO_FAULT = Base("MC_KeyFlows_no_fault")
-FPLC = Base(
-    "MC_Fplc_arbitrary",
-    (('VECTORS = "classes"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcSmall",
-)
-TEXT_ORDER = Base(
-    "MC_Fplc_text_order",
-    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcSmall",
-)
-ANSWERS = Base(
-    "MC_Fplc_answers",
-    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcPromptSmall",
-)
-ORDER = Base(
-    "MC_Fplc_order",
-    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcOrderSmall",
-)
+FPLC = Base("MC_Fplc_arbitrary", SMALL_OF_CLASSES, module="FplcSmall")
+TEXT_ORDER = Base("MC_Fplc_text_order", SMALL, module="FplcSmall")
+ANSWERS = Base("MC_Fplc_answers", SMALL, module="FplcPromptSmall")
+ORDER = Base("MC_Fplc_order", SMALL, module="FplcOrderSmall")
 HMI_PROMPT = Base("MC_Hmi_prompt")
 EKS_PROMPT = Base("MC_Eks6_prompt")
-FPLC_SMOKE = Base(
-    "MC_Fplc_smoke",
-    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcSmall",
-)
+FPLC_SMOKE = Base("MC_Fplc_smoke", SMALL, module="FplcSmall")
 DEADLINES = Base(
     "MC_Fplc_deadlines",
     (('VECTORS = "one"', 'VECTORS = "one"  InputsToTry <- OneLevelInputs'),),
     module="FplcSmall",
 )
-NO_MODE = Base(
-    "MC_Fplc_on_error_none",
-    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- SmallInputs'),),
-    module="FplcSmall",
-)
-EKS = Base("OPEN_Eks6", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
-HMI = Base("OPEN_Hmi", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
-PLC = Base("OPEN_Plc", (("PRINT_GRAPH = TRUE", "PRINT_GRAPH = FALSE"),))
+NO_MODE = Base("MC_Fplc_on_error_none", SMALL, module="FplcSmall")
+EKS = Base("OPEN_Eks6", SILENT)
+HMI = Base("OPEN_Hmi", SILENT)
+PLC = Base("OPEN_Plc", SILENT)
 CONTRACT = Base("MC_ModeSelection")
 CONTRACT_ANYWHERE = Base("MC_ModeSelection_anywhere")
 EARNEST = Base("MC_KeyFlows_earnest")
@@ -87,1157 +66,934 @@ class Falls:
     fault: Fault
 
 
+def falls(prop: str, base: Base, *fault: str) -> Falls:
+    """One row: the property, the base, what the fault is, its file, the old text and the new one."""
+    return Falls(prop, base, Fault(*fault))
+
+
 FAULTS = (
-    Falls(
+    falls(
         "AuthorizationRespected",
         KEY_FLOWS,
-        Fault(
-            "a key of level 1 signals level 2",
-            "Eks.tla",
-            "-> {KeyLevel(key)}",
-            "-> {KeyLevel(key) + 1}",
-        ),
+        "a key of level 1 signals level 2",
+        "Eks.tla",
+        "-> {KeyLevel(key)}",
+        "-> {KeyLevel(key) + 1}",
     ),
-    Falls(
+    falls(
         "LADropsAtOnce",
         EKS,
-        Fault(
-            "the access code is not compared",
-            "Eks.tla",
-            "IF OPERATING_STATE = 6 THEN code = DIP_SWITCHES",
-            "IF OPERATING_STATE = 6 THEN TRUE",
-        ),
+        "the access code is not compared",
+        "Eks.tla",
+        "IF OPERATING_STATE = 6 THEN code = DIP_SWITCHES",
+        "IF OPERATING_STATE = 6 THEN TRUE",
     ),
-    Falls(
+    falls(
         "LADropsAtOnce",
         EKS,
-        Fault(
-            "the operating state on the key is not compared",
-            "Eks.tla",
-            "KEY[k].operating_state = OPERATING_STATE /\\",
-            "TRUE /\\",
-        ),
+        "the operating state on the key is not compared",
+        "Eks.tla",
+        "KEY[k].operating_state = OPERATING_STATE /\\",
+        "TRUE /\\",
     ),
-    Falls(
+    falls(
         "LADropsAtOnce",
         EKS,
-        Fault(
-            "a removed key is not noticed while its output stands (a scan that changes nothing)",
-            "Eks.tla",
-            '"TestOnes", "TestZeros", "Signal", "Rejected"}',
-            '"TestOnes", "TestZeros", "Rejected"}',
-        ),
+        "a removed key is not noticed while its output stands (a scan that changes nothing)",
+        "Eks.tla",
+        '"TestOnes", "TestZeros", "Signal", "Rejected"}',
+        '"TestOnes", "TestZeros", "Rejected"}',
     ),
-    Falls(
+    falls(
         "LAOnlyForAcceptedKeys",
         EKS,
-        Fault(
-            "a key of every level sets STR",
-            "Eks.tla",
-            "-> {KeyLevel(key)}",
-            "-> {4}",
-        ),
+        "a key of every level sets STR",
+        "Eks.tla",
+        "-> {KeyLevel(key)}",
+        "-> {4}",
     ),
-    Falls(
+    falls(
         "UserIntent",
         KEY_FLOWS,
-        Fault(
-            "another mode is shown than the one that is confirmed",
-            "Hmi.tla",
-            'Shown == IF hmiState = "Confirm" THEN hmiSelection',
-            'Shown == IF hmiState = "Confirm" THEN offered',
-        ),
+        "another mode is shown than the one that is confirmed",
+        "Hmi.tla",
+        'Shown == IF hmiState = "Confirm" THEN hmiSelection',
+        'Shown == IF hmiState = "Confirm" THEN offered',
     ),
-    Falls(
+    falls(
         "AcknowledgmentNeedsConfirm",
         HMI,
-        Fault(
-            "another mode is shown than the one that is confirmed",
-            "Hmi.tla",
-            'Shown == IF hmiState = "Confirm" THEN hmiSelection',
-            'Shown == IF hmiState = "Confirm" THEN offered',
-        ),
+        "another mode is shown than the one that is confirmed",
+        "Hmi.tla",
+        'Shown == IF hmiState = "Confirm" THEN hmiSelection',
+        'Shown == IF hmiState = "Confirm" THEN offered',
     ),
-    Falls(
+    falls(
         "SelectionNeedsEnable",
         HMI,
-        Fault(
-            "the screen opens over an old echo",
-            "Hmi.tla",
-            "Opens(i) == Authorizes(i) /\\ i.CM = 0",
-            "Opens(i) == Authorizes(i)",
-        ),
+        "the screen opens over an old echo",
+        "Hmi.tla",
+        "Opens(i) == Authorizes(i) /\\ i.CM = 0",
+        "Opens(i) == Authorizes(i)",
     ),
-    Falls(
+    falls(
         "InhibitAtOnce",
         HMI,
-        Fault(
-            "the panel may miss that the level is gone while it waits for the echo (no state changes)",
-            "Hmi.tla",
-            'IF hmiState = "Inhibited" \\/ StaysOpen(i)',
-            'IF hmiState \\in {"Inhibited", "AwaitEcho"} \\/ StaysOpen(i)',
-        ),
+        "the panel may miss that the level is gone while it waits for the echo (no state changes)",
+        "Hmi.tla",
+        'IF hmiState = "Inhibited" \\/ StaysOpen(i)',
+        'IF hmiState \\in {"Inhibited", "AwaitEcho"} \\/ StaysOpen(i)',
     ),
-    Falls(
+    falls(
         "TwoOutputsLeadToError",
         FPLC,
-        Fault(
-            "two outputs without LA may go unnoticed in Idle (a scan that changes nothing)",
-            "Fplc.tla",
-            'AwaitKey(i) == fplcState = "Idle" /\\ ~i.LA /\\ ~Many(i)',
-            'AwaitKey(i) == fplcState = "Idle" /\\ ~i.LA',
-        ),
+        "two outputs without LA may go unnoticed in Idle (a scan that changes nothing)",
+        "Fplc.tla",
+        'AwaitKey(i) == fplcState = "Idle" /\\ ~i.LA /\\ ~Many(i)',
+        'AwaitKey(i) == fplcState = "Idle" /\\ ~i.LA',
     ),
-    Falls(
+    falls(
         "TwoOutputsLeadToError",
         FPLC,
-        Fault(
-            "the error lamp is never lit",
-            "Fplc.tla",
-            'ERROR == fplcState = "Error"',
-            "ERROR == FALSE",
-        ),
+        "the error lamp is never lit",
+        "Fplc.tla",
+        'ERROR == fplcState = "Error"',
+        "ERROR == FALSE",
     ),
-    Falls(
+    falls(
         "AuthorizationByTheText",
         TEXT_ORDER,
-        Fault(
-            "the order of Figure 5 is built in",
-            "CodeTables.tla",
-            "m \\in PERMITS[level]",
-            "m <= level",
-        ),
+        "the order of Figure 5 is built in",
+        "CodeTables.tla",
+        "m \\in PERMITS[level]",
+        "m <= level",
     ),
-    Falls(
+    falls(
         "SelectionNeedsTouch",
         HMI,
-        Fault(
-            "whatever is touched, the highest mode is selected",
-            "Hmi.tla",
-            "i.touch = Field(m) /\\ hmiSelection' = m",
-            "i.touch = Field(m) /\\ hmiSelection' = offered",
-        ),
+        "whatever is touched, the highest mode is selected",
+        "Hmi.tla",
+        "i.touch = Field(m) /\\ hmiSelection' = m",
+        "i.touch = Field(m) /\\ hmiSelection' = offered",
     ),
-    Falls(
+    falls(
         "DisplayIsTheMode",
         KEY_FLOWS,
-        Fault(
-            "the panel displays the mode that was touched",
-            "KeyFlows.tla",
-            "Displayed == ActiveMSO",
-            "Displayed == touched",
-        ),
+        "the panel displays the mode that was touched",
+        "KeyFlows.tla",
+        "Displayed == ActiveMSO",
+        "Displayed == touched",
     ),
-    Falls(
+    falls(
         "NoErrorWithoutFault",
         EARNEST,
-        Fault(
-            "a selection that is taken back is an error",
-            "Fplc.tla",
-            '    /\\ EnterSettle\n    /\\ Did("WithdrawSelection")',
-            '    /\\ EnterError\n    /\\ Did("WithdrawSelection")',
-        ),
+        "a selection that is taken back is an error",
+        "Fplc.tla",
+        '    /\\ EnterSettle\n    /\\ Did("WithdrawSelection")',
+        '    /\\ EnterError\n    /\\ Did("WithdrawSelection")',
     ),
-    Falls(
+    falls(
         "SelectionNeedsLevel",
         FPLC,
-        Fault(
-            "a selection that no row refuses is accepted",
-            "Fplc.tla",
-            "MayBeSelected(i) == Permitted(authority, ModeOf(SE, i.MW03))",
-            "MayBeSelected(i) == ModeOf(SE, i.MW03) # None",
-        ),
+        "a selection that no row refuses is accepted",
+        "Fplc.tla",
+        "MayBeSelected(i) == Permitted(authority, ModeOf(SE, i.MW03))",
+        "MayBeSelected(i) == ModeOf(SE, i.MW03) # None",
     ),
-    Falls(
+    falls(
         "ErrorOnlyOverZeros",
         FPLC,
-        Fault(
-            "the error mode ends when the key is out",
-            "Fplc.tla",
-            'fplcState = "Error" /\\ ZerosReturned(i)',
-            'fplcState = "Error" /\\ ~i.LA',
-        ),
+        "the error mode ends when the key is out",
+        "Fplc.tla",
+        'fplcState = "Error" /\\ ZerosReturned(i)',
+        'fplcState = "Error" /\\ ~i.LA',
     ),
-    Falls(
+    falls(
         "RemovalTimerGoesOn",
         FPLC,
-        Fault(
-            "each scan that waits for the zeros starts the timer anew",
-            "Fplc.tla",
-            "    /\\ Wait(i, T_REM)\n",
-            '    /\\ Proceed("AwaitZeros")\n',
-        ),
+        "each scan that waits for the zeros starts the timer anew",
+        "Fplc.tla",
+        "    /\\ Wait(i, T_REM)\n",
+        '    /\\ Proceed("AwaitZeros")\n',
     ),
     # ------------------------------------------------------------------ F-PLC
-    Falls(
+    falls(
         "AtMostOneModeOutput",
         FPLC,
-        Fault(
-            "the new mode is set and the old one stays",
-            "Fplc.tla",
-            "mode' = {fplcSelection}",
-            "mode' = mode \\cup {fplcSelection}",
-        ),
+        "the new mode is set and the old one stays",
+        "Fplc.tla",
+        "mode' = {fplcSelection}",
+        "mode' = mode \\cup {fplcSelection}",
     ),
-    Falls(
+    falls(
         "TwoOutputsLeadToError",
         FPLC,
-        Fault(
-            "two outputs are not yet too many",
-            "Fplc.tla",
-            "Cardinality(i.vec) >= 2",
-            "Cardinality(i.vec) > 2",
-        ),
+        "two outputs are not yet too many",
+        "Fplc.tla",
+        "Cardinality(i.vec) >= 2",
+        "Cardinality(i.vec) > 2",
     ),
-    Falls(
+    falls(
         "TwoOutputsLeadToError",
         FPLC,
-        Fault(
-            "two outputs are looked at only while LA is on",
-            "Fplc.tla",
-            "IsMany(i) == Many(i)",
-            "IsMany(i) == i.LA /\\ Many(i)",
-        ),
+        "two outputs are looked at only while LA is on",
+        "Fplc.tla",
+        "IsMany(i) == Many(i)",
+        "IsMany(i) == i.LA /\\ Many(i)",
     ),
-    Falls(
+    falls(
         "SwitchNeedsMatchingPair",
         FPLC,
-        Fault(
-            "any acknowledgment matches any selection",
-            "Fplc.tla",
-            "Matches(i) == i.MW07 = SW[fplcSelection]",
-            "Matches(i) == ModeOf(SW, i.MW07) # None",
-        ),
+        "any acknowledgment matches any selection",
+        "Fplc.tla",
+        "Matches(i) == i.MW07 = SW[fplcSelection]",
+        "Matches(i) == ModeOf(SW, i.MW07) # None",
     ),
-    Falls(
+    falls(
         "SwitchNeedsMatchingPair",
         FPLC,
-        Fault(
-            "the selection is not looked at again after the echo",
-            "Fplc.tla",
-            "SelectionStands(i) == i.MW03 = SE[fplcSelection]",
-            'SelectionStands(i) == i.MW03 = SE[fplcSelection] \\/ fplcState = "Switch"',
-        ),
+        "the selection is not looked at again after the echo",
+        "Fplc.tla",
+        "SelectionStands(i) == i.MW03 = SE[fplcSelection]",
+        'SelectionStands(i) == i.MW03 = SE[fplcSelection] \\/ fplcState = "Switch"',
     ),
-    Falls(
+    falls(
         "SwitchNeedsMatchingPair",
         KEY_FLOWS,
-        Fault(
-            "the level is switched on, not the selection",
-            "Fplc.tla",
-            "mode' = {fplcSelection}",
-            "mode' = {authority}",
-        ),
+        "the level is switched on, not the selection",
+        "Fplc.tla",
+        "mode' = {fplcSelection}",
+        "mode' = {authority}",
     ),
-    Falls(
+    falls(
         "AuthorizationRespected",
         FPLC,
-        Fault(
-            "the range of a selection is checked and the level is not",
-            "Fplc.tla",
-            "Permitted(authority, ModeOf(SE, i.MW03))",
-            "ModeOf(SE, i.MW03) # None",
-        ),
+        "the range of a selection is checked and the level is not",
+        "Fplc.tla",
+        "Permitted(authority, ModeOf(SE, i.MW03))",
+        "ModeOf(SE, i.MW03) # None",
     ),
-    Falls(
+    falls(
         "AuthorizationRespected",
         KEY_FLOWS,
-        Fault(
-            "every key is taken for one of the highest level",
-            "Fplc.tla",
-            "\\E a \\in i.vec : authority' = LevelOf(a)",
-            "authority' = 4",
-        ),
+        "every key is taken for one of the highest level",
+        "Fplc.tla",
+        "\\E a \\in i.vec : authority' = LevelOf(a)",
+        "authority' = 4",
     ),
-    Falls(
+    falls(
         "NoChangeWithoutLA",
         FPLC,
-        Fault(
-            "LA is not looked at in the scan that switches",
-            "Fplc.tla",
-            "IsGone(i) == ~i.LA /\\ fplcState",
-            'IsGone(i) == ~i.LA /\\ fplcState # "Switch" /\\ fplcState',
-        ),
+        "LA is not looked at in the scan that switches",
+        "Fplc.tla",
+        "IsGone(i) == ~i.LA /\\ fplcState",
+        'IsGone(i) == ~i.LA /\\ fplcState # "Switch" /\\ fplcState',
     ),
-    Falls(
+    falls(
         "NoChangeWithoutLA",
         KEY_FLOWS,
-        Fault(
-            "LA is not looked at in the scan that switches",
-            "Fplc.tla",
-            "IsGone(i) == ~i.LA /\\ fplcState",
-            'IsGone(i) == ~i.LA /\\ fplcState # "Switch" /\\ fplcState',
-        ),
+        "LA is not looked at in the scan that switches",
+        "Fplc.tla",
+        "IsGone(i) == ~i.LA /\\ fplcState",
+        'IsGone(i) == ~i.LA /\\ fplcState # "Switch" /\\ fplcState',
     ),
-    Falls(
+    falls(
         "NoChangeBesideSwitchover",
         FPLC,
-        Fault(
-            "the error mode drops the mode although it is to be held",
-            "Fplc.tla",
-            'mode\' = IF ON_ERROR = "none"',
-            'mode\' = IF ON_ERROR = "hold"',
-        ),
+        "the error mode drops the mode although it is to be held",
+        "Fplc.tla",
+        'mode\' = IF ON_ERROR = "none"',
+        'mode\' = IF ON_ERROR = "hold"',
     ),
-    Falls(
+    falls(
         "NoChangeBesideSwitchover",
         KEY_FLOWS,
-        Fault(
-            "removal drops the mode",
-            "Fplc.tla",
-            'EnterClear == GoTo("Clear") /\\ DropKey /\\ UNCHANGED mode',
-            'EnterClear == GoTo("Clear") /\\ DropKey /\\ mode\' = {}',
-        ),
+        "removal drops the mode",
+        "Fplc.tla",
+        'EnterClear == GoTo("Clear") /\\ DropKey /\\ UNCHANGED mode',
+        'EnterClear == GoTo("Clear") /\\ DropKey /\\ mode\' = {}',
     ),
-    Falls(
+    falls(
         "EchoIsTheSelection",
         FPLC,
-        Fault(
-            "the echo is taken from the table of the acknowledgments",
-            "Fplc.tla",
-            "THEN CH[fplcSelection]",
-            "THEN SW[fplcSelection]",
-        ),
+        "the echo is taken from the table of the acknowledgments",
+        "Fplc.tla",
+        "THEN CH[fplcSelection]",
+        "THEN SW[fplcSelection]",
     ),
-    Falls(
+    falls(
         "WordsZeroWithoutKey",
         FPLC,
-        Fault(
-            "MW01 falls only when the removal is over",
-            "Fplc.tla",
-            "THEN RE[authority] ELSE 0",
-            "THEN RE[authority] ELSE IF fplcState \\in Removing THEN RE[0] ELSE 0",
-        ),
+        "MW01 falls only when the removal is over",
+        "Fplc.tla",
+        "THEN RE[authority] ELSE 0",
+        "THEN RE[authority] ELSE IF fplcState \\in Removing THEN RE[0] ELSE 0",
     ),
-    Falls(
+    falls(
         "SelectionWithinAuthority",
         FPLC,
-        Fault(
-            "the selection is latched through the table of the echo",
-            "Fplc.tla",
-            "fplcSelection' = ModeOf(SE, i.MW03)",
-            "fplcSelection' = ModeOf(CH, i.MW03)",
-        ),
+        "the selection is latched through the table of the echo",
+        "Fplc.tla",
+        "fplcSelection' = ModeOf(SE, i.MW03)",
+        "fplcSelection' = ModeOf(CH, i.MW03)",
     ),
-    Falls(
+    falls(
         "IdleOnlyOverZeros",
         FPLC,
-        Fault(
-            "MW07 need not return to zero",
-            "Fplc.tla",
-            "NoWords(i) == i.MW03 = 0 /\\ i.MW07 = 0",
-            "NoWords(i) == i.MW03 = 0",
-        ),
+        "MW07 need not return to zero",
+        "Fplc.tla",
+        "NoWords(i) == i.MW03 = 0 /\\ i.MW07 = 0",
+        "NoWords(i) == i.MW03 = 0",
     ),
-    Falls(
+    falls(
         "IdleOnlyOverZeros",
         FPLC,
-        Fault(
-            "a forgotten output does not keep the error mode",
-            "Fplc.tla",
-            "NoSignal(i) == ~i.LA /\\ i.vec = {}",
-            "NoSignal(i) == ~i.LA",
-        ),
+        "a forgotten output does not keep the error mode",
+        "Fplc.tla",
+        "NoSignal(i) == ~i.LA /\\ i.vec = {}",
+        "NoSignal(i) == ~i.LA",
     ),
-    Falls(
+    falls(
         "RemovalSeenAtOnce",
         FPLC,
-        Fault(
-            "a lost output is not seen before the level is published, nor in Settle",
-            "Fplc.tla",
-            "IsChanged(i) == i.vec # {accepted} /\\ fplcState \\in Holding",
-            "IsChanged(i) == i.vec # {accepted} /\\ fplcState \\in Authorized",
-        ),
+        "a lost output is not seen before the level is published, nor in Settle",
+        "Fplc.tla",
+        "IsChanged(i) == i.vec # {accepted} /\\ fplcState \\in Holding",
+        "IsChanged(i) == i.vec # {accepted} /\\ fplcState \\in Authorized",
     ),
-    Falls(
+    falls(
         "EchoNeedsSelection",
         FPLC,
-        Fault(
-            "while MW07 is awaited MW03 is not looked at",
-            "Fplc.tla",
-            'AwaitMW07(i) == StandsIn("AwaitAcknowledgment", i)',
-            'AwaitMW07(i) == fplcState = "AwaitAcknowledgment"',
-        ),
+        "while MW07 is awaited MW03 is not looked at",
+        "Fplc.tla",
+        'AwaitMW07(i) == StandsIn("AwaitAcknowledgment", i)',
+        'AwaitMW07(i) == fplcState = "AwaitAcknowledgment"',
     ),
-    Falls(
+    falls(
         "LevelNeedsPulse",
         FPLC,
-        Fault(
-            "any output counts as the ones of the pulse",
-            "Fplc.tla",
-            'fplcState = "PulseOnes" /\\ i.vec = MSO\n',
-            'fplcState = "PulseOnes" /\\ i.vec # {}\n',
-        ),
+        "any output counts as the ones of the pulse",
+        "Fplc.tla",
+        'fplcState = "PulseOnes" /\\ i.vec = MSO\n',
+        'fplcState = "PulseOnes" /\\ i.vec # {}\n',
     ),
-    Falls(
+    falls(
         "NoWaitBeyondDeadline",
         FPLC,
-        Fault(
-            "a deadline passes one tick too late",
-            "Fplc.tla",
-            "IsExpired(i) == Now(i) >= Deadline",
-            "IsExpired(i) == Now(i) > Deadline",
-        ),
+        "a deadline passes one tick too late",
+        "Fplc.tla",
+        "IsExpired(i) == Now(i) >= Deadline",
+        "IsExpired(i) == Now(i) > Deadline",
     ),
     # ------------------------------------------------------------------ the devices together
-    Falls(
+    falls(
         "UserIntent",
         KEY_FLOWS,
-        Fault(
-            "the panel acknowledges as soon as it shows the echo",
-            "Hmi.tla",
-            'SwitchMSO == IF hmiState = "AwaitSwitch"',
-            'SwitchMSO == IF hmiState \\in {"Confirm", "AwaitSwitch"}',
-        ),
+        "the panel acknowledges as soon as it shows the echo",
+        "Hmi.tla",
+        'SwitchMSO == IF hmiState = "AwaitSwitch"',
+        'SwitchMSO == IF hmiState \\in {"Confirm", "AwaitSwitch"}',
     ),
-    Falls(
+    falls(
         "EchoIsTheTouch",
         KEY_FLOWS,
-        Fault(
-            "the panel sends the selection in the words of the level",
-            "Hmi.tla",
-            "THEN SE[hmiSelection]",
-            "THEN RE[hmiSelection]",
-        ),
+        "the panel sends the selection in the words of the level",
+        "Hmi.tla",
+        "THEN SE[hmiSelection]",
+        "THEN RE[hmiSelection]",
     ),
-    Falls(
+    falls(
         "IdleMeansZeros",
         KEY_FLOWS,
-        Fault(
-            "zeros count as returned without the dwell time",
-            "Fplc.tla",
-            "ZerosReturned(i) == NoSignal(i) /\\ NoWords(i) /\\ Dwelt(i)",
-            "ZerosReturned(i) == NoSignal(i) /\\ NoWords(i)",
-        ),
+        "zeros count as returned without the dwell time",
+        "Fplc.tla",
+        "ZerosReturned(i) == NoSignal(i) /\\ NoWords(i) /\\ Dwelt(i)",
+        "ZerosReturned(i) == NoSignal(i) /\\ NoWords(i)",
     ),
-    Falls(
+    falls(
         "RefinesModeSelection",
         KEY_FLOWS,
-        Fault(
-            "the level becomes active, not the selection",
-            "Fplc.tla",
-            "mode' = {fplcSelection}",
-            "mode' = {authority}",
-        ),
+        "the level becomes active, not the selection",
+        "Fplc.tla",
+        "mode' = {fplcSelection}",
+        "mode' = {authority}",
     ),
-    Falls(
+    falls(
         "ModeNeedsConfirmation",
         CONTRACT_ANYWHERE,
-        Fault(
-            "the contract asks for no touch and no display",
-            "ModeSelection.tla",
-            "    /\\ confirmed = touched /\\ confirmed = seen ",
-            "    ",
-        ),
+        "the contract asks for no touch and no display",
+        "ModeSelection.tla",
+        "    /\\ confirmed = touched /\\ confirmed = seen ",
+        "    ",
     ),
-    Falls(
+    falls(
         "ConfirmedWasSeen",
         CONTRACT,
-        Fault(
-            "a touch keeps what was confirmed before",
-            "ModeSelection.tla",
-            "touched' \\in MSO /\\ seen' = None /\\ confirmed' = None",
-            "touched' \\in MSO /\\ seen' = None /\\ UNCHANGED confirmed",
-        ),
+        "a touch keeps what was confirmed before",
+        "ModeSelection.tla",
+        "touched' \\in MSO /\\ seen' = None /\\ confirmed' = None",
+        "touched' \\in MSO /\\ seen' = None /\\ UNCHANGED confirmed",
     ),
-    Falls(
+    falls(
         "TouchBeginsAnew",
         CONTRACT,
-        Fault(
-            "another key changes the mode",
-            "ModeSelection.tla",
-            "confirmed' = None /\\ UNCHANGED <<level, mode>>\n\n\\* EKS-2-7",
-            "confirmed' = None /\\ UNCHANGED level /\\ mode' = None\n\n\\* EKS-2-7",
-        ),
+        "another key changes the mode",
+        "ModeSelection.tla",
+        "confirmed' = None /\\ UNCHANGED <<level, mode>>\n\n\\* EKS-2-7",
+        "confirmed' = None /\\ UNCHANGED level /\\ mode' = None\n\n\\* EKS-2-7",
     ),
-    Falls(
+    falls(
         "ShownThenConfirmed",
         CONTRACT,
-        Fault(
-            "the panel shows any mode",
-            "ModeSelection.tla",
-            "seen' = touched /\\",
-            "seen' \\in MSO /\\",
-        ),
+        "the panel shows any mode",
+        "ModeSelection.tla",
+        "seen' = touched /\\",
+        "seen' \\in MSO /\\",
     ),
-    Falls(
+    falls(
         "LevelChangesNothingElse",
         CONTRACT,
-        Fault(
-            "a level that is gone takes the mode with it",
-            "ModeSelection.tla",
-            "UNCHANGED <<touched, seen, confirmed, mode>>",
-            "mode' = None /\\ UNCHANGED <<touched, seen, confirmed>>",
-        ),
+        "a level that is gone takes the mode with it",
+        "ModeSelection.tla",
+        "UNCHANGED <<touched, seen, confirmed, mode>>",
+        "mode' = None /\\ UNCHANGED <<touched, seen, confirmed>>",
     ),
-    Falls(
+    falls(
         "GoalReached",
         GOAL,
-        Fault(
-            "the F-PLC waits for the ones of the pulse twice",
-            "Fplc.tla",
-            'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = {}',
-            'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = MSO',
-        ),
+        "the F-PLC waits for the ones of the pulse twice",
+        "Fplc.tla",
+        'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = {}',
+        'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = MSO',
     ),
-    Falls(
+    falls(
         "RemovalLeadsToIdle",
         REMOVAL,
-        Fault(
-            "zeros never count as returned after power-up",
-            "Fplc.tla",
-            "LeaveStart(i) \\/ AwaitPowerUpZeros(i)",
-            "AwaitPowerUpZeros(i)",
-        ),
+        "zeros never count as returned after power-up",
+        "Fplc.tla",
+        "LeaveStart(i) \\/ AwaitPowerUpZeros(i)",
+        "AwaitPowerUpZeros(i)",
     ),
     # ------------------------------------------------------------------ panel
-    Falls(
+    falls(
         "SelectionWithinOffer",
         HMI,
-        Fault(
-            "all selection fields can be touched",
-            "Hmi.tla",
-            "{m \\in MSO : Permitted(offered, m)}",
-            "MSO",
-        ),
+        "all selection fields can be touched",
+        "Hmi.tla",
+        "{m \\in MSO : Permitted(offered, m)}",
+        "MSO",
     ),
-    Falls(
+    falls(
         "InhibitedSendsZeros",
         HMI,
-        Fault(
-            "the resting acknowledgment is not zero",
-            "Hmi.tla",
-            "THEN SW[hmiSelection] ELSE 0",
-            "THEN SW[hmiSelection] ELSE OtherWord",
-        ),
+        "the resting acknowledgment is not zero",
+        "Hmi.tla",
+        "THEN SW[hmiSelection] ELSE 0",
+        "THEN SW[hmiSelection] ELSE OtherWord",
     ),
-    Falls(
+    falls(
         "SelectionNeedsEnable",
         HMI,
-        Fault(
-            "another level on the bus leaves the screen open",
-            "Hmi.tla",
-            "Enable(i) == Level(i) = offered",
-            "Enable(i) == Level(i) # None",
-        ),
+        "another level on the bus leaves the screen open",
+        "Hmi.tla",
+        "Enable(i) == Level(i) = offered",
+        "Enable(i) == Level(i) # None",
     ),
-    Falls(
+    falls(
         "AcknowledgmentNeedsConfirm",
         HMI,
-        Fault(
-            "whatever is not a rejection confirms",
-            "Hmi.tla",
-            'Answerable(i) /\\ i.touch = "confirm"',
-            'Answerable(i) /\\ i.touch # "reject"',
-        ),
+        "whatever is not a rejection confirms",
+        "Hmi.tla",
+        'Answerable(i) /\\ i.touch = "confirm"',
+        'Answerable(i) /\\ i.touch # "reject"',
     ),
-    Falls(
+    falls(
         "InhibitAtOnce",
         HMI,
-        Fault(
-            "any word but zero keeps the screen open",
-            "Hmi.tla",
-            "Enable(i) == Level(i) = offered",
-            "Enable(i) == i.RA # 0",
-        ),
+        "any word but zero keeps the screen open",
+        "Hmi.tla",
+        "Enable(i) == Level(i) = offered",
+        "Enable(i) == i.RA # 0",
     ),
     # ------------------------------------------------------------------ PLC
-    Falls(
+    falls(
         "CopiesUnchanged",
         PLC,
-        Fault(
-            "the acknowledgment is copied to where the selection belongs",
-            "Plc.tla",
-            "MW03' = i.SelectMSO",
-            "MW03' = i.SwitchMSO",
-        ),
+        "the acknowledgment is copied to where the selection belongs",
+        "Plc.tla",
+        "MW03' = i.SelectMSO",
+        "MW03' = i.SwitchMSO",
     ),
     # ------------------------------------------------------------------ EKS
-    Falls(
+    falls(
         "OneOutputOutsideThePulse",
         EKS,
-        Fault(
-            "a level sets the outputs of all lower levels too",
-            "Eks.tla",
-            '{"Signal", "ClearOutputs"} -> {KeyLevel(key)}',
-            '{"Signal", "ClearOutputs"} -> 0..KeyLevel(key)',
-        ),
+        "a level sets the outputs of all lower levels too",
+        "Eks.tla",
+        '{"Signal", "ClearOutputs"} -> {KeyLevel(key)}',
+        '{"Signal", "ClearOutputs"} -> 0..KeyLevel(key)',
     ),
-    Falls(
+    falls(
         "NoOutputWithoutLA",
         EKS,
-        Fault(
-            "LA is on in the pulse only",
-            "Eks.tla",
-            '{"StartTest", "TestOnes", "TestZeros", "Signal"}',
-            '{"StartTest", "TestOnes", "TestZeros"}',
-        ),
+        "LA is on in the pulse only",
+        "Eks.tla",
+        '{"StartTest", "TestOnes", "TestZeros", "Signal"}',
+        '{"StartTest", "TestOnes", "TestZeros"}',
     ),
-    Falls(
+    falls(
         "LAOnlyForAcceptedKeys",
         EKS,
-        Fault(
-            "the checksum is calculated and not compared",
-            "Eks.tla",
-            "/\\ KEY[key].KEYCRC = CHECKSUM[key] /\\ GoTo",
-            "/\\ GoTo",
-        ),
+        "the checksum is calculated and not compared",
+        "Eks.tla",
+        "/\\ KEY[key].KEYCRC = CHECKSUM[key] /\\ GoTo",
+        "/\\ GoTo",
     ),
-    Falls(
+    falls(
         "LAOnlyForAcceptedKeys",
         EKS,
-        Fault(
-            "the level is looked at and not judged",
-            "Eks.tla",
-            'At("CheckLevel", i) /\\ Accepted(key)',
-            'At("CheckLevel", i)',
-        ),
+        "the level is looked at and not judged",
+        "Eks.tla",
+        'At("CheckLevel", i) /\\ Accepted(key)',
+        'At("CheckLevel", i)',
     ),
-    Falls(
+    falls(
         "LADropsAtOnce",
         EKS,
-        Fault(
-            "a swapped key is not noticed",
-            "Eks.tla",
-            "Taken(i) == eksState \\in Working /\\ i.key # key",
-            "Taken(i) == eksState \\in Working /\\ i.key = None",
-        ),
+        "a swapped key is not noticed",
+        "Eks.tla",
+        "Taken(i) == eksState \\in Working /\\ i.key # key",
+        "Taken(i) == eksState \\in Working /\\ i.key = None",
     ),
-    Falls(
+    falls(
         "PulseBeforeOutput",
         EKS,
-        Fault(
-            "the one output is set without a pulse",
-            "Eks.tla",
-            'GoTo("TestOnes")',
-            'GoTo("Signal")',
-        ),
+        "the one output is set without a pulse",
+        "Eks.tla",
+        'GoTo("TestOnes")',
+        'GoTo("Signal")',
     ),
-    Falls(
+    falls(
         "PulseHalvesLast",
         EKS,
-        Fault(
-            "the second half of the pulse is over at once",
-            "Eks.tla",
-            'At("TestZeros", i) /\\ Over(i) /\\ GoTo("Signal")',
-            'At("TestZeros", i) /\\ GoTo("Signal")',
-        ),
+        "the second half of the pulse is over at once",
+        "Eks.tla",
+        'At("TestZeros", i) /\\ Over(i) /\\ GoTo("Signal")',
+        'At("TestZeros", i) /\\ GoTo("Signal")',
     ),
-    Falls(
+    falls(
         "PulseHalvesLast",
         EKS,
-        Fault(
-            "a half of the pulse lasts one scan longer",
-            "Eks.tla",
-            "Over(i) == eksElapsed + i.dt >= T_PULSE",
-            "Over(i) == eksElapsed >= T_PULSE",
-        ),
+        "a half of the pulse lasts one scan longer",
+        "Eks.tla",
+        "Over(i) == eksElapsed + i.dt >= T_PULSE",
+        "Over(i) == eksElapsed >= T_PULSE",
     ),
-    Falls(
+    falls(
         "FaultIsLatched",
         EKS,
-        Fault(
-            "registers that are not zero are forgotten",
-            "Eks.tla",
-            'GoTo("Fault")',
-            'GoTo("Empty")',
-        ),
+        "registers that are not zero are forgotten",
+        "Eks.tla",
+        'GoTo("Fault")',
+        'GoTo("Empty")',
     ),
-    Falls(
+    falls(
         "EveryScanIsAnswered",
         EKS,
-        Fault(
-            "a key that is refused leaves the device without a step",
-            "Eks.tla",
-            "(HoldOneOutput(i) \\/ StayRejected(i))",
-            "HoldOneOutput(i)",
-        ),
+        "a key that is refused leaves the device without a step",
+        "Eks.tla",
+        "(HoldOneOutput(i) \\/ StayRejected(i))",
+        "HoldOneOutput(i)",
     ),
     # ------------------------------------------------------------------ deadlines, answers
-    Falls(
+    falls(
         "SharedDeadlineHolds",
         DEADLINES,
-        Fault(
-            "the sequence timer starts again when all outputs are off",
-            "Fplc.tla",
-            'GoOn("OneOutput", i)',
-            'Proceed("OneOutput")',
-        ),
+        "the sequence timer starts again when all outputs are off",
+        "Fplc.tla",
+        'GoOn("OneOutput", i)',
+        'Proceed("OneOutput")',
     ),
-    Falls(
+    falls(
         "SharedDeadlineHolds",
         FPLC,
-        Fault(
-            "the removal timer starts again when the words are cleared",
-            "Fplc.tla",
-            'GoOn("AwaitZeros", i)',
-            'Proceed("AwaitZeros")',
-        ),
+        "the removal timer starts again when the words are cleared",
+        "Fplc.tla",
+        'GoOn("AwaitZeros", i)',
+        'Proceed("AwaitZeros")',
     ),
-    Falls(
+    falls(
         "ErrorDropsMode",
         NO_MODE,
-        Fault(
-            "the error mode keeps the mode although it is to be dropped",
-            "Fplc.tla",
-            'mode\' = IF ON_ERROR = "none"',
-            'mode\' = IF ON_ERROR = "hold"',
-        ),
+        "the error mode keeps the mode although it is to be dropped",
+        "Fplc.tla",
+        'mode\' = IF ON_ERROR = "none"',
+        'mode\' = IF ON_ERROR = "hold"',
     ),
-    Falls(
+    falls(
         "EveryScanIsAnswered",
         ANSWERS,
-        Fault(
-            "a key that is refused in Idle has no step",
-            "Fplc.tla",
-            "AwaitKey(i) \\/ DetectKey(i)",
-            "DetectKey(i)",
-        ),
+        "a key that is refused in Idle has no step",
+        "Fplc.tla",
+        "AwaitKey(i) \\/ DetectKey(i)",
+        "DetectKey(i)",
     ),
-    Falls(
+    falls(
         "EveryScanIsAnswered",
         HMI,
-        Fault(
-            "a touch beside the fields has no answer",
-            "Hmi.tla",
-            "TouchSelection(i) \\/ OfferModes(i)",
-            "TouchSelection(i)",
-        ),
+        "a touch beside the fields has no answer",
+        "Hmi.tla",
+        "TouchSelection(i) \\/ OfferModes(i)",
+        "TouchSelection(i)",
     ),
-    Falls(
+    falls(
         "EveryScanIsAnswered",
         PLC,
-        Fault(
-            "one of the four copies is forgotten",
-            "Plc.tla",
-            "\\/ CopyMW03(i) \\/ CopyCheckMSO(i)",
-            "\\/ CopyMW03(i)",
-        ),
+        "one of the four copies is forgotten",
+        "Plc.tla",
+        "\\/ CopyMW03(i) \\/ CopyCheckMSO(i)",
+        "\\/ CopyMW03(i)",
     ),
     # ------------------------------------------------------------------ power-up, turns
-    Falls(
+    falls(
         "PowerUpIsSafe",
         FPLC_SMOKE,
-        Fault(
-            "a mode is active from the first moment",
-            "Fplc.tla",
-            "    /\\ mode = {} /\\ fplcElapsed = 0",
-            "    /\\ mode = {0} /\\ fplcElapsed = 0",
-        ),
+        "a mode is active from the first moment",
+        "Fplc.tla",
+        "    /\\ mode = {} /\\ fplcElapsed = 0",
+        "    /\\ mode = {0} /\\ fplcElapsed = 0",
     ),
-    Falls(
+    falls(
         "PowerUpIsSafe",
         PLC,
-        Fault(
-            "the word of the last day is still there",
-            "Plc.tla",
-            "ReadAuthorization = 0 /\\ MW03 = 0",
-            "ReadAuthorization = OtherWord /\\ MW03 = 0",
-        ),
+        "the word of the last day is still there",
+        "Plc.tla",
+        "ReadAuthorization = 0 /\\ MW03 = 0",
+        "ReadAuthorization = OtherWord /\\ MW03 = 0",
     ),
-    Falls(
+    falls(
         "PowerUpIsSafe",
         HMI,
-        Fault(
-            "the screen is open after power-up",
-            "Hmi.tla",
-            'HmiInit == hmiState = "Inhibited" /\\ offered = None',
-            'HmiInit == hmiState = "Select" /\\ offered = 0',
-        ),
+        "the screen is open after power-up",
+        "Hmi.tla",
+        'HmiInit == hmiState = "Inhibited" /\\ offered = None',
+        'HmiInit == hmiState = "Select" /\\ offered = 0',
     ),
-    Falls(
+    falls(
         "PowerUpIsSafe",
         EKS,
-        Fault(
-            "LA is on from the first moment",
-            "Eks.tla",
-            'EksInit == eksState = "Empty" /\\ key = None',
-            'EksInit == eksState = "StartTest" /\\ key = 0',
-        ),
+        "LA is on from the first moment",
+        "Eks.tla",
+        'EksInit == eksState = "Empty" /\\ key = None',
+        'EksInit == eksState = "StartTest" /\\ key = 0',
     ),
-    Falls(
+    falls(
         "CopiesTakeTurns",
         PLC,
-        Fault(
-            "the turn is not passed on",
-            "Plc.tla",
-            "turn = this /\\ turn' = next",
-            "turn = this /\\ turn' = this",
-        ),
+        "the turn is not passed on",
+        "Plc.tla",
+        "turn = this /\\ turn' = next",
+        "turn = this /\\ turn' = this",
     ),
     # ------------------------------------------------------------------ with faults from outside
-    Falls(
+    falls(
         "NothingButTheTouch",
         NO_FAULT,
-        Fault(
-            "the level is switched on, not the selection",
-            "Fplc.tla",
-            "mode' = {fplcSelection}",
-            "mode' = {authority}",
-        ),
+        "the level is switched on, not the selection",
+        "Fplc.tla",
+        "mode' = {fplcSelection}",
+        "mode' = {authority}",
     ),
-    Falls(
+    falls(
         "NoOfferBeyondTheLevel",
         NO_FAULT,
-        Fault(
-            "all selection fields can be touched",
-            "Hmi.tla",
-            "{m \\in MSO : Permitted(offered, m)}",
-            "MSO",
-        ),
+        "all selection fields can be touched",
+        "Hmi.tla",
+        "{m \\in MSO : Permitted(offered, m)}",
+        "MSO",
     ),
-    Falls(
+    falls(
         "NoWordIsRefused",
         NO_FAULT,
-        Fault(
-            "all selection fields can be touched",
-            "Hmi.tla",
-            "{m \\in MSO : Permitted(offered, m)}",
-            "MSO",
-        ),
+        "all selection fields can be touched",
+        "Hmi.tla",
+        "{m \\in MSO : Permitted(offered, m)}",
+        "MSO",
     ),
-    Falls(
+    falls(
         "NeverBeyondTheKey",
         NO_FAULT,
-        Fault(
-            "a key of level 1 signals level 2",
-            "Eks.tla",
-            "-> {KeyLevel(key)}",
-            "-> {KeyLevel(key) + 1}",
-        ),
+        "a key of level 1 signals level 2",
+        "Eks.tla",
+        "-> {KeyLevel(key)}",
+        "-> {KeyLevel(key) + 1}",
     ),
     # ------------------------------------------------------------------ detections that faults need
-    Falls(
+    falls(
         "NeverBeyondTheKey",
         CORRUPTING,
-        Fault(
-            "any code is accepted as a selection, whatever the level",
-            "Fplc.tla",
-            "Permitted(authority, ModeOf(SE, i.MW03))",
-            "ModeOf(SE, i.MW03) # None",
-        ),
+        "any code is accepted as a selection, whatever the level",
+        "Fplc.tla",
+        "Permitted(authority, ModeOf(SE, i.MW03))",
+        "ModeOf(SE, i.MW03) # None",
     ),
-    Falls(
+    falls(
         "SwitchNeedsMatchingPair",
         CORRUPTING,
-        Fault(
-            "any code is accepted as an acknowledgment",
-            "Fplc.tla",
-            "Matches(i) == i.MW07 = SW[fplcSelection]",
-            "Matches(i) == ModeOf(SW, i.MW07) # None",
-        ),
+        "any code is accepted as an acknowledgment",
+        "Fplc.tla",
+        "Matches(i) == i.MW07 = SW[fplcSelection]",
+        "Matches(i) == ModeOf(SW, i.MW07) # None",
     ),
-    Falls(
+    falls(
         "SwitchNeedsMatchingPair",
         CORRUPTING,
-        Fault(
-            "the selection need not stand until the switchover",
-            "Fplc.tla",
-            "SelectionStands(i) == i.MW03 = SE[fplcSelection]",
-            "SelectionStands(i) == TRUE",
-        ),
+        "the selection need not stand until the switchover",
+        "Fplc.tla",
+        "SelectionStands(i) == i.MW03 = SE[fplcSelection]",
+        "SelectionStands(i) == TRUE",
     ),
-    Falls(
+    falls(
         "NeverBeyondTheKey",
         FAULTY_EKS,
-        Fault(
-            "the accepted output need not stay",
-            "Fplc.tla",
-            "IsChanged(i) == i.vec # {accepted}",
-            "IsChanged(i) == FALSE",
-        ),
+        "the accepted output need not stay",
+        "Fplc.tla",
+        "IsChanged(i) == i.vec # {accepted}",
+        "IsChanged(i) == FALSE",
     ),
-    Falls(
+    falls(
         "NeverBeyondTheKey",
         FAULTY_EKS,
-        Fault(
-            "LA need not stay",
-            "Fplc.tla",
-            "IsGone(i) == ~i.LA",
-            "IsGone(i) == FALSE",
-        ),
+        "LA need not stay",
+        "Fplc.tla",
+        "IsGone(i) == ~i.LA",
+        "IsGone(i) == FALSE",
     ),
     # ------------------------------------------------------------------ promptness, causes, memory
-    Falls(
+    falls(
         "NoNeedlessWait",
         ANSWERS,
-        Fault(
-            "an output that is there may be waited for",
-            "Fplc.tla",
-            'fplcState = "OneOutput" /\\ i.vec = {} /\\ Wait',
-            'fplcState = "OneOutput" /\\ Wait',
-        ),
+        "an output that is there may be waited for",
+        "Fplc.tla",
+        'fplcState = "OneOutput" /\\ i.vec = {} /\\ Wait',
+        'fplcState = "OneOutput" /\\ Wait',
     ),
-    Falls(
+    falls(
         "ErrorNeedsCause",
         ANSWERS,
-        Fault(
-            "a key that went leaves an error when the deadline passed too",
-            "Fplc.tla",
-            "IsExpired(i) /\\ ~IsGone(i) /\\ ~IsMany(i)",
-            "IsExpired(i) /\\ ~IsMany(i)",
-        ),
+        "a key that went leaves an error when the deadline passed too",
+        "Fplc.tla",
+        "IsExpired(i) /\\ ~IsGone(i) /\\ ~IsMany(i)",
+        "IsExpired(i) /\\ ~IsMany(i)",
     ),
-    Falls(
+    falls(
         "ErrorNeedsCause",
         ANSWERS,
-        Fault(
-            "a key that went in the test pulse leaves an error when two outputs stand",
-            "Fplc.tla",
-            'fplcState = "Idle" /\\ ~i.LA /\\ Many(i)',
-            "~i.LA /\\ Many(i)",
-        ),
+        "a key that went in the test pulse leaves an error when two outputs stand",
+        "Fplc.tla",
+        'fplcState = "Idle" /\\ ~i.LA /\\ Many(i)',
+        "~i.LA /\\ Many(i)",
     ),
-    Falls(
+    falls(
         "RemovalNeedsCause",
         ANSWERS,
-        Fault(
-            "a key that is not yet there begins a removal",
-            "Fplc.tla",
-            "IsGone(i) == ~i.LA /\\ fplcState \\in WithKey",
-            'IsGone(i) == ~i.LA /\\ fplcState \\in WithKey \\cup {"Idle"}',
-        ),
+        "a key that is not yet there begins a removal",
+        "Fplc.tla",
+        "IsGone(i) == ~i.LA /\\ fplcState \\in WithKey",
+        'IsGone(i) == ~i.LA /\\ fplcState \\in WithKey \\cup {"Idle"}',
     ),
-    Falls(
+    falls(
         "InsertionNeedsKey",
         ANSWERS,
-        Fault(
-            "power-up leads into the test pulse",
-            "Fplc.tla",
-            '    /\\ Proceed("Idle")\n    /\\ Did("LeaveStart")',
-            '    /\\ Proceed("PulseOnes")\n    /\\ Did("LeaveStart")',
-        ),
+        "power-up leads into the test pulse",
+        "Fplc.tla",
+        '    /\\ Proceed("Idle")\n    /\\ Did("LeaveStart")',
+        '    /\\ Proceed("PulseOnes")\n    /\\ Did("LeaveStart")',
     ),
-    Falls(
+    falls(
         "NothingIsKept",
         ANSWERS,
-        Fault(
-            "the error mode keeps the level",
-            "Fplc.tla",
-            "DropKey == accepted' = None /\\ authority' = None",
-            "DropKey == accepted' = None /\\ authority' = authority",
-        ),
+        "the error mode keeps the level",
+        "Fplc.tla",
+        "DropKey == accepted' = None /\\ authority' = None",
+        "DropKey == accepted' = None /\\ authority' = authority",
     ),
-    Falls(
+    falls(
         "NothingIsKept",
         ANSWERS,
-        Fault(
-            "the dwell time of power-up is over at power-up",
-            "Fplc.tla",
-            "mode = {} /\\ fplcElapsed = 0",
-            "mode = {} /\\ fplcElapsed = 1",
-        ),
+        "the dwell time of power-up is over at power-up",
+        "Fplc.tla",
+        "mode = {} /\\ fplcElapsed = 0",
+        "mode = {} /\\ fplcElapsed = 1",
     ),
-    Falls(
+    falls(
         "RecoversFully",
         RECOVERY,
-        Fault(
-            "the reader latches its fault where its test pulse should begin",
-            "Eks.tla",
-            'At("StartTest", i) /\\ GoTo("TestOnes")',
-            'At("StartTest", i) /\\ GoTo("Fault")',
-        ),
+        "the reader latches its fault where its test pulse should begin",
+        "Eks.tla",
+        'At("StartTest", i) /\\ GoTo("TestOnes")',
+        'At("StartTest", i) /\\ GoTo("Fault")',
     ),
-    Falls(
+    falls(
         "GoalReachedAfterFault",
         AFTER_FAULT,
-        Fault(
-            "the reader latches its fault where its test pulse should begin",
-            "Eks.tla",
-            'At("StartTest", i) /\\ GoTo("TestOnes")',
-            'At("StartTest", i) /\\ GoTo("Fault")',
-        ),
+        "the reader latches its fault where its test pulse should begin",
+        "Eks.tla",
+        'At("StartTest", i) /\\ GoTo("TestOnes")',
+        'At("StartTest", i) /\\ GoTo("Fault")',
     ),
     # ------------------------------------------------------------------ order of steps, answers
-    Falls(
+    falls(
         "StepsInOrder",
         ORDER,
-        Fault(
-            "the echo is on the wire before the selection was checked a second time",
-            "Fplc.tla",
-            '    /\\ GoTo("EchoSelection")\n    /\\ KeepKey /\\ UNCHANGED mode\n',
-            '    /\\ GoTo("AwaitAcknowledgment")\n    /\\ KeepKey /\\ UNCHANGED mode\n',
-        ),
+        "the echo is on the wire before the selection was checked a second time",
+        "Fplc.tla",
+        '    /\\ GoTo("EchoSelection")\n    /\\ KeepKey /\\ UNCHANGED mode\n',
+        '    /\\ GoTo("AwaitAcknowledgment")\n    /\\ KeepKey /\\ UNCHANGED mode\n',
     ),
-    Falls(
+    falls(
         "TimeGoesOn",
         ORDER,
-        Fault(
-            "the dwell time of the error mode is not counted",
-            "Fplc.tla",
-            'Wait(i, T_DWELL) /\\ Did("StayInError")',
-            'Untimed /\\ Did("StayInError")',
-        ),
+        "the dwell time of the error mode is not counted",
+        "Fplc.tla",
+        'Wait(i, T_DWELL) /\\ Did("StayInError")',
+        'Untimed /\\ Did("StayInError")',
     ),
-    Falls(
+    falls(
         "AcknowledgmentNeedsEcho",
         ORDER,
-        Fault(
-            "an early acknowledgment is overlooked while the selection is seen",
-            "Fplc.tla",
-            'fplcState = "AwaitSelection" /\\ Silent(i) /\\ i.MW03 # 0',
-            'fplcState = "AwaitSelection" /\\ i.MW03 # 0',
-        ),
+        "an early acknowledgment is overlooked while the selection is seen",
+        "Fplc.tla",
+        'fplcState = "AwaitSelection" /\\ Silent(i) /\\ i.MW03 # 0',
+        'fplcState = "AwaitSelection" /\\ i.MW03 # 0',
     ),
-    Falls(
+    falls(
         "ChangedSelectionIsWithdrawn",
         ORDER,
-        Fault(
-            "a changed selection beside an acknowledgment is an error",
-            "Fplc.tla",
-            '{"AwaitSelection", "CheckSelection"} \\/ StandsIn("EchoSelection", i)\n',
-            '{"AwaitSelection", "CheckSelection", "EchoSelection"}\n',
-        ),
+        "a changed selection beside an acknowledgment is an error",
+        "Fplc.tla",
+        '{"AwaitSelection", "CheckSelection"} \\/ StandsIn("EchoSelection", i)\n',
+        '{"AwaitSelection", "CheckSelection", "EchoSelection"}\n',
     ),
-    Falls(
+    falls(
         "AcknowledgmentIsJudged",
         ORDER,
-        Fault(
-            "an acknowledgment that is no code passes step 27",
-            "Fplc.tla",
-            'StandsIn("CheckAcknowledgment", i) /\\ IsAcknowledgment(i)',
-            'StandsIn("CheckAcknowledgment", i) /\\ i.MW07 # 0',
-        ),
+        "an acknowledgment that is no code passes step 27",
+        "Fplc.tla",
+        'StandsIn("CheckAcknowledgment", i) /\\ IsAcknowledgment(i)',
+        'StandsIn("CheckAcknowledgment", i) /\\ i.MW07 # 0',
     ),
-    Falls(
+    falls(
         "AcknowledgmentIsJudged",
         ORDER,
-        Fault(
-            "an acknowledgment that is no code is refused before step 27",
-            "Fplc.tla",
-            '    /\\ Proceed("CheckAcknowledgment")\n    /\\ Did("SeeAcknowledgment")',
-            '    /\\ IF ModeOf(SW, i.MW07) # None THEN Proceed("CheckAcknowledgment") ELSE EnterError\n'
-            '    /\\ Did("SeeAcknowledgment")',
-        ),
+        "an acknowledgment that is no code is refused before step 27",
+        "Fplc.tla",
+        '    /\\ Proceed("CheckAcknowledgment")\n    /\\ Did("SeeAcknowledgment")',
+        '    /\\ IF ModeOf(SW, i.MW07) # None THEN Proceed("CheckAcknowledgment") ELSE EnterError\n'
+        '    /\\ Did("SeeAcknowledgment")',
     ),
-    Falls(
+    falls(
         "ScreenIsTrue",
         HMI_PROMPT,
-        Fault(
-            "the screen waits while it asks",
-            "Hmi.tla",
-            'hmiState = "Confirm" -> "confirm"',
-            'hmiState = "AwaitSwitch" -> "confirm"',
-        ),
+        "the screen waits while it asks",
+        "Hmi.tla",
+        'hmiState = "Confirm" -> "confirm"',
+        'hmiState = "AwaitSwitch" -> "confirm"',
     ),
-    Falls(
+    falls(
         "FieldSelectsItsMode",
         HMI_PROMPT,
-        Fault(
-            "two fields have one name",
-            "Hmi.tla",
-            'm = 1 -> "select:1"',
-            'm = 1 -> "select:2"',
-        ),
+        "two fields have one name",
+        "Hmi.tla",
+        'm = 1 -> "select:1"',
+        'm = 1 -> "select:2"',
     ),
-    Falls(
+    falls(
         "ClosesAtOnce",
         HMI_PROMPT,
-        Fault(
-            "a selection is given up before the screen closes",
-            "Hmi.tla",
-            'IF hmiState = "Inhibited" \\/ StaysOpen(i)',
-            'IF hmiState = "Inhibited" \\/ StaysOpen(i) \\/ (hmiState = "AwaitEcho" /\\ i.CM # 0)',
-        ),
+        "a selection is given up before the screen closes",
+        "Hmi.tla",
+        'IF hmiState = "Inhibited" \\/ StaysOpen(i)',
+        'IF hmiState = "Inhibited" \\/ StaysOpen(i) \\/ (hmiState = "AwaitEcho" /\\ i.CM # 0)',
     ),
-    Falls(
+    falls(
         "ClosesOverAnEcho",
         HMI_PROMPT,
-        Fault(
-            "an echo that nobody asked for leaves the screen open",
-            "Hmi.tla",
-            "hmiState' = \"Inhibited\" /\\ offered'",
-            "hmiState' = (IF Enable(i) THEN hmiState ELSE \"Inhibited\") /\\ offered'",
-        ),
+        "an echo that nobody asked for leaves the screen open",
+        "Hmi.tla",
+        "hmiState' = \"Inhibited\" /\\ offered'",
+        "hmiState' = (IF Enable(i) THEN hmiState ELSE \"Inhibited\") /\\ offered'",
     ),
-    Falls(
+    falls(
         "EndsWithTheEcho",
         HMI_PROMPT,
-        Fault(
-            "an echo that is gone counts as another echo",
-            "Hmi.tla",
-            "OtherEcho(i) == i.CM # 0 /\\ ~Echoed(i)",
-            'OtherEcho(i) == (hmiState = "AwaitEcho" => i.CM # 0) /\\ ~Echoed(i)',
-        ),
+        "an echo that is gone counts as another echo",
+        "Hmi.tla",
+        "OtherEcho(i) == i.CM # 0 /\\ ~Echoed(i)",
+        'OtherEcho(i) == (hmiState = "AwaitEcho" => i.CM # 0) /\\ ~Echoed(i)',
     ),
-    Falls(
+    falls(
         "EndsWithTheEcho",
         HMI_PROMPT,
-        Fault(
-            "what was selected is kept when it is over",
-            "Hmi.tla",
-            "hmiState' = s /\\ hmiSelection' = None /\\ UNCHANGED offered",
-            "hmiState' = s /\\ UNCHANGED <<hmiSelection, offered>>",
-        ),
+        "what was selected is kept when it is over",
+        "Hmi.tla",
+        "hmiState' = s /\\ hmiSelection' = None /\\ UNCHANGED offered",
+        "hmiState' = s /\\ UNCHANGED <<hmiSelection, offered>>",
     ),
-    Falls(
+    falls(
         "PanelAnswersAtOnce",
         HMI_PROMPT,
-        Fault(
-            "an echo may be waited for that is there",
-            "Hmi.tla",
-            'hmiState = "AwaitEcho" /\\ i.CM = 0 /\\ Stay',
-            'hmiState = "AwaitEcho" /\\ Stay',
-        ),
+        "an echo may be waited for that is there",
+        "Hmi.tla",
+        'hmiState = "AwaitEcho" /\\ i.CM = 0 /\\ Stay',
+        'hmiState = "AwaitEcho" /\\ Stay',
     ),
-    Falls(
+    falls(
         "ReaderStepsInOrder",
         EKS_PROMPT,
-        Fault(
-            "the checksum is calculated before the key is read",
-            "Eks.tla",
-            "eksState' = \"Read\" /\\ key' = i.key",
-            "eksState' = \"CheckChecksum\" /\\ key' = i.key",
-        ),
+        "the checksum is calculated before the key is read",
+        "Eks.tla",
+        "eksState' = \"Read\" /\\ key' = i.key",
+        "eksState' = \"CheckChecksum\" /\\ key' = i.key",
     ),
-    Falls(
+    falls(
         "LABeforeOutputs",
         EKS_PROMPT,
-        Fault(
-            "LA comes with the pulse",
-            "Eks.tla",
-            'LA == eksState \\in {"StartTest", "TestOnes"',
-            'LA == eksState \\in {"TestOnes"',
-        ),
+        "LA comes with the pulse",
+        "Eks.tla",
+        'LA == eksState \\in {"StartTest", "TestOnes"',
+        'LA == eksState \\in {"TestOnes"',
     ),
-    Falls(
+    falls(
         "RightKeysPass",
         EKS_PROMPT,
-        Fault(
-            "a right checksum may be refused",
-            "Eks.tla",
-            "KEY[key].KEYCRC # CHECKSUM[key] /\\ GoTo",
-            "GoTo",
-        ),
+        "a right checksum may be refused",
+        "Eks.tla",
+        "KEY[key].KEYCRC # CHECKSUM[key] /\\ GoTo",
+        "GoTo",
     ),
-    Falls(
+    falls(
         "FaultNeedsCause",
         EKS_PROMPT,
-        Fault(
-            "registers that are zero may be latched as a fault",
-            "Eks.tla",
-            'eksState = "CheckRegisters" /\\ ~i.registers_zero /\\',
-            'eksState = "CheckRegisters" /\\',
-        ),
+        "registers that are zero may be latched as a fault",
+        "Eks.tla",
+        'eksState = "CheckRegisters" /\\ ~i.registers_zero /\\',
+        'eksState = "CheckRegisters" /\\',
     ),
-    Falls(
+    falls(
         "KeyIsForgotten",
         EKS_PROMPT,
-        Fault(
-            "the reader keeps the key after the outputs are cleared",
-            "Eks.tla",
-            '/\\ key\' = None\n    /\\ Did("ResetOutputs")',
-            '/\\ UNCHANGED key\n    /\\ Did("ResetOutputs")',
-        ),
+        "the reader keeps the key after the outputs are cleared",
+        "Eks.tla",
+        '/\\ key\' = None\n    /\\ Did("ResetOutputs")',
+        '/\\ UNCHANGED key\n    /\\ Did("ResetOutputs")',
     ),
-    Falls(
+    falls(
         "ReaderAnswersAtOnce",
         EKS_PROMPT,
-        Fault(
-            "a key in the reader may be overlooked",
-            "Eks.tla",
-            'eksState = "Empty" /\\ i.key = None /\\ Stay',
-            'eksState = "Empty" /\\ Stay',
-        ),
+        "a key in the reader may be overlooked",
+        "Eks.tla",
+        'eksState = "Empty" /\\ i.key = None /\\ Stay',
+        'eksState = "Empty" /\\ Stay',
     ),
 )
