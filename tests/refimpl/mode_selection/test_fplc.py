@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from dataclasses import fields, replace
 from pathlib import Path
@@ -182,31 +181,6 @@ def test_step_leads_to_the_state_that_the_procedure_names(
 def test_the_rows_cover_every_registered_step_and_state() -> None:
     assert {name for name, *_ in ROWS} == set(FPLC["steps"])
     assert {state.state.value for _, state, *_ in ROWS} == set(FPLC["states"])
-
-
-# ---------------------------------------------------------------- names
-
-
-def test_names_are_those_of_the_register() -> None:
-    assert [step.value for step in Step] == FPLC["states"]
-    assert [field.name for field in fields(Params)] == list(FPLC["parameters"])
-    assert [field.name for field in fields(Inputs)] == ["dt_ms", *FPLC["inputs"]]
-    assert [field.name for field in fields(fplc.Outputs)] == list(FPLC["outputs"])
-    memory = [entry.get("python", name) for name, entry in FPLC["memory"].items()]
-    assert [field.name for field in fields(State)] == ["params", *memory]
-
-
-def test_defaults_are_those_of_the_register() -> None:
-    for name, entry in FPLC["parameters"].items():
-        default = entry["default"]
-        if entry["type"] == "modes":
-            default = tuple(mode in default for mode in range(5))
-        assert getattr(Params(), name) == default
-
-
-def test_every_step_of_the_register_is_named_in_the_code() -> None:
-    source = Path(fplc.__file__).read_text(encoding="utf-8")
-    assert [step for step in FPLC["steps"] if not re.search(rf"# {step}\b", source)] == []
 
 
 # ---------------------------------------------------------------- timers: reached at >=, not beyond
