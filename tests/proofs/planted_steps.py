@@ -64,6 +64,11 @@ def begun_in(device: Device, control: str) -> Scan:
     return explored_from(device, next(one for one in device.module.Step if one.value == control))
 
 
+def kept(judge: Judge) -> Sentence:
+    """The sentence that a scan keeps the invariant."""
+    return lambda scan: (z3.BoolVal(True), judge.kept()(scan))
+
+
 def refuted(judge: Judge, sentence: Sentence, control: str) -> bool:
     """A scan from this control state breaks the sentence, and so does its example in the real step.
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
@@ -13,17 +12,13 @@ from modeproof.registers import load_document
 from proofs.edm import block_resets, block_response, block_safety, rows, step_paths
 from proofs.edm.devices import BLOCK
 from proofs.edm.invariant import JUDGE
-from proofs.sentences import Sentence
 from tests.proofs.block import Planted, named, wrong_answers
-from tests.proofs.planted_steps import planted
+from tests.proofs.planted_steps import kept, planted
 
 ANYWHERE = rows.FROM_ANYWHERE
 
 
-def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
-    return JUDGE.after_a_scan(always)
-
-
+_state = JUDGE.after_a_scan
 OFF, ON = "OutputDisable", "OutputEnable"
 STATIC = ("if s.reset_before:", "if s.reset_before and i.S_OutControl:")
 DROPPED = ("return i.S_EDM1 and i.S_EDM2", "return i.S_EDM1")
@@ -178,7 +173,7 @@ FAULTS = [
         "the invariant",
         JUDGE,
         "EDMError22",
-        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
+        kept(JUDGE),
         [("s.params.AFTER_RESET == AT_ONCE or not i.S_OutControl", "s.params.AFTER_RESET == AT_ONCE")],
     ),
 ]

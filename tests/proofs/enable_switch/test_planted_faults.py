@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
-import z3
 
 from modeproof.ground.places import root
 from modeproof.registers import load_document
 from proofs.enable_switch import invariants, step_paths, switch_answers, switch_outputs, switch_safety
 from proofs.enable_switch.devices import SWITCH
-from proofs.sentences import Sentence
 from tests.proofs.block import Planted, named, wrong_answers
+from tests.proofs.planted_steps import kept
 
 JUDGE, ANYWHERE = invariants.JUDGE, switch_answers.ANYWHERE
 
 
-def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
-    return JUDGE.after_a_scan(always)
-
-
+_state = JUDGE.after_a_scan
 LATE = ("if time_is_over(s, i):", "if time_is_over(s, i) and not sees_stage_1(i):")
 RESET = ("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.Reset or i.S_AutoReset:")
 STATIC = ("if held(i.Reset, s.reset_before) and not i.S_AutoReset:", "if False:")
@@ -206,7 +200,7 @@ FAULTS = [
         "the invariant",
         JUDGE,
         "Stage0",
-        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
+        kept(JUDGE),
         [REMEMBERED],
     ),
     Planted(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 import z3
 
@@ -12,16 +10,13 @@ from modeproof.registers import load_document
 from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, step_paths
 from proofs.guard_locking.devices import BLOCK
 from proofs.guard_locking.invariant import JUDGE, LOCKED
-from proofs.sentences import Sentence
 from tests.proofs.block import Planted, named, wrong_answers
+from tests.proofs.planted_steps import kept
 
 ANYWHERE = block_response.FROM_ANYWHERE
 
 
-def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
-    return JUDGE.after_a_scan(always)
-
-
+_state = JUDGE.after_a_scan
 UNASKED = ("if i.S_SafetyActive and _requested(s, i):", "if i.UnlockRequest or i.S_SafetyActive:")
 NO_EDGE = ("if rises(i.Reset, s.reset_before):", "if i.Reset:")
 NO_STATIC = ("held(i.Reset, s.reset_before)", "held(i.Reset, i.Activate) and not i.Reset")
@@ -97,7 +92,7 @@ FAULTS = [
         "LossNeedsGuardBack",
         JUDGE,
         "SafetyReturn",
-        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
+        kept(JUDGE),
         [("s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE and", "s.params.CAUSE_OF_LOSS == ZONE and")],
     ),
     Planted(
@@ -307,7 +302,7 @@ FAULTS = [
         "the invariant",
         JUDGE,
         "Init",
-        lambda scan: (z3.BoolVal(True), JUDGE.kept()(scan)),
+        kept(JUDGE),
         [("== UNTIL_RESET and not i.S_StartReset", "== UNTIL_OPENED and not i.S_StartReset")],
     ),
 ]

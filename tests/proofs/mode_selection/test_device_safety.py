@@ -12,7 +12,6 @@ import z3
 
 from modeproof.registers import load_document
 from proofs.explorer.errors import ConcretizationError
-from proofs.explorer.scanned import Scanned
 from proofs.mode_selection import (
     eks_prompt,
     eks_safety,
@@ -23,12 +22,12 @@ from proofs.mode_selection import (
 )
 from proofs.mode_selection.devices import ROOT
 from proofs.runner import prove_all
-from proofs.sentences import Judge, Obligation, Sentence
+from proofs.sentences import Judge, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem, TheoremError, theorems_of
 from refimpl.mode_selection import fplc
 from tests.any_machine import LONG_MS
-from tests.proofs.planted_steps import begun_in, breaks, built, planted, refuted
+from tests.proofs.planted_steps import begun_in, breaks, built, kept, planted, refuted
 
 MODULES: list[Any] = [panel_safety, panel_prompt, plc_safety, eks_safety, eks_prompt, fplc_response]
 
@@ -65,17 +64,6 @@ def test_the_examples_of_all_controls_happen_in_the_real_step(module: ModuleType
         assert breaks(scans, sentence, solver.model()), query.name
 
 
-def _state(judge: Judge, always: Callable[..., z3.BoolRef]) -> Sentence:
-    return judge.after_a_scan(always)
-
-
-def _kept(judge: Judge) -> Sentence:
-    def sentence(scan: Scanned) -> Obligation:
-        return z3.BoolVal(True), judge.kept()(scan)
-
-    return sentence
-
-
 PANEL, PLC, EKS = panel_safety.JUDGE, plc_safety.JUDGE, eks_safety.JUDGE
 RESPONSE = fplc_response.JUDGE
 DWELL_RESTARTS = ("    return _wait(s, elapsed)\n\n\n# ---", "    return _wait(s, 0)\n\n\n# ---")
@@ -87,14 +75,14 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "SelectionWithinOffer",
         PANEL,
         "Select",
-        _state(PANEL, panel_safety.selection_within_offer),
+        PANEL.after_a_scan(panel_safety.selection_within_offer),
         [("if is_among(touched, _open_fields(s)):", "if touched != NONE:")],
     ),
     (
         "InhibitedSendsZeros",
         PANEL,
         "Confirm",
-        _state(PANEL, panel_safety.inhibited_sends_zeros),
+        PANEL.after_a_scan(panel_safety.inhibited_sends_zeros),
         [
             (
                 "return State(s.params, Step.INHIBITED, NONE, NONE)",
@@ -154,21 +142,21 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "SelectionIsOffered",
         PANEL,
         "Confirm",
-        _kept(PANEL),
+        kept(PANEL),
         [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, s.offered, 0)")],
     ),
     (
         "OpenAtALevel",
         PANEL,
         "Confirm",
-        _kept(PANEL),
+        kept(PANEL),
         [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, NONE, NONE)")],
     ),
     (
         "ScreenIsTrue",
         PANEL,
         "AwaitEcho",
-        _state(PANEL, panel_prompt.screen_is_true),
+        PANEL.after_a_scan(panel_prompt.screen_is_true),
         [('"confirm", NO_MODES, s.selection, active', '"confirm", NO_MODES, NONE, active')],
     ),
     (
@@ -229,21 +217,21 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "OneOutputOutsideThePulse",
         EKS,
         "TestZeros",
-        _state(EKS, eks_safety.one_output_outside_the_pulse),
+        EKS.after_a_scan(eks_safety.one_output_outside_the_pulse),
         [("level == 0, level == 1,", "level == 0, level <= 1,")],
     ),
     (
         "NoOutputWithoutLA",
         EKS,
         "TestZeros",
-        _state(EKS, eks_safety.no_output_without_la),
+        EKS.after_a_scan(eks_safety.no_output_without_la),
         [("Outputs(c == Step.SIGNAL, level == 0", "Outputs(False, level == 0")],
     ),
     (
         "LAOnlyForAcceptedKeys",
         EKS,
         "CheckLevel",
-        _state(EKS, eks_safety.la_only_for_accepted_keys),
+        EKS.after_a_scan(eks_safety.la_only_for_accepted_keys),
         [
             ("    if access_code > ACCESS_CODE_MAX:\n        return False\n", ""),
             ("return _enter(s, Step.SET_LA)", "return _enter(s, Step.START_TEST)"),
@@ -281,35 +269,35 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "ChecksumWasRight",
         EKS,
         "CheckChecksum",
-        _kept(EKS),
+        kept(EKS),
         [("return _enter(s, Step.REJECTED)  # RefuseChecksum", "return _enter(s, Step.CHECK_LEVEL)")],
     ),
     (
         "KeyWasAccepted",
         EKS,
         "CheckLevel",
-        _kept(EKS),
+        kept(EKS),
         [("if decode(RE, s.key.authorization_level) == NONE:", "if False:")],
     ),
     (
         "TimerIsTheTimeOfThisHalf",
         EKS,
         "TestOnes",
-        _kept(EKS),
+        kept(EKS),
         [("State(s.params, Step.TEST_ONES, s.key, elapsed)", "State(s.params, Step.TEST_ONES, s.key, 0)")],
     ),
     (
         "KeyIsForgotten",
         EKS,
         "ClearOutputs",
-        _kept(EKS),
+        kept(EKS),
         [("Step.CHECK_REGISTERS, NO_KEY, 0)  # ResetOutputs", "Step.CHECK_REGISTERS, s.key, 0)")],
     ),
     (
         "PulseAloneTakesTime",
         EKS,
         "TestZeros",
-        _kept(EKS),
+        kept(EKS),
         [("return _enter(s, Step.SIGNAL)", "return State(s.params, Step.SIGNAL, s.key, elapsed)")],
     ),
     (
@@ -344,7 +332,7 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "KeyIsForgotten",
         EKS,
         "ClearOutputs",
-        _state(EKS, eks_prompt.key_is_forgotten),
+        EKS.after_a_scan(eks_prompt.key_is_forgotten),
         [("Step.CHECK_REGISTERS, NO_KEY, 0)  # ResetOutputs", "Step.CHECK_REGISTERS, s.key, 0)")],
     ),
     (

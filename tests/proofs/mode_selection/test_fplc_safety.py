@@ -1,23 +1,21 @@
 """The F-PLC's theorems are proved, what they rest on is needed, and each sees a fault in a copied step."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 import z3
 
-from proofs.explorer.scanned import Scanned
 from proofs.mode_selection import every_device, fplc_invariant, fplc_order, fplc_prompt, fplc_safety
 from proofs.mode_selection.devices import DEVICES, FPLC
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.invariants import FPLC_INVARIANT
 from proofs.runner import prove_all
-from proofs.sentences import Judge, Obligation, Sentence
+from proofs.sentences import Judge, Sentence
 from proofs.solvers import ask_z3
 from proofs.theorem import Theorem
 from tests.any_machine import LONG_MS
-from tests.proofs.planted_steps import begun_in, breaks, built, planted, refuted
+from tests.proofs.planted_steps import begun_in, breaks, built, kept, planted, refuted
 
 SAFETY = [
     value
@@ -76,14 +74,8 @@ def test_every_conjunct_of_the_invariant_is_needed_by_some_theorem() -> None:
     assert dropped == {one.name for one in FPLC_INVARIANT} - {"ValuesInRange"}
 
 
-def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
-    return JUDGE.after_a_scan(always)
-
-
-def _kept(scan: Scanned) -> Obligation:
-    return z3.BoolVal(True), JUDGE.kept()(scan)
-
-
+_state = JUDGE.after_a_scan
+_kept = kept(JUDGE)
 ANY_CODE = ("if not within_authority(s.params, s.authority, i.MW03):", "if echo(i.MW03) == ZERO:")
 ANY_WORD = ("if i.MW03 != encode(SE, s.selection):", "if i.MW03 == ZERO:")
 ANY_OUTPUT = ("if output != s.accepted:", "if output == NO_OUTPUT:")

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 import z3
 
 from modeproof.ground.places import root
 from modeproof.registers import load_document
-from proofs.sentences import Sentence
 from proofs.testable_safety_sensor import (
     rows,
     sensor_answers,
@@ -28,10 +25,7 @@ from tests.refimpl.testable_safety_sensor.printed_rows import rows as printed
 ANYWHERE = sensor_response.JUDGE
 
 
-def _state(always: Callable[..., z3.BoolRef]) -> Sentence:
-    return JUDGE.after_a_scan(always)
-
-
+_state = JUDGE.after_a_scan
 ROW_8402 = "Outputs(True, False, True, False, False, False, True, False, 0x8402)"
 FORGETS = ("return State(s.params, c, i.Reset,", "return State(s.params, c, i.Reset and i.Activate,")
 LEVEL = ("return rises(i.Reset, s.reset_before)", "return i.Reset")
