@@ -20,16 +20,7 @@ from modeproof.kit.errors import Unjudged
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
 from modeproof.kit.vectors import EXACT, MONITOR, Case, Scan, Suite
-from modeproof.kit.verdict import (
-    CONFORMS,
-    DIFFERS,
-    EXIT,
-    PROTOCOL,
-    UNJUDGED,
-    Difference,
-    Plan,
-    Verdict,
-)
+from modeproof.kit.verdict import CONFORMS, DIFFERS, EXIT, PROTOCOL, UNJUDGED, Difference, Plan, Verdict
 
 __all__ = ["CONFORMS", "DIFFERS", "EXIT", "UNJUDGED", "Difference", "Hello", "Options", "Plan", "Verdict"]
 __all__ += ["read_hello", "run_suite"]

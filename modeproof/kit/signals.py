@@ -98,11 +98,7 @@ def loads(text: str | bytes) -> Any:
     Raises ValueError.
     """
     return json.loads(
-        text,
-        parse_constant=_no_constant,
-        parse_int=_integer,
-        parse_float=_float,
-        object_pairs_hook=_no_twins,
+        text, parse_constant=_no_constant, parse_int=_integer, parse_float=_float, object_pairs_hook=_no_twins
     )
 
 

@@ -211,12 +211,7 @@ def stages_of_verify() -> list[tuple[str, Stage]]:
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
         return compared.pop() if compared else compare_reference(place, names, lane, progress)
 
-    return [
-        ("registers", check_registers),
-        ("TLC", check_lane),
-        ("proofs", prove),
-        ("conformance", compare),
-    ]
+    return [("registers", check_registers), ("TLC", check_lane), ("proofs", prove), ("conformance", compare)]
 
 
 def add_parser(commands: Any) -> None:

@@ -65,11 +65,7 @@ def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequenc
 def check_document_page(document: Document, sources: Sources) -> list[Problem]:
     """Where a document's page differs from its registers; nothing when it has no page yet."""
     problems = [
-        Problem(
-            document.source("findings"),
-            finding.id,
-            f"telling: {telling.run} is no counterexample of it",
-        )
+        Problem(document.source("findings"), finding.id, f"telling: {telling.run} is no counterexample of it")
         for finding, telling in tellings(document)
         if _run(document, telling.run) is None or telling.run not in finding.evidence
     ]

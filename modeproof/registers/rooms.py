@@ -32,10 +32,7 @@ class Rule:
 RULES = (
     Rule("refimpl", ("refimpl",), stdlib_only=True),
     Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
-    Rule(
-        "programs",
-        ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
-    ),
+    Rule("programs", ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit")),
     Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
     Rule(
         "modeproof/report",

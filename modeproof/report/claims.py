@@ -73,13 +73,7 @@ class Result:
     @property
     def data(self) -> dict[str, Any]:
         """As parts show it."""
-        return {
-            "id": self.id,
-            "word": self.word,
-            "good": self.good,
-            "verdict": self.verdict,
-            "why": self.why,
-        }
+        return {"id": self.id, "word": self.word, "good": self.good, "verdict": self.verdict, "why": self.why}
 
 
 @dataclass(frozen=True)

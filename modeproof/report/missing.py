@@ -45,10 +45,7 @@ def missing(sources: Sources) -> Iterator[Trouble]:
                     )
                 remedy = f"modeproof verify --document {name}"
                 yield Trouble(HOLE, PART_OF[kind], what, remedy, lost)
-        known = {
-            "tlc": {run.id for run in document.runs},
-            "proof": set(theorems_of(sources, document)),
-        }
+        known = {"tlc": {run.id for run in document.runs}, "proof": set(theorems_of(sources, document))}
         for kind, ids_known in known.items():
             strange = tuple(
                 piece.id

@@ -16,12 +16,7 @@ from modeproof.kit.signals import Signal, loads, read_signals, shown
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.s7.program import S7Program, connect
 
-FIELDS = {
-    "hello": {"protocol", "target"},
-    "reset": {"params"},
-    "scan": {"dt_ms", "in"},
-    "bye": set[str](),
-}
+FIELDS = {"hello": {"protocol", "target"}, "reset": {"params"}, "scan": {"dt_ms", "in"}, "bye": set[str]()}
 
 
 class Adapter:

@@ -111,10 +111,7 @@ class AddressMap:
 
 
 def read_map(
-    path: Path,
-    inputs: Mapping[str, Signal],
-    outputs: Mapping[str, Signal],
-    parameters: Mapping[str, Signal],
+    path: Path, inputs: Mapping[str, Signal], outputs: Mapping[str, Signal], parameters: Mapping[str, Signal]
 ) -> AddressMap:
     """Read and check a map for these signals.
 

@@ -62,11 +62,7 @@ def suite_file(place: Path, document: str, target: str, suite: str) -> Path:
 
 
 def ready_suite(
-    place: Path,
-    document: str,
-    target: str,
-    suite: str,
-    on_built: Callable[[str], None] = lambda line: None,
+    place: Path, document: str, target: str, suite: str, on_built: Callable[[str], None] = lambda line: None
 ) -> Suite:
     """Open a suite of a target, and build it before when it is missing or older than its sources.
 

@@ -176,12 +176,7 @@ def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress,
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, compared_files(place, run, builtin)),
-        result={
-            "run": run.id,
-            "device": graph.device.id,
-            "implementation": builtin,
-            **asdict(found),
-        },
+        result={"run": run.id, "device": graph.device.id, "implementation": builtin, **asdict(found)},
         reason="" if found.equal else found.summary(),
     )
     evidence.write(place, record)

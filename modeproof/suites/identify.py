@@ -112,8 +112,7 @@ def separating_columns(of: Machine) -> list[int]:
     now = [0] * len(of.next_of)
     while len(set(now)) < len(now):
         best = max(
-            of.columns,
-            key=lambda c: len({(now[s], of.out_of[s][c], now[of.next_of[s][c]]) for s in states}),
+            of.columns, key=lambda c: len({(now[s], of.out_of[s][c], now[of.next_of[s][c]]) for s in states})
         )
         if best in chosen:
             raise Unjudged("two states of a machine are the same")

@@ -101,10 +101,7 @@ class _Search:
                     yield from self._probed(
                         f"in {key[0]}, {time_ms} ms in {len(way)} scans are {time_ms} ms: {key[1]}",
                         state,
-                        [
-                            *(Shot(n, {"dt_ms": piece}) for piece in way[:-1]),
-                            Shot(later, {"dt_ms": way[-1]}),
-                        ],
+                        [*(Shot(n, {"dt_ms": piece}) for piece in way[:-1]), Shot(later, {"dt_ms": way[-1]})],
                         after,
                         others=[state],
                     )

@@ -193,11 +193,7 @@ def _write(
         tools=entries(tools, outcome.log.version if outcome is not None else ""),
         result={
             "target": target.id,
-            "log": {
-                "name": args.log.name,
-                "sha256": evidence.sha256(args.log),
-                "lines": len(log.rows),
-            },
+            "log": {"name": args.log.name, "sha256": evidence.sha256(args.log), "lines": len(log.rows)},
             "from": args.begins,
             "samples": None if args.samples is None else str(args.samples),
             **({} if isinstance(found, str) else as_record(target, found, why)),

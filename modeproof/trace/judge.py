@@ -29,10 +29,7 @@ class Graphs:
     """
 
     def __init__(
-        self,
-        place: Path,
-        make: Callable[[tuple[Run, ...]], None],
-        read: Mapping[str, Alphabet] | None = None,
+        self, place: Path, make: Callable[[tuple[Run, ...]], None], read: Mapping[str, Alphabet] | None = None
     ) -> None:
         self._place = place
         self._make = make
@@ -194,13 +191,7 @@ def check(found: Judgement) -> None:
 
 
 def why_not(
-    place: Path,
-    target: Target,
-    found: Judgement,
-    graphs: Graphs,
-    tools: Toolchain,
-    *,
-    anywhere: bool = False,
+    place: Path, target: Target, found: Judgement, graphs: Graphs, tools: Toolchain, *, anywhere: bool = False
 ) -> Why | None:
     """Why the first impossible line of a log is impossible.
 

@@ -12,9 +12,7 @@ import pytest
 from modeproof.lane import prove
 
 
-def test_theorems_are_asked_without_sharing_when_preparing_fails(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_theorems_are_asked_without_sharing_when_preparing_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     left: list[str] = []
 
     @contextmanager

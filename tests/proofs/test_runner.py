@@ -314,7 +314,7 @@ def test_exactly_the_premises_that_no_proof_needs_are_named(tmp_path: Path) -> N
     result = _one(a_premise_is_not_needed, tmp_path)
     assert (result.verdict, result.unused) == ("PROVED", ("x is odd",))
     assert [query.core for query in result.queries if query.expected == "unsat"] == [
-        ("x is small", "counterexample"),
+        ("x is small", "counterexample")
     ] * 2
     assert _one(small_numbers_are_less_than_twenty, tmp_path).unused == ()
 

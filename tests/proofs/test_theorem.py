@@ -121,9 +121,7 @@ def test_the_first_paragraph_of_the_docstring_is_the_sentence() -> None:
     assert (item.clauses, item.findings) == (("EKS-T2",), ())
 
 
-def test_theorems_are_found_and_a_document_without_any_is_refused(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_theorems_are_found_and_a_document_without_any_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     found = theorems_of("mode_selection")
     assert len({item.name for item in found}) == len(found) >= 25
     assert all(item.build.__module__.startswith("proofs.mode_selection.") for item in found)

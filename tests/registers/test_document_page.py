@@ -13,13 +13,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents
 from modeproof.ground.places import root as repository_root
 from modeproof.registers import load_document, read_sources
-from modeproof.registers.document_page import (
-    check_document_page,
-    page,
-    page_name,
-    tables_of,
-    tellings,
-)
+from modeproof.registers.document_page import check_document_page, page, page_name, tables_of, tellings
 from modeproof.registers.scores import load_scores
 
 TABLE = "| scan | executes |\n|---|---|\n| 0 | power-up |\n"

@@ -56,10 +56,7 @@ Stay_Lazy(i) == FALSE
 ============================================================================
 """
 CFG = "CONSTANTS RECORD = %s START <- Nothing\nSPECIFICATION Spec\nPROPERTY ShutsOverDoor\n"
-CFGS = {
-    "MC_Box": CFG % "TRUE",
-    "NEG_Box_hasty": "CONSTANT Needed <- NotNeeded\n" + CFG % "FALSE",
-}
+CFGS = {"MC_Box": CFG % "TRUE", "NEG_Box_hasty": "CONSTANT Needed <- NotNeeded\n" + CFG % "FALSE"}
 RUN = """
 [[run]]
 id = "{id}"

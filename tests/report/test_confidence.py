@@ -91,14 +91,8 @@ PLANTED: dict[str, tuple[str, Any]] = {
         '{ text_absent = ["set_param"] }',
         lambda root: (root / "proofs" / "box" / "more.py").write_text("z3.set_param()\n"),
     ),
-    "workers": (
-        "{ workers = 1 }",
-        lambda root: put(root, "MC_Box", result={**SAID, "workers": 2}),
-    ),
-    "states left": (
-        "{ queue_empty = true }",
-        lambda root: put(root, "MC_Box", result={**SAID, "queue": 3}),
-    ),
+    "workers": ("{ workers = 1 }", lambda root: put(root, "MC_Box", result={**SAID, "workers": 2})),
+    "states left": ("{ queue_empty = true }", lambda root: put(root, "MC_Box", result={**SAID, "queue": 3})),
     "another jar": (
         "{ jar_pinned = true }",
         lambda root: put(root, "MC_Box", result={**SAID, "jar_pinned": False}),

@@ -117,9 +117,7 @@ def test_a_theorem_has_its_sentence_questions_and_unneeded_assumptions(root: Pat
     assert found["never_needed"] == ["there is one door"]
 
 
-def test_an_unexpected_answer_of_the_solvers_is_no_agreement(
-    root: Path,
-) -> None:
+def test_an_unexpected_answer_of_the_solvers_is_no_agreement(root: Path) -> None:
     queries = [{**RESULT[THEOREM]["queries"][0], "cvc5": "sat"}, RESULT[THEOREM]["queries"][1]]
     changes = {"verdict": "UNJUDGED", "as_expected": False, "reason": "the solvers disagree"}
     put(root, THEOREM, result={"queries": queries}, **changes)

@@ -122,10 +122,7 @@ def _other_specification(root: Path) -> None:
     ],
 )
 def test_missing_or_foreign_evidence_only_names_its_run_and_command(
-    checked: Path,
-    capsys: pytest.CaptureFixture[str],
-    spoil: Callable[[Path], None],
-    expected: str,
+    checked: Path, capsys: pytest.CaptureFixture[str], spoil: Callable[[Path], None], expected: str
 ) -> None:
     shutil.rmtree(checked / "docs")
     spoil(checked)

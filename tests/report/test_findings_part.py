@@ -50,9 +50,7 @@ def entry(part: Any, root: Path) -> dict[str, Any]:
     return found
 
 
-def test_a_finding_shows_readings_decision_and_evidence_with_verdicts(
-    root: Path,
-) -> None:
+def test_a_finding_shows_readings_decision_and_evidence_with_verdicts(root: Path) -> None:
     one = entry(findings, root)["findings"][0]
     assert (one["says"], one["class"], one["drawing"]) == ("It shuts.", "safety", True)
     assert one["tries"] == ["Eager", "Lazy"]

@@ -26,9 +26,7 @@ def shown(root: Path) -> dict[str, Any]:
     return found
 
 
-def test_a_property_has_meaning_sources_witness_and_each_engines_verdict(
-    root: Path,
-) -> None:
+def test_a_property_has_meaning_sources_witness_and_each_engines_verdict(root: Path) -> None:
     one = shown(root)
     assert (one["sentence"], one["hazard"]) == ("It shuts only over the door.", "It shuts on a hand.")
     assert one["clauses"] == ["BX-1-2"]

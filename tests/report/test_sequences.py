@@ -164,9 +164,7 @@ def test_a_damaged_missing_or_foreign_file_is_a_hole(root: Path, what: str) -> N
     }
 
 
-def test_the_hole_replaces_the_sequences_and_leaves_the_report_incomplete(
-    root: Path,
-) -> None:
+def test_the_hole_replaces_the_sequences_and_leaves_the_report_incomplete(root: Path) -> None:
     _cut(root)
     report = make(root)
     place = report.html.split('<h4 id="sequences-box-box">')[1].split("<h4")[0]

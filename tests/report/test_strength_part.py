@@ -103,11 +103,7 @@ def test_unmeasured_mutants_of_a_campaign_are_a_hole_not_kills(root: Path) -> No
 
 def test_an_unrecorded_campaign_is_a_hole_with_its_command(root: Path) -> None:
     found = part(gather(root))
-    assert [one["recorded"] is None for one in found.data["documents"][0]["campaigns"]] == [
-        False,
-        True,
-        True,
-    ]
+    assert [one["recorded"] is None for one in found.data["documents"][0]["campaigns"]] == [False, True, True]
     assert [one.status for one in found.troubles] == [NOTE, NOTE]
     assert found.troubles[0].remedy == "modeproof mutate impl --document box"
     assert "no campaign is recorded; <code>modeproof mutate impl --judge vectors" in make(root).html

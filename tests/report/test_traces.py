@@ -138,12 +138,7 @@ def test_the_digest_of_a_trace_is_that_of_its_walk() -> None:
 
 
 @pytest.mark.parametrize(
-    "changes",
-    [
-        {"trace_sha256": "0" * 64},
-        {"inputs": {"spec/box/Box.tla": "0" * 64}},
-        {"rows": []},
-    ],
+    "changes", [{"trace_sha256": "0" * 64}, {"inputs": {"spec/box/Box.tla": "0" * 64}}, {"rows": []}]
 )
 def test_a_foreign_walk_is_hidden_but_its_variables_are_shown(root: Path, changes: dict[str, Any]) -> None:
     lay(root, walk(**changes))

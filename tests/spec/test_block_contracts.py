@@ -59,10 +59,7 @@ EDM = Trial(
 )
 ENABLE_SWITCH = Trial(
     Watched("enable_switch", "sf_enable_switch", (0, 5, 10), {"Activate": 0.97, "S_SafetyActive": 0.9}),
-    [
-        {"DiscrepancyTimeCh1_Ch3_ms": 20},
-        {"DiscrepancyTimeCh1_Ch3_ms": 20, "MODE_ENDS_ERROR": True},
-    ],
+    [{"DiscrepancyTimeCh1_Ch3_ms": 20}, {"DiscrepancyTimeCh1_Ch3_ms": 20, "MODE_ENDS_ERROR": True}],
     {
         "EnableNeedsItsConditions": [
             (
@@ -136,10 +133,7 @@ GUARD_LOCKING = Trial(
 )
 SENSOR = Trial(
     Watched(
-        "testable_safety_sensor",
-        "sf_testable_safety_sensor",
-        (1, 5, 9),
-        {"Activate": 0.97, "S_OSSD_In": 0.7},
+        "testable_safety_sensor", "sf_testable_safety_sensor", (1, 5, 9), {"Activate": 0.97, "S_OSSD_In": 0.7}
     ),
     [
         {"TestTime_ms": 20},

@@ -21,10 +21,7 @@ RULE = Rule(
 )
 
 EXPECTED = {
-    "guard negated": {
-        ("Wait", "i.d", "~(i.d)"),
-        ("Set", "Guard(i)", "~(Guard(i))"),
-    },
+    "guard negated": {("Wait", "i.d", "~(i.d)"), ("Set", "Guard(i)", "~(Guard(i))")},
     "conjunct dropped": {
         ("Guard", "~i.b", "TRUE"),
         ("Guard", "i.c >= LONG", "TRUE"),

@@ -55,9 +55,7 @@ def suite(tmp_path: Path) -> Suite:
     return open_suite(tmp_path / "refusals.jsonl")
 
 
-def test_with_many_graphs_only_the_first_case_comes_before_reset(
-    tmp_path: Path,
-) -> None:
+def test_with_many_graphs_only_the_first_case_comes_before_reset(tmp_path: Path) -> None:
     first = lamp_graph(tmp_path)
     longer = tuple({**letter, "dt_ms": 2 * letter["dt_ms"] + 7} for letter in first.alphabet)
     other = replace(first, run="OPEN_Other", params={"T_ms": 1014}, alphabet=longer)

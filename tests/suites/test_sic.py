@@ -113,8 +113,7 @@ def test_the_right_program_passes_even_if_it_settles_late(suite: Suite, tmp_path
 
 
 @pytest.mark.parametrize(
-    "fault",
-    ["LIMIT = 501", "same = lambda word: False", LATE.replace("-3", "-5").replace("* 3", "* 5")],
+    "fault", ["LIMIT = 501", "same = lambda word: False", LATE.replace("-3", "-5").replace("* 3", "* 5")]
 )
 def test_a_wrong_program_is_caught(suite: Suite, tmp_path: Path, fault: str) -> None:
     assert run_suite(suite, starter(tmp_path, fault)).word == DIFFERS

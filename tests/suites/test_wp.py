@@ -214,9 +214,7 @@ def scan(m):  # a second press, right after the first one, stops the time once
 """
 
 
-def test_a_hidden_wrong_state_passes_the_tour_but_not_wp(
-    tmp_path: Path,
-) -> None:
+def test_a_hidden_wrong_state_passes_the_tour_but_not_wp(tmp_path: Path) -> None:
     graph = lamp_graph(tmp_path)
     verdicts = {}
     for name in ("tour", "wp"):

@@ -37,10 +37,7 @@ def test_a_small_run_leaves_part_of_its_core_to_others(
 ) -> None:
     root = toy_tree(tmp_path, "MC_toy")
     (small,) = select(root, ["MC_toy"])
-    big, wide = (
-        with_values(small, heap_mb=SMALL_HEAP_MB + 1),
-        with_values(small, workers=2),
-    )
+    big, wide = (with_values(small, heap_mb=SMALL_HEAP_MB + 1), with_values(small, workers=2))
     asked: list[float] = []
 
     def jobs_only(jobs: Sequence[Job], *others: object) -> list[Checked]:
@@ -49,10 +46,7 @@ def test_a_small_run_leaves_part_of_its_core_to_others(
 
     monkeypatch.setattr("modeproof.tlc.check.run_all", jobs_only)
     check_all(
-        root,
-        [with_values(small, heap_mb=SMALL_HEAP_MB), big, wide],
-        find_toolchain(),
-        Progress(quiet=True),
+        root, [with_values(small, heap_mb=SMALL_HEAP_MB), big, wide], find_toolchain(), Progress(quiet=True)
     )
     assert asked == [SMALL_SHARE, 1, 2]
 
@@ -119,12 +113,7 @@ def test_the_graph_of_an_open_run_is_complete_and_unquoted(good: tuple[Path, dic
     lines = (root / "build/graphs/toy/OPEN_toy.txt").read_text().splitlines()
     assert [
         sum(line.startswith(f'<<"{tag}"') for line in lines) for tag in ("INPUT", "INIT", "STATE", "EDGE")
-    ] == [
-        2,
-        1,
-        9,
-        18,
-    ]
+    ] == [2, 1, 9, 18]
     assert '<<"EDGE", <<3, FALSE>>, "Up", 1, <<4, TRUE>>>>' in lines
     assert done["OPEN_toy"].record["result"]["graph"]["file"] == "build/graphs/toy/OPEN_toy.txt"
 

@@ -48,10 +48,7 @@ def test_every_kind_of_run_is_read(tmp_path: Path) -> None:
         (declaration("WIT_toy").replace('["top", "down"]', "[]"), "witnesses is empty"),
         (declaration("OPEN_toy", workers=2), "needs workers = 1"),
         (declaration("OPEN_toy").split("[run.graph]")[0], "[run.graph] belongs to"),
-        (
-            declaration("MC_toy").replace('"full"', '"fulll"'),
-            "lanes[1]: 'fulll' is not allowed; did you",
-        ),
+        (declaration("MC_toy").replace('"full"', '"fulll"'), "lanes[1]: 'fulll' is not allowed; did you"),
     ],
 )
 def test_a_mistake_in_runs_toml_names_place_and_cause(tmp_path: Path, text: str, words: str) -> None:

@@ -48,8 +48,7 @@ def alphabets(tmp_path_factory: pytest.TempPathFactory, quick_java: None) -> dic
         Trial(NEEDED[id]).run(place)
         assert run.graph is not None
         return read_device_graph(
-            place,
-            with_values(run, graph=with_values(run.graph, states=None, edges=None)),
+            place, with_values(run, graph=with_values(run.graph, states=None, edges=None))
         )
 
     return {id: Alphabet(load(id)) for id in NEEDED}

@@ -44,9 +44,7 @@ def test_a_wrong_output_stands_beside_the_expected_with_its_cause(
     assert taken.outputs[0][0].startswith("MW05 == IF fplcState") and taken.outputs[0][1].module == "Fplc"
 
 
-def test_a_dwell_short_by_one_ms_shows_both_conjunct_sides(
-    explained: dict[str, tuple[Why, str]],
-) -> None:
+def test_a_dwell_short_by_one_ms_shows_both_conjunct_sides(explained: dict[str, tuple[Why, str]]) -> None:
     why, text = explained["fplc_short_dwell.jsonl"]
     missed = why.missed[0]
     assert (missed.step, missed.conjunct.chain, missed.sides) == ("LeaveSettle", ("Dwelt(i)",), ("99", "100"))
@@ -68,9 +66,7 @@ def test_the_page_about_logs_shows_what_is_printed(explained: dict[str, tuple[Wh
     assert printed.endswith(shown)
 
 
-def test_a_step_left_out_is_named_and_a_scan_missing(
-    explained: dict[str, tuple[Why, str]],
-) -> None:
+def test_a_step_left_out_is_named_and_a_scan_missing(explained: dict[str, tuple[Why, str]]) -> None:
     why, _ = explained["fplc_skipped_step.jsonl"]
     assert [one.step for one in why.missed] == ["SwitchMode"] and why.taken[0].step == "MatchWords"
     assert (why.missed[0].conjunct.text, why.missed[0].sides) == (

@@ -69,12 +69,7 @@ def entries(steps: Sequence[Step]) -> tuple[Entry, ...]:
 
 
 def state_chart(
-    boxes: Sequence[Box],
-    steps: Sequence[Step],
-    cites: Mapping[str, Sequence[str]],
-    *,
-    id: str,
-    title: str,
+    boxes: Sequence[Box], steps: Sequence[Step], cites: Mapping[str, Sequence[str]], *, id: str, title: str
 ) -> Markup:
     """The picture. `cites` holds the ids that each step cites; `id` begins the ids within the picture."""
     listed = entries(steps)

@@ -227,12 +227,7 @@ def _shortest(document: Document, told: Mapping[str, Story]) -> list[dict[str, A
         if shown:
             of_run.setdefault(min(shown, key=lambda run: (len(told[run].rows), run)), []).append(finding.id)
     return [
-        {
-            "id": anchor(document.name, run),
-            "run": run,
-            "findings": findings,
-            **_on_paper(told[run]),
-        }
+        {"id": anchor(document.name, run), "run": run, "findings": findings, **_on_paper(told[run])}
         for run, findings in of_run.items()
     ]
 

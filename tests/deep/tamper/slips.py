@@ -72,12 +72,7 @@ PROPERTIES = (
         'PowerUpIsSafe == step = "" => ~Ready /\\ ~S_EDM_Out',
         'PowerUpIsSafe == step = "" => ~Ready',
     ),
-    says(
-        "the invariant of types allows more",
-        EDM,
-        "EDMTypeOK ==",
-        "EDMTypeOK == TRUE \\/",
-    ),
+    says("the invariant of types allows more", EDM, "EDMTypeOK ==", "EDMTypeOK == TRUE \\/"),
     says(
         "a property is true of every state but one",
         EDM,
@@ -90,12 +85,7 @@ PROPERTIES = (
         '<>(calm = "first") => <>[]S_EDM_Out',
         '<>(calm = "first") => <>[](S_EDM_Out \\/ ~S_EDM_Out)',
     ),
-    says(
-        "a goal that the machine may leave again",
-        LIVE,
-        "<>[]S_EDM_Out",
-        "<>S_EDM_Out",
-    ),
+    says("a goal that the machine may leave again", LIVE, "<>[]S_EDM_Out", "<>S_EDM_Out"),
     says(
         "a specification with more fairness",
         LIVE,
@@ -178,9 +168,7 @@ PROPERTIES = (
 
 CONTRACT = (
     contract(
-        "nothing asks what was touched and seen",
-        "    /\\ confirmed = touched /\\ confirmed = seen ",
-        "    ",
+        "nothing asks what was touched and seen", "    /\\ confirmed = touched /\\ confirmed = seen ", "    "
     ),
     contract("the level need not permit it", "level # None /\\ confirmed <= level ", "level # None "),
     contract("a mode that nobody confirmed", "/\\ mode' = confirmed", "/\\ mode' \\in {confirmed, level}"),

@@ -196,13 +196,7 @@ FAULTS = [
             )
         ],
     ),
-    Planted(
-        "the invariant",
-        JUDGE,
-        "Stage0",
-        kept(JUDGE),
-        [REMEMBERED],
-    ),
+    Planted("the invariant", JUDGE, "Stage0", kept(JUDGE), [REMEMBERED]),
     Planted(
         "EveryStateHasItsRow",
         JUDGE,

@@ -231,9 +231,7 @@ def test_numbers_are_only_added_subtracted_or_compared_with_numbers(
 
 
 @pytest.mark.parametrize("function", [lambda s: s == "maybe", lambda s: s < "yes", lambda s: s + "s", len])
-def test_a_text_is_only_compared_with_its_possible_texts(
-    function: Callable[[str], object],
-) -> None:
+def test_a_text_is_only_compared_with_its_possible_texts(function: Callable[[str], object]) -> None:
     with pytest.raises(ConcretizationError):
         explore(function, (S,))
 

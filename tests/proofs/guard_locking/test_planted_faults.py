@@ -122,12 +122,7 @@ FAULTS = [
         JUDGE,
         "ResetError3",
         block_safety.error_ends_with_cause,
-        [
-            (
-                "return Step.WAIT_FOR_RESET  # ReleaseReset",
-                "return Step.WAIT_FOR_OPERATOR",
-            )
-        ],
+        [("return Step.WAIT_FOR_RESET  # ReleaseReset", "return Step.WAIT_FOR_OPERATOR")],
     ),
     Planted(
         "OneTransitionACall",

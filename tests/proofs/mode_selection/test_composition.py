@@ -466,9 +466,7 @@ def _switches_to_what_was_acknowledged(s: fplc.State, i: fplc.Inputs) -> fplc.St
     return fplc.State(s.params, fplc.SETTLE, s.accepted, s.authority, -1, mode, 0)
 
 
-def test_an_fplc_that_switches_as_acknowledged_breaks_its_guarantee(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_an_fplc_that_switches_as_acknowledged_breaks_its_guarantee(monkeypatch: pytest.MonkeyPatch) -> None:
     assert _broken(FPLC, fplc.SWITCH) == {}
     _plant(monkeypatch, fplc, "_switch", _switches_to_what_was_acknowledged)
     before, read, (after, _) = _broken(FPLC, fplc.SWITCH)["the F-PLC switches on a pair"]

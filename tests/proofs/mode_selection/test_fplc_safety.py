@@ -168,12 +168,7 @@ FAULTS = [
         [("PULSE_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_SELECTION, 0, 0, NONE, s.mode, 0")],
     ),
     ("NoWaitBeyondDeadline", "OneOutput", _state(fplc_safety.no_wait_beyond_deadline), [A_SCAN_LATE]),
-    (
-        "NoWaitBeyondDeadline",
-        "AwaitZeros",
-        fplc_safety.expiry_ends_the_wait,
-        [(EXPIRY_FIRST, SUCCESS_FIRST)],
-    ),
+    ("NoWaitBeyondDeadline", "AwaitZeros", fplc_safety.expiry_ends_the_wait, [(EXPIRY_FIRST, SUCCESS_FIRST)]),
     *(
         ("NoWaitBeyondDeadline", control, fplc_safety.expiry_ends_the_wait, [(deadline, "    if False:\n")])
         for control, deadline in (

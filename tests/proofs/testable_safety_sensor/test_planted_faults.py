@@ -325,12 +325,7 @@ FAULTS = [
         JUDGE,
         "Init",
         sensor_answers.reset_error_needs_held_reset,
-        [
-            (
-                "if _reset_is_static(s, i) and not i.S_StartReset:",
-                "if s.reset_before and not i.S_StartReset:",
-            )
-        ],
+        [("if _reset_is_static(s, i) and not i.S_StartReset:", "if s.reset_before and not i.S_StartReset:")],
     ),
     Planted(
         "ManualTestIsSeen",

@@ -104,9 +104,7 @@ def test_never_two_mode_outputs_and_none_before_the_first_switchover(
 
 @CHECKED
 @given(SEQUENCES)
-def test_the_mode_changes_only_in_switch_on_this_scans_inputs(
-    scans: list[Inputs],
-) -> None:
+def test_the_mode_changes_only_in_switch_on_this_scans_inputs(scans: list[Inputs]) -> None:
     """The key, its level, the selection and the acknowledgment are those of this scan."""
     for before, i, after, row in run(scans):
         if before.mode != after.mode:

@@ -26,10 +26,7 @@ WITH_SELECTION = (Step.AWAIT_ECHO, Step.CONFIRM, Step.AWAIT_SWITCH)
 def at(step: Step, offered: int = 3, selection: int = 2) -> State:
     """The panel in ``step``, opened for level ``offered``, ``selection`` touched where the step has one."""
     return State(
-        Params(),
-        step,
-        -1 if step == Step.INHIBITED else offered,
-        selection if step in WITH_SELECTION else -1,
+        Params(), step, -1 if step == Step.INHIBITED else offered, selection if step in WITH_SELECTION else -1
     )
 
 

@@ -47,10 +47,7 @@ FAULTS = {
         'To("Init") /\\ Did("Initialize")',
         'To(IF i.S_StartReset THEN "OutputEnable" ELSE "Init") /\\ Did("Initialize")',
     ),
-    "OneTransitionACall": (
-        'To("Init") /\\ Did("ReturnToInit")',
-        'Disable(TRUE) /\\ Did("ReturnToInit")',
-    ),
+    "OneTransitionACall": ('To("Init") /\\ Did("ReturnToInit")', 'Disable(TRUE) /\\ Did("ReturnToInit")'),
     "SwitchesOnAtOnce": ("stopSeen' = (stopSeen \\/ ~i.S_OutControl)", "stopSeen' = stopSeen"),
     "RemovesInhibitAtOnce": (
         "Together(i) == ResetRises(i) /\\ Rises(i.S_OutControl, outControlBefore)",

@@ -37,10 +37,7 @@ FAULTS = {
         "~(ResetStatic(i) /\\ ~i.S_AutoReset) /\\ Resets(i)",
         "~(ResetStatic(i) /\\ ~i.S_AutoReset)",
     ),
-    "ResetEndsTheError": (
-        '~Resets(i) /\\ Stay(i) /\\ Did("AwaitReset")',
-        'Stay(i) /\\ Did("AwaitReset")',
-    ),
+    "ResetEndsTheError": ('~Resets(i) /\\ Stay(i) /\\ Did("AwaitReset")', 'Stay(i) /\\ Did("AwaitReset")'),
     "EndOfModeEndsErrors": ("i.Activate /\\ (MODE_ENDS_ERROR => i.S_SafetyActive)", "i.Activate"),
     "LateChangeHasItsError": (
         'To("PlausibilityError", i)\n    /\\ Did("FindContradiction")',

@@ -33,10 +33,7 @@ PLC = Base("OPEN_Plc", SILENT)
 CONTRACT = Base("MC_ModeSelection")
 CONTRACT_ANYWHERE = Base("MC_ModeSelection_anywhere")
 EARNEST = Base("MC_KeyFlows_earnest")
-LEAST = (
-    ("BAD_KEY = TRUE", "BAD_KEY = FALSE"),
-    ("LEVELS = {1}", "LEVELS = {0}"),
-)
+LEAST = (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
 GOAL = Base("LIVE_KeyFlows_goal", LEAST)
 REMOVAL = Base("LIVE_KeyFlows_removal", LEAST)
 RECOVERY = Base("LIVE_KeyFlows_recovery")

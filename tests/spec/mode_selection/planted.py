@@ -165,9 +165,5 @@ def pinned(control: Finding) -> Run:
         graph = msgspec.structs.replace(graph, states=tags.get("STATE", 0), edges=tags.get("EDGE", 0))
     witnesses = control.judgement.reached or control.run.witnesses
     return msgspec.structs.replace(
-        control.run,
-        distinct=counts.distinct,
-        generated=counts.generated,
-        graph=graph,
-        witnesses=witnesses,
+        control.run, distinct=counts.distinct, generated=counts.generated, graph=graph, witnesses=witnesses
     )

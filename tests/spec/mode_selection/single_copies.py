@@ -20,12 +20,7 @@ FPLC_PARAMS = fplc.Params(
     T_ON_ms=5 * TICK_MS, T_SEQ_ms=5 * TICK_MS, T_REM_ms=5 * TICK_MS, T_DWELL_ms=2 * TICK_MS
 )
 
-BESIDE = {
-    "MW01": ("MW02",),
-    "MW03": ("MW02", "MW04"),
-    "MW05": ("MW04", "MW06"),
-    "MW07": ("MW06",),
-}
+BESIDE = {"MW01": ("MW02",), "MW03": ("MW02", "MW04"), "MW05": ("MW04", "MW06"), "MW07": ("MW06",)}
 """The words that begin one byte after a flag word, or one byte before it, and overlap only flag words."""
 
 HOLDING = {
@@ -62,12 +57,7 @@ class Play:
 
 def flag_word(system: System, name: str) -> int:
     """A flag word as F-PLC and PLC hold it, or the word at an even address between two of them."""
-    words = {
-        1: system.fplc_out.MW01,
-        3: system.plc_out.MW03,
-        5: system.fplc_out.MW05,
-        7: system.plc_out.MW07,
-    }
+    words = {1: system.fplc_out.MW01, 3: system.plc_out.MW03, 5: system.fplc_out.MW05, 7: system.plc_out.MW07}
     address = int(name[2:])
     if address in words:
         return words[address]

@@ -106,10 +106,7 @@ def test_only_the_step_itself_sets_its_name() -> None:
 # ------------------------------------------------------------------ an environment emptied
 
 NOBODY = Fault(
-    "the user does nothing",
-    "KeyFlows.tla",
-    "InsertKey(k)) \\/ RemoveKey",
-    "InsertKey(k) /\\ FALSE)",
+    "the user does nothing", "KeyFlows.tla", "InsertKey(k)) \\/ RemoveKey", "InsertKey(k) /\\ FALSE)"
 )
 NAMELESS = replace(WITNESSES, edits=(*WITNESSES.edits, ("RECORD_STEPS = TRUE", "RECORD_STEPS = FALSE")))
 

@@ -31,18 +31,14 @@ def test_specification_and_implementation_agree_in_every_cell(cells: set[str]) -
     assert len(cells) > 250
 
 
-def test_the_matrix_has_all_word_pairs_and_words_beside(
-    cells: set[str],
-) -> None:
+def test_the_matrix_has_all_word_pairs_and_words_beside(cells: set[str]) -> None:
     pairs = {tuple(cell.split(" at ")[0].split(" over ")) for cell in cells}
     straight = {(a, b) for a in single_copies.PLACES for b in single_copies.PLACES if a != b}
     beside = {(a, b) for b, words in single_copies.BESIDE.items() for a in words}
     assert pairs == straight | beside
 
 
-def test_only_touched_modes_switch_and_two_copies_pass_unconfirmed(
-    cells: set[str],
-) -> None:
+def test_only_touched_modes_switch_and_two_copies_pass_unconfirmed(cells: set[str]) -> None:
     wrong = sorted(cell for cell in cells if "level" in cell)
     place = "MW01 over MW07 at AwaitAcknowledgment, five scans: not confirmed"
     assert wrong == [f"{place} (level 3, mode 0)", f"{place} (level 4, mode 1)"]

@@ -94,10 +94,7 @@ FAULTS = {
         'At("ExternalFunctionTest", i) /\\ Stay',
     ),
     "ParameterErrorNeedsCause": ("TEST_TIME \\in 0..150", "TEST_TIME \\in 3..150"),
-    "ActiveAtOnce": (
-        '~i.Activate /\\ state = "Idle" /\\ Stay',
-        'state = "Idle" /\\ Stay',
-    ),
+    "ActiveAtOnce": ('~i.Activate /\\ state = "Idle" /\\ Stay', 'state = "Idle" /\\ Stay'),
     "PersonStopsMachine": (
         "elapsed' = Counted(elapsed, i.dt, TEST_TIME)",
         "elapsed' = Counted(elapsed, IF Free(i) THEN i.dt ELSE 0, TEST_TIME)",
