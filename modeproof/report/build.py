@@ -31,7 +31,6 @@ from modeproof.report.vendored import SCRIPT, STYLE, tables
 SCHEMA_VERSION = 1
 SCHEMA = Path(__file__).with_name("report.schema.json")
 """What the JSON is; a test holds it against this."""
-STYLES = ("report.css", "tables.css", "explorer.css", "charts.css", "traces.css")
 SCRIPTS = ("report.js", "explorer.js", "charts.js", "traces.js")
 """Files of page/, in the order in which the page has them."""
 FIRST = "verdict"
@@ -204,7 +203,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
         files=dict(sorted(sources.files.items())),
         folders=_folders(sources),
         payload=payload,
-        styles=Markup("\n".join(_file(name) for name in STYLES)),
+        styles=Markup(_file("report.css")),
         scripts=[Markup(text) for text in scripts],
         script_hashes=Markup(_policy([*(text.encode() for text in scripts), tables()[0]])),
     )

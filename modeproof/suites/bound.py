@@ -15,7 +15,7 @@ import networkx
 from modeproof.graph.columns import Columns
 from modeproof.ground.errors import Unjudged
 
-_RESET = -1
+_RESET, _SOURCE = -1, -2
 Arcs = dict[tuple[int, int], int]
 
 
@@ -52,20 +52,18 @@ def problem(columns: Columns, initial: int) -> tuple[Counter[int], Arcs]:
 
 def _prices(arcs: Arcs, flow: dict[int, dict[int, int]]) -> dict[int, int]:
     """Distances in the residual network from a source that reaches all (Bellman and Ford)."""
-    costs = {(node, other): cost for (node, other), cost in arcs.items()}
+    costs = dict(arcs)
     for (node, other), cost in arcs.items():
         if flow[node].get(other, 0) > 0:
             costs[other, node] = min(-cost, costs.get((other, node), -cost))
-    prices = dict.fromkeys((state for arc in arcs for state in arc), 0)
-    for _ in prices:
-        changed = False
-        for (node, other), cost in costs.items():
-            if prices[node] + cost < prices[other]:
-                prices[other] = prices[node] + cost
-                changed = True
-        if not changed:
-            return prices
-    raise Unjudged("the lower bound is not proved: the flow is not the cheapest")
+    residual: networkx.DiGraph[int] = networkx.DiGraph()
+    residual.add_weighted_edges_from((node, other, cost) for (node, other), cost in costs.items())
+    residual.add_weighted_edges_from([(_SOURCE, state, 0) for state in list(residual)])
+    try:
+        found = networkx.single_source_bellman_ford_path_length(residual, _SOURCE)
+    except networkx.NetworkXUnbounded:
+        raise Unjudged("the lower bound is not proved: the flow is not the cheapest") from None
+    return {state: int(price) for state, price in found.items()}
 
 
 def proved_by(prices: dict[int, int], supply: Counter[int], arcs: Arcs) -> int:

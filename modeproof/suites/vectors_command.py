@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import csv
 import hashlib
+import io
 import json
 import sys
 from collections.abc import Iterable, Iterator, Mapping
@@ -17,7 +19,6 @@ from modeproof.ground.places import build, root
 from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
 from modeproof.suites.build import find_target, make_graphs, published, ready_suite, suite_file
-from modeproof.suites.export import as_csv
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
@@ -230,7 +231,7 @@ def _not_so(steps: Mapping[str, str]) -> str:
 def _show(place: Path, args: argparse.Namespace) -> int:
     suite, case = _find(place, args.id)
     if args.csv:
-        sys.stdout.write(as_csv(suite, case))
+        sys.stdout.write(_as_csv(suite, case))
     else:
         print("\n".join(_lines(suite, case)))
     return EXIT_AS_EXPECTED
@@ -269,3 +270,29 @@ def _lines(suite: Suite, case: Case) -> Iterator[str]:
 def _changed(before: dict[str, Any], now: Any) -> str:
     new = object()
     return ", ".join(f"{name}={json.dumps(now[name])}" for name in now if before.get(name, new) != now[name])
+
+
+def _as_csv(suite: Suite, case: Case) -> str:
+    """A row for each scan: time in ms since the reset, inputs, expected outputs; words in hex, bits 0 and 1.
+
+    Raises Unjudged for a case with requests to be refused: they are messages, not scans.
+    """
+    if case.requests:
+        raise Unjudged(f"{case.id}: holds a request that must be refused; a trace cannot show it")
+    stream = io.StringIO()
+    table = csv.writer(stream, lineterminator="\n")
+    table.writerow(["time_ms", *suite.inputs, *suite.outputs])
+    time_ms = 0
+    for scan in case.scans:
+        time_ms += scan.dt_ms
+        ins = [_cell(scan.inputs[name]) for name in suite.inputs]
+        table.writerow([time_ms, *ins, *[_cell(scan.outputs[name]) for name in suite.outputs]])
+    return stream.getvalue()
+
+
+def _cell(value: Any) -> str:
+    if type(value) is bool:
+        return str(int(value))
+    if isinstance(value, list):
+        return " ".join(map(str, value))
+    return "" if value is None else str(value)

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
+from modeproof.graph.device import compared_files, graph_file
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
 from modeproof.ground.errors import Unjudged
@@ -140,3 +143,19 @@ def test_a_step_or_field_that_nobody_declared_is_refused(tmp_path: Path) -> None
         lamp_graph(tmp_path, [line.replace("LAMP", "LMAP") for line in lines()])
     with pytest.raises(Unjudged, match="is no value of type word"):
         lamp_graph(tmp_path, [line.replace("word |-> 1]", "word |-> 70000]") for line in lines()])
+
+
+def test_only_existing_files_of_a_comparison_are_listed(tmp_path: Path) -> None:
+    run: Any = SimpleNamespace(document="toy", id="OPEN_Lamp")
+    wanted = [
+        tmp_path / "code" / "errors.py",
+        tmp_path / "code" / "toy" / "lamp.py",
+        *(tmp_path / "spec" / "toy" / f"{name}.toml" for name in ("interface", "classes", "runs")),
+        graph_file(tmp_path, run),
+    ]
+    for path in wanted:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    assert compared_files(tmp_path, run, "code") == wanted
+    wanted[3].unlink()
+    assert compared_files(tmp_path, run, "code") == [path for path in wanted if path != wanted[3]]

@@ -202,9 +202,9 @@ box = "Scanned"
 }
 
 
-def declared(name: str, strength: str, pins: str) -> str:
-    """The [[run]] table of one run."""
-    digest = hashlib.sha256(CFGS[name].encode()).hexdigest()
+def declared(name: str, strength: str, pins: str, cfg: str = "") -> str:
+    """The [[run]] table of one run, of a cfg in `CFGS` or of this one."""
+    digest = hashlib.sha256((cfg or CFGS[name]).encode()).hexdigest()
     return RUN.format(id=name, strength=strength, hash=digest, pins=pins)
 
 

@@ -16,8 +16,7 @@ from modeproof.report.build import make
 from modeproof.report.recheck import recheck
 from modeproof.report.sources import DIFFERS, HOLE
 from tests.report.box_graph import add_graph
-from tests.report.paper import put
-from tests.report.whole import make_whole
+from tests.report.paper import make_whole, put
 
 THEOREM = "it_shuts_over_the_door_only"
 Edit = Callable[[dict[str, Any]], None]

@@ -13,8 +13,7 @@ from modeproof.cli import main
 from modeproof.report.build import make
 from modeproof.report.snapshot import pins_of
 from modeproof.report.sources import gather
-from tests.report.paper import change, put, without
-from tests.report.whole import make_whole
+from tests.report.paper import change, make_whole, put, without
 
 
 def pin(root: Path, distinct: int) -> None:

@@ -10,6 +10,7 @@ import pytest
 from modeproof.report.build import make
 from modeproof.report.parts import conformance, proofs
 from modeproof.report.sources import gather
+from modeproof.report.verdicts import never_needed
 from tests.report.paper import RESULT, declare_graph, make_paper, put, without
 
 THEOREM = "it_shuts_over_the_door_only"
@@ -152,3 +153,15 @@ def test_unreached_code_has_its_reason_and_unexplained_code_stands_apart(root: P
     row = entry(proofs, root)["coverage"][0]
     assert (row["lines"]["have"].value, row["lines"]["total"].value) == (3, 4)
     assert row["unexplained"] == ["line 9"] and row["unreachable"][0]["why"] == "never"
+
+
+def record(name: str, premises: list[str], unused: list[str]) -> dict[str, Any]:
+    return {"id": name, "result": {"premises": premises, "unused": unused}}
+
+
+def test_a_premise_that_one_proof_needs_is_needed() -> None:
+    one = record("one", ["a premise", "another"], ["a premise", "another"])
+    other = record("other", ["a premise", "another"], ["another"])
+    assert never_needed([one, other]) == ["another"]
+    assert never_needed([one]) == ["a premise", "another"]
+    assert never_needed([other]) == ["another"]

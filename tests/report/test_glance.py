@@ -17,8 +17,7 @@ from modeproof.report.parts import glossary, limits, reproduce, review, scope, v
 from modeproof.report.sources import HOLE, gather
 from modeproof.report.terms import Terms
 from modeproof.report.text import blocks
-from tests.report.paper import change, put, without
-from tests.report.whole import make_whole, put_graph, stale
+from tests.report.paper import change, make_whole, put, put_graph, stale, without
 
 
 @pytest.fixture

@@ -9,8 +9,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_of_page, seal_page
-from tests.report.paper import change, put
-from tests.report.whole import make_whole
+from tests.report.paper import change, make_whole, put
 
 
 @pytest.fixture

@@ -21,8 +21,7 @@ from modeproof.report.build import SCHEMA, make
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble, gather
 from modeproof.report.vendored import tables
-from tests.report.paper import change, put, without
-from tests.report.whole import make_whole, put_graph, stale
+from tests.report.paper import change, make_whole, put, put_graph, stale, without
 
 
 @pytest.fixture

@@ -13,8 +13,10 @@ import pytest
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.tlc import start_up
+from modeproof.tlc.process import command_line
 from modeproof.tlc.start_up import cache_sha256, start_up_options, write_cache
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
+from tests.tlc.outcomes import declared
 
 
 @pytest.fixture(scope="module")
@@ -95,3 +97,15 @@ def test_nothing_half_written_is_left(tools: Toolchain, tmp_path: Path) -> None:
     with pytest.raises(Unjudged, match="Java wrote no cache"):
         write_cache(dataclasses.replace(tools, jar=tmp_path / "none.jar"), tmp_path / "start.aot")
     assert list(tmp_path.iterdir()) == []
+
+
+TOOLS = Toolchain(Path("/java"), "25", Path("/tla2tools.jar"), "0" * 64, True)
+QUICK = "-XX:TieredStopAtLevel=1"
+
+
+@pytest.mark.parametrize(("heap_mb", "small"), [(64, True), (512, True), (513, False), (4096, False)])
+def test_only_the_quick_compiler_compiles_a_run_of_little_heap(heap_mb: int, small: bool) -> None:
+    command = command_line(declared("MC_toy", heap_mb=heap_mb), TOOLS, Path("/states"))
+    assert (QUICK in command) == small
+    if small:
+        assert command.index(QUICK) < command.index("-cp"), "an option of Java stands before the class path"

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
+import networkx
 from grandalf.graphs import Edge, Graph, Vertex
 from grandalf.layouts import SugiyamaLayout
 
@@ -162,20 +163,10 @@ def _upwards(sizes: Mapping[str, Size], chains: Sequence[Chain]) -> set[Chain]:
 
 def _pieces(sizes: Mapping[str, Size], links: Mapping[tuple[str, str], None]) -> list[list[str]]:
     """The connected pieces, each in the order of the boxes."""
-    near: dict[str, set[str]] = {name: set() for name in sizes}
-    for one, other in links:
-        near[one].add(other)
-        near[other].add(one)
-    left, pieces = list(sizes), []
-    while left:
-        reached, waiting = {left[0]}, [left[0]]
-        while waiting:
-            fresh = near[waiting.pop()] - reached
-            reached |= fresh
-            waiting += sorted(fresh)
-        pieces.append([name for name in left if name in reached])
-        left = [name for name in left if name not in reached]
-    return pieces
+    graph: networkx.Graph[str] = networkx.Graph()
+    graph.add_nodes_from(sizes)
+    graph.add_edges_from(links)
+    return [[name for name in sizes if name in piece] for piece in networkx.connected_components(graph)]
 
 
 def _layout(names: Sequence[str], sizes: Mapping[str, Size], links: Sequence[tuple[str, str]]) -> _Column:
