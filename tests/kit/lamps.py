@@ -2,8 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
+
+from modeproof.graph.device import DeviceGraph
+from modeproof.kit.vectors import Suite, open_suite
+from modeproof.suites.write import write_suite
+from tests.graph.printed import lamp_graph
 
 CONTRACT = {
     "constants": {"CODE": 0x0FF0},
@@ -98,3 +104,15 @@ class Late(Lamp):
     def reset(self, params: Mapping[str, Any]) -> None:
         super().reset(params)
         self.limit = 501
+
+
+def made(
+    folder: Path,
+    name: str,
+    contract: Mapping[str, Any] | None = CONTRACT,
+    graph: Callable[[Path], DeviceGraph] = lamp_graph,
+) -> Suite:
+    """A suite of the lamp, with its contract."""
+    path = folder / f"{name}.jsonl.gz"
+    write_suite(path, name, [graph(folder)], citations=lambda step: (("TOY-1",), ()), contract=contract)
+    return open_suite(path)

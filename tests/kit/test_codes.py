@@ -8,6 +8,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -27,7 +28,7 @@ from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.write import write_suite
 from tests.graph.printed import Inputs, Memory, Outputs, Params, lamp, lamp_graph, power_up, step
-from tests.kit.lamps import CONTRACT, Lamp, Slow
+from tests.kit.lamps import CONTRACT, Lamp, Slow, made
 from tests.kit.programs import program
 
 CODES = "MW"
@@ -44,10 +45,7 @@ def project_graph(folder: Path) -> DeviceGraph:
     return replace(graph, device=structs.replace(graph.device, outputs=outputs))
 
 
-def made(folder: Path, name: str, contract: Mapping[str, Any] = CONTRACT) -> Suite:
-    path = folder / f"{name}.jsonl.gz"
-    write_suite(path, name, [project_graph(folder)], citations=lambda of: (("TOY-1",), ()), contract=contract)
-    return open_suite(path)
+suite_of = partial(made, graph=project_graph)
 
 
 class OwnCodes(Lamp):
@@ -87,14 +85,14 @@ def judged(suite: Suite, start: Callable[[], Any], relation: str = "exact", code
 
 
 def test_the_header_marks_them_and_the_vectors_carry_them(tmp_path: Path) -> None:
-    suite = made(tmp_path, "tour")
+    suite = suite_of(tmp_path, "tour")
     assert suite.codes == (CODES,) and suite.header["outputs"][CODES] == {"type": "word", "project": True}
     assert {scan.outputs[CODES] for case in suite.cases() for scan in case.scans} == {"0000", "0FF0"}
 
 
 @pytest.mark.parametrize("start", [OwnCodes, NoCodes])
 def test_they_are_left_out_and_named_and_compared_when_asked(tmp_path: Path, start: type[Lamp]) -> None:
-    suite = made(tmp_path, "brief")
+    suite = suite_of(tmp_path, "brief")
     verdict = judged(suite, start)
     assert (verdict.word, verdict.not_compared) == ("CONFORMS", (CODES,))
     text = as_text(verdict)
@@ -110,13 +108,13 @@ def test_they_are_left_out_and_named_and_compared_when_asked(tmp_path: Path, sta
 
 
 def test_a_program_with_our_codes_conforms_and_nothing_is_omitted(tmp_path: Path) -> None:
-    verdict = judged(made(tmp_path, "brief"), Lamp, codes=True)
+    verdict = judged(suite_of(tmp_path, "brief"), Lamp, codes=True)
     assert as_text(verdict).endswith("CONFORMS(exact, brief)") and verdict.not_compared == ()
 
 
 @pytest.mark.parametrize("relation", ["exact", "settled", "monitor"])
 def test_relations_ignore_codes_and_still_find_what_is_wrong(tmp_path: Path, relation: str) -> None:
-    suite = made(tmp_path, "sic")
+    suite = suite_of(tmp_path, "sic")
     start = OwnCodes if relation == "exact" else SlowOwnCodes
     assert judged(suite, start, relation).word == "CONFORMS"
     if relation != "monitor":
@@ -125,7 +123,7 @@ def test_relations_ignore_codes_and_still_find_what_is_wrong(tmp_path: Path, rel
 
 
 def test_a_safety_property_that_needs_codes_is_named_not_judged(tmp_path: Path) -> None:
-    suite = made(tmp_path, "sic", ON_THE_CODE)
+    suite = suite_of(tmp_path, "sic", ON_THE_CODE)
     verdict = judged(suite, Slow, "settled")
     assert (verdict.word, verdict.unjudged) == ("CONFORMS", ("LightNeedsCode",))
     assert "not compared, so not judged: LightNeedsCode" in as_text(verdict)
@@ -137,13 +135,13 @@ def test_an_output_the_adapter_does_not_observe_is_named_once(tmp_path: Path) ->
     class Blind(NoCodes):
         hello_says = {"unobserved": [CODES]}  # noqa: RUF012
 
-    verdict = judged(made(tmp_path, "brief"), Blind)
+    verdict = judged(suite_of(tmp_path, "brief"), Blind)
     assert (verdict.word, verdict.unobserved, verdict.not_compared) == ("CONFORMS", (CODES,), ())
 
     class Nothing(Lamp):
         hello_says = {"unobserved": ["LAMP"]}  # noqa: RUF012
 
-    assert "its values are ours alone" in judged(made(tmp_path, "brief"), Nothing).reason
+    assert "its values are ours alone" in judged(suite_of(tmp_path, "brief"), Nothing).reason
 
 
 @pytest.mark.parametrize("suite", [name for name, kind in SUITES.items() if kind.always or name == "words"])
@@ -160,7 +158,7 @@ def test_no_suite_tells_states_apart_by_them(tmp_path: Path, suite: str) -> None
 def test_a_repeated_or_resumed_run_keeps_its_choice_of_codes(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    suite = made(tmp_path, "brief")
+    suite = suite_of(tmp_path, "brief")
     command = shlex.join(program(tmp_path, 'def answer(m, out): say({"out": {**out, "MW": "FFFF"}})'))
     words = ["conform", "lamp", "--adapter", command, "--vectors", str(suite.path), "--quiet"]
     note = ["--resume", str(tmp_path / "note.json")]
@@ -192,7 +190,7 @@ def test_a_package_in_this_process_is_compared_alike(tmp_path: Path, monkeypatch
         monkeypatch.setitem(sys.modules, "own.toy.lamp", module)  # type: ignore[arg-type]
         return "own"
 
-    suite = made(tmp_path, "brief")
+    suite = suite_of(tmp_path, "brief")
     for code, codes, word in (
         (own_codes, False, "CONFORMS"),
         (own_codes, True, "DIFFERS"),

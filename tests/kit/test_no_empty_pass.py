@@ -16,10 +16,8 @@ import pytest
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
-from modeproof.kit.vectors import Case, Suite, open_suite, read_lines
-from modeproof.suites.write import write_suite
-from tests.graph.printed import lamp_graph
-from tests.kit.lamps import CONTRACT, Lamp, Slow, SlowAndWrong
+from modeproof.kit.vectors import Case, Suite, read_lines
+from tests.kit.lamps import CONTRACT, Lamp, Slow, SlowAndWrong, made
 from tests.kit.programs import program
 
 TWO_RULES = {
@@ -29,12 +27,6 @@ TWO_RULES = {
         {"id": "Always", "says": "x", "clauses": [], "when": "True", "holds": "True"},
     ],
 }
-
-
-def made(folder: Path, name: str, contract: Mapping[str, Any] = CONTRACT) -> Suite:
-    path = folder / f"{name}.jsonl.gz"
-    write_suite(path, name, [lamp_graph(folder)], citations=lambda of: (("TOY-1",), ()), contract=contract)
-    return open_suite(path)
 
 
 def judged(

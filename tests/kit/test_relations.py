@@ -13,18 +13,18 @@ from modeproof.kit.adapter import Adapter
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.relation import groups
 from modeproof.kit.text import as_record, as_text
-from modeproof.kit.vectors import Case, Suite, open_suite
-from modeproof.suites.write import write_suite
-from tests.graph.printed import lamp_graph
+from modeproof.kit.vectors import Case, Suite
 from tests.kit.clocks import Clock, set_clock
-from tests.kit.lamps import CONTRACT, Lamp, Late, Slow, SlowAndFlickering, SlowAndWrong, SlowerThanItSays
+from tests.kit.lamps import (
+    Lamp,
+    Late,
+    Slow,
+    SlowAndFlickering,
+    SlowAndWrong,
+    SlowerThanItSays,
+    made,
+)
 from tests.kit.programs import PATIENT_S, program
-
-
-def made(folder: Path, name: str, contract: Mapping[str, Any] | None = CONTRACT) -> Suite:
-    path = folder / f"{name}.jsonl.gz"
-    write_suite(path, name, [lamp_graph(folder)], citations=lambda step: (("TOY-1",), ()), contract=contract)
-    return open_suite(path)
 
 
 @pytest.fixture

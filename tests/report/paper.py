@@ -8,6 +8,7 @@ from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.registers.runs import load_runs
+from modeproof.report.sources import gather
 from modeproof.tlc.again import declared as declared_in
 from tests.report.conftest import CFGS, declared, make_box
 
@@ -199,3 +200,9 @@ def stale(root: Path, name: str) -> None:
     record = evidence.read(path)
     record["inputs"]["spec/box/Box.tla"] = "1" * 64
     evidence.write(root, record)
+
+
+def entry(part: Any, root: Path) -> dict[str, Any]:
+    """The data that a part has of the only document."""
+    found: dict[str, Any] = part.part(gather(root)).data["documents"][0]
+    return found

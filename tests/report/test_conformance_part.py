@@ -9,9 +9,8 @@ import pytest
 
 from modeproof.report.build import make
 from modeproof.report.parts import conformance, proofs
-from modeproof.report.sources import gather
 from modeproof.report.verdicts import never_needed
-from tests.report.paper import RESULT, declare_graph, make_paper, put, without
+from tests.report.paper import RESULT, declare_graph, entry, make_paper, put, without
 
 THEOREM = "it_shuts_over_the_door_only"
 COMPARED = {
@@ -64,12 +63,6 @@ def root(tmp_path: Path) -> Path:
     declare_graph(made, "states = 2\nedges = 4\n")
     put(made, "OPEN_Box", result={"graph": {"states": 2, "edges": 4}})
     return made
-
-
-def entry(part: Any, root: Path) -> dict[str, Any]:
-    """The data of the only document."""
-    found: dict[str, Any] = part.part(gather(root)).data["documents"][0]
-    return found
 
 
 def test_a_graph_stands_beside_the_program_compared_with_it(root: Path) -> None:

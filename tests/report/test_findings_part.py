@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from modeproof.report.build import make
 from modeproof.report.parts import assumptions, faults, findings
 from modeproof.report.sources import DIFFERS, HOLE, gather
-from tests.report.paper import change, make_paper, put, without
+from tests.report.paper import change, entry, make_paper, put, without
 
 FAULTS = """
 document = "box"
@@ -42,12 +41,6 @@ not_modelled = "nothing here has a clock"
 def root(tmp_path: Path) -> Path:
     """The box with all its evidence."""
     return make_paper(tmp_path)
-
-
-def entry(part: Any, root: Path) -> dict[str, Any]:
-    """The data of the only document."""
-    found: dict[str, Any] = part.part(gather(root)).data["documents"][0]
-    return found
 
 
 def test_a_finding_shows_readings_decision_and_evidence_with_verdicts(root: Path) -> None:
