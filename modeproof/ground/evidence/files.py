@@ -11,15 +11,15 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import jsonschema
-
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build
 from modeproof.kit import files
 
 
 @cache
-def _validator() -> jsonschema.Draft202012Validator:
+def _validator() -> Any:
+    import jsonschema  # slow to load, and who only writes a file needs no schema
+
     schema = json.loads(Path(__file__).with_name("schema.json").read_text(encoding="utf-8"))
     return jsonschema.Draft202012Validator(schema)
 
