@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable
 
 from modeproof.ground.errors import Unjudged
 
@@ -15,7 +14,7 @@ def refuse_in_ci() -> None:
         raise Unjudged("--repin is refused in CI: pins are moved by a person, with a reason")
 
 
-def ask_reason(given: str | None, ask: Callable[[str], str] = input) -> str:
+def ask_reason(given: str | None) -> str:
     """The reason for moving pins: as given on the command line, else asked for on the terminal.
 
     Raises Unjudged without one.
@@ -25,7 +24,7 @@ def ask_reason(given: str | None, ask: Callable[[str], str] = input) -> str:
         if not sys.stdin.isatty():
             raise Unjudged("--repin needs a reason: give --reason TEXT")
         try:
-            reason = ask("reason for moving these pins: ")
+            reason = input("reason for moving these pins: ")
         except EOFError:
             reason = ""
     reason = " ".join(reason.split())

@@ -325,5 +325,5 @@ def split_command(command: str) -> list[str]:
     return [word.strip('"') for word in words] if _WINDOWS else words
 
 
-def _printable(line: bytes, limit: int = 80) -> str:
-    return repr(line[:limit].decode("utf-8", "replace")) + ("..." if len(line) > limit else "")
+def _printable(line: bytes) -> str:
+    return repr(line[:80].decode("utf-8", "replace")) + ("..." if len(line) > 80 else "")

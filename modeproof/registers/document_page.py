@@ -49,10 +49,9 @@ def tellings(document: Document) -> tuple[tuple[Finding, Telling], ...]:
     return tuple((finding, finding.telling) for finding in ranked if finding.telling)
 
 
-def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
-    """A Markdown table that ends with a line end; the columns in `right` are numbers."""
-    rule = "".join("---:|" if n in right else "---|" for n in range(len(heads)))
-    lines = ["| " + " | ".join(heads) + " |", "|" + rule]
+def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table that ends with a line end."""
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     lines += [
         "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in row) + " |" for row in rows
     ]

@@ -141,13 +141,13 @@ class Sources:
         return hashlib.sha256(lines.encode()).hexdigest()
 
 
-def gather(root: Path, names: Sequence[str] | None = None) -> Sources:
+def gather(root: Path) -> Sources:
     """Read all there is; documents stand in the order of the texts that they are about.
 
     A register or a piece of evidence that is damaged becomes a trouble; the rest is read.
     Raises Unjudged only when there is no document at all.
     """
-    chosen = tuple(names or documents(root))
+    chosen = documents(root)
     if not chosen:
         raise Unjudged("spec/ holds no document; there is nothing to report")
     troubles: list[Trouble] = []
