@@ -17,7 +17,7 @@ from programs.check import check
 from programs.product import Product
 from programs.reference import reference
 from programs.replay import Difference
-from programs.st import read_sources
+from programs.sources import read_sources
 from programs.verdict import Verdict, judge
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}

@@ -1,0 +1,53 @@
+"""Reads program sources: Structured Text, SCL, PLCopen XML, each by the end of the file's name."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from pathlib import Path
+
+from modeproof.ground.errors import Unjudged
+from programs.plcopen import Lower, read_plcopen
+from programs.scl import read_scl
+from programs.st import read_text
+from programs.tree import Source, Unit
+
+LARGEST = 1_000_000
+"""Bytes of a source file."""
+
+
+def read_sources(paths: Sequence[Path]) -> Source:
+    """All program units of these files. Raises Unjudged with file, line and cause."""
+    units: dict[str, Unit] = {}
+    bodies: dict[str, Lower] = {}
+    files = {}
+    for path in paths:
+        try:
+            text = path.read_bytes()
+        except OSError as error:
+            raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+        if len(text) > LARGEST:
+            raise Unjudged(f"{path}: {len(text):,} bytes; a source has at most {LARGEST:,}")
+        files[str(path)] = hashlib.sha256(text).hexdigest()
+        for unit, lower in _read(text, path):
+            key = unit.name.upper()
+            if key in units:
+                raise unit.place.refuse(f"there is another unit with the name {unit.name}")
+            units[key] = unit
+            if lower is not None:
+                bodies[key] = lower
+    if not units:
+        raise Unjudged(f"{', '.join(files)}: no PROGRAM and no FUNCTION_BLOCK")
+    declared = Source(units, files)
+    return Source({**units, **{key: lower(declared) for key, lower in bodies.items()}}, files)
+
+
+def _read(text: bytes, path: Path) -> Sequence[tuple[Unit, Lower | None]]:
+    if path.suffix.lower() == ".xml":
+        return read_plcopen(text, str(path))
+    try:
+        plain = text.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
+    reader = read_scl if path.suffix.lower() == ".scl" else read_text
+    return [(unit, None) for unit in reader(plain, str(path))]
