@@ -74,7 +74,7 @@ class Product:
 
     @cached_property
     def slots(self) -> dict[str, Slot]:
-        """The memory on which outputs or obligations can come to depend; the rest is written before it is read."""
+        """The memory on which outputs or obligations can come to depend, in this scan or a later one."""
         scan = self.translated
         every = {path: (f"p.{path}", scan.after[path]) for path in self.every_slot}
         kept = live([*scan.outputs.values(), *(owed.formula for owed in scan.obligations)], every)
