@@ -50,7 +50,6 @@ class Element:
 def read_xml(text: bytes, file: str) -> Element:
     """The root of a document. Raises Unjudged with the line: not well-formed, a document type, too deep."""
     parser = expat.ParserCreate(namespace_separator=" ")
-    parser.buffer_text = True
     open_elements: list[Element] = []
     roots: list[Element] = []
 

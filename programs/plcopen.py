@@ -172,7 +172,7 @@ def _type(element: Element) -> str:
         if len(ranges) != 1 or base is None:
             raise kind.place.refuse("an array has one range and one base type here")
         return f"ARRAY [{ranges[0].get('lower')}..{ranges[0].get('upper')}] OF {_type(base)}"
-    if kind.children or kind.attributes or not _NAME.fullmatch(kind.name):
+    if kind.children or kind.attributes or kind.name != kind.name.upper():
         raise kind.place.refuse(f"type {kind.name} is not supported")
     return kind.name
 
