@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
+from programs.awl import read_awl
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import read_scl
 from programs.st import read_text
@@ -45,6 +46,8 @@ def read_sources(paths: Sequence[Path]) -> Source:
 def _read(text: bytes, path: Path) -> Sequence[tuple[Unit, Lower | None]]:
     if path.suffix.lower() == ".xml":
         return read_plcopen(text, str(path))
+    if path.suffix.lower() in (".awl", ".stl"):
+        return [(unit, None) for unit in read_awl(path)]
     try:
         plain = text.decode("utf-8-sig")
     except UnicodeDecodeError as error:
