@@ -52,6 +52,8 @@ def read_awl(path: Path) -> list[Unit]:
     place = Place(str(path), scan[0].place.line if scan else 1)
     body, temporaries = statements(scan, memory.cells(scan))
     unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place)
+    for name in memory.unnamed:
+        _must_not_matter(unit, name)
     if not start:
         return [unit]
     begin, others = statements(start, memory.cells(start))
@@ -255,7 +257,8 @@ class _Memory:
     signals: Sequence[Signal]
     steps: Sequence[Step]
     variables: dict[str, Variable] = field(default_factory=dict)
-    names: dict[tuple[str, int], list[tuple[Access, str]]] = field(default_factory=dict)
+    unnamed: list[str] = field(default_factory=list)
+    """Inputs that are read and are no signals of the map."""
 
     def __post_init__(self) -> None:
         written = {access for step in self.steps for access in step.writes()}
@@ -272,9 +275,10 @@ class _Memory:
             changes = any(unit.overlaps(access) for access in written)
             signal = known.get(unit)
             kind = signal.type if signal is not None else self._declared(unit)
-            if unit.area == "I" and (changes or signal is None):
-                cause = "is written" if changes else "is no signal of the map"
-                raise Unjudged(f"{self.path}: input {unit} {cause}")
+            if unit.area == "I" and changes:
+                raise Unjudged(f"{self.path}: input {unit} is written")
+            if unit.area == "I" and signal is None:
+                self.unnamed.append(unit.name.upper())
             section = "var" if signal is None else "output" if changes else "input"
             name = unit.name if signal is None else signal.name
             if name.upper() in self.variables:
@@ -347,6 +351,23 @@ def _pieces(group: Sequence[Access]) -> Iterator[Access]:
     bits = any(one.width == 1 for one in group)
     for number in range(low, high + 1, 1 if bits else 8):
         yield Access(group[0].area, number // 8, number % 8, 1 if bits else 8)
+
+
+def _must_not_matter(unit: Unit, name: str) -> None:
+    """Refuse a program to which an input without a name makes a difference; the others take it as 0."""
+    source = Source({unit.name.upper(): unit}, {})
+    memory = {slot.path: symbol(slot.type, slot.path) for slot in slots(source, unit)}
+    scan = Translator(source, unit, wrap=True).scan(memory, z3.IntVal(0))
+    kind = unit.variables[name].type
+    assert isinstance(kind, Scalar)
+    where = [(memory[name], constant(kind, False))]
+    solver = z3.Solver()
+    solver.set("timeout", 1000 * LONGEST_S)
+    solver.add(
+        z3.Or([z3.substitute(term, *where) != term for path, term in scan.after.items() if path != name])
+    )
+    if solver.check() != z3.unsat:
+        raise unit.place.refuse(f"the program reads input {name}, which is no signal of the map")
 
 
 def _at_power_up(unit: Unit, first: Unit) -> Unit:

@@ -534,8 +534,11 @@ class _Pieces:
             return
         else:
             raise place.refuse(f"instruction {op} is not supported")
-        if kind in (INT, WORD) and (state.first is None or state.first.wide):
-            raise place.refuse(f"{op}: the upper half of the accumulator would stay as it is")
+        if kind in (INT, WORD) and (state.first is None or state.first.wide):  # the upper half stays as it is
+            low = self.fitted(Word(kind, self.kept(found, kind, place)), DWORD, place)
+            upper = Literal(0xFFFF0000, DWORD, place)
+            high = Binary("AND", self.fitted(state.first, DWORD, place), upper, place)
+            kind, found = DWORD, Binary("OR", high, low, place)
         state.first = Word(kind, self.kept(found, kind, place))
 
     def assign(self, operand: Operand, place: Place) -> None:
