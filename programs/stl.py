@@ -430,13 +430,16 @@ class _Pieces:
             raise place.refuse("the result of logic operation is not known here")
         return self.state.rlo
 
+    def clear_begin(self, place: Place) -> None:
+        if self.state.begins is None:
+            raise place.refuse("whether a logic operation begins here depends on the way")
+
     def logic(self, op: str, value: Expression, place: Place) -> None:
         """A, O, X and their negations with a value."""
         state = self.state
         if op.endswith("N"):
             value = Unary("NOT", value, place)
-        if state.begins is None:
-            raise place.refuse("whether a logic operation begins here depends on the way")
+        self.clear_begin(place)
         if op[0] == "A":
             found = value if state.begins else Binary("AND", self.known(place), value, place)
             state.rlo = found if state.before is None else Binary("OR", state.before, found, place)
@@ -454,6 +457,7 @@ class _Pieces:
             case "A" | "AN" | "O" | "ON" | "X" | "XN" if operands:
                 self.logic(op, self.bit(operands[0], place), place)
             case "O":
+                self.clear_begin(place)
                 began = state.begins and state.before is None
                 state.before, state.begins = None if began else self.known(place), True
             case "A(" | "AN(" | "O(" | "ON(" | "X(" | "XN(":

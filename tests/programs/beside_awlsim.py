@@ -1,10 +1,11 @@
-"""Statement-list programs run by our interpreter and by awlsim, scan by scan; and random programs for that."""
+"""Statement-list programs in our interpreter and in awlsim, scan by scan; random programs for that."""
 
 from __future__ import annotations
 
 import importlib.util
 import random
 import re
+import sys
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -18,7 +19,23 @@ from programs.tree import Scalar
 ROOT = Path(__file__).parents[2]
 NAME = re.compile(r"(I|Q|M|DB\d+)_([XBWD])(\d+)(?:_(\d))?")
 AREAS = {"I": "I", "Q": "Q", "M": "M"}
-VALUES = (0, 1, 2, 3, 0x7F, 0x80, 0xFF, 0x100, 0x7FFF, 0x8000, 0xFFFF, 0x10000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF)
+VALUES = (
+    0,
+    1,
+    2,
+    3,
+    0x7F,
+    0x80,
+    0xFF,
+    0x100,
+    0x7FFF,
+    0x8000,
+    0xFFFF,
+    0x10000,
+    0x7FFFFFFF,
+    0x80000000,
+    0xFFFFFFFF,
+)
 
 
 def adapter() -> ModuleType:
@@ -26,8 +43,6 @@ def adapter() -> ModuleType:
     spec = importlib.util.spec_from_file_location("awl_adapter", ROOT / "examples" / "awl" / "adapter.py")
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    import sys
-
     sys.modules["awl_adapter"] = module
     spec.loader.exec_module(module)
     return module
@@ -144,11 +159,53 @@ outd,QD4,DINT
 """
 BITS = ["I 0.0", "I 0.1", "I 0.2", "M 0.0", "M 0.1", "M 0.7", "DB1.DBX 10.0", "DB1.DBX 10.1"]
 WRITTEN = ["M 0.0", "M 0.1", "M 0.7", "DB1.DBX 10.0", "DB1.DBX 10.1", "Q 8.3"]
-LOADED = ["IW 2", "ID 4", "MB 0", "MW 2", "MD 2", "MB 3", "DB1.DBW 0", "DB1.DBD 2", "DB1.DBW 6", "DB1.DBB 11", "5", "-3",
-          "W#16#F0F0", "L#-2", "L#70000", "B#16#7F", "DW#16#80000001", "0"]  # fmt: skip
+LOADED = [
+    "IW 2",
+    "ID 4",
+    "MB 0",
+    "MW 2",
+    "MD 2",
+    "MB 3",
+    "DB1.DBW 0",
+    "DB1.DBD 2",
+    "DB1.DBW 6",
+    "DB1.DBB 11",
+    "5",
+    "-3",
+    "W#16#F0F0",
+    "L#-2",
+    "L#70000",
+    "B#16#7F",
+    "DW#16#80000001",
+    "0",
+]
 STORED = ["QB 0", "QW 2", "QD 4", "MB 0", "MW 2", "MD 2", "MB 3", "DB1.DBW 0", "DB1.DBD 2", "DB1.DBW 6"]
-PLAIN = ["+I", "-I", "+D", "-D", "AW", "OW", "XOW", "AD", "OD", "XOD", "INVI", "INVD", "ITD", "TAK", "SLW 3",
-         "SRW 1", "SLD 5", "SRD 31", "SRW 16", "+ 4", "+ -1", "+ L#-100", "AW W#16#FF", "OD DW#16#F"]  # fmt: skip
+PLAIN = [
+    "+I",
+    "-I",
+    "+D",
+    "-D",
+    "AW",
+    "OW",
+    "XOW",
+    "AD",
+    "OD",
+    "XOD",
+    "INVI",
+    "INVD",
+    "ITD",
+    "TAK",
+    "SLW 3",
+    "SRW 1",
+    "SLD 5",
+    "SRD 31",
+    "SRW 16",
+    "+ 4",
+    "+ -1",
+    "+ L#-100",
+    "AW W#16#FF",
+    "OD DW#16#F",
+]
 COMPARED = [f"{sign}{kind}" for sign in ("==", "<>", "<", "<=", ">", ">=") for kind in "ID"]
 
 
@@ -205,7 +262,8 @@ def random_program(seed: int, length: int = 30) -> str:
     lines += ["      = M 0.1"] * bool(depth)
     lines += [f"{label}: NOP 0" for label in labels]
     body = "\n".join(lines)
-    return f"{HEAD}ORGANIZATION_BLOCK OB 1\nBEGIN\n      L IW 2\n      L MW 2\n      A I 0.0\n{body}\nEND_ORGANIZATION_BLOCK\n"
+    begin = "ORGANIZATION_BLOCK OB 1\nBEGIN\n      L IW 2\n      L MW 2\n      A I 0.0\n"
+    return f"{HEAD}{begin}{body}\nEND_ORGANIZATION_BLOCK\n"
 
 
 def random_difference(folder: Path, seed: int, scans: int) -> str:
