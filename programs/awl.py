@@ -2,7 +2,7 @@
 
 awlsim's parser reads the source in a process of its own (examples/awl/tree.py). What OB100 leaves behind is
 the memory at power-up, and a scan is OB1. The map beside the source says where each signal lies: what the
-program never writes is an input, the rest are outputs. Calls are put in place of themselves.
+program never writes is an input, unless it lies in Q; the rest are outputs. Calls are written out.
 """
 
 from __future__ import annotations
@@ -51,6 +51,8 @@ def read_awl(path: Path) -> list[Unit]:
     memory = _Memory(path, raw, signals, [*scan, *start])
     place = Place(str(path), scan[0].place.line if scan else 1)
     body, temporaries = statements(scan, memory.cells(scan))
+    if not any(access for step in scan for access in step.writes()):
+        raise Unjudged(f"{path}: OB 1 writes nothing")
     unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place)
     for name in memory.unnamed:
         _must_not_matter(unit, name)
@@ -105,7 +107,7 @@ def _signals(path: Path) -> list[Signal]:
         if name.startswith("@") and name != "@dt_ms":
             continue
         match = _ADDRESS.fullmatch(address.replace(" ", ""))
-        if match is None or kind not in TYPES:
+        if match is None or kind not in TYPES or (match[3] in ("", "X")) != (match[5] is not None):
             raise place.refuse(f"{name}, {address}, {kind}: a symbol, an address and a type are needed")
         area = "I" if match[2] == "3" else match[1] or f"DB{match[2]}"
         access = Access(area, int(match[4]), int(match[5] or 0), _WIDTHS[match[3]])
@@ -232,7 +234,8 @@ class _Flat:
         places = [(key, one) for key, one in actual.items() if isinstance(one, Access)]
         for key, one in places:
             for other, access in places:
-                if key < other and one.overlaps(access) and "in" != sections[key] != sections[other]:
+                both_in = sections[key] == sections[other] == "in"
+                if key < other and one.overlaps(access) and not both_in:
                     raise place.refuse(f"CALL {name}: {key} and {other} share memory")
             for given in self.raw["blocks"][name]["instructions"]:
                 for operand in given["operands"]:
@@ -279,7 +282,7 @@ class _Memory:
                 raise Unjudged(f"{self.path}: input {unit} is written")
             if unit.area == "I" and signal is None:
                 self.unnamed.append(unit.name.upper())
-            section = "var" if signal is None else "output" if changes else "input"
+            section = "var" if signal is None else "output" if changes or unit.area == "Q" else "input"
             name = unit.name if signal is None else signal.name
             if name.upper() in self.variables:
                 raise Unjudged(f"{self.path}: {name} of the map is also the name of another piece of memory")
