@@ -14,7 +14,7 @@ import subprocess
 import sys
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +56,8 @@ def read_awl(path: Path) -> list[Unit]:
     unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place)
     for name in memory.unnamed:
         _must_not_matter(unit, name)
+        memory.variables[name] = replace(memory.variables[name], section="constant")
+    unit = replace(unit, variables={**memory.variables, **temporaries})
     if not start:
         return [unit]
     begin, others = statements(start, memory.cells(start))
@@ -396,6 +398,5 @@ def _at_power_up(unit: Unit, first: Unit) -> Unit:
             value = term.as_long()
         else:
             raise first.place.refuse(f"OB 100: what it leaves in {variables[path].name} depends on an input")
-        old = variables[path]
-        variables[path] = Variable(old.name, old.type, old.section, value, old.place)
-    return Unit(unit.name, unit.kind, variables, unit.body, unit.place)
+        variables[path] = replace(variables[path], initial=value)
+    return replace(unit, variables=variables)

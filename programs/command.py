@@ -1,4 +1,4 @@
-"""The command `prove-program`: a program in Structured Text against a published target."""
+"""The command `prove-program`: a PLC program against a published target."""
 
 from __future__ import annotations
 

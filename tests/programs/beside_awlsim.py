@@ -1,4 +1,7 @@
-"""Statement-list programs in our interpreter and in awlsim, scan by scan; random programs for that."""
+"""Statement-list programs in our interpreter and in awlsim, scan by scan; random programs for that.
+
+Usage: python -m tests.programs.beside_awlsim FIRST END SCANS     the random programs FIRST to END - 1
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import importlib.util
 import random
 import re
 import sys
+import tempfile
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -276,3 +280,21 @@ def random_difference(folder: Path, seed: int, scans: int) -> str:
         return difference(path, seed, scans)
     except Unjudged as error:
         return f"refused {error.message}"
+
+
+def main(first: int, end: int, scans: int) -> int:
+    """Run random programs; prints each difference and the count. The exit status is 1 if one differs."""
+    said: dict[str, int] = {"equal": 0, "different": 0, "refused": 0}
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(first, end):
+            found = random_difference(Path(folder), seed, scans)
+            kind = "equal" if not found else "refused" if found.startswith("refused") else "different"
+            said[kind] += 1
+            if kind == "different":
+                print(f"program {seed}: {found}", flush=True)
+    print(f"{said}, {said['equal'] * scans:,} scans of equal programs")
+    return bool(said["different"])
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(*map(int, sys.argv[1:])))
