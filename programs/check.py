@@ -212,7 +212,7 @@ class Types:
             return BOOL
         first, second = self.pair(node.left, node.right, node.place, wanted)
         kinds = {first.kind, second.kind}
-        if node.operator in ("AND", "OR", "XOR"):
+        if node.operator in ("AND", "OR", "XOR", "+W", "-W"):
             if kinds == {"bool"} or kinds == {"bits"}:
                 return max(first, second, key=lambda kind: kind.high)
         elif node.operator in ("+", "-", "*", "/", "MOD"):

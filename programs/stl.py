@@ -513,12 +513,10 @@ class _Pieces:
             return
         if op in SUMS:
             sign, kind = SUMS[op]
-            left, right = (self.fitted(word, kind, place) for word in (state.second, state.first))
-            found: Expression = Binary(sign, left, right, place)
+            kind, found = self.sum(sign, kind, state.second, state.first, place)
         elif op == "+" and isinstance(operands[0], Fixed):
             kind = INT if operands[0].width == 16 else DINT
-            right = self.fitted(self.read(operands[0], place), kind, place)
-            found = Binary("+", self.fitted(state.first, kind, place), right, place)
+            kind, found = self.sum("+", kind, state.first, self.read(operands[0], place), place)
         elif op in WORDS:
             kind = WORD if op[-1] == "W" else DWORD
             other = self.read(operands[0], place) if operands else state.second
@@ -544,6 +542,15 @@ class _Pieces:
             high = Binary("AND", self.fitted(state.first, DWORD, place), upper, place)
             kind, found = DWORD, Binary("OR", high, low, place)
         state.first = Word(kind, self.kept(found, kind, place))
+
+    def sum(
+        self, sign: str, kind: Scalar, one: Word | None, other: Word | None, place: Place
+    ) -> tuple[Scalar, Expression]:
+        """A sum: of numbers, or of bit strings where no operand is a number."""
+        if not {INT, DINT} & {word.type for word in (one, other) if word is not None}:
+            kind, sign = WORD if kind == INT else DWORD, f"{sign}W"
+        left, right = (self.fitted(word, kind, place) for word in (one, other))
+        return kind, Binary(sign, left, right, place)
 
     def assign(self, operand: Operand, place: Place) -> None:
         if not isinstance(operand, Access):

@@ -136,7 +136,7 @@ class Unary:
 
 @dataclass(frozen=True)
 class Binary:
-    """AND OR XOR, comparison, + - * / MOD."""
+    """AND OR XOR, comparison, + - * / MOD; +W and -W of bit strings, which wrap."""
 
     operator: str
     left: Expression

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from pathlib import Path
 from typing import Any
 
@@ -296,3 +297,73 @@ def test_a_change_in_a_diagram_is_refuted(name: str, tmp_path: Path) -> None:
     path, target = changed(name, tmp_path)
     found = judged(path, target)
     assert found.word == "REFUTED" and found.difference is not None
+
+
+# ---------------------------------------------------------------- random diagrams
+
+RULES: dict[str, Any] = {
+    "AND": lambda left, right: left and right,
+    "OR": lambda left, right: left or right,
+    "XOR": lambda left, right: left != right,
+    "RS": lambda left, right, before: not right and (left or before),
+    "SR": lambda left, right, before: left or (not right and before),
+}
+
+
+class Drawing:
+    """A random diagram, as XML and as rules that are carried out here."""
+
+    def __init__(self, seed: int, folder: Path) -> None:
+        self.values = random.Random(seed)
+        self.gates = []
+        body, latches = ABC, []
+        for number in range(10, 30):
+            kind = self.values.choice(list(RULES))
+            pins = [
+                (self.values.choice([1, 2, 3, *range(10, number)]), self.values.random() < 0.4) for _ in "lr"
+            ]
+            out = self.values.random() < 0.3
+            self.gates.append((number, kind, pins, out))
+            names = {"RS": ["S", "R1"], "SR": ["S1", "R"]}.get(kind, ["IN1", "IN2"])
+            given = {
+                name: (self.source(place), 'negated="true"' if negated else "")
+                for name, (place, negated) in zip(names, pins, strict=True)
+            }
+            pin, more = ("Q1", f'instanceName="l{number}"') if kind in ("RS", "SR") else ("OUT", "")
+            latches += [f"l{number} {kind}"] if more else []
+            body += block(number, kind, given, pin + ' negated="true"' * out, more)
+        shuffled = body.splitlines()
+        self.values.shuffle(shuffled)
+        drawn = "\n".join([*shuffled, writing(90, "q", 29)])
+        self.machine = machine(folder, drawn, ", ".join(latches) or "z BOOL")
+        self.memory: dict[int, bool] = {}
+
+    def source(self, place: int) -> str:
+        """The output of an element."""
+        latch = place >= 10 and next(kind for number, kind, _, _ in self.gates if number == place) in (
+            "RS",
+            "SR",
+        )
+        return f"{place}.{'Q1' if latch else 'OUT'}" if place >= 10 else str(place)
+
+    def scan(self, inputs: list[bool]) -> bool:
+        """What the rules say."""
+        now = dict(enumerate(inputs, 1))
+        for number, kind, pins, out in self.gates:
+            given = [now[place] != negated for place, negated in pins]
+            if kind in ("RS", "SR"):
+                self.memory[number] = RULES[kind](*given, self.memory.get(number, False))
+                now[number] = self.memory[number] != out
+            else:
+                now[number] = RULES[kind](*given) != out
+        return now[29]
+
+
+@pytest.mark.sampled(10)
+@pytest.mark.parametrize("seed", range(30))
+def test_random_diagrams_do_what_their_gates_say(seed: int, tmp_path: Path) -> None:
+    of = Drawing(seed, tmp_path)
+    for _ in range(60):
+        inputs = [of.values.random() < 0.5 for _ in "abc"]
+        given = dict(zip("abc", inputs, strict=True))
+        assert of.machine.scan(given, 10)["q"] == of.scan(inputs)
