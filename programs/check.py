@@ -70,7 +70,7 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
             if isinstance(kind, Instance):
                 raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
         if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
-            below = source.units.get(kind.block.upper())
+            below = source.find(kind.block)
             if below is None:
                 raise variable.place.refuse(
                     f"{variable.name}: no type or block {kind.block!r} is known; "
@@ -118,7 +118,7 @@ class Types:
 
     def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
         """The type of an expression; a bare number takes the type that is wanted."""
-        key = (id(expression), id(wanted))
+        key = id(expression), id(wanted)
         if key not in self.known:
             self.known[key] = (expression, wanted), self._of(expression, wanted)
         return self.known[key][1]  # type: ignore[no-any-return]

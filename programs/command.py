@@ -49,13 +49,11 @@ def make(
     """The program beside the target. Raises Unjudged with file, line and cause."""
     of = reference(target)
     source = read_sources(files)
-    if unit is None:
-        chosen = source.main()
-    elif unit.upper() in source.units:
-        chosen = source.units[unit.upper()]
-    else:
+    chosen = source.main() if unit is None else source.find(unit)
+    if unit is not None and chosen is None:
         names = [found.name for found in source.units.values()]
         raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(unit, names)}")
+    assert chosen is not None
     check(source, chosen)
     given: Mapping[str, Any] = {} if binding is None else read_binding(binding)
     return Product(Binding(of, source, chosen, **given), wrap)

@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
+from modeproof.ground.errors import Unjudged
 from programs.diagrams import harmless, only, truth
 from programs.gates import Diagram
 from programs.markup import Element, read_xml
@@ -30,33 +31,48 @@ Lower = Callable[[Source], Unit]
 """Makes the body of a unit once the declarations of all units are known."""
 
 
-def read_plcopen(text: bytes, file: str) -> list[tuple[Unit, Lower]]:
-    """The units of one file, and for each the function that makes its body. Raises Unjudged with the line."""
+def read_plcopen(text: bytes, file: str) -> tuple[list[tuple[Unit, Lower]], dict[str, Unjudged]]:
+    """The units of one file, each with the function that makes its body; and what is refused, by its name.
+
+    Raises Unjudged for a file that is no such project.
+    """
     root = read_xml(text, file)
     if root.name != "project" or root.space not in SPACES:
         raise root.place.refuse(
             f"<{root.name}> in {root.space or 'no namespace'!r} is no PLCopen XML of TC6 2"
         )
-    wrapped = _Text()
+    types = _Text()
+    refused: dict[str, Unjudged] = {}
     for kind in root.below("dataType"):
-        wrapped.put(kind.place, f"TYPE {_identifier(kind, 'name')} : {_data_type(kind)}; END_TYPE")
-    pous = list(root.below("pou"))
-    if not pous:
+        try:
+            types.put(kind.place, f"TYPE {_identifier(kind, 'name')} : {_data_type(kind)}; END_TYPE")
+        except Unjudged as error:
+            refused[kind.attributes.get("name", "").upper()] = error
+    found: dict[str, tuple[Unit, Lower]] = {}
+    for pou in root.below("pou"):
+        name = pou.get("name").upper()
+        if name in found or name in refused:
+            raise pou.place.refuse(f"there is another unit with the name {pou.get('name')}")
+        try:
+            found[name] = _pou(pou, _Text([*types.lines]), file)
+        except Unjudged as error:
+            refused[name] = error
+    if not found and not refused:
         raise root.place.refuse("the project has no POU")
-    for pou in pous:
-        _declare(pou, wrapped)
-    units = read_text("\n".join(wrapped.lines), file)
-    if [unit.name for unit in units] != [pou.get("name") for pou in pous]:
-        raise root.place.refuse("a body begins or ends another unit")
-    found = []
-    for pou, unit in zip(pous, units, strict=True):
-        expected = [variable.get("name") for _, variable in _variables(pou)]
-        if [variable.name for variable in unit.variables.values()] != expected:
-            raise pou.place.refuse(
-                f"{unit.name}: the body or a value declares other variables than the interface"
-            )
-        found.append((replace(unit, place=pou.place), _lower(unit, _body(pou), pou.place)))
-    return found
+    return list(found.values()), refused
+
+
+def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
+    """One POU, behind the data types of the project."""
+    _declare(pou, text)
+    units = read_text("\n".join(text.lines), file)
+    if len(units) != 1 or units[0].name != pou.get("name"):
+        raise pou.place.refuse(f"{pou.get('name')}: the body begins or ends another unit")
+    (unit,) = units
+    expected = [variable.get("name") for _, variable in _variables(pou)]
+    if [variable.name for variable in unit.variables.values()] != expected:
+        raise pou.place.refuse(f"{unit.name}: body or values declare other variables than the interface")
+    return replace(unit, place=pou.place), _lower(unit, _body(pou), pou.place)
 
 
 @dataclass

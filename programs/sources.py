@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
@@ -18,9 +18,13 @@ LARGEST = 1_000_000
 
 
 def read_sources(paths: Sequence[Path]) -> Source:
-    """All program units of these files. Raises Unjudged with file, line and cause."""
+    """All program units of these files. Raises Unjudged with file, line and cause.
+
+    A unit of a PLCopen project that is refused is kept as such: it is no matter if it is not needed.
+    """
     units: dict[str, Unit] = {}
     bodies: dict[str, Lower] = {}
+    refused: dict[str, Unjudged] = {}
     files = {}
     for path in paths:
         try:
@@ -30,27 +34,38 @@ def read_sources(paths: Sequence[Path]) -> Source:
         if len(text) > LARGEST:
             raise Unjudged(f"{path}: {len(text):,} bytes; a source has at most {LARGEST:,}")
         files[str(path)] = hashlib.sha256(text).hexdigest()
-        for unit, lower in _read(text, path):
+        found, without = _read(text, path)
+        refused |= without
+        for unit, lower in found:
             key = unit.name.upper()
             if key in units:
                 raise unit.place.refuse(f"there is another unit with the name {unit.name}")
             units[key] = unit
             if lower is not None:
                 bodies[key] = lower
+    declared = Source(units, files)
+    for key, lower in bodies.items():
+        try:
+            units[key] = lower(declared)
+        except Unjudged as error:
+            refused[key] = error
+    for key in refused:
+        units.pop(key, None)
+    if refused and not units:
+        raise next(iter(refused.values()))
     if not units:
         raise Unjudged(f"{', '.join(files)}: no PROGRAM and no FUNCTION_BLOCK")
-    declared = Source(units, files)
-    return Source({**units, **{key: lower(declared) for key, lower in bodies.items()}}, files)
+    return Source(units, files, refused)
 
 
-def _read(text: bytes, path: Path) -> Sequence[tuple[Unit, Lower | None]]:
+def _read(text: bytes, path: Path) -> tuple[Sequence[tuple[Unit, Lower | None]], Mapping[str, Unjudged]]:
     if path.suffix.lower() == ".xml":
         return read_plcopen(text, str(path))
     if path.suffix.lower() in (".awl", ".stl"):
-        return [(unit, None) for unit in read_awl(path)]
+        return [(unit, None) for unit in read_awl(path)], {}
     try:
         plain = text.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
     reader = read_scl if path.suffix.lower() == ".scl" else read_text
-    return [(unit, None) for unit in reader(plain, str(path))]
+    return [(unit, None) for unit in reader(plain, str(path))], {}

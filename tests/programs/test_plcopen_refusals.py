@@ -9,7 +9,9 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from programs.command import make
 from programs.run import Machine
+from programs.sources import read_sources
 from tests.programs.drawn import block, pou, project, read, reading, wire, writing
 
 A = reading(1, "a")
@@ -66,11 +68,11 @@ PROJECTS = {
     ),
     "a body that begins another unit": (
         project(st("q := a; END_FUNCTION_BLOCK FUNCTION_BLOCK C q := a;")),
-        "a body begins or ends another unit",
+        "B: the body begins or ends another unit",
     ),
     "a value that declares more": (
         project(pou(GOOD, localVars="x BOOL TRUE; z: BOOL := FALSE, y BOOL")),
-        "declares other variables than the interface",
+        "declare other variables than the interface",
     ),
     "a value with a comment": (
         project(pou(GOOD, localVars="x INT 1 (*, y INT *) 2")),
@@ -82,7 +84,7 @@ PROJECTS = {
     "an in-out": (project(pou(GOOD, inOutVars="z BOOL")), "<inOutVars> in <interface> is not supported"),
     "a real number": (project(pou(GOOD, localVars="z REAL")), "type REAL is not supported"),
     "a structure": (
-        project(pou(GOOD), types='<dataType name="S"><baseType><struct/></baseType></dataType>'),
+        project(pou(GOOD, "z S"), types='<dataType name="S"><baseType><struct/></baseType></dataType>'),
         "type struct is not supported",
     ),
     "a block in itself": (
@@ -201,7 +203,8 @@ LADDERS = {
 def refusal(text: str, folder: Path) -> str:
     """The line that refuses a project, without the folder."""
     with pytest.raises(Unjudged) as caught:
-        read(text, folder)
+        source = read(text, folder)
+        source.main()
     return caught.value.message.replace(f"{folder}/", "")
 
 
@@ -261,3 +264,15 @@ def test_a_dropped_body_would_be_noticed(tmp_path: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setattr(plcopen, "_text_of", emptied)
     assert "the body has no statement" in refusal(project(st("q := a;")), tmp_path)
+
+
+def test_a_block_that_is_not_needed_may_be_refused(tmp_path: Path) -> None:
+    path = tmp_path / "b.xml"
+    own = pou(A + block(4, "Other", {"a": 1}, "q", 'instanceName="z"') + Q, "z Other", name="Uses")
+    path.write_text(project(pou(GOOD), pou("", name="Other"), own), "utf-8")
+    assert read_sources([path]).units["B"].body
+    with pytest.raises(Unjudged, match="Other: the body does nothing"):
+        read_sources([path]).main()
+    for unit in ("Uses", "Other"):
+        with pytest.raises(Unjudged, match="Other: the body does nothing"):
+            make([path], "sf_edm", unit=unit)
