@@ -50,10 +50,9 @@ def make(
     of = reference(target)
     source = read_sources(files)
     chosen = source.main() if unit is None else source.find(unit)
-    if unit is not None and chosen is None:
+    if chosen is None:
         names = [found.name for found in source.units.values()]
-        raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(unit, names)}")
-    assert chosen is not None
+        raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(str(unit), names)}")
     check(source, chosen)
     given: Mapping[str, Any] = {} if binding is None else read_binding(binding)
     return Product(Binding(of, source, chosen, **given), wrap)
