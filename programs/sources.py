@@ -8,6 +8,7 @@ from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from programs.awl import read_awl
+from programs.check import BLOCKS
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import read_scl
 from programs.st import read_text
@@ -38,6 +39,10 @@ def read_sources(paths: Sequence[Path]) -> Source:
         refused |= without
         for unit, lower in found:
             key = unit.name.upper()
+            if key in BLOCKS:
+                raise unit.place.refuse(
+                    f"{unit.name} is the name of a standard block; give yours another one"
+                )
             if key in units:
                 raise unit.place.refuse(f"there is another unit with the name {unit.name}")
             units[key] = unit
@@ -51,7 +56,7 @@ def read_sources(paths: Sequence[Path]) -> Source:
             refused[key] = error
     for key in refused:
         units.pop(key, None)
-    if refused and not units:
+    if refused and (not units or set(refused) & set(BLOCKS)):
         raise next(iter(refused.values()))
     if not units:
         raise Unjudged(f"{', '.join(files)}: no PROGRAM and no FUNCTION_BLOCK")

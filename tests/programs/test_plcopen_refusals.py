@@ -46,6 +46,10 @@ PROJECTS = {
     "no POU": (project(), "the project has no POU"),
     "a function": (project(pou(GOOD).replace("functionBlock", "function", 1)), "a POU of type function"),
     "two POUs of one name": (project(pou(GOOD), pou(GOOD, name="b")), "another unit with the name b"),
+    "a POU with the name of a standard block": (
+        project(pou(GOOD, name="TON"), pou(GOOD)),
+        "TON is the name of a standard block",
+    ),
     "no body": (project(re.sub("<body>.*</body>", "", pou(GOOD), flags=re.DOTALL)), "B has 0 bodies"),
     "two bodies": (project(pou(GOOD).replace("</body>", "</body><body><ST/></body>")), "B has 2 bodies"),
     "a chart": (project(pou("", language="SFC")), "a body in SFC is not supported"),
