@@ -65,6 +65,12 @@ def read_awl(path: Path) -> list[Unit]:
     return [_at_power_up(unit, first)]
 
 
+def beside(path: Path) -> list[Path]:
+    """The files that belong to a source: its map, and the symbols if there are any."""
+    symbols = path.with_name("symbols.csv")
+    return [path.with_suffix(".map.csv"), *([symbols] if symbols.is_file() else [])]
+
+
 def _parsed(path: Path) -> Any:
     """What awlsim's parser makes of the source."""
     command = [sys.executable, str(root() / READER), str(path)]

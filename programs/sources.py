@@ -7,13 +7,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
-from programs.awl import read_awl
+from programs.awl import beside, read_awl
 from programs.check import BLOCKS
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import read_scl
 from programs.st import read_text
 from programs.tree import Source, Unit
 
+STATEMENT_LIST = (".awl", ".stl")
 LARGEST = 1_000_000
 """Bytes of a source file."""
 
@@ -26,15 +27,13 @@ def read_sources(paths: Sequence[Path]) -> Source:
     units: dict[str, Unit] = {}
     bodies: dict[str, Lower] = {}
     refused: dict[str, Unjudged] = {}
-    files = {}
+    files: dict[str, str] = {}
     for path in paths:
-        try:
-            text = path.read_bytes()
-        except OSError as error:
-            raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-        if len(text) > LARGEST:
-            raise Unjudged(f"{path}: {len(text):,} bytes; a source has at most {LARGEST:,}")
-        files[str(path)] = hashlib.sha256(text).hexdigest()
+        if path.suffix.lower() == ".csv" and str(path) in files:
+            continue  # it belongs to a statement list that was read
+        text = _bytes(path, files)
+        for other in beside(path) if path.suffix.lower() in STATEMENT_LIST else ():
+            _bytes(other, files)
         found, without = _read(text, path)
         refused |= without
         for unit, lower in found:
@@ -63,10 +62,22 @@ def read_sources(paths: Sequence[Path]) -> Source:
     return Source(units, files, refused)
 
 
+def _bytes(path: Path, files: dict[str, str]) -> bytes:
+    """The content of a file, whose hash is noted."""
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+    if len(text) > LARGEST:
+        raise Unjudged(f"{path}: {len(text):,} bytes; a source has at most {LARGEST:,}")
+    files[str(path)] = hashlib.sha256(text).hexdigest()
+    return text
+
+
 def _read(text: bytes, path: Path) -> tuple[Sequence[tuple[Unit, Lower | None]], Mapping[str, Unjudged]]:
     if path.suffix.lower() == ".xml":
         return read_plcopen(text, str(path))
-    if path.suffix.lower() in (".awl", ".stl"):
+    if path.suffix.lower() in STATEMENT_LIST:
         return [(unit, None) for unit in read_awl(path)], {}
     try:
         plain = text.decode("utf-8-sig")

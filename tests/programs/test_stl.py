@@ -341,4 +341,13 @@ def test_a_map_that_cannot_be_right_is_refused(name: str, tmp_path: Path) -> Non
 def test_a_source_without_a_map_is_refused(tmp_path: Path) -> None:
     path = written(tmp_path, "      A     I 0.0\n      =     Q 0.0")
     path.with_suffix(".map.csv").unlink()
-    assert "p.map.csv: the map of the signals cannot be read" in refusal(path)
+    assert "p.map.csv: cannot be read" in refusal(path)
+
+
+def test_map_and_symbols_belong_to_the_sources() -> None:
+    names = [EXAMPLES / name for name in ("plc.awl", "plc.map.csv", "symbols.csv")]
+    found = read_sources([names[0]])
+    assert list(found.files) == [str(path) for path in names]
+    assert read_sources([Path(name) for name in found.files]).files == found.files
+    with pytest.raises(Unjudged):
+        read_sources([names[1]])
