@@ -22,7 +22,8 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
-from programs.stl import Access, Cells, Fixed, Operand, Step, statements
+from programs.steps import Access, Cells, Fixed, Operand, Step
+from programs.stl import statements
 from programs.symbolic import Translator
 from programs.terms import constant, slots, symbol
 from programs.tree import BOOL, SCALARS, Place, Scalar, Source, Unit, Variable

@@ -1,9 +1,9 @@
 """A statement-list source as JSON: its blocks, instructions, addresses and data, as awlsim resolves them.
 
-Usage: python examples/awl/tree.py PROGRAM     PROGRAM is an AWL source, with symbols.csv beside it if it has symbols
+Usage: python examples/awl/tree.py PROGRAM     an AWL source; if it has symbols, symbols.csv lies beside it
 
-`modeproof prove-program FILE.awl` runs this in a process of its own: awlsim is GPL-2.0-or-later and is imported
-in this folder alone. Mnemonics come out in English. Exit status 3 and one line: the source cannot be read.
+`modeproof prove-program FILE.awl` runs this in a process of its own, for awlsim is GPL-2.0-or-later and is
+imported in this folder alone. Mnemonics come out in English. Exit status 3: the source cannot be read.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from modeproof.ground.errors import Unjudged
 from programs import awl, stl
 from programs.command import make
 from programs.sources import read_sources
+from programs.steps import Step
 from programs.tree import Place
 from programs.verdict import Verdict, judge
 from tests.programs.beside_awlsim import MAP, difference, random_difference, random_program
@@ -151,19 +152,21 @@ def test_a_wrong_translation_is_noticed(fault: str, tmp_path: Path, monkeypatch:
         monkeypatch.setitem(stl.COMPARE, "<", ">")
         body = "L IW 2; L 5; <I; = Q 0.0; L 0; T QW 2"
     elif fault == "an edge":
-        right = stl._Pieces.edge
+        right = stl.Instructions.edge
         monkeypatch.setattr(
-            stl._Pieces, "edge", lambda self, operand, rising, place: right(self, operand, not rising, place)
+            stl.Instructions,
+            "edge",
+            lambda self, operand, rising, place: right(self, operand, not rising, place),
         )
         body = "A I 0.0; FP M 1.0; = Q 0.0; L 0; T QW 2"
     else:
-        right_step = stl._Pieces.step
+        right_step = stl.Instructions.step
 
-        def without(self: Any, step: stl.Step) -> None:
+        def without(self: Any, step: Step) -> None:
             if step.op != "O" or step.operands:
                 right_step(self, step)
 
-        monkeypatch.setattr(stl._Pieces, "step", without)
+        monkeypatch.setattr(stl.Instructions, "step", without)
         body = "A I 0.0; O; AN I 0.0; = Q 0.0; L 0; T QW 2"
     assert "awlsim has" in difference(written(tmp_path, body), 1, 20)
 
