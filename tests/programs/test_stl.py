@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import z3
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
@@ -130,6 +131,23 @@ def test_the_command_reads_with_awlsim_apart(capsys: pytest.CaptureFixture[str],
 @pytest.mark.parametrize("name", ["plc", "fplc"])
 def test_the_shipped_programs_run_as_in_awlsim(name: str) -> None:
     assert difference(EXAMPLES / f"{name}.awl", 1, 400, LIKELY if name == "fplc" else None) == ""
+
+
+@pytest.mark.deep
+def test_sets_of_modes_are_words_and_two_texts_a_bit() -> None:
+    binding = make([EXAMPLES / "fplc.awl"], "fplc").binding
+    reference = binding.reference
+    parameters = reference.with_defaults(
+        {"T_SEQ_FROM": "ones", "PERMITS_2": (True, False, True, False, False)}
+    )
+    inputs = dict.fromkeys(reference.signals("inputs"), 0)
+    given = binding.plain_inputs(inputs, parameters, 5)
+    assert given["PERMITS_2"] == 0b101 and given["T_SEQ_FROM"] is True and given["DT_MS"] == 5
+    terms = reference.parameter_terms
+    where = [(terms[f"PERMITS_2[{mode}]"], z3.BoolVal(mode in (0, 2))) for mode in range(5)]
+    assert z3.simplify(z3.substitute(binding.term("PERMITS_2"), *where)).as_long() == 0b101
+    ones = z3.substitute(binding.term("T_SEQ_FROM"), (terms["T_SEQ_FROM"], z3.IntVal(1)))
+    assert z3.is_true(z3.simplify(ones))
 
 
 def group(folder: Path, first: int, size: int = 10) -> tuple[int, list[str]]:
