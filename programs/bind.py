@@ -1,8 +1,9 @@
 """Which signal of the document each input and output of a program is.
 
 Names are compared without regard to case; `_ms` may be left out, and a set of modes such as PERMITS_0 is an
-ARRAY [0..4] OF BOOL. A parameter that is no input of the program has one value, its default or that of the
-binding. Texts such as AFTER_RESET are an INT or an enumeration that counts them as interface.toml lists them.
+ARRAY [0..4] OF BOOL, or a WORD whose bit i is mode i. A parameter that is no input of the program has one
+value, its default or that of the binding. Texts such as AFTER_RESET are an INT or an enumeration that counts
+them as interface.toml lists them; if there are two, a BOOL will do.
 """
 
 from __future__ import annotations
@@ -114,9 +115,11 @@ class Binding:
                 kind = self.unit.variables[path].type
                 if group == "inputs" and signal.type in ("int", "ms"):
                     raise self.unit.place.refuse(f"{name}: inputs of type {signal.type} are not supported")
-                if signal.type == "modes":
+                if signal.type == "modes" and not (isinstance(kind, Scalar) and kind.kind == "bits"):
                     if not isinstance(kind, Array) or kind.high - kind.low != 4:
-                        raise self.unit.variables[path].place.refuse(f"{name} is an ARRAY [0..4] OF BOOL")
+                        raise self.unit.variables[path].place.refuse(
+                            f"{name} is an ARRAY [0..4] OF BOOL, or a WORD"
+                        )
                     for number in range(5):
                         found[f"{path}[{kind.low + number}]"] = (f"{name}[{number}]", signal)
                 else:
@@ -136,7 +139,8 @@ class Binding:
             "mode": ("int",),
             "int": ("int", "bits"),
             "ms": ("time", "int"),
-            "text": ("int", "enum"),
+            "text": ("int", "enum", "bool") if inward and len(signal.values) == 2 else ("int", "enum"),
+            "modes": ("bits",) if inward else (),
         }.get(signal.type, ())
         if not isinstance(kind, Scalar) or kind.kind not in fitting:
             shown = kind.name if isinstance(kind, Scalar) else "no single value"
@@ -159,9 +163,16 @@ class Binding:
 
     def term(self, path: str) -> Any:
         """What the document gives to an input of the program, as a term."""
-        place, _ = self._given[path]
+        place, signal = self._given[path]
         terms = {**self.reference.input_terms, **self.reference.parameter_terms}
-        term, slot = terms[place], self._inputs[path]
+        slot = self._inputs[path]
+        if place not in terms and signal.type == "modes":
+            zero = z3.BitVecVal(0, slot.type.width)
+            bits = [z3.If(terms[f"{place}[{mode}]"], zero + (1 << mode), zero) for mode in range(5)]
+            return bits[0] | bits[1] | bits[2] | bits[3] | bits[4]
+        term = terms[place]
+        if slot.type.kind == "bool" and z3.is_int(term):
+            return term == 1
         if slot.type.kind == "int" and z3.is_bv(term):
             return z3.BV2Int(term)
         if slot.type.kind == "bits" and z3.is_int(term):
@@ -253,8 +264,11 @@ class Binding:
                 key = path.partition("[")[0]
                 array = found.setdefault(key, [False] * 5)
                 array[int(index.rstrip("]"))] = given[name][int(index.rstrip("]"))]
+            elif signal.type == "modes":
+                found[path] = sum(1 << mode for mode, there in enumerate(given[name]) if there)
             elif signal.type == "text":
-                found[path] = signal.values.index(given[name])
+                number = signal.values.index(given[name])
+                found[path] = bool(number) if self._inputs[path].type.kind == "bool" else number
             else:
                 found[path] = given[name]
         return found

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 from modeproof.ground.errors import suggestion
 from programs.tree import (
@@ -69,7 +70,7 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
             if isinstance(kind, Instance):
                 raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
         if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
-            below = source.units.get(kind.block.upper())
+            below = source.find(kind.block)
             if below is None:
                 raise variable.place.refuse(
                     f"{variable.name}: no type or block {kind.block!r} is known; "
@@ -87,9 +88,19 @@ class Types:
 
     source: Source
     unit: Unit
+    known: dict[Any, tuple[Any, Any]] = field(default_factory=dict, compare=False, repr=False)
+    """What was found for an expression, by its identity; the expression is kept, so no other gets it."""
 
     def enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         """The enumeration and the number of a name that is a member of one and no variable."""
+        if not isinstance(expression, Name | Member):
+            return None
+        key = ("member", id(expression))
+        if key not in self.known:
+            self.known[key] = expression, self._enum_member(expression)
+        return self.known[key][1]  # type: ignore[no-any-return]
+
+    def _enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         if isinstance(expression, Name) and expression.name.upper() not in self.unit.variables:
             for kind in self._enumerations():
                 if expression.name in kind.names:
@@ -107,6 +118,12 @@ class Types:
 
     def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
         """The type of an expression; a bare number takes the type that is wanted."""
+        key = id(expression), id(wanted)
+        if key not in self.known:
+            self.known[key] = (expression, wanted), self._of(expression, wanted)
+        return self.known[key][1]  # type: ignore[no-any-return]
+
+    def _of(self, expression: Expression, wanted: Scalar | None) -> Type:
         kind: Type | None
         if (member := self.enum_member(expression)) is not None:
             return member[0]
@@ -195,7 +212,7 @@ class Types:
             return BOOL
         first, second = self.pair(node.left, node.right, node.place, wanted)
         kinds = {first.kind, second.kind}
-        if node.operator in ("AND", "OR", "XOR"):
+        if node.operator in ("AND", "OR", "XOR", "+W", "-W"):
             if kinds == {"bool"} or kinds == {"bits"}:
                 return max(first, second, key=lambda kind: kind.high)
         elif node.operator in ("+", "-", "*", "/", "MOD"):

@@ -1,4 +1,4 @@
-"""The command `prove-program`: a program in Structured Text against a published target."""
+"""The command `prove-program`: a PLC program against a published target."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from programs.check import check
 from programs.product import Product
 from programs.reference import reference
 from programs.replay import Difference
-from programs.st import read_sources
+from programs.sources import read_sources
 from programs.verdict import Verdict, judge
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
@@ -49,13 +49,10 @@ def make(
     """The program beside the target. Raises Unjudged with file, line and cause."""
     of = reference(target)
     source = read_sources(files)
-    if unit is None:
-        chosen = source.main()
-    elif unit.upper() in source.units:
-        chosen = source.units[unit.upper()]
-    else:
+    chosen = source.main() if unit is None else source.find(unit)
+    if chosen is None:
         names = [found.name for found in source.units.values()]
-        raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(unit, names)}")
+        raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(str(unit), names)}")
     check(source, chosen)
     given: Mapping[str, Any] = {} if binding is None else read_binding(binding)
     return Product(Binding(of, source, chosen, **given), wrap)

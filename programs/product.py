@@ -21,7 +21,7 @@ import z3
 from programs.bind import Binding
 from programs.relations import Relation, Values, candidates, like, plain
 from programs.symbolic import Obligation, Translator
-from programs.terms import Slot, constant, in_range, slots, symbol
+from programs.terms import Slot, constant, in_range, live, slots, symbol
 
 MOST_PAIRS = 2_000
 LIMIT_MS = 30_000
@@ -63,7 +63,7 @@ class Product:
     # ------------------------------------------------------------ the two sides
 
     @cached_property
-    def slots(self) -> dict[str, Slot]:
+    def every_slot(self) -> dict[str, Slot]:
         """The program's memory without what is bound to inputs and parameters."""
         bound = self.binding.bound_paths
         return {
@@ -71,6 +71,14 @@ class Product:
             for slot in slots(self.binding.source, self.binding.unit)
             if slot.path not in bound
         }
+
+    @cached_property
+    def slots(self) -> dict[str, Slot]:
+        """The memory on which outputs or obligations can come to depend, in this scan or a later one."""
+        scan = self.translated
+        every = {path: (f"p.{path}", scan.after[path]) for path in self.every_slot}
+        kept = live([*scan.outputs.values(), *(owed.formula for owed in scan.obligations)], every)
+        return {path: slot for path, slot in self.every_slot.items() if path in kept}
 
     @cached_property
     def memory(self) -> dict[str, Any]:
@@ -82,8 +90,9 @@ class Product:
         """One scan of the program over the symbols of both sides."""
         reference = self.binding.reference
         given = {path: self.binding.term(path) for path in self.binding.bound_paths}
+        every = {path: symbol(slot.type, f"p.{path}") for path, slot in self.every_slot.items()}
         translator = Translator(self.binding.source, self.binding.unit, self.wrap)
-        return translator.scan({**self.memory, **given}, reference.input_terms["dt_ms"])
+        return translator.scan({**every, **given}, reference.input_terms["dt_ms"])
 
     @cached_property
     def control(self) -> tuple[str, ...]:

@@ -289,6 +289,8 @@ class Machine:
                 return left | right
             case "XOR":
                 return left ^ right
+            case "+W" | "-W":
+                return (left + (right if node.operator == "+W" else -right)) & kind.high
             case "+":
                 return self.ranged(left + right, kind, node.place)
             case "-":

@@ -1,4 +1,4 @@
-"""Structured Text, and Siemens SCL after a pre-pass, into the language of `tree`.
+"""Structured Text into the language of `tree`.
 
 The parser is tree-sitter's grammar of IEC 61131-3. Whatever it or this module does not know is refused with
 file and line: nothing is skipped.
@@ -6,10 +6,8 @@ file and line: nothing is skipped.
 
 from __future__ import annotations
 
-import hashlib
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import tree_sitter
@@ -38,7 +36,6 @@ from programs.tree import (
     Place,
     Return,
     Scalar,
-    Source,
     Statement,
     Type,
     Unary,
@@ -46,58 +43,17 @@ from programs.tree import (
     Variable,
 )
 
-LARGEST = 1_000_000
-"""Bytes of a source file."""
 LONGEST = 1000
 """Elements of an array."""
 SECTIONS = {"var_input": "input", "var_output": "output", "var_block": "var", "var_temp": "temp"}
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
-_SCL = (
-    (re.compile(r"\{[^{}]*\}"), ""),
-    (
-        re.compile(
-            r"^\s*(?:REGION\b.*|END_REGION\b.*|VERSION\s*:.*|BEGIN\s*)$", re.MULTILINE | re.IGNORECASE
-        ),
-        "",
-    ),
-    (re.compile(r'"(\w+)"'), r"\1"),
-    (re.compile(r"(?<![\w#])#(?=[A-Za-z_])"), ""),
-)
 _MEMBER = re.compile(r"\b([A-Za-z_]\w*)#(?=[A-Za-z_])")
 _PREFIXES = {*SCALARS, "T", "LTIME", "LT", "DATE", "D", "TOD", "DT"}
 
 
-def read_sources(paths: Sequence[Path]) -> Source:
-    """All program units of these files. Raises Unjudged with file, line and cause."""
-    units: dict[str, Unit] = {}
-    files = {}
-    for path in paths:
-        try:
-            text = path.read_bytes()
-        except OSError as error:
-            raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-        if len(text) > LARGEST:
-            raise Unjudged(f"{path}: {len(text):,} bytes; a source has at most {LARGEST:,}")
-        files[str(path)] = hashlib.sha256(text).hexdigest()
-        try:
-            found = read_text(text.decode("utf-8-sig"), str(path))
-        except UnicodeDecodeError as error:
-            raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
-        for unit in found:
-            if unit.name.upper() in units:
-                raise unit.place.refuse(f"there is another unit with the name {unit.name}")
-            units[unit.name.upper()] = unit
-    if not units:
-        raise Unjudged(f"{', '.join(files)}: no PROGRAM and no FUNCTION_BLOCK")
-    return Source(units, files)
-
-
 def read_text(text: str, file: str) -> list[Unit]:
-    """The program units of one text. Raises Unjudged like `read_sources`."""
-    scl = file.lower().endswith(".scl")
-    for pattern, new in _SCL if scl else ():
-        text = pattern.sub(_keeping_lines(new), text)
+    """The program units of one text. Raises Unjudged with file, line and cause."""
     text = _MEMBER.sub(lambda match: match[0] if match[1].upper() in _PREFIXES else f"{match[1]}.", text)
     root = _PARSER.parse(text.encode("utf-8")).root_node
     if root.has_error:
@@ -109,10 +65,6 @@ def read_text(text: str, file: str) -> list[Unit]:
             else f"syntax error at {shown!r}"
         )
     return _Reader(file).units(root)
-
-
-def _keeping_lines(new: str) -> Callable[[re.Match[str]], str]:
-    return lambda match: match.expand(new) + "\n" * match[0].count("\n")
 
 
 def _faults(node: Any) -> Iterator[Any]:

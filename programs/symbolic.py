@@ -324,6 +324,8 @@ class _Context:
                     return left | right
                 case "XOR":
                     return left ^ right
+                case "+W" | "-W":
+                    return left + right if node.operator == "+W" else left - right
                 case "<":
                     return z3.ULT(left, right)
                 case "<=":

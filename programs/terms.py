@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -64,6 +64,27 @@ def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
         value = default(kind, variable.initial)
         for place, single, initial in singles(kind, path, value):
             yield Slot(place, single, None if variable.section == "retain" else initial, variable.section)
+
+
+def live(asked: Iterable[Any], after: Mapping[str, tuple[str, Any]]) -> set[str]:
+    """The paths on which the terms that are asked for depend, in this scan or a later one.
+
+    after: for each path the name of its symbol before a scan, and its term after it.
+    """
+    paths = {name: path for path, (name, _) in after.items()}
+    found: set[str] = set()
+    seen: set[int] = set()
+    waiting = list(asked)
+    while waiting:
+        term = waiting.pop()
+        if term.get_id() in seen:
+            continue
+        seen.add(term.get_id())
+        waiting += term.children()
+        if z3.is_const(term) and (path := paths.get(term.decl().name())) is not None and path not in found:
+            found.add(path)
+            waiting.append(after[path][1])
+    return found
 
 
 def singles(kind: Type, path: str, value: Any) -> Iterator[tuple[str, Scalar, Any]]:

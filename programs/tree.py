@@ -136,7 +136,7 @@ class Unary:
 
 @dataclass(frozen=True)
 class Binary:
-    """AND OR XOR, comparison, + - * / MOD."""
+    """AND OR XOR, comparison, + - * / MOD; +W and -W of bit strings, which wrap."""
 
     operator: str
     left: Expression
@@ -261,9 +261,20 @@ class Source:
     units: Mapping[str, Unit]
     files: Mapping[str, str]
     """The SHA-256 of each file."""
+    refused: Mapping[str, Unjudged] = field(default_factory=dict)
+    """Units and types that are there and cannot be read, by their names in upper case."""
+
+    def find(self, name: str) -> Unit | None:
+        """The unit with this name; None: there is none. Raises Unjudged: it cannot be read."""
+        if name.upper() in self.refused:
+            raise self.refused[name.upper()]
+        return self.units.get(name.upper())
 
     def main(self) -> Unit:
-        """The unit that no other unit has an instance of. Raises Unjudged: there is none, or several."""
+        """The unit that no other unit has an instance of. Raises Unjudged: there is none, or several, or
+        one cannot be read, so that it might be meant."""
+        for refusal in self.refused.values():
+            raise refusal
         used = {
             variable.type.block.upper()
             for unit in self.units.values()

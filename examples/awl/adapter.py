@@ -5,7 +5,7 @@ Usage: python examples/awl/adapter.py TARGET [PROGRAM]     TARGET is fplc or plc
 
 Where an input, output or parameter lies in the memory of the CPU is read from TARGET.map.csv. Time is
 virtual: dt_ms goes into a double word, and nothing in the programs asks a clock. awlsim is GPL-2.0-or-later
-and is imported nowhere else.
+and is imported in this folder alone.
 """
 
 from __future__ import annotations

@@ -15,11 +15,11 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `prove-program` to the commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "prove-program",
-        help="prove a program in Structured Text equal to a target, or show where it differs",
+        help="prove a PLC program equal to a target, or show where it differs",
         description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
         "which they differ. UNKNOWN (2): neither.",
     )
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="Structured Text")
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="ST, SCL, PLCopen XML or AWL")
     parser.add_argument("--target", required=True, metavar="T", help="a published target, as in vectors/")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")

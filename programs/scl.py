@@ -1,0 +1,84 @@
+"""Siemens SCL into Structured Text: a pass over the text that keeps every line where it is.
+
+`#name` and `"name"` become names; REGION lines, attributes in braces, VERSION, TITLE and BEGIN go; TON_TIME
+is TON, and W#16#FF is WORD#16#FF. Comments and strings are left alone. The rest is Structured Text.
+"""
+
+from __future__ import annotations
+
+import re
+
+from programs.st import read_text
+from programs.tree import Place, Unit
+
+TIMERS = {"TON_TIME": "TON", "TOF_TIME": "TOF", "TP_TIME": "TP"}
+HEADS = ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "ORGANIZATION_BLOCK")
+PREFIXES = {"W#": "WORD#", "DW#": "DWORD#", "B#": "BYTE#"}
+_TOKEN = re.compile(
+    r"""
+    (?P<comment> //[^\n]* | \(\*.*?\*\) | /\*.*?\*/ )
+    | (?P<string> '(?:\$.|[^'$\n])*' )
+    | (?P<open> \(\* | /\* | ' )
+    | (?P<quoted> "[^"\n]*"? )
+    | (?P<attributes> \{ (?: '(?:\$.|[^'$])*' | [^{}'] )* \} )
+    | (?P<region> ^[ \t]*(?:END_)?REGION\b[^\n]* )
+    | (?P<begin> ^[ \t]*BEGIN\b )
+    | (?P<about> ^[ \t]*(?:(?:VERSION|AUTHOR|FAMILY|NAME)[ \t]*:(?!=)|TITLE[ \t]*=|KNOW_HOW_PROTECT)[^\n]*$ )
+    | (?P<prefix> \b(?:W|DW|B)\#(?=[0-9]) )
+    | (?P<timer> \b(?:TON|TOF|TP)_TIME\b )
+    | (?P<literal> \b\w+\#[\w.#+-]* )
+    | (?P<hash> \#(?=[A-Za-z_"]) )
+    | (?P<stray> [{}#] )
+    | (?P<word> \w+ ) | .
+    """,
+    re.VERBOSE | re.DOTALL | re.MULTILINE | re.IGNORECASE,
+)  # fmt: skip
+_NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+
+
+def read_scl(text: str, file: str) -> list[Unit]:
+    """The program units of one text. Raises Unjudged with the line."""
+    return read_text(structured_text(text, file), file)
+
+
+def structured_text(text: str, file: str) -> str:
+    """SCL as Structured Text with the same lines. Raises Unjudged with the line."""
+    line = 1
+    parts = []
+    header = False
+    for match in _TOKEN.finditer(text):
+        found, kind = match[0], match.lastgroup
+        if kind == "word" and found.upper() in HEADS:
+            header = True
+        elif kind == "begin" or (kind == "word" and found.upper().startswith("VAR")):
+            header = False
+        elif kind == "about" and not header:
+            raise Place(file, line).refuse(f"{found.split()[0]} is understood in the head of a block only")
+        parts.append(_changed(found, kind or "", Place(file, line)))
+        line += found.count("\n")
+    return "".join(parts)
+
+
+def _changed(found: str, kind: str, place: Place) -> str:
+    match kind:
+        case "region" if ":=" in found or found.rstrip().endswith(";"):
+            raise place.refuse(f"{found.split()[0]}: a statement in this line would be lost")
+        case "attributes" | "region" | "begin" | "about":
+            return "\n" * found.count("\n")
+        case "hash":
+            return ""
+        case "quoted":
+            if not _NAME.fullmatch(found.strip('"')) or not found.endswith('"') or len(found) < 3:
+                raise place.refuse(f"{found}: a name with other characters than letters and digits")
+            return found.strip('"')
+        case "prefix":
+            return PREFIXES[found.upper()]
+        case "timer":
+            return TIMERS[found.upper()]
+        case "open":
+            raise place.refuse(f"{found} begins something that does not end")
+        case "stray":
+            raise place.refuse(f"{found!r} is not expected here")
+        case "comment" if found.startswith("/*"):
+            return f"(*{found[2:-2]}*)"
+    return found

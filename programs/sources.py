@@ -1,0 +1,87 @@
+"""Reads program sources: Structured Text, SCL, PLCopen XML, each by the end of the file's name."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from modeproof.ground.errors import Unjudged
+from programs.awl import beside, read_awl
+from programs.check import BLOCKS
+from programs.plcopen import Lower, read_plcopen
+from programs.scl import read_scl
+from programs.st import read_text
+from programs.tree import Source, Unit
+
+STATEMENT_LIST = (".awl", ".stl")
+LARGEST = 1_000_000
+"""Bytes of a source file."""
+
+
+def read_sources(paths: Sequence[Path]) -> Source:
+    """All program units of these files. Raises Unjudged with file, line and cause.
+
+    A unit of a PLCopen project that is refused is kept as such: it is no matter if it is not needed.
+    """
+    units: dict[str, Unit] = {}
+    bodies: dict[str, Lower] = {}
+    refused: dict[str, Unjudged] = {}
+    files: dict[str, str] = {}
+    for path in paths:
+        if path.suffix.lower() == ".csv" and str(path) in files:
+            continue  # it belongs to a statement list that was read
+        text = _bytes(path, files)
+        for other in beside(path) if path.suffix.lower() in STATEMENT_LIST else ():
+            _bytes(other, files)
+        found, without = _read(text, path)
+        refused |= without
+        for unit, lower in found:
+            key = unit.name.upper()
+            if key in BLOCKS:
+                raise unit.place.refuse(
+                    f"{unit.name} is the name of a standard block; give yours another one"
+                )
+            if key in units:
+                raise unit.place.refuse(f"there is another unit with the name {unit.name}")
+            units[key] = unit
+            if lower is not None:
+                bodies[key] = lower
+    declared = Source(units, files)
+    for key, lower in bodies.items():
+        try:
+            units[key] = lower(declared)
+        except Unjudged as error:
+            refused[key] = error
+    for key in refused:
+        units.pop(key, None)
+    if refused and (not units or set(refused) & set(BLOCKS)):
+        raise next(iter(refused.values()))
+    if not units:
+        raise Unjudged(f"{', '.join(files)}: no PROGRAM and no FUNCTION_BLOCK")
+    return Source(units, files, refused)
+
+
+def _bytes(path: Path, files: dict[str, str]) -> bytes:
+    """The content of a file, whose hash is noted."""
+    try:
+        text = path.read_bytes()
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+    if len(text) > LARGEST:
+        raise Unjudged(f"{path}: {len(text):,} bytes; a source has at most {LARGEST:,}")
+    files[str(path)] = hashlib.sha256(text).hexdigest()
+    return text
+
+
+def _read(text: bytes, path: Path) -> tuple[Sequence[tuple[Unit, Lower | None]], Mapping[str, Unjudged]]:
+    if path.suffix.lower() == ".xml":
+        return read_plcopen(text, str(path))
+    if path.suffix.lower() in STATEMENT_LIST:
+        return [(unit, None) for unit in read_awl(path)], {}
+    try:
+        plain = text.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
+    reader = read_scl if path.suffix.lower() == ".scl" else read_text
+    return [(unit, None) for unit in reader(plain, str(path))], {}

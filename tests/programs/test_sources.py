@@ -1,0 +1,59 @@
+"""Which reader a file gets, and what several files make together."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof.ground.errors import Unjudged
+from programs.command import make
+from programs.sources import LARGEST, read_sources
+from tests.programs.drawn import block, pou, project, reading, writing
+
+ST = "FUNCTION_BLOCK {}\nVAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\n{}\nEND_FUNCTION_BLOCK\n"
+
+GOOD = reading(1, "a") + writing(5, "q", 1)
+
+
+def written(folder: Path, name: str, text: str | bytes) -> Path:
+    """A source file."""
+    path = folder / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def test_a_diagram_may_call_a_block_of_another_file(tmp_path: Path) -> None:
+    body = reading(1, "a") + block(4, "Own", {"a": 1}, "q", 'instanceName="z"') + writing(5, "q", 4)
+    files = [
+        written(tmp_path, "b.xml", project(pou(body, "z Own"))),
+        written(tmp_path, "own.scl", ST.format('"Own"', "#q := NOT #a;")),
+    ]
+    source = read_sources(files)
+    assert source.main().name == "B" and set(source.units) == {"B", "OWN"}
+    assert list(source.files) == [str(path) for path in files]
+
+
+@pytest.mark.parametrize(
+    ("texts", "cause"),
+    [
+        ({"b.st": b"\xff"}, "b.st: byte 0 is not UTF-8"),
+        ({"b.st": b" " * (LARGEST + 1)}, "b.st: 1,000,001 bytes; a source has at most 1,000,000"),
+        ({"b.st": ""}, "b.st: no PROGRAM and no FUNCTION_BLOCK"),
+        (
+            {"b.st": ST.format("B", "q := a;"), "c.scl": ST.format("b", "q := a;")},
+            "c.scl:1: there is another",
+        ),
+        ({"b.st": ST.format("TON", "q := a;")}, "b.st:1: TON is the name of a standard block"),
+        (
+            {"b.xml": project(pou("", name="TON", language="SFC"), pou(GOOD))},
+            "TON: a body in SFC is not supported",
+        ),
+        ({"b.xml": ST.format("B", "q := a;")}, "b.xml:1: not well-formed XML"),
+        ({"b.st": project(pou(""))}, "b.st:3: syntax error"),
+    ],
+)
+def test_files_that_cannot_be_read_are_refused(texts: dict[str, str], cause: str, tmp_path: Path) -> None:
+    with pytest.raises(Unjudged) as caught:
+        make([written(tmp_path, name, text) for name, text in texts.items()], "sf_edm")
+    assert cause in caught.value.message
