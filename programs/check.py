@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from modeproof.ground.errors import suggestion
+from programs.standard import BLOCKS, SHIFTS, arguments
 from programs.tree import (
     BOOL,
     SCALARS,
@@ -34,18 +35,10 @@ from programs.tree import (
     Unit,
 )
 
-BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
-    **{name: ({"IN": BOOL, "PT": TIME}, {"Q": BOOL, "ET": TIME}) for name in ("TON", "TOF", "TP")},
-    **{name: ({"CLK": BOOL}, {"Q": BOOL}) for name in ("R_TRIG", "F_TRIG")},
-    "SR": ({"S1": BOOL, "R": BOOL}, {"Q1": BOOL}),
-    "RS": ({"S": BOOL, "R1": BOOL}, {"Q1": BOOL}),
-}
-"""The standard blocks: inputs and outputs."""
 MOST_TURNS = 1000
 DEEPEST = 20
 """Blocks within blocks."""
 _COMPARE = ("=", "<>", "<", "<=", ">", ">=")
-_SHIFTS = ("SHL", "SHR", "ROL", "ROR")
 
 
 def check(source: Source, unit: Unit) -> None:
@@ -87,9 +80,22 @@ class Types:
 
     source: Source
     unit: Unit
+    _types: dict[tuple[int, int], tuple[Expression, Scalar | None, Type]] = field(
+        default_factory=dict, compare=False, repr=False
+    )
+    """What was found before: expressions are long-lived, and a run asks again in each scan."""
+    _members: dict[int, tuple[Expression, tuple[Scalar, int] | None]] = field(
+        default_factory=dict, compare=False, repr=False
+    )
 
     def enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         """The enumeration and the number of a name that is a member of one and no variable."""
+        known = self._members.get(id(expression))
+        if known is None:
+            known = self._members[id(expression)] = (expression, self._enum_member(expression))
+        return known[1]
+
+    def _enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         if isinstance(expression, Name) and expression.name.upper() not in self.unit.variables:
             for kind in self._enumerations():
                 if expression.name in kind.names:
@@ -107,6 +113,13 @@ class Types:
 
     def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
         """The type of an expression; a bare number takes the type that is wanted."""
+        key = id(expression), id(wanted)
+        known = self._types.get(key)
+        if known is None:
+            known = self._types[key] = (expression, wanted, self._of(expression, wanted))
+        return known[2]
+
+    def _of(self, expression: Expression, wanted: Scalar | None) -> Type:
         kind: Type | None
         if (member := self.enum_member(expression)) is not None:
             return member[0]
@@ -228,7 +241,7 @@ class Types:
             if first != second:
                 raise place.refuse("SEL needs two values of one type")
             return first
-        if node.name in _SHIFTS:
+        if node.name in SHIFTS:
             if not isinstance(values[1], Literal):
                 raise place.refuse(f"{node.name} by a number that is no literal is not supported")
             return self.scalar(values[0], place, ("bits",), wanted)
@@ -410,24 +423,3 @@ def inner_bodies(statement: object) -> Iterator[Body]:
             yield otherwise
         case For(_, _, _, _, inner, _):
             yield inner
-
-
-_PARAMETERS = {
-    **dict.fromkeys(("MIN", "MAX"), ("IN1", "IN2")),
-    "LIMIT": ("MN", "IN", "MX"),
-    "SEL": ("G", "IN0", "IN1"),
-    **dict.fromkeys(_SHIFTS, ("IN", "N")),
-}
-
-
-def arguments(node: Function) -> list[Expression]:
-    """The arguments in their order, whether they are given by position or by name."""
-    names = _PARAMETERS.get(node.name, ("IN",))
-    if len(node.arguments) != len(names):
-        raise node.place.refuse(f"{node.name} has {len(names)} arguments here, not {len(node.arguments)}")
-    if all(not name for name, _ in node.arguments):
-        return [value for _, value in node.arguments]
-    given = dict(node.arguments)
-    if set(given) != set(names):
-        raise node.place.refuse(f"the arguments of {node.name} are {', '.join(names)}")
-    return [given[name] for name in names]

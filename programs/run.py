@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.check import Types, arguments
+from programs.check import Types
+from programs.standard import arguments
 from programs.tree import (
     Array,
     Assign,
@@ -70,6 +71,10 @@ class Frame:
                 self.values[key] = Frame(source, source.units[kind.block.upper()])
             else:
                 self.values[key] = Standard(kind.block.upper())
+        self.state: Any = None
+        self.since = 0
+        if unit.device is not None:
+            self.values |= unit.device.memory()
 
 
 class Standard:
@@ -148,6 +153,9 @@ class Machine:
 
     def call(self, frame: Frame) -> None:
         """One call of a unit of the program's own."""
+        if frame.unit.device is not None:
+            frame.unit.device.call(frame, self.now)
+            return
         for name, variable in frame.unit.of("temp").items():
             frame.values[name.upper()] = default(variable.type, variable.initial)
         with contextlib.suppress(_Returned):

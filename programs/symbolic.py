@@ -13,8 +13,9 @@ from typing import Any
 
 import z3
 
-from programs.check import Types, arguments
+from programs.check import Types
 from programs.run import default
+from programs.standard import arguments
 from programs.terms import (
     FALSE,
     TRUE,
@@ -96,14 +97,17 @@ class Translator:
 
     def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
         """One call of a unit; `here`: the condition under which it happens."""
+        if unit.device is not None:
+            unit.device.terms(above.removesuffix("."), env)
+            return
         for name, variable in unit.of("temp").items():
             for path, kind, value in singles(
                 variable.type, f"{above}{name.upper()}", default(variable.type, variable.initial)
             ):
                 env[path] = constant(kind, value)
-        self.body(_Context(self, Types(self.source, unit), above), unit.body, env, here)
+        self.body(Context(self, Types(self.source, unit), above), unit.body, env, here)
 
-    def body(self, at: _Context, body: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+    def body(self, at: Context, body: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
         """Carry out a body in `env`; returns the condition under which RETURN was met in it."""
         returned = FALSE
         for n, statement in enumerate(body):
@@ -117,7 +121,7 @@ class Translator:
                 return returned
         return returned
 
-    def statement(self, at: _Context, statement: Any, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+    def statement(self, at: Context, statement: Any, env: Env, here: z3.BoolRef) -> z3.BoolRef:
         match statement:
             case Assign(target, value, place):
                 kind = at.types.of(target)
@@ -159,7 +163,7 @@ class Translator:
         return FALSE
 
     def branches(
-        self, at: _Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
+        self, at: Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
     ) -> z3.BoolRef:
         if not branches:
             return self.body(at, otherwise, env, here)
@@ -177,7 +181,7 @@ class Translator:
         return either(both(condition, first), both(negated(condition), second))
 
     def invoke(
-        self, at: _Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
+        self, at: Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
     ) -> None:
         path = at.path(instance, env, here)
         kind = at.types.of(instance)
@@ -224,7 +228,7 @@ class Translator:
 
 
 @dataclass(frozen=True)
-class _Context:
+class Context:
     """Where a body stands: the translator, the types of its unit, and the path above its variables."""
 
     translator: Translator

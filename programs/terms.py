@@ -50,6 +50,8 @@ def in_range(kind: Scalar, term: Any) -> z3.BoolRef:
 
 def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
     """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants."""
+    if unit.device is not None:
+        yield from unit.device.slots(above.removesuffix("."))
     for key, variable in unit.variables.items():
         if variable.section in ("temp", "constant"):
             continue

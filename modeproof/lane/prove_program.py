@@ -20,7 +20,9 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         "which they differ. UNKNOWN (2): neither.",
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="Structured Text")
-    parser.add_argument("--target", required=True, metavar="T", help="a published target, as in vectors/")
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--target", metavar="T", help="a published target, as in vectors/")
+    what.add_argument("--property", type=Path, metavar="TOML", help="properties of a program of your own")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
     parser.add_argument(
@@ -40,4 +42,5 @@ def run(args: argparse.Namespace) -> int:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
-    return int(proofs_module("programs.command").run(args))
+    room = "command" if args.property is None else "property_command"
+    return int(proofs_module(f"programs.{room}").run(args))
