@@ -124,13 +124,12 @@ def _faults(node: Any) -> Iterator[Any]:
         yield node
 
 
-def _statements(node: Any) -> Iterator[Any]:
-    """Every statement of a tree, so that none can be left out unseen."""
+def _nodes(node: Any) -> Iterator[Any]:
+    """Every node of a tree."""
     waiting = [node]
     while waiting:
         here = waiting.pop()
-        if here.is_named and here.type.endswith("_statement") and here.type != "empty_statement":
-            yield here
+        yield here
         waiting += here.children
 
 
@@ -176,7 +175,11 @@ class _Reader:
                 found.append(self.unit(node))
             else:
                 raise self.refuse(node)
-        there = sum(1 for _ in _statements(root))
+        there = 0
+        for node in _nodes(root):
+            there += node.is_named and node.type.endswith("_statement") and node.type != "empty_statement"
+            if node.type == "comment" and self.text(node).startswith("(*") and "(*" in self.text(node)[2:]:
+                raise self.refuse(node, "a comment within a comment is not supported: compilers differ here")
         if self.read != there:
             raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         return found
