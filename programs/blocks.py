@@ -16,7 +16,8 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers import Signal
-from programs.check import Types, inner_bodies
+from programs.calls import inner_bodies
+from programs.check import Types
 from programs.reference import Reference, reference, targets
 from programs.standard import BLOCKS
 from programs.terms import INT, Env, Slot, choose

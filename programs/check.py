@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 from modeproof.ground.errors import suggestion
+from programs.calls import called_functions, check_function, in_outs, inner_bodies, own_arguments, sides
 from programs.standard import BLOCKS, SHIFTS, arguments
 from programs.tree import (
     BOOL,
@@ -44,6 +46,12 @@ _COMPARE = ("=", "<>", "<", "<=", ">", ">=")
 def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
     for found in list(reached(source, unit, ())):
+        if found.kind == "function":
+            check_function(found)
+            if found is unit:
+                raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
+        for name, variable in found.of("in_out").items() if found is unit else ():
+            raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
         if not found.of("output") and found is unit:
             raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
         Types(source, found).body(found.body)
@@ -55,6 +63,13 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
         raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
     seen = {unit.name}
     yield unit
+    for name in called_functions(unit.body):
+        below = source.units.get(name)
+        if below is not None and below.kind == "function":
+            for found in reached(source, below, (*above, unit.name)):
+                if found.name not in seen:
+                    seen.add(found.name)
+                    yield found
     for variable in unit.variables.values():
         kind = variable.type
         while isinstance(kind, Array):
@@ -80,20 +95,17 @@ class Types:
 
     source: Source
     unit: Unit
-    _types: dict[tuple[int, int], tuple[Expression, Scalar | None, Type]] = field(
-        default_factory=dict, compare=False, repr=False
-    )
-    """What was found before: expressions are long-lived, and a run asks again in each scan."""
-    _members: dict[int, tuple[Expression, tuple[Scalar, int] | None]] = field(
-        default_factory=dict, compare=False, repr=False
-    )
+    known: dict[Any, tuple[Any, Any]] = field(default_factory=dict, compare=False, repr=False)
+    """What was found for an expression, by its identity; the expression is kept, so no other gets it."""
 
     def enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         """The enumeration and the number of a name that is a member of one and no variable."""
-        known = self._members.get(id(expression))
-        if known is None:
-            known = self._members[id(expression)] = (expression, self._enum_member(expression))
-        return known[1]
+        if not isinstance(expression, Name | Member):
+            return None
+        key = ("member", id(expression))
+        if key not in self.known:
+            self.known[key] = expression, self._enum_member(expression)
+        return self.known[key][1]  # type: ignore[no-any-return]
 
     def _enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         if isinstance(expression, Name) and expression.name.upper() not in self.unit.variables:
@@ -113,11 +125,10 @@ class Types:
 
     def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
         """The type of an expression; a bare number takes the type that is wanted."""
-        key = id(expression), id(wanted)
-        known = self._types.get(key)
-        if known is None:
-            known = self._types[key] = (expression, wanted, self._of(expression, wanted))
-        return known[2]
+        key = (id(expression), id(wanted))
+        if key not in self.known:
+            self.known[key] = (expression, wanted), self._of(expression, wanted)
+        return self.known[key][1]  # type: ignore[no-any-return]
 
     def _of(self, expression: Expression, wanted: Scalar | None) -> Type:
         kind: Type | None
@@ -161,8 +172,8 @@ class Types:
         if kind.kind in ("int", "bits") and not kind.low <= value <= kind.high:
             raise place.refuse(f"{value} is outside {kind.name}, {kind.low}..{kind.high}")
 
-    def member(self, kind: Type, name: str, place: Place) -> Type:
-        """The type of a variable of an instance."""
+    def member(self, kind: Type, name: str, place: Place, lent: bool = False) -> Type:
+        """The type of a variable of an instance; lent: VAR_IN_OUT as well, which only a call may give."""
         if not isinstance(kind, Instance):
             raise place.refuse(f".{name}: only an instance of a block has members here")
         if kind.block.upper() in BLOCKS:
@@ -171,7 +182,8 @@ class Types:
             }
         else:
             unit = self.source.units[kind.block.upper()]
-            known = {name: variable.type for name, variable in unit.of("input", "output").items()}
+            sections = ("input", "output", "in_out") if lent else ("input", "output")
+            known = {name: variable.type for name, variable in unit.of(*sections).items()}
         for key, found in known.items():
             if key.upper() == name.upper():
                 return found
@@ -221,8 +233,10 @@ class Types:
         raise node.place.refuse(f"{node.operator} of {first.name} and {second.name} is not supported")
 
     def function(self, node: Function, wanted: Scalar | None) -> Scalar:
-        values = arguments(node)
         place = node.place
+        if (unit := self.own_function(node)) is not None:
+            return self.own(node, unit)
+        values = arguments(node)
         if node.name in ("ABS",):
             return self.scalar(values[0], place, ("int",), wanted)
         if node.name in ("MIN", "MAX"):
@@ -251,6 +265,27 @@ class Types:
         if node.name == "MOVE":
             return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
         raise place.refuse(f"function {node.name} is not supported")
+
+    def own_function(self, node: Function) -> Unit | None:
+        """The FUNCTION of the program's own that is called; None: it is one of the standard."""
+        found = self.source.units.get(node.name)
+        return found if found is not None and found.kind == "function" else None
+
+    def own(self, node: Function, unit: Unit) -> Scalar:
+        """The type of the result of a FUNCTION, after a look at its arguments."""
+        for key, expression in own_arguments(node, unit).items():
+            wanted = unit.variables[key].type
+            assert isinstance(wanted, Scalar)
+            given = self.of(expression, wanted)
+            alike = isinstance(given, Scalar) and given.kind == wanted.kind
+            if not alike or (wanted.kind == "enum" and given != wanted):
+                raise node.place.refuse(f"{unit.variables[key].name} of {unit.name} is of another type")
+            assert isinstance(given, Scalar)
+            if wanted.kind == "bits" and given.high > wanted.high:
+                raise node.place.refuse(f"{unit.variables[key].name} := {given.name} needs a conversion")
+        result = unit.variables[unit.name.upper()].type
+        assert isinstance(result, Scalar)
+        return result
 
     def conversion(self, node: Function, value: Expression, start: Scalar | None, end: Scalar) -> Scalar:
         given = self.scalar(value, node.place, ("bool", "bits", "int", "time", "enum"), start)
@@ -364,6 +399,22 @@ class Types:
                 )
         return kind
 
+    def in_outs(self, kind: Instance, inputs: tuple[tuple[str, Expression], ...], place: Place) -> None:
+        """Refuse a call whose VAR_IN_OUT are not each a variable of their own, of the same type."""
+        wanted = in_outs(self.source, kind)
+        given = {name.upper(): value for name, value in inputs if name.upper() in wanted}
+        for name, variable in wanted.items():
+            value = given.get(name)
+            if not isinstance(value, Name) or not isinstance(variable.type, Scalar):
+                raise place.refuse(
+                    f"{variable.name} of {kind.block} is VAR_IN_OUT: give it a single variable"
+                )
+            if self.written(value, place) != variable.type:
+                raise place.refuse(f"{variable.name} of {kind.block} is of another type")
+        names = [value.name.upper() for value in given.values() if isinstance(value, Name)]
+        if len(set(names)) != len(names):
+            raise place.refuse(f"two VAR_IN_OUT of {kind.block} are the same variable")
+
     def call(
         self,
         instance: Expression,
@@ -375,6 +426,7 @@ class Types:
         if not isinstance(kind, Instance):
             raise place.refuse("only an instance of a block is called")
         ins, outs = sides(self.source, kind)
+        self.in_outs(kind, inputs, place)
         for pairs, known in ((inputs, ins), (outputs, outs)):
             for name, expression in pairs:
                 key = next((key for key in known if key.upper() == name.upper()), None)
@@ -398,28 +450,3 @@ class Types:
                         raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
                 elif wanted.kind == "bits" and given.high > wanted.high:
                     raise place.refuse(f"{name} := {given.name} needs a conversion")
-
-
-def sides(source: Source, kind: Instance) -> tuple[Mapping[str, Type], Mapping[str, Type]]:
-    """Inputs and outputs of a block with their types."""
-    if kind.block.upper() in BLOCKS:
-        return BLOCKS[kind.block.upper()]
-    unit = source.units[kind.block.upper()]
-    ins, outs = (
-        {name: variable.type for name, variable in unit.of(section).items()}
-        for section in ("input", "output")
-    )
-    return ins, outs
-
-
-def inner_bodies(statement: object) -> Iterator[Body]:
-    """The bodies within a statement."""
-    match statement:
-        case If(branches, otherwise, _):
-            yield from (inner for _, inner in branches)
-            yield otherwise
-        case Case(_, clauses, otherwise, _):
-            yield from (inner for _, inner in clauses)
-            yield otherwise
-        case For(_, _, _, _, inner, _):
-            yield inner

@@ -50,7 +50,13 @@ LARGEST = 1_000_000
 """Bytes of a source file."""
 LONGEST = 1000
 """Elements of an array."""
-SECTIONS = {"var_input": "input", "var_output": "output", "var_block": "var", "var_temp": "temp"}
+SECTIONS = {
+    "var_input": "input",
+    "var_output": "output",
+    "var_block": "var",
+    "var_temp": "temp",
+    "var_in_out": "in_out",
+}
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
 _SCL = (
@@ -125,7 +131,6 @@ def _faults(node: Any) -> Iterator[Any]:
 
 
 def _nodes(node: Any) -> Iterator[Any]:
-    """Every node of a tree."""
     waiting = [node]
     while waiting:
         here = waiting.pop()
@@ -171,7 +176,7 @@ class _Reader:
                 for definition in self.named(node):
                     name = self.text(self.field(definition, "name"))
                     self.types[name.upper()] = self.type(self.field(definition, "definition"), name)
-            elif node.type in ("function_block_declaration", "program_declaration"):
+            elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
                 found.append(self.unit(node))
             else:
                 raise self.refuse(node)
@@ -189,7 +194,7 @@ class _Reader:
         variables: dict[str, Variable] = {}
         body_nodes = self.fields(node, "body")
         for child in self.named(node):
-            if child in body_nodes or child == self.field(node, "name"):
+            if child in body_nodes or child in (self.field(node, "name"), self.field(node, "return_type")):
                 continue
             if child.type not in SECTIONS:
                 raise self.refuse(child)
@@ -198,7 +203,10 @@ class _Reader:
                     raise variable.place.refuse(f"{variable.name} is declared twice")
                 variables[variable.name.upper()] = variable
         enumerations = {name: kind for name, kind in self.types.items() if isinstance(kind, Scalar)}
-        kind = "program" if node.type == "program_declaration" else "function block"
+        kind = node.type.removesuffix("_declaration").replace("_", " ")
+        if kind == "function":
+            result = self.type(self.field(node, "return_type"), "")
+            variables[name.upper()] = Variable(name, result, "output", None, self.place(node))
         return Unit(name, kind, variables, self.body(body_nodes), self.place(node), enumerations)
 
     def declared(self, section: Any) -> Iterator[Variable]:

@@ -13,6 +13,7 @@ from typing import Any
 
 import z3
 
+from programs.calls import in_outs, own_arguments
 from programs.check import Types
 from programs.run import default
 from programs.standard import arguments
@@ -187,7 +188,7 @@ class Translator:
         kind = at.types.of(instance)
         assert isinstance(kind, Instance)
         for name, expression in inputs:
-            wanted = at.types.member(kind, name, instance.place)
+            wanted = at.types.member(kind, name, instance.place, True)
             assert isinstance(wanted, Scalar)
             given = at.types.of(expression, wanted)
             term = self.fitted(at.value(expression, env, here, wanted), given, wanted, instance.place, here)
@@ -196,7 +197,9 @@ class Translator:
             self.call(self.source.units[kind.block.upper()], f"{path}.", env, here)
         else:
             standard_call(kind.block.upper(), path, env)
-        for name, target in outputs:
+        kept = in_outs(self.source, kind)
+        back = [(name, target) for name, target in inputs if name.upper() in kept]
+        for name, target in (*back, *outputs):
             at.store(target, env[f"{path}.{name.upper()}"], env, here)
 
     def fitted(self, term: Any, given: Type, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
@@ -370,6 +373,8 @@ class Context:
     def function(
         self, node: Function, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None
     ) -> Any:
+        if (unit := self.types.own_function(node)) is not None:
+            return self.own(node, unit, env, here)
         given = arguments(node)
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
             term, by = self.value(given[0], env, here, wanted), self.types.constant(given[1])
@@ -396,6 +401,20 @@ class Context:
                 low = z3.If(values[1] < values[0], values[0], values[1])
                 return z3.If(low > values[2], values[2], low)
         return values[0]
+
+    def own(self, node: Function, unit: Unit, env: Env, here: z3.BoolRef) -> Any:
+        """The result of a FUNCTION of the program's own: it begins anew in each call."""
+        inner: Env = {}
+        for key, variable in unit.variables.items():
+            start = default(variable.type, variable.initial)
+            inner |= {path: constant(kind, value) for path, kind, value in singles(variable.type, key, start)}
+        for key, expression in own_arguments(node, unit).items():
+            kind = unit.variables[key].type
+            assert isinstance(kind, Scalar)
+            term = self.value(expression, env, here, kind)
+            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, node.place, here)
+        self.translator.call(unit, "", inner, here)
+        return inner[unit.name.upper()]
 
     def converted(
         self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef

@@ -254,7 +254,7 @@ class Device(Protocol):
 
 @dataclass(frozen=True)
 class Unit:
-    """A PROGRAM or FUNCTION_BLOCK: its variables in order, and what one call of it does."""
+    """A PROGRAM, FUNCTION_BLOCK or FUNCTION: its variables in order, and what one call of it does."""
 
     name: str
     kind: str
@@ -288,7 +288,7 @@ class Source:
             for variable in unit.variables.values()
             if isinstance(variable.type, Instance)
         }
-        found = [unit for name, unit in self.units.items() if name not in used]
+        found = [unit for name, unit in self.units.items() if name not in used and unit.kind != "function"]
         if len(found) != 1:
             names = ", ".join(unit.name for unit in found) or "none"
             raise Unjudged(
