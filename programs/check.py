@@ -8,7 +8,7 @@ from typing import Any
 
 from modeproof.ground.errors import suggestion
 from programs.calls import called_functions, check_function, in_outs, inner_bodies, own_arguments, sides
-from programs.standard import BLOCKS, SHIFTS, arguments
+from programs.standard import BLOCKS, FUNCTIONS, SHIFTS, arguments
 from programs.tree import (
     BOOL,
     SCALARS,
@@ -236,8 +236,10 @@ class Types:
         place = node.place
         if (unit := self.own_function(node)) is not None:
             return self.own(node, unit)
+        if node.name not in FUNCTIONS and "_TO_" not in node.name:
+            raise place.refuse(f"function {node.name} is not supported")
         values = arguments(node)
-        if node.name in ("ABS",):
+        if node.name == "ABS":
             return self.scalar(values[0], place, ("int",), wanted)
         if node.name in ("MIN", "MAX"):
             first, second = self.pair(values[0], values[1], place, wanted)
@@ -256,15 +258,14 @@ class Types:
                 raise place.refuse("SEL needs two values of one type")
             return first
         if node.name in SHIFTS:
-            if not isinstance(values[1], Literal):
-                raise place.refuse(f"{node.name} by a number that is no literal is not supported")
+            self.scalar(values[1], place, ("int",))
             return self.scalar(values[0], place, ("bits",), wanted)
         start, _, end = node.name.partition("_TO_")
         if end in SCALARS and (start in SCALARS or not start):
             return self.conversion(node, values[0], SCALARS.get(start), SCALARS[end])
         if node.name == "MOVE":
             return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
-        raise place.refuse(f"function {node.name} is not supported")
+        raise place.refuse(f"conversion {node.name} is not supported")
 
     def own_function(self, node: Function) -> Unit | None:
         """The FUNCTION of the program's own that is called; None: it is one of the standard."""

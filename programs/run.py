@@ -316,7 +316,10 @@ class Machine:
             return self.own(frame, node, unit)
         given = arguments(node)
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
-            value, by = self.value(frame, given[0], wanted), frame.types.constant(given[1])
+            value, by = self.value(frame, given[0], wanted), self.value(frame, given[1])
+            if not isinstance(given[1], Literal) and not 0 <= by < kind.width:
+                place = node.place
+                raise Overflow(f"{place.file}:{place.line}: a shift by {by} is outside 0..{kind.width - 1}")
             return _shifted(node.name, value, by, kind)
         if "_TO_" in node.name:
             return self.converted(frame, node, given[0], kind)

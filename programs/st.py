@@ -215,6 +215,8 @@ class _Reader:
             if child.type == "var_qualifier_list":
                 for qualifier in self.named(child):
                     word = self.text(qualifier).upper()
+                    if word == "CONSTANT" and kind == "input":
+                        continue  # a unit never writes its inputs here
                     if word in ("CONSTANT", "RETAIN") and kind == "var":
                         kind = word.lower()
                     elif word not in ("NON_RETAIN", "PRIVATE", "PUBLIC", "INTERNAL", "PROTECTED"):

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from programs.tree import BOOL, TIME, Expression, Function, Scalar
 
 SHIFTS = ("SHL", "SHR", "ROL", "ROR")
+FUNCTIONS = ("ABS", "MIN", "MAX", "LIMIT", "SEL", "MOVE", *SHIFTS)
+"""The standard functions; conversions such as INT_TO_WORD are known beside them."""
 BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
     **{name: ({"IN": BOOL, "PT": TIME}, {"Q": BOOL, "ET": TIME}) for name in ("TON", "TOF", "TP")},
     **{name: ({"CLK": BOOL}, {"Q": BOOL}) for name in ("R_TRIG", "F_TRIG")},

@@ -29,6 +29,7 @@ from programs.terms import (
     in_range,
     merge,
     negated,
+    shifted,
     singles,
     standard_call,
     truncated,
@@ -93,7 +94,7 @@ class Translator:
             if path.endswith(".age"):
                 env[path] = env[path] + dt_ms
         self.call(self.unit, "", env, TRUE)
-        outputs = {name: env[name.upper()] for name in self.unit.of("output")}
+        outputs = {name: env[name.upper()] for name in self.unit.of("output") if name.upper() in env}
         return Scan({path: env[path] for path in memory}, outputs, tuple(self.obligations))
 
     def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
@@ -377,7 +378,14 @@ class Context:
             return self.own(node, unit, env, here)
         given = arguments(node)
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
-            term, by = self.value(given[0], env, here, wanted), self.types.constant(given[1])
+            term = self.value(given[0], env, here, wanted)
+            if not isinstance(given[1], Literal):
+                number = self.value(given[1], env, here)
+                inside = z3.And(number >= 0, number < kind.width)
+                text = f"a shift stays within 0..{kind.width - 1}"
+                self.translator.owe(z3.Implies(here, inside), text, node.place)
+                return shifted(node.name, term, z3.Int2BV(number, kind.width))
+            by = self.types.constant(given[1])
             if node.name in ("ROL", "ROR"):
                 rotate = z3.RotateLeft if node.name == "ROL" else z3.RotateRight
                 return rotate(term, by % kind.width)

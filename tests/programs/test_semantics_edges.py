@@ -79,6 +79,18 @@ def test_bit_strings_lose_what_is_shifted_out() -> None:
     assert once("BYTE", "WORD_TO_BYTE(w)", "VAR w : WORD := 16#1234; END_VAR") == 0x34
 
 
+@pytest.mark.parametrize(
+    ("name", "whole"), [("SHL", 0x1230), ("SHR", 0x0912), ("ROL", 0x1239), ("ROR", 0x3912)]
+)
+def test_a_shift_by_a_variable_stays_below_the_width(name: str, whole: int) -> None:
+    declared = "VAR w : WORD := 16#9123; END_VAR"
+    assert once("WORD", f"{name}(w, x)", declared, x=4) == whole
+    assert once("WORD", f"{name}(w, x)", declared, x=0) == 0x9123
+    for by in (-1, 16):
+        with pytest.raises(Overflow, match=f"a shift by {by} is outside 0..15"):
+            once("WORD", f"{name}(w, x)", declared, x=by)
+
+
 def test_a_word_as_a_number_has_its_bits() -> None:
     assert once("INT", "WORD_TO_INT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == -1
     assert once("DINT", "WORD_TO_DINT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == 65535
@@ -399,6 +411,11 @@ def test_a_planted_slip_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -
         assert difference_of_text(KITCHEN, 1, 150) != ""
     except KeyError:
         assert name == "temporary variables have no value"
+
+
+def test_an_output_may_be_an_array() -> None:
+    declared = "VAR_OUTPUT y : INT; z : ARRAY [1..2] OF INT; END_VAR"
+    assert rows(declared, "z[2] := x; y := z[2];", [(1, {"x": 4})]) == [4]
 
 
 # ---------------------------------------------------------------- functions, and variables lent to a block
