@@ -108,7 +108,7 @@ def test_every_property_of_the_example_is_proved() -> None:
     assert "SF_EDM" in {name.upper() for name in cell.blocks}
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_wiring_fault_is_refuted_by_scans(name: str, tmp_path: Path) -> None:
     id, edits = FAULTS[name]

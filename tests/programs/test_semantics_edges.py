@@ -340,9 +340,9 @@ def test_random_programs_do_the_same_as_terms(seed: int) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("seed", range(100, 112))
+@pytest.mark.parametrize("seed", range(100, 108))
 def test_more_random_programs_do_the_same_as_terms(seed: int) -> None:
-    assert difference_of_text(program(seed), seed, 60, wrap=bool(seed % 2)) == ""
+    assert difference_of_text(program(seed), seed, 40, wrap=bool(seed % 2)) == ""
 
 
 def timer(name: str, change: Callable[[str, dict[str, Any]], None]) -> Callable[..., None]:
