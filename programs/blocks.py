@@ -136,6 +136,14 @@ class Block:
                     raise Unjudged(f"{self.reference.device.name}: {place} at power-up is no number")
                 yield Slot(f"{path}.{place}", INT, term.as_long(), "var")
 
+    def ranges(self, path: str, symbols: Env) -> z3.BoolRef:
+        """What each call takes for granted of the memory before it: it is owed by every proof."""
+        known = self.reference.memory_terms.items()
+        where = [(symbol, symbols[f"{path}.{place}"]) for place, symbol in known]
+        control, age = symbols[f"{path}.{CONTROL}"], symbols[f"{path}.{AGE}"]
+        own = z3.substitute(self.reference.memory_ranges, *where)
+        return z3.And(own, control >= 0, control < len(self.reference.controls), age >= 0)
+
     def terms(self, path: str, env: Env) -> None:
         """One call, in `env`."""
         reference = self.reference
@@ -189,6 +197,16 @@ def with_blocks(source: Source) -> Source:
                 if key not in units and key not in BLOCKS and (found := block(key)) is not None:
                     units[key] = found.unit()
     return Source(units, source.files)
+
+
+def instances(source: Source, unit: Unit, above: str = "") -> Iterator[tuple[str, Block]]:
+    """The path of each instance of a published block in a unit, and the block."""
+    for key, variable in unit.variables.items():
+        below = source.units.get(variable.type.block.upper()) if isinstance(variable.type, Instance) else None
+        if below is not None and isinstance(below.device, Block):
+            yield f"{above}{key}", below.device
+        elif below is not None:
+            yield from instances(source, below, f"{above}{key}.")
 
 
 # ---------------------------------------------------------------- parameters

@@ -10,6 +10,7 @@ from typing import Any
 
 import z3
 
+from programs.blocks import instances
 from programs.cell import Asked, Cell, Judge, Scans, Trace
 from programs.houdini import Houdini
 from programs.induction import System, Way, induction, shortest, spacer
@@ -113,8 +114,11 @@ class Judgement:
         after = {path: cell.after[path] for path in cell.slots}
         parts = []
         for path, slot in cell.slots.items():
-            ours = path.rpartition(".")[2].islower() and z3.is_int(state[path])
-            parts.append(state[path] >= 0 if ours else in_range(slot.type, state[path]))
+            if path.endswith(".age"):
+                parts.append(state[path] >= 0)
+            elif not path.rpartition(".")[2].islower():  # the others are memory of a block
+                parts.append(in_range(slot.type, state[path]))
+        parts += [block.ranges(path, state) for path, block in instances(cell.source, cell.unit)]
         for asked in self.asked:
             if asked.watched:
                 waits, since = z3.Bool(f"{asked.id} waits"), z3.Int(f"{asked.id} since")

@@ -336,6 +336,23 @@ def test_a_wrong_invariant_proves_nothing(monkeypatch: pytest.MonkeyPatch) -> No
     assert induction.spacer(judge.system, good, [], 10) is None
 
 
+def test_what_a_block_takes_for_granted_is_owed() -> None:
+
+    judge = small(f"{SWITCH} q := e.S_EDM_Out;", "holds = 'q'\nonly_if = 'a'", "VAR e : SF_EDM; END_VAR")
+    bad, elapsed = judge.bad(judge.asked[0]), judge.system.state["E.elapsed_ms"]
+    assert "E.elapsed_ms >= 0" in str(judge.system.within)
+    (block,) = judge.cell.blocks.values()
+    narrow = z3.And(block.reference.memory_ranges, block.reference.memory_terms["elapsed_ms"] <= 5)
+    block.reference.__dict__["memory_ranges"] = narrow
+    try:
+        again = small(f"{SWITCH} q := e.S_EDM_Out;", "holds = 'q'\nonly_if = 'a'", "VAR e : SF_EDM; END_VAR")
+        proof = induction.Proof(1, [elapsed >= 0], "")
+        assert induction.holds_up(judge.system, bad, proof)
+        assert not induction.holds_up(again.system, bad, proof)
+    finally:
+        del block.reference.__dict__["memory_ranges"]
+
+
 def test_invariants_of_two_facts_are_found() -> None:
     body = "IF n = 1 THEN m := 1; q := a; ELSIF n = 2 THEN m := 2; q := FALSE; ELSE r := m = 2 AND q; END_IF"
     judge = small(body, "never = 'r'")
