@@ -63,13 +63,8 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
         raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
     seen = {unit.name}
     yield unit
-    for name in called_functions(unit.body):
-        below = source.units.get(name)
-        if below is not None and below.kind == "function":
-            for found in reached(source, below, (*above, unit.name)):
-                if found.name not in seen:
-                    seen.add(found.name)
-                    yield found
+    named = (source.units.get(name) for name in called_functions(unit.body))
+    below = [found for found in named if found is not None and found.kind == "function"]
     for variable in unit.variables.values():
         kind = variable.type
         while isinstance(kind, Array):
@@ -77,16 +72,17 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
             if isinstance(kind, Instance):
                 raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
         if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
-            below = source.units.get(kind.block.upper())
-            if below is None:
+            instance = source.units.get(kind.block.upper())
+            if instance is None:
                 raise variable.place.refuse(
                     f"{variable.name}: no type or block {kind.block!r} is known; "
                     + suggestion(kind.block, [*BLOCKS, *(found.name for found in source.units.values())])
                 )
-            for found in reached(source, below, (*above, unit.name)):
-                if found.name not in seen:
-                    seen.add(found.name)
-                    yield found
+            below.append(instance)
+    for found in (found for inner in below for found in reached(source, inner, (*above, unit.name))):
+        if found.name not in seen:
+            seen.add(found.name)
+            yield found
 
 
 @dataclass(frozen=True)
