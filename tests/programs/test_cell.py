@@ -417,7 +417,8 @@ def test_the_command_prints_and_writes_the_scans(tmp_path: Path, capsys: pytest.
     assert [row["verdict"] for row in written] == ["PROVED", "REFUTED"] and len(
         written[1]["trace"]["scans"]
     ) == 2
-    for wrong in ([*asked, "--binding", "b.toml"], [*asked[:3], str(tmp_path / "no.toml")]):
+    both = [*asked, "--target", "sf_edm"]
+    for wrong in (both, asked[:2], [*asked, "--binding", "b.toml"], [*asked[:3], str(tmp_path / "no.toml")]):
         assert main(wrong) == 2
         assert capsys.readouterr().err.count("\n") == 1
 
