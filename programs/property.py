@@ -221,9 +221,9 @@ class Judgement:
         if known:
             trace = self.cell.run(*known, asked)
             assert trace is not None
-            return Found(asked, "REFUTED", f"no way of {scans} scans or fewer", trace)
+            return Found(asked, "REFUTED", f"not known: nothing breaks it within {scans} scans", trace)
         if scans:
-            why = f"no way of {scans} scans from power-up; no proof for more"
+            why = f"a proof; nothing breaks it within {scans} scans from power-up"
             return Found(asked, "HOLDS", why, scans=scans)
         return Found(asked, "UNKNOWN", "no question had an answer in time")
 
@@ -234,7 +234,7 @@ class Judgement:
             return Found(
                 asked, "UNKNOWN", f"the {len(way.scans)} scans found do not break it when they are run"
             )
-        return Found(asked, "REFUTED", f"no way of {len(trace.scans) - 1} scans or fewer", trace)
+        return Found(asked, "REFUTED", f"yes: nothing breaks it within {len(trace.scans) - 1} scans", trace)
 
     def _plain(self, way: Way) -> tuple[dict[str, Any], Scans]:
         retained = {path: way.start[path] for path in self.cell.retained if path in way.start}

@@ -7,7 +7,8 @@ clock; any other one remembers how long ago it was started.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -58,6 +59,15 @@ from programs.tree import (
     Unary,
     Unit,
 )
+
+_BITS: Mapping[str, Callable[[Any, Any], Any]] = {
+    "AND": operator.and_, "OR": operator.or_, "XOR": operator.xor,
+    "<": z3.ULT, "<=": z3.ULE, ">": z3.UGT, ">=": z3.UGE,
+}  # fmt: skip
+_PLAIN: Mapping[str, Callable[[Any, Any], Any]] = {
+    "=": operator.eq, "<>": operator.ne, "<": operator.lt, "<=": operator.le, ">": operator.gt,
+    ">=": operator.ge, "AND": both, "OR": either, "XOR": z3.Xor,
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -333,40 +343,11 @@ class Context:
                 self.translator.widened(left, first, wider),
                 self.translator.widened(right, second, wider),
             )
-            match node.operator:
-                case "AND":
-                    return left & right
-                case "OR":
-                    return left | right
-                case "XOR":
-                    return left ^ right
-                case "<":
-                    return z3.ULT(left, right)
-                case "<=":
-                    return z3.ULE(left, right)
-                case ">":
-                    return z3.UGT(left, right)
-                case ">=":
-                    return z3.UGE(left, right)
+            if node.operator in _BITS:
+                return _BITS[node.operator](left, right)
+        if node.operator in _PLAIN:
+            return _PLAIN[node.operator](left, right)
         match node.operator:
-            case "=":
-                return left == right
-            case "<>":
-                return left != right
-            case "<":
-                return left < right
-            case "<=":
-                return left <= right
-            case ">":
-                return left > right
-            case ">=":
-                return left >= right
-            case "AND":
-                return both(left, right)
-            case "OR":
-                return either(left, right)
-            case "XOR":
-                return z3.Xor(left, right)
             case "+":
                 return self.translator.ranged(left + right, kind, node.place, here)
             case "-":

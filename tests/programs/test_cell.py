@@ -411,7 +411,7 @@ def test_the_command_prints_and_writes_the_scans(tmp_path: Path, capsys: pytest.
     asked = ["prove-program", str(program), "--property", str(properties)]
     assert main([*asked, "--json", str(record)]) == 1
     said = capsys.readouterr().out
-    assert "REFUTED: late: q is a.\n" in said and "no way of 1 scans or fewer" in said
+    assert "REFUTED: late: q is a.\n" in said and "shortest    yes: nothing breaks it within 1 scans" in said
     assert "  scan 2      after 0 ms: a=0\n              gives q=1, [q]=1\n" in said
     written = json.loads(record.read_text("utf-8"))["verdicts"]
     assert [row["verdict"] for row in written] == ["PROVED", "REFUTED"] and len(
