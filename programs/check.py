@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 from modeproof.ground.errors import suggestion
+from programs.calls import called_functions, check_function, in_outs, inner_bodies, own_arguments, sides
+from programs.standard import BLOCKS, FUNCTIONS, SHIFTS, arguments
 from programs.tree import (
     BOOL,
     SCALARS,
@@ -35,23 +37,21 @@ from programs.tree import (
     Unit,
 )
 
-BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
-    **{name: ({"IN": BOOL, "PT": TIME}, {"Q": BOOL, "ET": TIME}) for name in ("TON", "TOF", "TP")},
-    **{name: ({"CLK": BOOL}, {"Q": BOOL}) for name in ("R_TRIG", "F_TRIG")},
-    "SR": ({"S1": BOOL, "R": BOOL}, {"Q1": BOOL}),
-    "RS": ({"S": BOOL, "R1": BOOL}, {"Q1": BOOL}),
-}
-"""The standard blocks: inputs and outputs."""
 MOST_TURNS = 1000
 DEEPEST = 20
 """Blocks within blocks."""
 _COMPARE = ("=", "<>", "<", "<=", ">", ">=")
-_SHIFTS = ("SHL", "SHR", "ROL", "ROR")
 
 
 def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
     for found in list(reached(source, unit, ())):
+        if found.kind == "function":
+            check_function(found)
+            if found is unit:
+                raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
+        for name, variable in found.of("in_out").items() if found is unit else ():
+            raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
         if not found.of("output") and found is unit:
             raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
         Types(source, found).body(found.body)
@@ -63,6 +63,8 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
         raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
     seen = {unit.name}
     yield unit
+    named = (source.units.get(name) for name in called_functions(unit.body))
+    below = [found for found in named if found is not None and found.kind == "function"]
     for variable in unit.variables.values():
         kind = variable.type
         while isinstance(kind, Array):
@@ -70,16 +72,17 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
             if isinstance(kind, Instance):
                 raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
         if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
-            below = source.find(kind.block)
-            if below is None:
+            instance = source.find(kind.block)
+            if instance is None:
                 raise variable.place.refuse(
                     f"{variable.name}: no type or block {kind.block!r} is known; "
                     + suggestion(kind.block, [*BLOCKS, *(found.name for found in source.units.values())])
                 )
-            for found in reached(source, below, (*above, unit.name)):
-                if found.name not in seen:
-                    seen.add(found.name)
-                    yield found
+            below.append(instance)
+    for found in (found for inner in below for found in reached(source, inner, (*above, unit.name))):
+        if found.name not in seen:
+            seen.add(found.name)
+            yield found
 
 
 @dataclass(frozen=True)
@@ -165,8 +168,8 @@ class Types:
         if kind.kind in ("int", "bits") and not kind.low <= value <= kind.high:
             raise place.refuse(f"{value} is outside {kind.name}, {kind.low}..{kind.high}")
 
-    def member(self, kind: Type, name: str, place: Place) -> Type:
-        """The type of a variable of an instance."""
+    def member(self, kind: Type, name: str, place: Place, lent: bool = False) -> Type:
+        """The type of a variable of an instance; lent: VAR_IN_OUT as well, which only a call may give."""
         if not isinstance(kind, Instance):
             raise place.refuse(f".{name}: only an instance of a block has members here")
         if kind.block.upper() in BLOCKS:
@@ -175,7 +178,8 @@ class Types:
             }
         else:
             unit = self.source.units[kind.block.upper()]
-            known = {name: variable.type for name, variable in unit.of("input", "output").items()}
+            sections = ("input", "output", "in_out") if lent else ("input", "output")
+            known = {name: variable.type for name, variable in unit.of(*sections).items()}
         for key, found in known.items():
             if key.upper() == name.upper():
                 return found
@@ -225,9 +229,13 @@ class Types:
         raise node.place.refuse(f"{node.operator} of {first.name} and {second.name} is not supported")
 
     def function(self, node: Function, wanted: Scalar | None) -> Scalar:
-        values = arguments(node)
         place = node.place
-        if node.name in ("ABS",):
+        if (unit := self.own_function(node)) is not None:
+            return self.own(node, unit)
+        if node.name not in FUNCTIONS and "_TO_" not in node.name:
+            raise place.refuse(f"function {node.name} is not supported")
+        values = arguments(node)
+        if node.name == "ABS":
             return self.scalar(values[0], place, ("int",), wanted)
         if node.name in ("MIN", "MAX"):
             first, second = self.pair(values[0], values[1], place, wanted)
@@ -245,16 +253,36 @@ class Types:
             if first != second:
                 raise place.refuse("SEL needs two values of one type")
             return first
-        if node.name in _SHIFTS:
-            if not isinstance(values[1], Literal):
-                raise place.refuse(f"{node.name} by a number that is no literal is not supported")
+        if node.name in SHIFTS:
+            self.scalar(values[1], place, ("int",))
             return self.scalar(values[0], place, ("bits",), wanted)
         start, _, end = node.name.partition("_TO_")
         if end in SCALARS and (start in SCALARS or not start):
             return self.conversion(node, values[0], SCALARS.get(start), SCALARS[end])
         if node.name == "MOVE":
             return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
-        raise place.refuse(f"function {node.name} is not supported")
+        raise place.refuse(f"conversion {node.name} is not supported")
+
+    def own_function(self, node: Function) -> Unit | None:
+        """The FUNCTION of the program's own that is called; None: it is one of the standard."""
+        found = self.source.units.get(node.name)
+        return found if found is not None and found.kind == "function" else None
+
+    def own(self, node: Function, unit: Unit) -> Scalar:
+        """The type of the result of a FUNCTION, after a look at its arguments."""
+        for key, expression in own_arguments(node, unit).items():
+            wanted = unit.variables[key].type
+            assert isinstance(wanted, Scalar)
+            given = self.of(expression, wanted)
+            alike = isinstance(given, Scalar) and given.kind == wanted.kind
+            if not alike or (wanted.kind == "enum" and given != wanted):
+                raise node.place.refuse(f"{unit.variables[key].name} of {unit.name} is of another type")
+            assert isinstance(given, Scalar)
+            if wanted.kind == "bits" and given.high > wanted.high:
+                raise node.place.refuse(f"{unit.variables[key].name} := {given.name} needs a conversion")
+        result = unit.variables[unit.name.upper()].type
+        assert isinstance(result, Scalar)
+        return result
 
     def conversion(self, node: Function, value: Expression, start: Scalar | None, end: Scalar) -> Scalar:
         given = self.scalar(value, node.place, ("bool", "bits", "int", "time", "enum"), start)
@@ -368,6 +396,22 @@ class Types:
                 )
         return kind
 
+    def in_outs(self, kind: Instance, inputs: tuple[tuple[str, Expression], ...], place: Place) -> None:
+        """Refuse a call whose VAR_IN_OUT are not each a variable of their own, of the same type."""
+        wanted = in_outs(self.source, kind)
+        given = {name.upper(): value for name, value in inputs if name.upper() in wanted}
+        for name, variable in wanted.items():
+            value = given.get(name)
+            if not isinstance(value, Name) or not isinstance(variable.type, Scalar):
+                raise place.refuse(
+                    f"{variable.name} of {kind.block} is VAR_IN_OUT: give it a single variable"
+                )
+            if self.written(value, place) != variable.type:
+                raise place.refuse(f"{variable.name} of {kind.block} is of another type")
+        names = [value.name.upper() for value in given.values() if isinstance(value, Name)]
+        if len(set(names)) != len(names):
+            raise place.refuse(f"two VAR_IN_OUT of {kind.block} are the same variable")
+
     def call(
         self,
         instance: Expression,
@@ -379,6 +423,7 @@ class Types:
         if not isinstance(kind, Instance):
             raise place.refuse("only an instance of a block is called")
         ins, outs = sides(self.source, kind)
+        self.in_outs(kind, inputs, place)
         for pairs, known in ((inputs, ins), (outputs, outs)):
             for name, expression in pairs:
                 key = next((key for key in known if key.upper() == name.upper()), None)
@@ -402,49 +447,3 @@ class Types:
                         raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
                 elif wanted.kind == "bits" and given.high > wanted.high:
                     raise place.refuse(f"{name} := {given.name} needs a conversion")
-
-
-def sides(source: Source, kind: Instance) -> tuple[Mapping[str, Type], Mapping[str, Type]]:
-    """Inputs and outputs of a block with their types."""
-    if kind.block.upper() in BLOCKS:
-        return BLOCKS[kind.block.upper()]
-    unit = source.units[kind.block.upper()]
-    ins, outs = (
-        {name: variable.type for name, variable in unit.of(section).items()}
-        for section in ("input", "output")
-    )
-    return ins, outs
-
-
-def inner_bodies(statement: object) -> Iterator[Body]:
-    """The bodies within a statement."""
-    match statement:
-        case If(branches, otherwise, _):
-            yield from (inner for _, inner in branches)
-            yield otherwise
-        case Case(_, clauses, otherwise, _):
-            yield from (inner for _, inner in clauses)
-            yield otherwise
-        case For(_, _, _, _, inner, _):
-            yield inner
-
-
-_PARAMETERS = {
-    **dict.fromkeys(("MIN", "MAX"), ("IN1", "IN2")),
-    "LIMIT": ("MN", "IN", "MX"),
-    "SEL": ("G", "IN0", "IN1"),
-    **dict.fromkeys(_SHIFTS, ("IN", "N")),
-}
-
-
-def arguments(node: Function) -> list[Expression]:
-    """The arguments in their order, whether they are given by position or by name."""
-    names = _PARAMETERS.get(node.name, ("IN",))
-    if len(node.arguments) != len(names):
-        raise node.place.refuse(f"{node.name} has {len(names)} arguments here, not {len(node.arguments)}")
-    if all(not name for name, _ in node.arguments):
-        return [value for _, value in node.arguments]
-    given = dict(node.arguments)
-    if set(given) != set(names):
-        raise node.place.refuse(f"the arguments of {node.name} are {', '.join(names)}")
-    return [given[name] for name in names]

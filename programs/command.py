@@ -18,6 +18,7 @@ from programs.product import Product
 from programs.reference import reference
 from programs.replay import Difference
 from programs.sources import read_sources
+from programs.tree import Source, Unit
 from programs.verdict import Verdict, judge
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
@@ -49,13 +50,21 @@ def make(
     """The program beside the target. Raises Unjudged with file, line and cause."""
     of = reference(target)
     source = read_sources(files)
-    chosen = source.main() if unit is None else source.find(unit)
-    if chosen is None:
-        names = [found.name for found in source.units.values()]
-        raise Unjudged(f"{', '.join(map(str, files))}: no unit {unit!r}; {suggestion(str(unit), names)}")
+    chosen = choose(source, unit)
     check(source, chosen)
     given: Mapping[str, Any] = {} if binding is None else read_binding(binding)
     return Product(Binding(of, source, chosen, **given), wrap)
+
+
+def choose(source: Source, unit: str | None) -> Unit:
+    """The unit of this name; None: the one that no other has an instance of. Raises Unjudged."""
+    if unit is None:
+        return source.main()
+    found = source.find(unit)
+    if found is not None:
+        return found
+    names = [found.name for found in source.units.values()]
+    raise Unjudged(f"{', '.join(source.files)}: no unit {unit!r}; {suggestion(unit, names)}")
 
 
 # ---------------------------------------------------------------- what is printed

@@ -11,7 +11,9 @@ from collections import defaultdict
 from dataclasses import replace
 
 from modeproof.ground.errors import suggestion
-from programs.check import BLOCKS, Types, sides
+from programs.calls import sides
+from programs.check import Types
+from programs.standard import BLOCKS
 from programs.diagrams import Node, Out, Pin, read_nodes
 from programs.markup import Element
 from programs.networks import Order, roots

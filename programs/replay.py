@@ -129,6 +129,8 @@ def memory_of(machine: Machine) -> dict[str, Any]:
 
 
 def _values(frame: Frame, above: str, now: int) -> Iterator[tuple[str, Any]]:
+    if frame.unit.device is not None:
+        yield f"{above}age", now - frame.since
     for key, value in frame.values.items():
         path = f"{above}{key}"
         if isinstance(value, Frame):

@@ -11,7 +11,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.check import Types, arguments
+from programs.calls import in_outs, own_arguments
+from programs.check import Types
+from programs.standard import arguments
 from programs.tree import (
     Array,
     Assign,
@@ -70,6 +72,10 @@ class Frame:
                 self.values[key] = Frame(source, source.units[kind.block.upper()])
             else:
                 self.values[key] = Standard(kind.block.upper())
+        self.state: Any = None
+        self.since = 0
+        if unit.device is not None:
+            self.values |= unit.device.memory()
 
 
 class Standard:
@@ -148,6 +154,9 @@ class Machine:
 
     def call(self, frame: Frame) -> None:
         """One call of a unit of the program's own."""
+        if frame.unit.device is not None:
+            frame.unit.device.call(frame, self.now)
+            return
         for name, variable in frame.unit.of("temp").items():
             frame.values[name.upper()] = default(variable.type, variable.initial)
         with contextlib.suppress(_Returned):
@@ -193,14 +202,16 @@ class Machine:
         below = self.read(frame, instance)
         pins = below.values
         for name, expression in inputs:
-            kind = frame.types.member(frame.types.of(instance), name, instance.place)
+            kind = frame.types.member(frame.types.of(instance), name, instance.place, True)
             assert isinstance(kind, Scalar)
             pins[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, instance.place)
         if isinstance(below, Standard):
             below.call(self.now)
         else:
             self.call(below)
-        for name, target in outputs:
+        kept = in_outs(self.source, frame.types.of(instance))
+        back = [(name, target) for name, target in inputs if name.upper() in kept]
+        for name, target in (*back, *outputs):
             self.store(frame, target, pins[name.upper()])
 
     # ------------------------------------------------------------ values
@@ -303,14 +314,20 @@ class Machine:
         return self.ranged(quotient if node.operator == "/" else left - right * quotient, kind, node.place)
 
     def function(self, frame: Frame, node: Function, kind: Scalar, wanted: Scalar | None) -> Any:
+        if (unit := frame.types.own_function(node)) is not None:
+            return self.own(frame, node, unit)
         given = arguments(node)
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
-            value, by = self.value(frame, given[0], wanted), frame.types.constant(given[1])
+            value, by = self.value(frame, given[0], wanted), self.value(frame, given[1])
+            if not isinstance(given[1], Literal) and not 0 <= by < kind.width:
+                place = node.place
+                raise Overflow(f"{place.file}:{place.line}: a shift by {by} is outside 0..{kind.width - 1}")
             return _shifted(node.name, value, by, kind)
         if "_TO_" in node.name:
             return self.converted(frame, node, given[0], kind)
         if node.name == "SEL":
-            return self.value(frame, given[2 if self.value(frame, given[0]) else 1], kind)
+            no, yes = (self.value(frame, value, kind) for value in given[1:])
+            return yes if self.value(frame, given[0]) else no
         values = [self.value(frame, value, kind) for value in given]
         match node.name:
             case "ABS":
@@ -322,6 +339,16 @@ class Machine:
             case "LIMIT":
                 return min(max(values[1], values[0]), values[2])
         return values[0]
+
+    def own(self, frame: Frame, node: Function, unit: Unit) -> Any:
+        """The result of a FUNCTION of the program's own: it begins anew in each call."""
+        called = Frame(self.source, unit)
+        for key, expression in own_arguments(node, unit).items():
+            kind = unit.variables[key].type
+            assert isinstance(kind, Scalar)
+            called.values[key] = self.ranged(self.value(frame, expression, kind), kind, node.place)
+        self.call(called)
+        return called.values[unit.name.upper()]
 
     def converted(self, frame: Frame, node: Function, argument: Expression, kind: Scalar) -> Any:
         given = frame.types.of(argument)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from programs.awl import beside, read_awl
-from programs.check import BLOCKS
+from programs.standard import BLOCKS
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import read_scl
 from programs.st import read_text

@@ -45,7 +45,13 @@ from programs.tree import (
 
 LONGEST = 1000
 """Elements of an array."""
-SECTIONS = {"var_input": "input", "var_output": "output", "var_block": "var", "var_temp": "temp"}
+SECTIONS = {
+    "var_input": "input",
+    "var_output": "output",
+    "var_block": "var",
+    "var_temp": "temp",
+    "var_in_out": "in_out",
+}
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
 _MEMBER = re.compile(r"\b([A-Za-z_]\w*)#(?=[A-Za-z_])")
@@ -76,13 +82,11 @@ def _faults(node: Any) -> Iterator[Any]:
         yield node
 
 
-def _statements(node: Any) -> Iterator[Any]:
-    """Every statement of a tree, so that none can be left out unseen."""
+def _nodes(node: Any) -> Iterator[Any]:
     waiting = [node]
     while waiting:
         here = waiting.pop()
-        if here.is_named and here.type.endswith("_statement") and here.type != "empty_statement":
-            yield here
+        yield here
         waiting += here.children
 
 
@@ -124,11 +128,15 @@ class _Reader:
                 for definition in self.named(node):
                     name = self.text(self.field(definition, "name"))
                     self.types[name.upper()] = self.type(self.field(definition, "definition"), name)
-            elif node.type in ("function_block_declaration", "program_declaration"):
+            elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
                 found.append(self.unit(node))
             else:
                 raise self.refuse(node)
-        there = sum(1 for _ in _statements(root))
+        there = 0
+        for node in _nodes(root):
+            there += node.is_named and node.type.endswith("_statement") and node.type != "empty_statement"
+            if node.type == "comment" and self.text(node).startswith("(*") and "(*" in self.text(node)[2:]:
+                raise self.refuse(node, "a comment within a comment is not supported: compilers differ here")
         if self.read != there:
             raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         return found
@@ -138,7 +146,7 @@ class _Reader:
         variables: dict[str, Variable] = {}
         body_nodes = self.fields(node, "body")
         for child in self.named(node):
-            if child in body_nodes or child == self.field(node, "name"):
+            if child in body_nodes or child in (self.field(node, "name"), self.field(node, "return_type")):
                 continue
             if child.type not in SECTIONS:
                 raise self.refuse(child)
@@ -147,7 +155,10 @@ class _Reader:
                     raise variable.place.refuse(f"{variable.name} is declared twice")
                 variables[variable.name.upper()] = variable
         enumerations = {name: kind for name, kind in self.types.items() if isinstance(kind, Scalar)}
-        kind = "program" if node.type == "program_declaration" else "function block"
+        kind = node.type.removesuffix("_declaration").replace("_", " ")
+        if kind == "function":
+            result = self.type(self.field(node, "return_type"), "")
+            variables[name.upper()] = Variable(name, result, "output", None, self.place(node))
         return Unit(name, kind, variables, self.body(body_nodes), self.place(node), enumerations)
 
     def declared(self, section: Any) -> Iterator[Variable]:
@@ -156,6 +167,8 @@ class _Reader:
             if child.type == "var_qualifier_list":
                 for qualifier in self.named(child):
                     word = self.text(qualifier).upper()
+                    if word == "CONSTANT" and kind == "input":
+                        continue  # a unit never writes its inputs here
                     if word in ("CONSTANT", "RETAIN") and kind == "var":
                         kind = word.lower()
                     elif word not in ("NON_RETAIN", "PRIVATE", "PUBLIC", "INTERNAL", "PROTECTED"):

@@ -7,14 +7,17 @@ clock; any other one remembers how long ago it was started.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import z3
 
-from programs.check import Types, arguments
+from programs.calls import in_outs, own_arguments
+from programs.check import Types
 from programs.run import default
+from programs.standard import arguments
 from programs.terms import (
     FALSE,
     TRUE,
@@ -27,6 +30,7 @@ from programs.terms import (
     in_range,
     merge,
     negated,
+    shifted,
     singles,
     standard_call,
     truncated,
@@ -56,6 +60,15 @@ from programs.tree import (
     Unit,
 )
 
+_BITS: Mapping[str, Callable[[Any, Any], Any]] = {
+    "AND": operator.and_, "OR": operator.or_, "XOR": operator.xor,
+    "<": z3.ULT, "<=": z3.ULE, ">": z3.UGT, ">=": z3.UGE, "+W": operator.add, "-W": operator.sub,
+}  # fmt: skip
+_PLAIN: Mapping[str, Callable[[Any, Any], Any]] = {
+    "=": operator.eq, "<>": operator.ne, "<": operator.lt, "<=": operator.le, ">": operator.gt,
+    ">=": operator.ge, "AND": both, "OR": either, "XOR": z3.Xor,
+}  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Obligation:
@@ -68,7 +81,10 @@ class Obligation:
 
 @dataclass(frozen=True)
 class Scan:
-    """A scan from any memory: terms over the symbols of memory, of the inputs and of `dt_ms`."""
+    """A scan from any memory: terms over the symbols of memory, of the inputs and of `dt_ms`.
+
+    after, outputs: by the path of each single value, in upper case.
+    """
 
     after: Mapping[str, Any]
     outputs: Mapping[str, Any]
@@ -91,19 +107,27 @@ class Translator:
             if path.endswith(".age"):
                 env[path] = env[path] + dt_ms
         self.call(self.unit, "", env, TRUE)
-        outputs = {name: env[name.upper()] for name in self.unit.of("output")}
+        outputs = {
+            path: env[path]
+            for name, variable in self.unit.of("output").items()
+            if not isinstance(variable.type, Instance)
+            for path, _, _ in singles(variable.type, name.upper(), default(variable.type, None))
+        }
         return Scan({path: env[path] for path in memory}, outputs, tuple(self.obligations))
 
     def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:
         """One call of a unit; `here`: the condition under which it happens."""
+        if unit.device is not None:
+            unit.device.terms(above.removesuffix("."), env)
+            return
         for name, variable in unit.of("temp").items():
             for path, kind, value in singles(
                 variable.type, f"{above}{name.upper()}", default(variable.type, variable.initial)
             ):
                 env[path] = constant(kind, value)
-        self.body(_Context(self, Types(self.source, unit), above), unit.body, env, here)
+        self.body(Context(self, Types(self.source, unit), above), unit.body, env, here)
 
-    def body(self, at: _Context, body: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+    def body(self, at: Context, body: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
         """Carry out a body in `env`; returns the condition under which RETURN was met in it."""
         returned = FALSE
         for n, statement in enumerate(body):
@@ -117,7 +141,7 @@ class Translator:
                 return returned
         return returned
 
-    def statement(self, at: _Context, statement: Any, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+    def statement(self, at: Context, statement: Any, env: Env, here: z3.BoolRef) -> z3.BoolRef:
         match statement:
             case Assign(target, value, place):
                 kind = at.types.of(target)
@@ -159,7 +183,7 @@ class Translator:
         return FALSE
 
     def branches(
-        self, at: _Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
+        self, at: Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
     ) -> z3.BoolRef:
         if not branches:
             return self.body(at, otherwise, env, here)
@@ -177,13 +201,13 @@ class Translator:
         return either(both(condition, first), both(negated(condition), second))
 
     def invoke(
-        self, at: _Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
+        self, at: Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
     ) -> None:
         path = at.path(instance, env, here)
         kind = at.types.of(instance)
         assert isinstance(kind, Instance)
         for name, expression in inputs:
-            wanted = at.types.member(kind, name, instance.place)
+            wanted = at.types.member(kind, name, instance.place, True)
             assert isinstance(wanted, Scalar)
             given = at.types.of(expression, wanted)
             term = self.fitted(at.value(expression, env, here, wanted), given, wanted, instance.place, here)
@@ -192,7 +216,9 @@ class Translator:
             self.call(self.source.units[kind.block.upper()], f"{path}.", env, here)
         else:
             standard_call(kind.block.upper(), path, env)
-        for name, target in outputs:
+        kept = in_outs(self.source, kind)
+        back = [(name, target) for name, target in inputs if name.upper() in kept]
+        for name, target in (*back, *outputs):
             at.store(target, env[f"{path}.{name.upper()}"], env, here)
 
     def fitted(self, term: Any, given: Type, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
@@ -224,7 +250,7 @@ class Translator:
 
 
 @dataclass(frozen=True)
-class _Context:
+class Context:
     """Where a body stands: the translator, the types of its unit, and the path above its variables."""
 
     translator: Translator
@@ -317,42 +343,11 @@ class _Context:
                 self.translator.widened(left, first, wider),
                 self.translator.widened(right, second, wider),
             )
-            match node.operator:
-                case "AND":
-                    return left & right
-                case "OR":
-                    return left | right
-                case "XOR":
-                    return left ^ right
-                case "+W" | "-W":
-                    return left + right if node.operator == "+W" else left - right
-                case "<":
-                    return z3.ULT(left, right)
-                case "<=":
-                    return z3.ULE(left, right)
-                case ">":
-                    return z3.UGT(left, right)
-                case ">=":
-                    return z3.UGE(left, right)
+            if node.operator in _BITS:
+                return _BITS[node.operator](left, right)
+        if node.operator in _PLAIN:
+            return _PLAIN[node.operator](left, right)
         match node.operator:
-            case "=":
-                return left == right
-            case "<>":
-                return left != right
-            case "<":
-                return left < right
-            case "<=":
-                return left <= right
-            case ">":
-                return left > right
-            case ">=":
-                return left >= right
-            case "AND":
-                return both(left, right)
-            case "OR":
-                return either(left, right)
-            case "XOR":
-                return z3.Xor(left, right)
             case "+":
                 return self.translator.ranged(left + right, kind, node.place, here)
             case "-":
@@ -368,9 +363,18 @@ class _Context:
     def function(
         self, node: Function, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None
     ) -> Any:
+        if (unit := self.types.own_function(node)) is not None:
+            return self.own(node, unit, env, here)
         given = arguments(node)
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
-            term, by = self.value(given[0], env, here, wanted), self.types.constant(given[1])
+            term = self.value(given[0], env, here, wanted)
+            if not isinstance(given[1], Literal):
+                number = self.value(given[1], env, here)
+                inside = z3.And(number >= 0, number < kind.width)
+                text = f"a shift stays within 0..{kind.width - 1}"
+                self.translator.owe(z3.Implies(here, inside), text, node.place)
+                return shifted(node.name, term, z3.Int2BV(number, kind.width))
+            by = self.types.constant(given[1])
             if node.name in ("ROL", "ROR"):
                 rotate = z3.RotateLeft if node.name == "ROL" else z3.RotateRight
                 return rotate(term, by % kind.width)
@@ -394,6 +398,20 @@ class _Context:
                 low = z3.If(values[1] < values[0], values[0], values[1])
                 return z3.If(low > values[2], values[2], low)
         return values[0]
+
+    def own(self, node: Function, unit: Unit, env: Env, here: z3.BoolRef) -> Any:
+        """The result of a FUNCTION of the program's own: it begins anew in each call."""
+        inner: Env = {}
+        for key, variable in unit.variables.items():
+            start = default(variable.type, variable.initial)
+            inner |= {path: constant(kind, value) for path, kind, value in singles(variable.type, key, start)}
+        for key, expression in own_arguments(node, unit).items():
+            kind = unit.variables[key].type
+            assert isinstance(kind, Scalar)
+            term = self.value(expression, env, here, kind)
+            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, node.place, here)
+        self.translator.call(unit, "", inner, here)
+        return inner[unit.name.upper()]
 
     def converted(
         self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef

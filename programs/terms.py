@@ -50,6 +50,8 @@ def in_range(kind: Scalar, term: Any) -> z3.BoolRef:
 
 def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
     """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants."""
+    if unit.device is not None:
+        yield from unit.device.slots(above.removesuffix("."))
     for key, variable in unit.variables.items():
         if variable.section in ("temp", "constant"):
             continue
@@ -199,3 +201,16 @@ def both(left: z3.BoolRef, right: z3.BoolRef) -> z3.BoolRef:
 
 def either(left: z3.BoolRef, right: z3.BoolRef) -> z3.BoolRef:
     return negated(both(negated(left), negated(right)))
+
+
+def shifted(name: str, term: Any, by: Any) -> Any:
+    """A bit string shifted or rotated by a number of bits below its width, of the same width."""
+    match name:
+        case "SHL":
+            return term << by
+        case "SHR":
+            return z3.LShR(term, by)
+    rest = term.size() - by
+    if name == "ROL":
+        return (term << by) | z3.LShR(term, rest)
+    return z3.LShR(term, by) | (term << rest)

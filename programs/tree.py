@@ -6,9 +6,9 @@ knows its line.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final, Protocol
 
 from modeproof.ground.errors import Unjudged
 
@@ -236,9 +236,25 @@ class Variable:
     place: Place
 
 
+class Device(Protocol):
+    """A block that is not written in the language, such as a reference implementation."""
+
+    def memory(self) -> Mapping[str, Any]:
+        """What it remembers beside its pins, at power-up."""
+
+    def call(self, frame: Any, now: int) -> None:
+        """One call with plain values, `now` ms after power-up."""
+
+    def slots(self, path: str) -> Iterator[Any]:
+        """What it remembers beside its pins, as slots below this path."""
+
+    def terms(self, path: str, env: dict[str, Any]) -> None:
+        """One call as terms."""
+
+
 @dataclass(frozen=True)
 class Unit:
-    """A PROGRAM or FUNCTION_BLOCK: its variables in order, and what one call of it does."""
+    """A PROGRAM, FUNCTION_BLOCK or FUNCTION: its variables in order, and what one call of it does."""
 
     name: str
     kind: str
@@ -246,6 +262,8 @@ class Unit:
     body: Body
     place: Place
     enumerations: Mapping[str, Scalar] = field(default_factory=dict)
+    device: Device | None = None
+    """What carries out a call in the place of a body."""
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""
@@ -281,7 +299,7 @@ class Source:
             for variable in unit.variables.values()
             if isinstance(variable.type, Instance)
         }
-        found = [unit for name, unit in self.units.items() if name not in used]
+        found = [unit for name, unit in self.units.items() if name not in used and unit.kind != "function"]
         if len(found) != 1:
             names = ", ".join(unit.name for unit in found) or "none"
             raise Unjudged(

@@ -20,7 +20,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         "which they differ. UNKNOWN (2): neither.",
     )
     parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="ST, SCL, PLCopen XML or AWL")
-    parser.add_argument("--target", required=True, metavar="T", help="a published target, as in vectors/")
+    parser.add_argument("--target", metavar="T", help="a published target, as in vectors/")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
     parser.add_argument(
@@ -29,6 +29,12 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdict there as well")
     parser.add_argument(
         "--seconds", type=float, default=300, metavar="S", help="limit of the search for pairs (300)"
+    )
+    parser.add_argument(
+        "--property",
+        type=Path,
+        metavar="TOML",
+        help="in the place of --target: properties of your own program",
     )
     parser.set_defaults(run=run)
     return parser
@@ -40,4 +46,7 @@ def run(args: argparse.Namespace) -> int:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
-    return int(proofs_module("programs.command").run(args))
+    if (args.target is None) == (args.property is None):
+        raise Unjudged("prove-program: either --target T, or --property TOML for a program of your own")
+    room = "command" if args.property is None else "property_command"
+    return int(proofs_module(f"programs.{room}").run(args))

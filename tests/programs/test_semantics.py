@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +10,8 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from programs.check import check
-from programs.replay import memory_of
 from programs.run import Machine, Overflow
-from programs.st import read_text
-from programs.symbolic import Translator
-from programs.terms import constant, slots, symbol
-from programs.tree import Source
+from tests.programs.fuzz import difference_of_text, source_of
 
 KITCHEN = Path(__file__).with_name("kitchen.st")
 
@@ -26,7 +21,7 @@ def machine(declared: str, body: str, wrap: bool = False) -> Machine:
     text = (
         f"FUNCTION_BLOCK B\nVAR_INPUT x : INT; in : BOOL; END_VAR\n{declared}\n{body}\nEND_FUNCTION_BLOCK\n"
     )
-    source = Source({unit.name.upper(): unit for unit in read_text(text, "b.st")}, {})
+    source = source_of(text)
     check(source, source.main())
     return Machine(source, source.main(), wrap)
 
@@ -116,69 +111,21 @@ def test_return_ends_the_call() -> None:
 # ---------------------------------------------------------------- against the translator
 
 
-def difference_of_translator(text: str, seed: int, scans: int, wrap: bool = False) -> str:
-    """Run random scans; where interpreter and terms do not agree, the first such place; else nothing."""
-    source = Source({unit.name.upper(): unit for unit in read_text(text, "kitchen.st")}, {})
-    unit = source.main()
-    check(source, unit)
-    known = {slot.path: slot for slot in slots(source, unit)}
-    memory = {path: symbol(slot.type, path) for path, slot in known.items()}
-    dt = z3.Int("dt")
-    scan = Translator(source, unit, wrap).scan(memory, dt)
-    paths = [path for path in known if path in scan.after]
-    terms = [z3.And(*(one.formula for one in scan.obligations), True), *(scan.after[path] for path in paths)]
-    all_of = z3.Function("all", *(term.sort() for term in terms), z3.BoolSort())(*terms)
-    values, of = random.Random(seed), Machine(source, unit, wrap)
-    for number in range(scans):
-        inputs = {name: _random(values, kind.type) for name, kind in unit.of("input").items()}
-        dt_ms = values.choice((0, 1, 10, 15, 30))
-        before = memory_of(of) | {name.upper(): value for name, value in inputs.items()}
-        where = [(memory[path], constant(slot.type, before[path])) for path, slot in known.items()]
-        where.append((dt, z3.IntVal(dt_ms)))
-
-        found = z3.simplify(z3.substitute(all_of, *where))
-        owed = z3.is_true(found.arg(0))
-        try:
-            of.scan(inputs, dt_ms)
-        except Overflow as error:
-            if owed:
-                return f"scan {number}: only the interpreter stops: {error}"
-            of = Machine(source, unit, wrap)
-            continue
-        if not owed:
-            return f"scan {number}: only the terms owe something"
-        after = memory_of(of)
-        for place, path in enumerate(paths, 1):
-            if not found.arg(place).eq(constant(known[path].type, after[path])):
-                return f"scan {number}: {path} is {after[path]}, the term gives {found.arg(place)}"
-    return ""
-
-
-def _random(values: random.Random, kind: Any) -> Any:
-    if kind.kind == "bool":
-        return values.random() < 0.5
-    if kind.kind == "bits":
-        return values.getrandbits(16)
-    if kind.kind == "time":
-        return values.choice((0, 10, 20, 25))
-    return values.choice((0, 1, 2, 3, 4, 5, 10, -1, -5, -6, values.randint(-32768, 32767)))
-
-
 def test_translator_agrees_with_the_interpreter() -> None:
-    assert difference_of_translator(KITCHEN.read_text("utf-8"), 1, 300) == ""
+    assert difference_of_text(KITCHEN.read_text("utf-8"), 1, 300) == ""
 
 
 @pytest.mark.deep
 @pytest.mark.parametrize("wrap", [False, True])
 @pytest.mark.parametrize("seed", range(4))
 def test_translator_agrees_over_many_random_scans(seed: int, wrap: bool) -> None:
-    assert difference_of_translator(KITCHEN.read_text("utf-8"), seed, 1500, wrap) == ""
+    assert difference_of_text(KITCHEN.read_text("utf-8"), seed, 1500, wrap) == ""
 
 
 def test_another_timer_edge_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from programs import symbolic
+    from programs import symbolic, terms
 
-    right = symbolic.standard_call
+    right = terms.standard_call
 
     def wrong(block: str, path: str, env: dict[str, Any]) -> None:
         right(block, path, env)
@@ -186,7 +133,7 @@ def test_another_timer_edge_would_be_noticed(monkeypatch: pytest.MonkeyPatch) ->
             env[f"{path}.Q"] = z3.And(env[f"{path}.IN"], env[f"{path}.age"] > env[f"{path}.PT"])
 
     monkeypatch.setattr(symbolic, "standard_call", wrong)
-    assert "Q6 is True, the term gives False" in difference_of_translator(KITCHEN.read_text("utf-8"), 1, 60)
+    assert " is True, the term gives False" in difference_of_text(KITCHEN.read_text("utf-8"), 1, 60)
 
 
 def test_a_loop_that_leaves_its_type_is_refused() -> None:

@@ -1,0 +1,158 @@
+"""Judges every faulty program of st.toml by `modeproof prove-program`.
+
+    .venv/bin/python examples/faulty/st.py                        all faults
+    .venv/bin/python examples/faulty/st.py st-edm-precedence      these
+    .venv/bin/python examples/faulty/st.py --render               all, and st.md anew
+
+Exit status: 0 all as expected, 1 not, 2 could not be judged.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+if __name__ == "__main__":
+    sys.path.insert(0, str(ROOT))
+
+from modeproof.ground.errors import Unjudged  # noqa: E402
+from programs.command import make  # noqa: E402
+from programs.replay import replay  # noqa: E402
+from programs.verdict import Verdict  # noqa: E402
+from programs.verdict import judge as judge_product  # noqa: E402
+
+HERE = Path(__file__).resolve().parent
+PACK, PAGE = HERE / "st.toml", HERE / "st.md"
+SECONDS = 60.0
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One edit of one file: `old`, which stands there exactly once, becomes `new`.
+
+    It is REFUTED; one with a `reason` is PROVED equal, and that is why.
+    """
+
+    id: str
+    file: str
+    old: str
+    new: str
+    mistake: str
+    reason: str = ""
+
+    @property
+    def target(self) -> str:
+        """What the program is compared with."""
+        return Path(self.file).stem
+
+    @property
+    def expected(self) -> str:
+        """The verdict."""
+        return "PROVED" if self.reason else "REFUTED"
+
+
+def load_faults(path: Path = PACK) -> tuple[Fault, ...]:
+    """The faults in the order of the file. Raises Unjudged naming the fault that cannot be used."""
+    try:
+        faults = tuple(Fault(**row) for row in tomllib.loads(path.read_text("utf-8"))["fault"])
+    except (OSError, KeyError, TypeError, ValueError) as error:
+        raise Unjudged(f"{path.name}: {type(error).__name__} {error}") from None
+    for fault in faults:
+        times = (ROOT / fault.file).read_text("utf-8").count(fault.old)
+        if times != 1 or fault.old == fault.new:
+            raise Unjudged(f"{path.name}: {fault.id}: `old` stands {times} times in {fault.file}")
+    if len({fault.id for fault in faults}) != len(faults):
+        raise Unjudged(f"{path.name}: two faults have the same id")
+    return faults
+
+
+def judge(fault: Fault, folder: Path) -> Verdict:
+    """The verdict on the program with the fault; scans that refute it are replayed once more."""
+    path = folder / f"{fault.id}.st"
+    path.write_text((ROOT / fault.file).read_text("utf-8").replace(fault.old, fault.new), "utf-8")
+    product = make([path], fault.target)
+    found = judge_product(product, ROOT / "vectors" / fault.target, SECONDS, lambda text: None)
+    if found.difference is not None:
+        scans = found.difference
+        again = replay(product.binding, False, scans.parameters, scans.scans, "")
+        if again is None or again.differing != scans.differing:
+            raise Unjudged(f"{fault.id}: the scans did not come out again")
+    return found
+
+
+def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict]) -> str:
+    """st.md: every fault with what came out."""
+    refuted = [fault for fault in faults if not fault.reason]
+    lines = [
+        "# Structured Text that is wrong in one place",
+        "",
+        "Each fault is one edit of [a program in Structured Text](../st);",
+        "[`st.toml`](st.toml) has the edits.",
+        "",
+        "```",
+        ".venv/bin/python examples/faulty/st.py",
+        "```",
+        "",
+        f"{len(refuted)} faults are REFUTED by `modeproof prove-program`, with scans from power-up that were",
+        "run again on the reference implementation and on the program's interpreter. *Scans* counts them;",
+        "the last one differs.",
+        "",
+        "| fault | the mistake | scans | found by |",
+        "|---|---|---:|---|",
+        *(row(fault, verdicts[fault.id]) for fault in refuted),
+        "",
+        "PROVED equal in spite of the edit:",
+        "",
+        "| fault | the edit | why it changes nothing |",
+        "|---|---|---|",
+        *(f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in faults if fault.reason),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def row(fault: Fault, verdict: Verdict) -> str:
+    """The line of the table for a fault that is refuted."""
+    assert verdict.difference is not None
+    by = verdict.difference.found_by
+    suite = f"suite `{by.split()[-1]}`" if by.startswith("published") else by
+    return f"| {fault.id} | {fault.mistake} | {len(verdict.difference.scans)} | {suite} |"
+
+
+def main(argv: Sequence[str]) -> int:
+    """The command; see the module's text."""
+    parser = argparse.ArgumentParser(description="Judge the faulty programs in Structured Text.")
+    parser.add_argument("ids", nargs="*", metavar="FAULT", help="only these")
+    parser.add_argument("--render", action="store_true", help="write st.md anew")
+    args = parser.parse_args(argv)
+    try:
+        every = load_faults()
+        unknown = set(args.ids) - {fault.id for fault in every}
+        if unknown or (args.ids and args.render):
+            raise Unjudged(f"no fault {', '.join(sorted(unknown))}" if unknown else "--render judges all")
+        faults = [fault for fault in every if not args.ids or fault.id in args.ids]
+        verdicts, wrong = {}, 0
+        with tempfile.TemporaryDirectory() as folder:
+            for fault in faults:
+                began = time.process_time()
+                verdicts[fault.id] = found = judge(fault, Path(folder))
+                good = found.word == fault.expected
+                wrong += not good
+                seconds = time.process_time() - began
+                print(f"{'ok ' if good else 'NOT'} {fault.id}: {found.word} {found.missing} {seconds:.1f} s")
+        if args.render and not wrong:
+            PAGE.write_text(as_page(every, verdicts), "utf-8")
+        return 1 if wrong else 0
+    except Unjudged as error:
+        print(f"UNJUDGED: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,150 @@
+"""The command `prove-program --property`: properties of a program that calls the documents' blocks."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from programs.cell import Cell
+from programs.command import choose
+from programs.property import Found, Judgement
+from programs.questions import read_questions
+from programs.sources import read_sources
+
+TRUSTED = "the reader and translator of programs, the model of the timers, the path explorer, z3"
+
+
+def run(args: argparse.Namespace) -> int:
+    """Judge each property and print it; 1 if one is REFUTED, else 2 if one is not PROVED, else 0."""
+    if args.binding is not None:
+        raise Unjudged("--binding belongs to --target; properties use the names of the program")
+    started = time.process_time()
+
+    def tell(text: str) -> None:
+        if sys.stderr.isatty():
+            print(f"\r{text:<100}", end="", file=sys.stderr, flush=True)
+
+    cell, found = judged(args.files, args.property, args.unit, args.wrap, args.seconds, tell)
+    tell("")
+    seconds = time.process_time() - started
+    print("\n".join(text_of(cell, found, seconds)))
+    if args.json is not None:
+        record = record_of(cell, found, args.property, seconds)
+        args.json.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    return status(found)
+
+
+def judged(
+    files: Sequence[Path], properties: Path, unit: str | None, wrap: bool, seconds: float, tell: Any
+) -> tuple[Cell, list[Found]]:
+    """The program, and the verdict on each property. Raises Unjudged with file, line and cause."""
+    questions = read_questions(properties)
+    source = read_sources(list(files))
+    cell = Cell.of(source, choose(source, unit), questions.scan_time, wrap)
+    return cell, Judgement(cell, questions.asked(cell), seconds, tell).all()
+
+
+def status(found: Sequence[Found]) -> int:
+    """The exit status."""
+    words = {verdict.word for verdict in found}
+    return 1 if "REFUTED" in words else 0 if words == {"PROVED"} else 2
+
+
+# ---------------------------------------------------------------- what is printed
+
+
+def text_of(cell: Cell, found: Sequence[Found], seconds: float) -> Iterator[str]:
+    """The verdicts in lines."""
+    yield f"{cell.unit.kind} {cell.unit.name} of {', '.join(cell.source.files)}"
+    blocks = [f"{name} ({block.reference.document})" for name, block in cell.blocks.items()]
+    yield f"  blocks      {', '.join(blocks) or 'none of the documents'}"
+    low, high = cell.scan_time
+    limit = f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
+    yield f"  scans       of {limit}; every input, from power-up, for ever"
+    for verdict in found:
+        yield from _verdict(cell, verdict)
+    yield f"  trusted     {TRUSTED}"
+    yield f"  effort      {seconds:.1f} s CPU"
+
+
+def _verdict(cell: Cell, found: Found) -> Iterator[str]:
+    asked = found.asked
+    word = f"HOLDS up to {found.scans} scans" if found.word == "HOLDS" else found.word
+    yield f"{word}: {asked.id}: {asked.sentence}"
+    yield f"  property    {asked.text}"
+    how = {"PROVED": "by", "REFUTED": "shortest", "EMPTY": "empty"}.get(found.word, "missing")
+    yield f"  {how:<11} {found.how}"
+    if found.reached:
+        texts = ", ".join(f"`{text}`" for text, _ in asked.trigger)
+        yield f"  not empty   {texts}: true within {found.reached} scans"
+    if found.trace is None:
+        return
+    names = {key: variable.name for key, variable in cell.unit.variables.items()}
+    if found.trace.retained:
+        yield "  retained    " + _row(found.trace.retained)
+    before: Mapping[str, Any] = {}
+    shown: Mapping[str, Any] = {}
+    for number, (dt_ms, inputs) in enumerate(found.trace.scans, 1):
+        given = {
+            names.get(path.partition("[")[0], path) + "".join(path.partition("[")[1:]): value
+            for path, value in inputs.items()
+        }
+        yield f"  scan {number:<6} after {dt_ms} ms: {_row(_changed(before, given)) or 'the same inputs'}"
+        before = given
+        if number <= len(found.trace.rows):
+            row = found.trace.rows[number - 1]
+            yield f"              gives {_row(_changed(shown, row)) or 'the same outputs'}"
+            shown = row
+    if found.trace.stopped:
+        yield f"              stops: {found.trace.stopped}"
+
+
+def _changed(before: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if name not in before or before[name] != value}
+
+
+def _row(values: Mapping[str, Any]) -> str:
+    return ", ".join(
+        f"{name}={int(value) if isinstance(value, bool) else value}" for name, value in values.items()
+    )
+
+
+def record_of(cell: Cell, found: Sequence[Found], properties: Path, seconds: float) -> dict[str, Any]:
+    """The verdicts as JSON."""
+    return {
+        "command": "prove-program",
+        "unit": cell.unit.name,
+        "sources": dict(cell.source.files),
+        "properties": str(properties),
+        "blocks": {name: block.reference.device.name for name, block in cell.blocks.items()},
+        "scan_time_ms": list(cell.scan_time),
+        "wrap": cell.wrap,
+        "status": status(found),
+        "verdicts": [_as_record(verdict) for verdict in found],
+        "cpu_seconds": round(seconds, 1),
+    }
+
+
+def _as_record(found: Found) -> dict[str, Any]:
+    record: dict[str, Any] = {
+        "id": found.asked.id,
+        "sentence": found.asked.sentence,
+        "property": found.asked.text,
+        "verdict": found.word,
+        "how": found.how,
+        "bound_in_scans": found.scans or None,
+    }
+    if found.trace is not None:
+        record["trace"] = {
+            "retained": dict(found.trace.retained),
+            "scans": [{"dt_ms": dt_ms, "in": dict(inputs)} for dt_ms, inputs in found.trace.scans],
+            "after": [dict(row) for row in found.trace.rows],
+            "stopped": found.trace.stopped,
+        }
+    return record

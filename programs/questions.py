@@ -1,0 +1,218 @@
+"""Properties of a program of one's own, read from TOML.
+
+    scan_time_ms = [1, 50]               # the shortest and the longest scan
+
+    [[property]]
+    id = "one-mode"
+    sentence = "The two modes are never on together."
+    never = "S_SetupMode AND S_AutomaticMode"
+
+`never` and `always` are expressions in Structured Text over inputs, outputs, variables and pins of instances,
+looked at after every scan. `holds` with `only_if`: where the first is true, so is the second. `after`,
+`within_ms`, `holds`: the last is true after a scan at most so many ms after each scan with the first.
+`after`, `holds`, `only_once`: after a scan with the first, the second waits for a scan with the third.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged, suggestion
+from programs.cell import Asked, Cell
+from programs.check import Types
+from programs.st import read_text
+from programs.tree import (
+    BOOL,
+    Assign,
+    Binary,
+    Expression,
+    Index,
+    Member,
+    Name,
+    Place,
+    Unary,
+)
+
+FORMS = (
+    {"never"},
+    {"always"},
+    {"holds", "only_if"},
+    {"after", "within_ms", "holds"},
+    {"after", "holds", "only_once"},
+)
+TYPES = "types"
+"""The id of what is asked of every program: that it stays within its types."""
+
+
+@dataclass(frozen=True)
+class Questions:
+    """What the file asks, and the range of scan times in ms (None: no limit)."""
+
+    scan_time: tuple[int, int | None]
+    rows: tuple[Mapping[str, Any], ...]
+    file: str
+    text: str
+
+    def asked(self, cell: Cell) -> list[Asked]:
+        """The properties over this program. Raises Unjudged with file, line and cause."""
+        return [_asked(row, cell, self.place(row)) for row in self.rows]
+
+    def place(self, row: Mapping[str, Any]) -> Place:
+        """Where a property stands."""
+        wanted = re.compile(rf"\s*id\s*=\s*[\"']{re.escape(row['id'])}[\"']")
+        lines = enumerate(self.text.splitlines(), 1)
+        found = [number for number, line in lines if wanted.match(line)]
+        return Place(self.file, found[0] if found else 1)
+
+
+def read_questions(path: Path) -> Questions:
+    """The properties of a TOML file. Raises Unjudged with file, line and cause."""
+    try:
+        text = path.read_text("utf-8")
+        table = tomllib.loads(text)
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise Unjudged(f"{path}: no TOML: {error}") from None
+    for key in table:
+        if key not in ("scan_time_ms", "property"):
+            raise Unjudged(f"{path}: unknown key {key!r}; {suggestion(key, ['scan_time_ms', 'property'])}")
+    rows = table.get("property", [])
+    if not isinstance(rows, list) or not rows or not all(isinstance(row, dict) for row in rows):
+        raise Unjudged(f"{path}: no [[property]] in it")
+    seen: set[str] = {TYPES}
+    for row in rows:
+        _check_row(row, path, seen)
+    times = table.get("scan_time_ms", [0])
+    if (
+        not isinstance(times, list)
+        or len(times) not in (1, 2)
+        or not all(type(number) is int and number >= 0 for number in times)
+        or times != sorted(times)
+    ):
+        raise Unjudged(f"{path}: scan_time_ms = [shortest, longest] in whole ms")
+    if len(times) == 1 and any("within_ms" in row for row in rows):
+        raise Unjudged(f"{path}: a property with within_ms needs scan_time_ms = [shortest, longest]")
+    return Questions((times[0], times[1] if len(times) == 2 else None), tuple(rows), str(path), text)
+
+
+def _check_row(row: Mapping[str, Any], path: Path, seen: set[str]) -> None:
+    name = row.get("id")
+    if not isinstance(name, str) or not name:
+        raise Unjudged(f"{path}: each [[property]] has an id")
+    if name in seen:
+        raise Unjudged(f"{path}: two properties have the id {name!r}; {TYPES!r} is ours")
+    seen.add(name)
+    known = {"id", "sentence"}.union(*FORMS)
+    for key, value in row.items():
+        if key not in known:
+            raise Unjudged(f"{path}: {name}: unknown key {key!r}; {suggestion(key, sorted(known))}")
+        if type(value) is not (int if key == "within_ms" else str):
+            raise Unjudged(f"{path}: {name}: {key} is {'a number' if key == 'within_ms' else 'a text'}")
+    if "sentence" not in row:
+        raise Unjudged(f'{path}: {name}: say it in a sentence as well: sentence = "..."')
+    if {*row} - {"id", "sentence"} not in FORMS:
+        raise Unjudged(
+            f"{path}: {name}: a property is `never`, `always`, `holds` with `only_if`, or `after` with "
+            "`holds` and `within_ms` or `only_once`"
+        )
+    if row.get("within_ms", 0) < 0:
+        raise Unjudged(f"{path}: {name}: within_ms is 0 or more")
+
+
+def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
+    def read(key: str) -> tuple[str, Expression]:
+        return row[key], expression(row[key], cell, place)
+
+    if "never" in row:
+        text, found = read("never")
+        parts = _both(found)
+        trigger = [(shown(part), part) for part in parts] if len(parts) > 1 else []
+        return Asked(row["id"], row["sentence"], f"never {text}", Unary("NOT", found, place), tuple(trigger))
+    if "always" in row:
+        text, found = read("always")
+        return Asked(row["id"], row["sentence"], f"always {text}", found)
+    what, holds = read("holds")
+    if "only_if" in row:
+        text, found = read("only_if")
+        implied = Binary("OR", Unary("NOT", holds, place), found, place)
+        return Asked(row["id"], row["sentence"], f"{what} only if {text}", implied, ((what, holds),))
+    text, after = read("after")
+    if "only_once" in row:
+        last, once = read("only_once")
+        words = f"after {text} {what} only once {last}"
+        return Asked(row["id"], row["sentence"], words, holds, ((text, after), (what, holds)), once=once)
+    limit = row["within_ms"]
+    words = f"after {text} within {limit} ms {what}"
+    return Asked(row["id"], row["sentence"], words, holds, ((text, after),), limit)
+
+
+def expression(text: str, cell: Cell, place: Place) -> Expression:
+    """An expression of type BOOL over the program's values. Raises Unjudged with file, line and cause."""
+    try:
+        units = read_text(
+            f"FUNCTION_BLOCK q VAR_OUTPUT q : BOOL; END_VAR q := {text}\n; END_FUNCTION_BLOCK", place.file
+        )
+    except Unjudged as error:
+        cause = error.message.partition(": ")[2]
+        raise place.refuse(f"{text!r}: {cause}") from None
+    statements = units[0].body
+    if len(units) != 1 or len(statements) != 1 or not isinstance(statements[0], Assign):
+        raise place.refuse(f"{text!r}: one expression is needed")
+    found: Expression = _moved(statements[0].value, place)
+    types = Types(cell.source, cell.unit)
+    types.scalar(found, place, ("bool",), BOOL)
+    for name in _names(found):
+        variable = cell.unit.variables.get(name.upper())
+        if variable is not None and variable.section == "temp":
+            raise place.refuse(f"{name} is VAR_TEMP: it has no value after a scan")
+    cell.holds(found)
+    return found
+
+
+def _moved(node: Any, place: Place) -> Any:
+    """The expression with this place in all its parts."""
+    if isinstance(node, tuple):
+        return tuple(_moved(part, place) for part in node)
+    if not hasattr(node, "place"):
+        return node
+    return type(node)(**{name: _moved(part, place) for name, part in vars(node).items()} | {"place": place})
+
+
+def _names(node: Any) -> Iterator[str]:
+    if isinstance(node, tuple):
+        for part in node:
+            yield from _names(part)
+    elif isinstance(node, Name):
+        yield node.name
+    elif hasattr(node, "place"):
+        for part in vars(node).values():
+            yield from _names(part)
+
+
+def _both(node: Expression) -> list[Expression]:
+    if isinstance(node, Binary) and node.operator == "AND":
+        return [*_both(node.left), *_both(node.right)]
+    return [node]
+
+
+def shown(node: Expression) -> str:
+    """An expression in words again."""
+    match node:
+        case Name(name, _):
+            return name
+        case Member(of, name, _):
+            return f"{shown(of)}.{name}"
+        case Index(of, index, _):
+            return f"{shown(of)}[{shown(index)}]"
+        case Unary(operator, operand, _):
+            return f"{operator} {shown(operand)}"
+        case Binary(operator, left, right, _):
+            return f"({shown(left)} {operator} {shown(right)})"
+    value = getattr(node, "value", None)
+    return str(value).upper() if value is not None else f"{getattr(node, 'name', '?')}(...)"

@@ -1,0 +1,37 @@
+"""The standard blocks and functions: their pins and arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from programs.tree import BOOL, TIME, Expression, Function, Scalar
+
+SHIFTS = ("SHL", "SHR", "ROL", "ROR")
+FUNCTIONS = ("ABS", "MIN", "MAX", "LIMIT", "SEL", "MOVE", *SHIFTS)
+"""The standard functions; conversions such as INT_TO_WORD are known beside them."""
+BLOCKS: Mapping[str, tuple[Mapping[str, Scalar], Mapping[str, Scalar]]] = {
+    **{name: ({"IN": BOOL, "PT": TIME}, {"Q": BOOL, "ET": TIME}) for name in ("TON", "TOF", "TP")},
+    **{name: ({"CLK": BOOL}, {"Q": BOOL}) for name in ("R_TRIG", "F_TRIG")},
+    "SR": ({"S1": BOOL, "R": BOOL}, {"Q1": BOOL}),
+    "RS": ({"S": BOOL, "R1": BOOL}, {"Q1": BOOL}),
+}
+"""The standard blocks: inputs and outputs."""
+_PARAMETERS = {
+    **dict.fromkeys(("MIN", "MAX"), ("IN1", "IN2")),
+    "LIMIT": ("MN", "IN", "MX"),
+    "SEL": ("G", "IN0", "IN1"),
+    **dict.fromkeys(SHIFTS, ("IN", "N")),
+}
+
+
+def arguments(node: Function) -> list[Expression]:
+    """The arguments in their order, whether they are given by position or by name."""
+    names = _PARAMETERS.get(node.name, ("IN",))
+    if len(node.arguments) != len(names):
+        raise node.place.refuse(f"{node.name} has {len(names)} arguments here, not {len(node.arguments)}")
+    if all(not name for name, _ in node.arguments):
+        return [value for _, value in node.arguments]
+    given = dict(node.arguments)
+    if set(given) != set(names):
+        raise node.place.refuse(f"the arguments of {node.name} are {', '.join(names)}")
+    return [given[name] for name in names]

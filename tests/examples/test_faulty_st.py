@@ -1,0 +1,56 @@
+"""The faulty programs in Structured Text: each refuted by scans, or proved with a reason."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from examples.faulty.st import PAGE, judge, load_faults, main, row
+from modeproof.ground.errors import Unjudged
+
+FAULTS = {fault.id: fault for fault in load_faults()}
+
+
+@pytest.mark.sampled(12)
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_faulty_program_gets_its_verdict(name: str, tmp_path: Path) -> None:
+    fault = FAULTS[name]
+    found = judge(fault, tmp_path)
+    assert found.word == fault.expected
+    lines = PAGE.read_text("utf-8").splitlines()
+    if fault.reason:
+        assert f"| {fault.id} | {fault.mistake} | {fault.reason} |" in lines
+    elif found.difference is not None and found.difference.found_by.startswith("published"):
+        assert row(fault, found) in lines, "run examples/faulty/st.py --render"
+
+
+def test_the_page_lists_exactly_the_faulty_programs() -> None:
+    rows = re.findall(r"^\| (st-\S+) \|", PAGE.read_text("utf-8"), re.MULTILINE)
+    assert sorted(rows) == sorted(FAULTS)
+    assert sum(not fault.reason for fault in FAULTS.values()) >= 30
+    assert {fault.target for fault in FAULTS.values()} >= {"sf_edm", "sf_enable_switch", "sf_guard_locking"}
+
+
+@pytest.mark.parametrize(
+    ("text", "cause"),
+    [
+        ("old = 'NOT THERE'\nnew = ''", "stands 0 times"),
+        ("old = 'Ready'\nnew = ''", "times in"),
+        ("old = 'edge(CLK := Reset);'\nnew = 'edge(CLK := Reset);'", "stands 1 times"),
+        ("old = 'edge(CLK := Reset);'", "TypeError"),
+    ],
+)
+def test_a_fault_that_is_none_is_not_judged(text: str, cause: str, tmp_path: Path) -> None:
+    path = tmp_path / "st.toml"
+    path.write_text(f"[[fault]]\nid = 'x'\nfile = 'examples/st/sf_edm.st'\nmistake = 'm'\n{text}\n", "utf-8")
+    with pytest.raises(Unjudged, match=cause):
+        load_faults(path)
+
+
+def test_the_command_tells_expected_from_unjudged(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["st-edm-precedence"]) == 0
+    assert "ok  st-edm-precedence: REFUTED" in capsys.readouterr().out
+    assert main(["st-none"]) == 2
+    assert "no fault st-none" in capsys.readouterr().err

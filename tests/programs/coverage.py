@@ -1,0 +1,169 @@
+"""What of a folder of foreign programs is read and translated, and what is refused and why."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ElementTree
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+
+from modeproof.ground.errors import Unjudged
+from programs.blocks import with_blocks
+from programs.check import check
+from programs.st import read_text
+from programs.tree import BOOL, Assign, Call, Function, Instance, Name, Source, Statement, Unit, Variable
+from tests.programs.fuzz import difference_of_translator
+
+SCANS = 12
+_UNIT = re.compile(
+    r"^[ \t]*(?P<kind>FUNCTION_BLOCK|PROGRAM|FUNCTION|TYPE|ORGANIZATION_BLOCK|DATA_BLOCK)\b.*?"
+    r"^[ \t]*END_(?P=kind)\b[ \t]*;?",
+    re.MULTILINE | re.DOTALL | re.IGNORECASE,
+)
+_NUMBERS = re.compile(r"'[^']*'|\b\d+\b|16#\w+")
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One block, function or type of a file."""
+
+    kind: str
+    text: str
+    file: str
+
+
+def pieces(path: Path) -> Iterator[Piece]:
+    """The program units of a file: text, TwinCAT's XML, or PLCopen XML with bodies in Structured Text."""
+    text = path.read_text("utf-8-sig", "replace")
+    if path.suffix.lower() in (".st", ".scl", ".exp", ".txt"):
+        for found in _UNIT.finditer(text):
+            yield Piece(found["kind"].upper(), found[0], path.name)
+    elif path.suffix in (".TcPOU", ".TcDUT"):
+        node = ElementTree.fromstring(text)
+        declared = node.findtext(".//Declaration") or ""
+        body = node.findtext("./POU/Implementation/ST")
+        word = re.search(r"\b(FUNCTION_BLOCK|PROGRAM|FUNCTION|TYPE)\b", declared)
+        if word is not None:
+            more = "\n(* graphical *) NETWORK;" if body is None and word[0] != "TYPE" else body or ""
+            end = "" if word[0] == "TYPE" else f"\nEND_{word[0]}"
+            yield Piece(word[0], f"{declared}\n{more}{end}\n", path.name)
+
+
+@dataclass
+class Collection:
+    """A folder. `wrong`: blocks for which interpreter and terms do not agree."""
+
+    folder: Path
+    reasons: Counter[str] = field(default_factory=Counter)
+    translated: list[str] = field(default_factory=list)
+    wrong: list[str] = field(default_factory=list)
+
+    @cached_property
+    def pieces(self) -> list[Piece]:
+        """All units of all files."""
+        files = sorted(path for path in self.folder.rglob("*") if path.is_file())
+        return [piece for path in files for piece in pieces(path)]
+
+    @cached_property
+    def units(self) -> dict[str, Unit | str]:
+        """Each block that was read, or why not, by its name; functions as far as they are supported."""
+        types = "\n".join(piece.text for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
+        found: dict[str, Unit | str] = {}
+        for piece in self.pieces:
+            if piece.kind not in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
+                continue
+            name = f"{piece.kind} {_name(piece.text)}"
+            try:
+                unit = read_text(f"{types}\n{piece.text}", piece.file)[-1]
+                found[name] = unit
+            except Unjudged as error:
+                found[name] = _cause(error)
+            except RecursionError:
+                found[name] = "nested too deeply"
+        return found
+
+    def judge(self) -> None:
+        """Translate each block with all that were read, and run both sides."""
+        source = Source(
+            {unit.name.upper(): unit for unit in self.units.values() if isinstance(unit, Unit)}, {}
+        )
+        for name, unit in self.units.items():
+            if isinstance(unit, str):
+                self.reasons[unit] += 1
+                continue
+            try:
+                whole = with_blocks(source)
+                unit = caller(unit) if unit.kind == "function" or unit.of("in_out") else unit
+                check(whole, unit)
+                difference = difference_of_translator(whole, unit, 1, SCANS)
+            except Unjudged as error:
+                self.reasons[_cause(error)] += 1
+                continue
+            self.translated.append(name)
+            if difference:
+                self.wrong.append(f"{name}: {difference}")
+
+
+def caller(unit: Unit) -> Unit:
+    """A block with the inputs of a FUNCTION, or of a block with VAR_IN_OUT, that calls it."""
+    place = unit.place
+    variables = {
+        key: Variable(found.name, found.type, "input" if found.section == "input" else "var", None, place)
+        for key, found in unit.variables.items()
+        if found.section in ("input", "in_out")
+    }
+    given = tuple((found.name, Name(found.name, place)) for found in variables.values())
+    body: Statement
+    if unit.kind == "function":
+        result = unit.variables[unit.name.upper()].type
+        variables["RESULT_OF_CALL"] = Variable("RESULT_OF_CALL", result, "output", None, place)
+        called = Function(unit.name.upper(), tuple((name.upper(), value) for name, value in given), place)
+        body = Assign(Name("RESULT_OF_CALL", place), called, place)
+    else:
+        variables["CALLED"] = Variable("CALLED", Instance(unit.name), "var", None, place)
+        variables["DONE"] = Variable("DONE", BOOL, "output", None, place)
+        body = Call(Name("CALLED", place), given, (), place)
+    return Unit(f"caller of {unit.name}", "function block", variables, (body,), place, unit.enumerations)
+
+
+def _reads(piece: Piece) -> bool:
+    try:
+        read_text(piece.text, piece.file)
+    except Unjudged:
+        return False
+    return True
+
+
+def _name(text: str) -> str:
+    found = re.search(
+        r"\b(?:FUNCTION_BLOCK|PROGRAM|FUNCTION)\s+(?:PUBLIC\s+|INTERNAL\s+)?\"?(\w+)", text, re.I
+    )
+    return found[1] if found else "?"
+
+
+def _cause(error: Unjudged) -> str:
+    """The refusal without file, line and names."""
+    text = error.message.partition(": ")[2] or error.message
+    text = re.sub(r"^(.*?) is not supported.*", r"\1 is not supported", text)
+    text = re.sub(r"; did you mean.*|; allowed.*", "", text)
+    return _NUMBERS.sub("..", text)[:70]
+
+
+def table(collection: Collection) -> Iterator[str]:
+    """The figures in lines."""
+    units = collection.units
+    collection.judge()
+    read = sum(isinstance(unit, Unit) for unit in units.values())
+    translated = len(collection.translated)
+    yield f"{collection.folder.name}: {len(units)} units, {read} read, {translated} translated"
+    for kind in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
+        of = [name for name in units if name.startswith(f"{kind} ")]
+        there = [name for name in collection.translated if name.startswith(f"{kind} ")]
+        yield f"  {kind:<16} {len(there)} of {len(of)}"
+    for reason, number in collection.reasons.most_common(25):
+        yield f"  {number:>4} {reason}"
+    for wrong in collection.wrong:
+        yield f"  WRONG {wrong}"
