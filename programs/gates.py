@@ -13,11 +13,11 @@ from dataclasses import replace
 from modeproof.ground.errors import suggestion
 from programs.calls import sides
 from programs.check import Types
-from programs.standard import BLOCKS
 from programs.diagrams import Node, Out, Pin, read_nodes
 from programs.markup import Element
 from programs.networks import Order, roots
 from programs.st import read_text
+from programs.standard import BLOCKS
 from programs.tree import (
     BOOL,
     Assign,

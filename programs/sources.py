@@ -8,10 +8,10 @@ from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from programs.awl import beside, read_awl
-from programs.standard import BLOCKS
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import read_scl
 from programs.st import read_text
+from programs.standard import BLOCKS
 from programs.tree import Source, Unit
 
 STATEMENT_LIST = (".awl", ".stl")
