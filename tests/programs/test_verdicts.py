@@ -14,6 +14,7 @@ import z3
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs.command import make, record_of, text_of
+from programs.fixpoint import Search
 from programs.product import Product
 from programs.replay import Difference, replay
 from programs.verdict import Verdict, judge
@@ -59,7 +60,7 @@ def replayed(found: Verdict) -> Difference:
     """The difference, after it came out once more."""
     assert found.difference is not None
     again = replay(
-        found.product.binding, found.product.wrap, found.difference.parameters, found.difference.scans, ""
+        found.product.binding, found.product.wrap, found.difference.run, ""
     )
     assert again is not None and again.differing == found.difference.differing and again.differing
     assert len(again.scans) == len(found.difference.scans)
@@ -155,7 +156,7 @@ def test_the_scan_time_may_be_an_input(tmp_path: Path) -> None:
 def fresh(path: Path = EDM) -> Product:
     """A product whose pairs were found."""
     product = make([path], "sf_edm")
-    product.fixpoint({}, time.monotonic() + 120, silent)
+    Search(product, {}, time.process_time() + 120, silent).run()
     return product
 
 
@@ -200,7 +201,7 @@ def test_memory_ranges_of_the_reference_are_shown(monkeypatch: pytest.MonkeyPatc
     reference = product.binding.reference
     narrow = z3.And(reference.memory_ranges, reference.memory_terms["elapsed_ms"] <= 1000)
     reference.__dict__["memory_ranges"] = narrow
-    product.fixpoint({}, time.monotonic() + 120, silent)
+    Search(product, {}, time.process_time() + 120, silent).run()
     assert any("memory stays within" in doubt.what for doubt in product.doubts())
 
 
