@@ -10,10 +10,11 @@ from typing import Any, Literal
 
 import z3
 
+from programs.certificate import run_of
 from programs.fixpoint import Search, prune
 from programs.product import OUTPUTS, Owed, Product, shown
-from programs.replay import Difference, Replayed, Run, published, replay
-from programs.search import Way, shortest
+from programs.replay import Difference, Replayed, published, replay
+from programs.search import shortest
 
 LONGEST = 20
 """Scans of a counterexample that is searched for along the pairs."""
@@ -119,13 +120,3 @@ def _refuted(product: Product, doubts: Sequence[Owed], seconds: float, tell: Tel
     if way is None:
         return None
     return replay(product.binding, product.wrap, run_of(product, way), "search along the pairs")
-
-
-def run_of(product: Product, way: Way) -> Run:
-    """What a solver found, as values of the code."""
-    reference = product.binding.reference
-    return Run(
-        reference.plain("parameters", way.parameters),
-        [(int(scan["dt_ms"]), reference.plain("inputs", scan)) for scan in way.scans],
-        dict(way.retained),
-    )

@@ -19,13 +19,23 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
         "which they differ. UNKNOWN (2): neither.",
     )
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="Structured Text")
-    parser.add_argument("--target", required=True, metavar="T", help="a published target, as in vectors/")
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="Structured Text")
+    parser.add_argument("--target", metavar="T", help="a published target, as in vectors/")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
     parser.add_argument(
         "--wrap", action="store_true", help="integers wrap; without it they must not overflow"
     )
+    parser.add_argument(
+        "--certificate", type=Path, metavar="FOLDER", help="of a proof, write there what others can check"
+    )
+    parser.add_argument(
+        "--recheck", type=Path, metavar="FOLDER", help="check a certificate with z3 and cvc5; no search"
+    )
+    parser.add_argument(
+        "--vector", type=Path, metavar="FILE", help="keep the scans of a difference there (build/programs/)"
+    )
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdict as JUnit XML as well")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdict there as well")
     parser.add_argument(
         "--seconds", type=float, default=300, metavar="S", help="limit of the search for pairs (300)"
@@ -36,6 +46,10 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdict. Raises Unjudged."""
+    if args.recheck is None and (not args.files or args.target is None):
+        raise Unjudged("prove-program: name the program's files and --target, or a certificate with --recheck")
+    if args.recheck is not None and (args.files or args.target or args.binding or args.unit or args.wrap):
+        raise Unjudged("--recheck takes all it needs from the certificate; leave out files and other options")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
