@@ -23,7 +23,7 @@ import z3
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from programs.bind import Binding
-from programs.product import NEXT, OUTPUTS, RANGES, START, Node, Pair, Product, shown
+from programs.product import OUTPUTS, RANGES, START, Node, Pair, Product, shown
 from programs.relations import KINDS, Relation
 from programs.replay import Difference, Met, Replayed, Run, steps
 from programs.search import Way, way_to
@@ -32,6 +32,7 @@ from programs.smtlib import Printer
 FORMAT: Final = "modeproof-program-certificate"
 VERSION: Final = 1
 NAME: Final = "certificate.json"
+TYPES: Final = "the program stays within its types"
 LONGEST: Final = 40
 """Scans of a way to a pair."""
 TRACE_S: Final = 20.0
@@ -51,44 +52,57 @@ TOOLS: Final = ("z3-solver", "cvc5", "tree-sitter", "tree-sitter-iec61131-3-st")
 
 @dataclass(frozen=True)
 class Obligation:
-    """One file of a certificate: its name, and its text, which must be `unsat`."""
+    """One file of a certificate: its name, its text, and how many questions it asks; each must be `unsat`."""
 
     file: str
     text: str
+    count: int
 
 
 def obligations(product: Product) -> Iterator[Obligation]:
     """What must be `unsat`, over the program as it was translated: for power-up, and for each pair."""
     printer = Printer()
     start = product.owed_at_start()
-    yield _obligation(printer, 0, "power-up", f"At power-up {START}.", {"not so": z3.Not(start.formula)})
+    asked = {f"not: {START}": z3.Not(start.formula)}
+    yield _obligation(printer, 0, "power-up", "What must hold at power-up.", {}, asked)
     for number, pair in enumerate(sorted(product.nodes), 1):
-        owed = [part.formula for part in product.owed(pair, whole=True)]
-        relations = product.nodes[pair].relations
-        formulas = {
-            "ranges, parameters, and the control variables of the pair": product.both(pair, True).premise,
+        *owed, _ = product.owed(pair, whole=True)
+        kinds: dict[str, list[z3.BoolRef]] = {OUTPUTS: [], TYPES: [], RANGES: []}
+        for part in owed:
+            kinds[part.what if part.what in kinds else TYPES].append(part.formula)
+        asked = {f"not: {what}": z3.Not(z3.And(formulas)) for what, formulas in kinds.items() if formulas}
+        both = product.both(pair, True)
+        after = sorted(target for target in product.nodes[pair].successors if target in product.nodes)
+        somewhere = z3.Or([product.at(both.where, target) for target in after])
+        asked["not: the scan leads to one of the pairs named below"] = z3.Not(somewhere)
+        for target in after:
+            there = [relation.formula(both.after.__getitem__) for relation in product.nodes[target].relations]
+            asked[f"not: where it leads to {shown(target)} the relations of that pair hold"] = z3.And(
+                product.at(both.where, target), z3.Not(z3.And(there))
+            )
+        known = {
+            "ranges, parameters, and the control variables of the pair": both.premise,
             **{
                 f"relation: {relation}": relation.formula(product.symbols.__getitem__)
-                for relation in relations
+                for relation in product.nodes[pair].relations
             },
-            f"not all of: {OUTPUTS}; the program stays within its types; {RANGES}; {NEXT}": z3.Not(
-                z3.And(owed)
-            ),
         }
-        yield _obligation(
-            printer, number, shown(pair), f"From the pair {shown(pair)} every scan does what is owed.", formulas
-        )
+        sentence = f"What must hold in every scan from the pair {shown(pair)}."
+        yield _obligation(printer, number, shown(pair), sentence, known, asked)
 
 
 def _obligation(
-    printer: Printer, number: int, name: str, sentence: str, formulas: Mapping[str, z3.BoolRef]
+    printer: Printer,
+    number: int,
+    name: str,
+    sentence: str,
+    known: Mapping[str, z3.BoolRef],
+    asked: Mapping[str, z3.BoolRef],
 ) -> Obligation:
-    words = re.findall("[A-Za-z0-9]+", name.replace("-", "minus") if "/" in name else name)
-    comments = [sentence, "Expected: unsat"]
-    return Obligation(
-        f"{number:03d}-{'-'.join(words)}.smt2",
-        printer.query(comments, formulas),
-    )
+    words = re.findall("[A-Za-z0-9]+", name.replace(" -", " minus "))
+    comments = [sentence, f"Expected: unsat, {len(asked)} times"]
+    file = f"{number:03d}-{'-'.join(words)}.smt2"
+    return Obligation(file, printer.questions(comments, known, asked), len(asked))
 
 
 # ---------------------------------------------------------------- writing

@@ -58,9 +58,17 @@ class Printer:
     known: dict[str, Term] = field(default_factory=dict)
     kept: list[Any] = field(default_factory=list)
 
-    def query(self, comments: Sequence[str], formulas: Mapping[str, z3.BoolRef]) -> str:
-        """The text: comments, declarations, the names of shared terms, one assertion a formula."""
-        roots = {name: self.term(formula) for name, formula in formulas.items()}
+    def questions(
+        self,
+        comments: Sequence[str],
+        known: Mapping[str, z3.BoolRef],
+        asked: Mapping[str, z3.BoolRef],
+    ) -> str:
+        """The text: comments, declarations, what is known, and one question for each formula that is asked.
+
+        Terms that occur more than once are defined before they are used.
+        """
+        roots = {name: self.term(formula) for name, formula in {**known, **asked}.items()}
         uses: Counter[str] = Counter()
         for root in roots.values():
             _count(root, uses)
@@ -70,14 +78,17 @@ class Printer:
         for name, root in roots.items():
             lines: list[str] = []
             text = _print(root, uses, names, symbols, lines)
-            body += [*lines, f"; {name}", f"(assert {text})"]
+            body += [*lines, f"; {name}"]
+            if name in known:
+                body.append(f"(assert {text})")
+            else:
+                body += ["(push 1)", f"(assert {text})", "(check-sat)", "(pop 1)"]
         return "\n".join(
             [
                 *(f"; {comment}" for comment in comments),
                 LOGIC_LINE,
                 *(f"(declare-fun {name} () {sort})" for name, sort in sorted(symbols.items())),
                 *body,
-                "(check-sat)",
                 "",
             ]
         )
@@ -98,6 +109,12 @@ class Printer:
             stack.pop()
             operator = _operator(node)
             parts = [self.read[child.get_id()] for child in below]
+            self.kept.append(node)
+            if operator in ("and", "or") and len(parts) == 1:  # SMT-LIB wants two at least
+                self.read[node.get_id()] = parts[0]
+                continue
+            if operator in ("and", "or") and not parts:
+                operator = "true" if operator == "and" else "false"
             if operator in COMMUTATIVE:
                 parts.sort(key=lambda part: part.digest)
             free = not parts and node.decl().kind() == z3.Z3_OP_UNINTERPRETED
@@ -105,7 +122,6 @@ class Printer:
             digest = hashlib.sha256(text.encode("utf-8")).hexdigest()
             term = Term(operator, tuple(parts), _sort(node), operator if free else "", digest)
             self.read[node.get_id()] = self.known.setdefault(digest, term)
-            self.kept.append(node)
         return self.read[root.get_id()]
 
 

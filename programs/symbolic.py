@@ -68,7 +68,10 @@ class Obligation:
 
 @dataclass(frozen=True)
 class Scan:
-    """A scan from any memory: terms over the symbols of memory, of the inputs and of `dt_ms`."""
+    """A scan from any memory: terms over the symbols of memory, of the inputs and of `dt_ms`.
+
+    after, outputs: by the path of each single value, in upper case.
+    """
 
     after: Mapping[str, Any]
     outputs: Mapping[str, Any]
@@ -91,7 +94,12 @@ class Translator:
             if path.endswith(".age"):
                 env[path] = env[path] + dt_ms
         self.call(self.unit, "", env, TRUE)
-        outputs = {name: env[name.upper()] for name in self.unit.of("output")}
+        outputs = {
+            path: env[path]
+            for name, variable in self.unit.of("output").items()
+            if not isinstance(variable.type, Instance)
+            for path, _, _ in singles(variable.type, name.upper(), default(variable.type, None))
+        }
         return Scan({path: env[path] for path in memory}, outputs, tuple(self.obligations))
 
     def call(self, unit: Unit, above: str, env: Env, here: z3.BoolRef) -> None:

@@ -15,6 +15,7 @@ from programs.fixpoint import Search, prune
 from programs.product import OUTPUTS, Owed, Product, shown
 from programs.replay import Difference, Replayed, published, replay
 from programs.search import shortest
+from programs.shorten import shortened
 
 LONGEST = 20
 """Scans of a counterexample that is searched for along the pairs."""
@@ -43,7 +44,7 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell) -> Verdic
     """
     first = published(product.binding, product.wrap, vectors)
     if isinstance(first, Difference):
-        return Verdict("REFUTED", product, difference=first)
+        return Verdict("REFUTED", product, difference=_fewest(product, first, seconds, tell))
     tell(f"{first.cases} published vectors replayed, {first.scans:,} scans")
     try:
         doubts = _doubts(product, first, seconds, tell)
@@ -60,6 +61,22 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell) -> Verdic
     if found := _refuted(product, doubts, SEARCH_S, tell):
         return Verdict("REFUTED", product, first, found)
     return Verdict("UNKNOWN", product, first, missing="not shown: " + "; ".join(map(_words, doubts[:3])))
+
+
+def _fewest(product: Product, known: Difference, seconds: float, tell: Tell) -> Difference:
+    """A difference in the fewest scans that are found: by leaving some out, then by the search."""
+    known = shortened(product.binding, product.wrap, known)
+    try:
+        Search(product, {}, time.process_time() + min(seconds, SEARCH_S), tell).run()
+        doubts = list(product.doubts())
+        way = shortest(product, doubts, len(known.scans) - 1, FIRST_S)
+    except TimeoutError:
+        return known
+    if way is None:
+        return known
+    run = run_of(product, way)
+    found = replay(product.binding, product.wrap, run, f"{known.found_by}, made shorter by the search")
+    return known if found is None else found
 
 
 def _doubts(product: Product, replayed: Replayed, seconds: float, tell: Tell) -> list[Owed]:
