@@ -194,15 +194,13 @@ def _put(frame: Frame, path: str, value: Any) -> None:
 def published(binding: Binding, wrap: bool, folder: Path) -> Difference | Replayed:
     """Replay the published vectors whose parameters the binding allows.
 
-    The shortest difference of the first suite that has one, else what was replayed. Raises Unjudged for a
-    vector file that cannot be read.
+    The first difference, else what was replayed. Raises Unjudged for a vector file that cannot be read.
     """
     reference, replayed = binding.reference, Replayed()
     for name in SUITES:
         path = folder / f"{name}.jsonl.gz"
         if not path.is_file():
             continue
-        found: list[Difference] = []
         try:
             for case in open_suite(path).cases():
                 parameters = reference.with_defaults(reference.from_wire("parameters", case.params))
@@ -215,15 +213,11 @@ def published(binding: Binding, wrap: bool, folder: Path) -> Difference | Replay
                     continue
                 taken = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
                 replayed.cases, replayed.scans = replayed.cases + 1, replayed.scans + len(taken)
-                for step in steps(
-                    binding, wrap, Run(parameters, taken), f"published vector {case.id} of {name}"
-                ):
+                where = f"published vector {case.id} of {name}"
+                for step in steps(binding, wrap, Run(parameters, taken), where):
                     if isinstance(step, Difference):
-                        found.append(step)
-                    else:
-                        replayed.met.append(step)
+                        return step
+                    replayed.met.append(step)
         except KitUnjudged as error:
             raise Unjudged(str(error)) from None
-        if found:
-            return min(found, key=lambda difference: len(difference.scans))
     return replayed

@@ -27,6 +27,7 @@ from programs.terms import (
     in_range,
     merge,
     negated,
+    rotated,
     singles,
     standard_call,
     truncated,
@@ -378,8 +379,7 @@ class _Context:
         if node.name in ("SHL", "SHR", "ROL", "ROR"):
             term, by = self.value(given[0], env, here, wanted), self.types.constant(given[1])
             if node.name in ("ROL", "ROR"):
-                rotate = z3.RotateLeft if node.name == "ROL" else z3.RotateRight
-                return rotate(term, by % kind.width)
+                return rotated(term, by if node.name == "ROL" else -by)
             return term << by if node.name == "SHL" else z3.LShR(term, by)
         if "_TO_" in node.name:
             return self.converted(node, given[0], kind, env, here)

@@ -37,14 +37,15 @@ class Verdict:
     missing: str = ""
 
 
-def judge(product: Product, vectors: Path, seconds: float, tell: Tell) -> Verdict:
+def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: bool = True) -> Verdict:
     """Replay the published vectors, find the pairs, show what is owed, and look for scans where that fails.
 
-    seconds: limit of the search for pairs. Raises Unjudged for a vector file that cannot be read.
+    seconds: limit of the search for pairs. fewest: search for fewer scans where a vector shows a difference;
+    else scans are only left out. Raises Unjudged for a vector file that cannot be read.
     """
     first = published(product.binding, product.wrap, vectors)
     if isinstance(first, Difference):
-        return Verdict("REFUTED", product, difference=_fewest(product, first, seconds, tell))
+        return Verdict("REFUTED", product, difference=_fewest(product, first, seconds, tell, fewest))
     tell(f"{first.cases} published vectors replayed, {first.scans:,} scans")
     try:
         doubts = _doubts(product, first, seconds, tell)
@@ -63,9 +64,13 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell) -> Verdic
     return Verdict("UNKNOWN", product, first, missing="not shown: " + "; ".join(map(_words, doubts[:3])))
 
 
-def _fewest(product: Product, known: Difference, seconds: float, tell: Tell) -> Difference:
+def _fewest(
+    product: Product, known: Difference, seconds: float, tell: Tell, search: bool
+) -> Difference:
     """A difference in the fewest scans that are found: by leaving some out, then by the search."""
     known = shortened(product.binding, product.wrap, known)
+    if not search:
+        return known
     try:
         Search(product, {}, time.process_time() + min(seconds, SEARCH_S), tell).run()
         doubts = list(product.doubts())
