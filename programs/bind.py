@@ -237,7 +237,7 @@ class Binding:
 
     def outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The program's outputs by the names of the document, in the sorts of the reference."""
-        found = {}
+        found: dict[str, Any] = {}
         for name in self.compared:
             path = self._path(name, "output")
             assert path is not None

@@ -116,7 +116,10 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
     Raises Unjudged: the folder holds something else, or cannot be written.
     """
     _empty(folder)
-    texts = {owed.file: owed.text for owed in obligations(product)}
+    try:
+        texts = {owed.file: owed.text for owed in obligations(product)}
+    except NotImplementedError as error:
+        raise Unjudged(f"{folder}: no certificate can be written: {error}") from None
     record: dict[str, Any] = {
         **_claim(product),
         "binding_file": {} if binding is None else {str(binding): _digest(binding)},
@@ -125,14 +128,14 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
     }
     ways = _ways(product, replayed)
     for pair in sorted(product.nodes):
-        node = product.nodes[pair]
+        node, way = product.nodes[pair], ways[pair]
         record["pairs"].append(
             {
                 "reference": pair[0],
                 "program": list(pair[1]),
                 "relations": [_written(relation) for relation in node.relations],
                 "leads_to": [[target[0], *target[1]] for target in sorted(node.successors)],
-                "reached_by": None if ways[pair] is None else _run_written(ways[pair]),
+                "reached_by": None if way is None else _run_written(way),
             }
         )
     try:
@@ -316,7 +319,9 @@ class Kept:
         claim = json.loads(json.dumps(_claim(product)))
         for key, value in claim.items():
             if key != "tools" and self.record.get(key) != value:
-                raise self.refuse(f"{key} is not what the sources and the binding give; prove the program again")
+                raise self.refuse(
+                    f"{key} is not what the sources and the binding give; prove the program again"
+                )
         ways: dict[Pair, Run | None] = {}
         product.nodes = {}
         try:
@@ -353,7 +358,8 @@ class Kept:
 
         def values(table: Mapping[str, Any]) -> dict[str, Any]:
             return {
-                name: tuple(value) if signals[name].type == "modes" else value for name, value in table.items()
+                name: tuple(value) if signals[name].type == "modes" else value
+                for name, value in table.items()
             }
 
         scans = [(int(scan["dt_ms"]), values(scan["in"])) for scan in row["scans"]]
@@ -366,7 +372,9 @@ class Kept:
             odd = sorted(set(stored) ^ set(texts)) or ["the list in it"]
             raise self.refuse(f"the queries are not those that follow from the program: {odd[0]}")
         for name, text in texts.items():
-            if (self.folder / name).read_text("utf-8") != text or self.table("queries")[name] != _sha256(text):
+            if (self.folder / name).read_text("utf-8") != text or self.table("queries")[name] != _sha256(
+                text
+            ):
                 raise Unjudged(f"{self.folder / name}: not the obligation that follows from the program")
 
     def follow(self, product: Product, ways: Mapping[Pair, Run | None]) -> Sequence[Pair]:

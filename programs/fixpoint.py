@@ -117,9 +117,7 @@ class Search:
         return changed
 
     def _values(self, model: z3.ModelRef, term: Term) -> Values:
-        return {
-            name: plain(model.eval(term(name), model_completion=True)) for name in self.product.symbols
-        }
+        return {name: plain(model.eval(term(name), model_completion=True)) for name in self.product.symbols}
 
 
 # ---------------------------------------------------------------- what the proof needs
@@ -133,7 +131,7 @@ def prune(product: Product) -> None:
     pruning = _Pruning(product)
     waiting = deque[tuple[Pair, Relation]]()
     for pair in product.nodes:
-        waiting += pruning.needs(pair, [owed for owed in product.owed(pair)])
+        waiting += pruning.needs(pair, list(product.owed(pair)))
     before: dict[Pair, list[Pair]] = {pair: [] for pair in product.nodes}
     for pair, node in product.nodes.items():
         for target in node.successors:
@@ -162,7 +160,7 @@ class _Pruning:
             self.solvers[pair] = solver
 
     def needs(self, pair: Pair, owed: Sequence[Owed]) -> list[tuple[Pair, Relation]]:
-        """The relations of a pair that are newly needed for what is owed there, but not relations after it."""
+        """The relations of a pair that are newly needed for what is owed there; relations after it aside."""
         product, both = self.product, self.product.both(pair)
         known = z3.Or([product.at(both.where, target) for target in product.nodes[pair].successors])
         formulas = [part.formula for part in owed[:-1]]

@@ -38,22 +38,25 @@ def write_record(place: Path, record: Mapping[str, Any], also: Path | None) -> N
 def junit_of(record: Mapping[str, Any], text: str) -> str:
     """The verdict as JUnit XML: one test case; REFUTED is a failure, UNKNOWN an error."""
     word = record["verdict"]
-    counts = {"failures": word == "REFUTED", "errors": word == "UNKNOWN"}
+    attributes = {
+        "name": record["target"],
+        "tests": "1",
+        "failures": str(int(word == "REFUTED")),
+        "errors": str(int(word == "UNKNOWN")),
+        "skipped": "0",
+        "time": str(record["cpu_seconds"]),
+    }
     root = ElementTree.Element("testsuites", name="modeproof prove-program")
-    suite = ElementTree.SubElement(
-        root,
-        "testsuite",
-        name=record["target"],
-        tests="1",
-        skipped="0",
-        time=str(record["cpu_seconds"]),
-        **{key: str(int(value)) for key, value in counts.items()},
-    )
+    suite = ElementTree.SubElement(root, "testsuite", attributes)
     case = ElementTree.SubElement(
         suite, "testcase", classname=record["target"], name=record["unit"], time=str(record["cpu_seconds"])
     )
     properties = ElementTree.SubElement(case, "properties")
-    said = {"verdict": word, "compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
+    said = {
+        "verdict": word,
+        "compared": ", ".join(record["compared"]),
+        "left out": ", ".join(record["left_out"]),
+    }
     for name, value in {**said, **record["sources"]}.items():
         ElementTree.SubElement(properties, "property", name=_xml(name), value=_xml(value))
     text = _xml(text)
@@ -78,7 +81,8 @@ def vector_of(difference: Difference, binding: Binding) -> str:
     reference, register = binding.reference, binding.reference.device.register
     state = reference.start(difference.parameters)
     params = reference.to_wire("parameters", difference.parameters)
-    rows, before = [], (dict[str, Any](), dict[str, Any]())
+    rows: list[dict[str, Any]] = []
+    before = dict[str, Any](), dict[str, Any]()
     for dt_ms, given in difference.scans:
         state, sends = reference.scan(state, dt_ms, given)
         now = reference.to_wire("inputs", given), reference.to_wire("outputs", sends)

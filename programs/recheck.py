@@ -45,12 +45,13 @@ class Rechecked:
         if self.status == 0:
             yield f"PROVED, checked again: {name} has the outputs of {target} in every scan from power-up"
         else:
-            yield f"{'REFUSED' if self.status == 1 else 'UNKNOWN'}: {self.folder} does not show that {name} equals {target}"
+            word = "REFUSED" if self.status == 1 else "UNKNOWN"
+            yield f"{word}: {self.folder} does not show that {name} equals {target}"
         for solver, answers in self.answers.items():
             said = ", ".join(f"{file}: {answer}" for file, answer in list(answers.items())[:3])
             yield (
-                f"  {solver:<11} {self.files - len(answers)} of {self.files} files, {self.count} questions in all: "
-                f"unsat, {self.seconds[solver]:.1f} s CPU{'; but ' + said if said else ''}"
+                f"  {solver:<11} {self.files - len(answers)} of {self.files} files unsat, {self.count} "
+                f"questions in all, {self.seconds[solver]:.1f} s CPU{'; but ' + said if said else ''}"
             )
         for label, text in about(self.product):
             yield f"  {label:<11} {text}"

@@ -185,11 +185,12 @@ class Vocabulary:
             for total, column in numbers.items():
                 if total in (left, right):
                     continue
-                if all(first == second for first, second in zip(sums, column, strict=True)):
+                apart = [first - second for first, second in zip(sums, column, strict=True)]
+                size = (self.sizes or {}).get(total, 0)
+                if not any(apart):
                     found.append(Relation("sum", left, right, total))
-                elif size := (self.sizes or {}).get(total):
-                    if all((first - second) % size == 0 for first, second in zip(sums, column, strict=True)):
-                        found.append(Relation("sum modulo", left, right, (total, size)))
+                elif size and not any(rest % size for rest in apart):
+                    found.append(Relation("sum modulo", left, right, (total, size)))
         ages = [name for name in own if name.endswith(".age")]
         limits = [name for name in numbers if is_parameter(name) or name.endswith(".PT")]
         for left, age, limit in itertools.product(own, ages, limits):
@@ -208,9 +209,9 @@ class Vocabulary:
                     continue
                 table: dict[Any, Any] = {}
                 pairs = zip(columns[left], column, strict=True)
-                if all(table.setdefault(key, value) == value for key, value in pairs):
-                    if len(table) <= MOST_KEYS:
-                        found.append(Relation("table", left, right, tuple(sorted(table.items()))))
+                told = all(table.setdefault(key, value) == value for key, value in pairs)
+                if told and len(table) <= MOST_KEYS:
+                    found.append(Relation("table", left, right, tuple(sorted(table.items()))))
         return found
 
 

@@ -33,7 +33,20 @@ INDEXED: Final = {
     z3.Z3_OP_EXTRACT: "extract", z3.Z3_OP_ZERO_EXT: "zero_extend", z3.Z3_OP_SIGN_EXT: "sign_extend",
     z3.Z3_OP_ROTATE_LEFT: "rotate_left", z3.Z3_OP_ROTATE_RIGHT: "rotate_right", z3.Z3_OP_INT2BV: "int2bv",
 }  # fmt: skip
-COMMUTATIVE: Final = {"=", "distinct", "and", "or", "xor", "+", "*", "bvadd", "bvmul", "bvand", "bvor", "bvxor"}
+COMMUTATIVE: Final = {
+    "=",
+    "distinct",
+    "and",
+    "or",
+    "xor",
+    "+",
+    "*",
+    "bvadd",
+    "bvmul",
+    "bvand",
+    "bvor",
+    "bvxor",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +150,7 @@ def _count(root: Term, uses: Counter[str]) -> None:
 def _print(
     root: Term, uses: Counter[str], names: dict[str, str], symbols: dict[str, str], lines: list[str]
 ) -> str:
-    """The text of a term. names: those of shared terms; new ones are added, and their definitions to lines."""
+    """The text of a term. names: those of shared terms; new ones are added, their definitions to lines."""
     done: dict[str, str] = {}
     stack: list[tuple[Term, bool]] = [(root, False)]
     while stack:

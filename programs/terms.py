@@ -155,7 +155,9 @@ def rotated(term: Any, by: int) -> Any:
     by %= term.size()
     if by == 0:
         return term
-    return z3.Concat(z3.Extract(term.size() - by - 1, 0, term), z3.Extract(term.size() - 1, term.size() - by, term))
+    return z3.Concat(
+        z3.Extract(term.size() - by - 1, 0, term), z3.Extract(term.size() - 1, term.size() - by, term)
+    )
 
 
 def merge(env: Env, condition: z3.BoolRef, yes: Env, no: Env) -> None:

@@ -64,9 +64,7 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: b
     return Verdict("UNKNOWN", product, first, missing="not shown: " + "; ".join(map(_words, doubts[:3])))
 
 
-def _fewest(
-    product: Product, known: Difference, seconds: float, tell: Tell, search: bool
-) -> Difference:
+def _fewest(product: Product, known: Difference, seconds: float, tell: Tell, search: bool) -> Difference:
     """A difference in the fewest scans that are found: by leaving some out, then by the search."""
     known = shortened(product.binding, product.wrap, known)
     if not search:
@@ -95,7 +93,7 @@ def _doubts(product: Product, replayed: Replayed, seconds: float, tell: Tell) ->
 
 
 def _flags(product: Product, doubts: Sequence[Owed]) -> tuple[str, ...]:
-    """BOOL variables that may tell states apart: read before they are written, and free in a doubtful pair."""
+    """BOOL variables that may tell states apart: read before they are written, free in a doubtful pair."""
     scan = product.translated
     read = _symbols([*scan.after.values(), *scan.outputs.values()])
     fixed = {

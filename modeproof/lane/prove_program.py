@@ -47,7 +47,9 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdict. Raises Unjudged."""
     if args.recheck is None and (not args.files or args.target is None):
-        raise Unjudged("prove-program: name the program's files and --target, or a certificate with --recheck")
+        raise Unjudged(
+            "prove-program: name the program's files and --target, or a certificate with --recheck"
+        )
     if args.recheck is not None and (args.files or args.target or args.binding or args.unit or args.wrap):
         raise Unjudged("--recheck takes all it needs from the certificate; leave out files and other options")
     try:

@@ -177,7 +177,7 @@ def test_a_weaker_query_is_refused(folder: Path) -> None:
     record = record_of(folder)
     record["queries"][path.name] = certificate._sha256(path.read_text("utf-8"))
     keep(folder, record)
-    with pytest.raises(Unjudged, match=f"{path.name}: not the obligation that follows from the program"):
+    with pytest.raises(Unjudged, match="not the obligation that follows from the program"):
         recheck(folder)
 
 
@@ -187,14 +187,14 @@ def test_another_set_of_queries_is_refused(more: bool, folder: Path) -> None:
         (folder / "999-more.smt2").write_text("(check-sat)\n", "utf-8")
     else:
         sorted(folder.glob("*.smt2"))[-1].unlink()
-    with pytest.raises(Unjudged, match="the queries are not those that follow from the program"):
+    with pytest.raises(Unjudged, match=r"the queries are not those that follow from the program"):
         recheck(folder)
 
 
 def test_a_changed_program_is_refused(folder: Path) -> None:
     program = folder.parent / "plc.st"
     program.write_text(program.read_text("utf-8") + "\n", "utf-8")
-    with pytest.raises(Unjudged, match="plc.st has changed since"):
+    with pytest.raises(Unjudged, match=r"plc.st has changed since"):
         recheck(folder)
 
 
@@ -203,7 +203,7 @@ def test_another_program_under_the_same_queries_is_refused(folder: Path) -> None
     program.write_text(program.read_text("utf-8").replace("MW03 := SelectMSO", "MW03 := SwitchMSO"), "utf-8")
     record["sources"] = {str(program): certificate._digest(program)}
     keep(folder, record)
-    with pytest.raises(Unjudged, match="not the obligation that follows|the outputs differ on the way"):
+    with pytest.raises(Unjudged, match=r"not the obligation that follows|the outputs differ on the way"):
         recheck(folder)
 
 
@@ -213,7 +213,7 @@ def test_a_changed_binding_is_refused(tmp_path: Path) -> None:
     given = ["prove-program", str(PLC), "--target", "plc", "--binding", str(binding)]
     assert main([*given, "--certificate", str(place)]) == 0
     binding.write_text("left_out = []\n", "utf-8")
-    with pytest.raises(Unjudged, match="binding.toml has changed since"):
+    with pytest.raises(Unjudged, match=r"binding.toml has changed since"):
         recheck(place)
 
 
@@ -249,6 +249,6 @@ def test_a_folder_with_other_files_is_not_emptied(tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("mine", "utf-8")
     replayed = proved().replayed
     assert replayed is not None
-    with pytest.raises(Unjudged, match="holds files that are no certificate"):
+    with pytest.raises(Unjudged, match=r"holds files that are no certificate"):
         certificate.write(proved().product, replayed, tmp_path)
     assert (tmp_path / "mine.txt").is_file()

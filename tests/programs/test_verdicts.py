@@ -13,10 +13,10 @@ import z3
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from modeproof.kit.vectors import open_suite
 from programs.command import make, record_of, text_of
 from programs.fixpoint import Search
 from programs.product import Product
-from modeproof.kit.vectors import open_suite
 from programs.replay import Difference, Run, replay
 from programs.verdict import Verdict, judge
 
@@ -60,9 +60,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
 def replayed(found: Verdict) -> Difference:
     """The difference, after it came out once more."""
     assert found.difference is not None
-    again = replay(
-        found.product.binding, found.product.wrap, found.difference.run, ""
-    )
+    again = replay(found.product.binding, found.product.wrap, found.difference.run, "")
     assert again is not None and again.differing == found.difference.differing and again.differing
     assert len(again.scans) == len(found.difference.scans)
     return found.difference
