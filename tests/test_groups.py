@@ -35,6 +35,7 @@ def test_a_document_or_a_room_or_a_file(file: str, group: str) -> None:
     assert group_of(PurePath(file), DOCUMENTS) == group
 
 
+@pytest.mark.deep
 def test_processes_take_whole_groups(tmp_path: Path) -> None:
     """Run as `make test` does: all files of one room are run in one process."""
     tests = tmp_path / "tests"

@@ -177,6 +177,10 @@ def chosen_of(campaign: Campaign, args: argparse.Namespace) -> list[Mutant]:
             )
     if patterns:
         chosen = [mutant for mutant in chosen if any(fnmatch.fnmatchcase(mutant.id, p) for p in patterns)]
+    left = {mutant.module for mutant in chosen}
+    for name in args.modules:
+        if name not in left:
+            raise Unjudged(f"no mutant of {name} has the id {' or '.join(patterns or ())}")
     return chosen
 
 

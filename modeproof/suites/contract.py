@@ -2,7 +2,7 @@
 
     [[contract]]
     device = "lamp"
-    constants = { CODE = 0x0FF0 }
+    constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
     [[contract.rule]]                   kind: value (when left out), memory (then with starts), recent
     name = "codes"
@@ -26,16 +26,26 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.kit.contract import read_contract
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.signals import read_signals
 from modeproof.registers.rows import Device, Signal
 
 FILE = "contracts.toml"
-_ROW = {"device", "constants", "rule", "property"}
+_ROW = {"device", "tables", "constants", "rule", "property"}
 _RULE = {"name", "kind", "starts", "is"}
 _PROPERTY = {"id", "says", "when", "holds"}
+
+
+def _tables(place: Path, document: str, names: list[str], where: str) -> dict[str, list[int]]:
+    """Tables of words that sequences.toml has, as numbers. Raises Unjudged for one that it does not have."""
+    file = f"spec/{document}/sequences.toml"
+    known = _toml(place / file, file).get("tables", {}) if names else {}
+    for name in names:
+        if name not in known:
+            raise Unjudged(f"{where}: {file} has no table {name!r}; {suggestion(name, known)}")
+    return {name: [int(word, 16) for word in known[name]] for name in names}
 
 
 def load_contract(place: Path, document: str, device: Device, modes: list[int]) -> dict[str, Any] | None:
@@ -67,7 +77,8 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
         if entry.get("id") not in clauses:
             raise Unjudged(f"{where}: property {entry.get('id')!r} is not in properties.toml")
         properties.append({**entry, "clauses": clauses[entry["id"]]})
-    table = {"constants": row.get("constants", {}), "rules": rules, "properties": properties}
+    constants = {**_tables(place, document, row.get("tables", []), where), **row.get("constants", {})}
+    table = {"constants": constants, "rules": rules, "properties": properties}
     try:
         inputs, outputs = (
             read_signals(declare(signals, modes), where) for signals in (device.inputs, device.outputs)

@@ -107,7 +107,8 @@ SUITES = {
         guarantees=(
             "inputs change one at a time and are held until all has settled; every step from every state to "
             "every next state that such changes can take is taken, and each value that leads out of a state "
-            "with each settled row of outputs there; the header lists the others"
+            "with each settled row of outputs there; the header lists the others; the diagrams of "
+            "`sequences` are walked with single changes"
         ),
         hypothesis="the program settles in the scans given, and treats all inputs of a column alike",
         does_not_show="what outputs are while they settle; the transitions that single changes do not reach",

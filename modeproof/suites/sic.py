@@ -11,19 +11,24 @@ header lists under `not_so` are those that no sequence of single changes within 
 other transition (state, step and next state) there is a case that takes it, and for each settled state and
 step one for every state in which it can settle after it. Where a change leads out of a state, each value that
 does is tried with each row of outputs that stands there: each level with each selection that it forbids.
+
+The cases of `sequences` are there too, so that programs that need some scans for a step walk the document's
+diagrams: where inputs of a scan change together, they change in some order.
 """
 
 from __future__ import annotations
 
 import functools
+import itertools
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from modeproof.graph.columns import Columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged
+from modeproof.suites import sequences
 from modeproof.suites.script import Alphabet, Script, Scripts, Shot, control_state
 
 HOLD = 2
@@ -71,7 +76,8 @@ def plan(device: DeviceGraph, columns: Columns) -> Scripts:
         "not_so_places": [[*place, count] for place, count in sorted(places.items())],
         "unsettled": search.unsettled,
     }
-    return Scripts(search.cases(), notes)
+    drawn = search.drawn(sequences.plan(device, columns).cases)
+    return Scripts(itertools.chain(search.cases(), drawn), notes)
 
 
 class _Search:
@@ -195,6 +201,58 @@ class _Search:
         control = control_state(self.device, state)
         why = f"single changes of inputs lead to {self.graph.steps[step]} in {control}"
         return Script(why, walk.shots, about=(walk.last,)), walk.taken
+
+    def drawn(self, scripts: Iterable[Script]) -> Iterator[Script]:
+        """The given cases with single changes, as far as all settles on the way."""
+        for script in scripts:
+            shots = self._one_at_a_time([shot.letter for shot in script.shots])
+            if shots:
+                yield replace(script, why=f"{script.why} Inputs change one at a time.", shots=shots)
+
+    def _one_at_a_time(self, letters: Sequence[int]) -> list[Shot]:
+        """Scans in which each letter is reached by single changes and settles; none if that cannot be."""
+        walk, held = _Walk(self.graph.initial), -1
+        for letter in letters:
+            still = self.inputs.alphabet.changed(letter, dt_ms=self.least)
+            way = None if still is None else self._way(held, still)
+            if still is None or way is None:
+                return []
+            for changed in way:
+                patterns = (
+                    self.inputs.way(walk.pattern, held, changed) if held >= 0 else [self.inputs.own(changed)]
+                )
+                for pattern in patterns[:-1]:
+                    self._take(walk, held, held, pattern)
+                walk.pattern = patterns[-1]
+                if self._settle(self.graph.next_of[walk.state][changed], changed) is None:
+                    return []
+                self._take(walk, changed, changed, walk.pattern)
+                held = changed
+            if letter != held:
+                if self._settle(self.graph.next_of[walk.state][letter], held) is None:
+                    return []
+                self._take(walk, letter, held, walk.pattern)
+        return walk.shots
+
+    def _way(self, held: int, letter: int) -> list[int] | None:
+        """Letters one change apart to `letter`, none twice, each input as in the one or in the other."""
+        if held < 0 or held == letter:
+            return [letter] if held < 0 else []
+        ends = [self.device.alphabet[end] for end in (held, letter)]
+        before, queue = {held: held}, [held]
+        for reached in queue:
+            for near in self.neighbours[reached]:
+                between = all(
+                    value in (ends[0][name], ends[1][name])
+                    for name, value in self.device.alphabet[near].items()
+                )
+                if near not in before and between:
+                    before[near] = reached
+                    queue.append(near)
+        way = [letter] if letter in before else []
+        while way and before[way[-1]] != held:
+            way.append(before[way[-1]])
+        return way[::-1] or None
 
     def _take(self, walk: _Walk, letter: int, held: int, pattern: Pattern) -> None:
         values = dict(zip(self.inputs.fields, pattern, strict=True))

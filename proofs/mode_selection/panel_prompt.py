@@ -116,13 +116,13 @@ def ends_with_the_echo(scan: Scanned) -> Obligation:
     if not scan.was("AwaitSwitch", "Withdrawn"):
         return None
     gone = z3.And(level(scan) == scan.before.offered, scan.inputs.CheckMSO == 0)
-    return gone, shows(scan, "select")
+    return gone, z3.And(shows(scan, "select"), scan.after.selection == NONE)
 
 
 @theorem(clauses=["EKS-2-25"], findings=["E-15", "E-21"], properties=["EndsWithTheEcho"])
 def a_selection_on_the_panel_ends_in_the_scan_without_its_echo() -> Queries:
     """In a scan that finds the level unchanged and CheckMSO zero, a selection that was confirmed or taken
-    back is over, and the modes are offered again.
+    back is over: nothing of it is kept, and the modes are offered again.
     """
     yield from JUDGE.in_every_scan(ends_with_the_echo)
 

@@ -31,10 +31,10 @@ ClosesAtOnce == [][offered # None /\ Level # offered => Screen' = "inhibited"]_b
 ClosesOverAnEcho == [][Screen = "select" /\ Scanned.CM # 0 => Screen' = "inhibited"]_beat
 
 \* EKS-2-25, E-15, E-21: a selection that was confirmed or taken back is over in the scan in which the echo is
-\* gone
+\* gone, and nothing of it is kept
 EndsWithTheEcho ==
     [][(hmiState \in {"AwaitSwitch", "Withdrawn"} /\ Level = offered /\ Scanned.CM = 0) =>
-        Screen' = "select"]_beat
+        Screen' = "select" /\ hmiSelection' = None]_beat
 
 \* EKS-GP-3, EKS-2-14, EKS-2-22, EKS-2-23, EKS-9-4-HMI: a scan that changes nothing has seen nothing that it
 \* waits for

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import signal
 import subprocess
@@ -88,9 +89,9 @@ def test_an_interrupt_during_a_deletion_is_not_dropped(
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("moment", range(12))
-def test_an_interrupted_proof_ends_with_one_line(copy: Path, moment: int) -> None:
-    prove = ["prove", "--document", "edm", "every_call_takes_exactly_one_path", "--quiet"]
-    status, out, err = interrupted(copy, [sys.executable, "-m", "modeproof", *prove], 0.15 * moment)
+@pytest.mark.parametrize("moment", range(8))
+def test_interrupted_proofs_end_with_one_line(copy: Path, moment: int) -> None:
+    prove = ["prove", "--document", "edm", "--quiet"]  # all theorems: far longer than any moment here
+    status, out, err = interrupted(copy, [sys.executable, "-m", "modeproof", *prove], 0.2 * moment)
     assert (status, err) == (2, "modeproof: interrupted: no verdict; what was finished before is kept\n")
-    assert "PROVED" not in out
+    assert not re.search(r"^proofs ", out, re.MULTILINE)

@@ -58,12 +58,12 @@ def leads_there(suite: Suite, fault: Fault, found: Difference) -> bool:
     return bool(cited & set(fault.breaks)) or names or bool(found.time and _TIME.search(text))
 
 
-def rated(target: str, folder: Path, every: int = 1) -> tuple[int, list[str]]:
+def rated(target: str, folder: Path) -> tuple[int, list[str]]:
     """How many faults of a pack were judged, and those whose diagnosis names nothing that they touch."""
     program = PACKS[target]
     suites, good = open_all(program), folder / "good"
     build(good, program=program)
-    faults = [fault for fault in load_faults(program.pack) if not fault.reason][::every]
+    faults = [fault for fault in load_faults(program.pack) if not fault.reason]
     missed = []
     for fault in faults:
         made = build(folder / fault.id, fault, good, program)
@@ -79,11 +79,6 @@ def test_nine_of_ten_diagnoses_name_what_the_fault_touches(tmp_path: Path) -> No
     found = [rated(target, tmp_path / target) for target in PACKS]
     missed = [one for _, those in found for one in those]
     assert len(found) >= 5 and len(missed) * 10 <= sum(count for count, _ in found), "\n".join(missed)
-
-
-def test_a_sample_of_diagnoses_names_what_the_fault_touches(tmp_path: Path) -> None:
-    count, missed = rated("sf_edm", tmp_path, 6)
-    assert count >= 5 and len(missed) * 10 <= count, "\n".join(missed)
 
 
 def test_a_diagnosis_that_leads_elsewhere_is_counted_as_missed(tmp_path: Path) -> None:

@@ -12,12 +12,6 @@ from modeproof.kit.judge import Options, Plan, run_suite
 from tests.kit.faulty import ROOT, TARGETS, campaign, cases_of, chosen, faulty_programs, suite_of
 
 
-def test_no_reproduction_accuses_a_right_program() -> None:
-    counts = campaign(chosen(8, ["sf_edm"]), 5)
-    assert counts.found >= 4 and counts.replayed > 30 and counts.shorter > 5, str(counts)
-    assert counts.wrong == []
-
-
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("target", sorted(TARGETS, reverse=True))
 def test_a_right_program_settles_as_every_target_demands(target: str) -> None:

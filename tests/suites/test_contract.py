@@ -74,6 +74,7 @@ def test_a_contract_enters_the_header_with_clauses_and_rebuilds(toy: Path) -> No
         ("[[contract.property]]", "[[contract.properties]]", "unknown key properties"),
         ("was_LAMP", "was_lamp", "unknown name 'was_lamp'"),
         ('device = "lamp"', 'device = "lamp', "spec/toy/contracts.toml"),
+        ('device = "lamp"', 'device = "lamp"\ntables = ["REE"]', "has no table 'REE'"),
         ("[[contract.rule]]", '[[contract]]\ndevice = "lamp"\n[[contract.rule]]', "has two contracts"),
     ],
 )

@@ -27,6 +27,16 @@ def scan(m):
 LEVELS, SELECTIONS = ["0F0F", "0FF0", "3333", "33CC", "3C3C"], ["0FF0", "3333", "33CC", "3C3C", "0F0F"]
 
 
+def test_the_printed_sequences_are_walked_with_single_changes() -> None:
+    drawn = [case.why for case in open_suite(root() / "vectors/sf_edm/sequences.jsonl.gz").cases()]
+    found = [case for case in open_suite(root() / "vectors/sf_edm/sic.jsonl.gz").cases() if case.clauses]
+    slow = [case for case in found if case.why.endswith(" Inputs change one at a time.")]
+    assert [case.why.removesuffix(" Inputs change one at a time.") for case in slow] == drawn
+    for case in slow:
+        for before, now in zip(case.scans, case.scans[1:], strict=False):
+            assert sum(now.inputs[name] != before.inputs[name] for name in now.inputs) <= 1
+
+
 @pytest.mark.deep
 def test_each_level_is_tried_with_each_selection_that_it_forbids() -> None:
     found = set()
@@ -92,7 +102,7 @@ def test_what_needs_two_changes_at_once_is_listed(tmp_path: Path) -> None:
         and not any(line.startswith(f'<<"INPUT", {n},') for n in gone)
         and not any(f", {n}, <<" in line for n in gone)
     ]
-    write_suite(tmp_path / "sic.jsonl", "sic", [lamp_graph(tmp_path, printed)])
+    write_suite(tmp_path / "sic.jsonl", "sic", [lamp_graph(tmp_path, printed, sequences="")])
     header = json.loads((tmp_path / "sic.jsonl").read_text(encoding="utf-8").splitlines()[0])
     assert header["graphs"][0]["not_so"]["SwitchOn"] == "1 of 1"
 

@@ -1161,6 +1161,16 @@ FAULTS = (
         ),
     ),
     Falls(
+        "EndsWithTheEcho",
+        HMI_PROMPT,
+        Fault(
+            "what was selected is kept when it is over",
+            "Hmi.tla",
+            "hmiState' = s /\\ hmiSelection' = None /\\ UNCHANGED offered",
+            "hmiState' = s /\\ UNCHANGED <<hmiSelection, offered>>",
+        ),
+    ),
+    Falls(
         "PanelAnswersAtOnce",
         HMI_PROMPT,
         Fault(
