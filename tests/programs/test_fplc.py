@@ -17,7 +17,7 @@ FAULTS = {
     "an echo of another mode": ("16#3C3C: MW05 := 16#0F0F;", "16#3C3C: MW05 := 16#0FF0;"),
     "a selection from the wrong word": ("selected := MW03", "selected := MW07"),
     "a level that permits too much": ("permits[i] := PERMITS_1[i]", "permits[i] := PERMITS_2[i]"),
-    "an output that survives the error": ("ON_ERROR = 1", "ON_ERROR = 2"),
+    "a key that is gone and not noticed": ("ELSIF NOT LA OR word <> level", "ELSIF word <> level"),
 }
 
 
