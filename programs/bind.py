@@ -22,7 +22,7 @@ from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers import Signal
 from programs.reference import Reference
 from programs.terms import Slot, slots
-from programs.tree import Array, Scalar, Source, Unit
+from programs.tree import BOOL, Array, Scalar, Source, Unit
 
 DT = "dt_ms"
 SCAN_TIME = Signal(name=DT, type="ms", clauses=(), why="", python=DT, tla="", minimum=0)
@@ -113,15 +113,9 @@ class Binding:
                     raise self.unit.place.refuse(f"{taken[path]} and {name} are both bound to {path}")
                 taken[path] = name
                 kind = self.unit.variables[path].type
-                if group == "inputs" and signal.type in ("int", "ms"):
-                    raise self.unit.place.refuse(f"{name}: inputs of type {signal.type} are not supported")
                 if signal.type == "modes" and not (isinstance(kind, Scalar) and kind.kind == "bits"):
-                    if not isinstance(kind, Array) or kind.high - kind.low != 4:
-                        raise self.unit.variables[path].place.refuse(
-                            f"{name} is an ARRAY [0..4] OF BOOL, or a WORD"
-                        )
-                    for number in range(5):
-                        found[f"{path}[{kind.low + number}]"] = (f"{name}[{number}]", signal)
+                    for number, element in enumerate(self._elements(name, path)):
+                        found[element] = (f"{name}[{number}]", signal)
                 else:
                     self._check(name, signal, kind)
                     found[path] = (name, signal)
@@ -130,6 +124,14 @@ class Binding:
             self._check(DT, SCAN_TIME, self.unit.variables[path].type)
             found[path] = (DT, SCAN_TIME)
         return found
+
+    def _elements(self, name: str, path: str) -> list[str]:
+        """The paths of the five elements of a set of modes."""
+        variable = self.unit.variables[path]
+        kind = variable.type
+        if not isinstance(kind, Array) or kind.high - kind.low != 4 or kind.element != BOOL:
+            raise variable.place.refuse(f"{name} is an ARRAY [0..4] OF BOOL")
+        return [f"{path}[{kind.low + number}]" for number in range(5)]
 
     def _check(self, name: str, signal: Signal, kind: object, inward: bool = True) -> None:
         """Refuse a variable that cannot hold the values of a signal, or is of another type."""
@@ -218,7 +220,7 @@ class Binding:
                 found.append(terms[name] == int(value))
         for path, slot in self._inputs.items():
             term = self.term(path)
-            if slot.type.kind in ("int", "time") and z3.is_int(term) and self._given[path][0] in {DT, *terms}:
+            if slot.type.kind in ("int", "time") and z3.is_int(term):
                 found.append(z3.And(term >= slot.type.low, term <= slot.type.high))
         return tuple(found)
 
@@ -235,18 +237,25 @@ class Binding:
                     f"{self.unit.name} has no output {name}; bind it, or list it under left_out"
                 )
             signal = self.reference.signals("outputs")[name]
-            self._check(name, signal, self.unit.variables[path].type, inward=False)
+            if signal.type == "modes":
+                self._elements(name, path)
+            else:
+                self._check(name, signal, self.unit.variables[path].type, inward=False)
             found.append(name)
         return tuple(found)
 
     def outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The program's outputs by the names of the document, in the sorts of the reference."""
-        by_key = {name.upper(): term for name, term in own.items()}
-        found = {}
+        found: dict[str, Any] = {}
         for name in self.compared:
             path = self._path(name, "output")
             assert path is not None
-            term, signal = by_key[path], self.reference.signals("outputs")[name]
+            signal = self.reference.signals("outputs")[name]
+            if signal.type == "modes":
+                elements = enumerate(self._elements(name, path))
+                found |= {f"{name}[{number}]": own[element] for number, element in elements}
+                continue
+            term = own[path]
             if signal.type == "word" and z3.is_expr(term) and z3.is_int(term):
                 term = z3.Int2BV(term, 16)
             found[name] = term
@@ -279,8 +288,12 @@ class Binding:
         found = {}
         for name in self.compared:
             value, signal = by_key[self._path(name, "output") or ""], self.reference.signals("outputs")[name]
-            known = signal.type == "text" and 0 <= value < len(signal.values)
-            found[name] = signal.values[value] if known else value
+            if signal.type == "modes":
+                found[name] = tuple(value)
+            elif signal.type == "text" and 0 <= value < len(signal.values):
+                found[name] = signal.values[value]
+            else:
+                found[name] = value
         return found
 
     # ------------------------------------------------------------ parameters

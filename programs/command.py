@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -11,9 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.ground.places import root
+from modeproof.ground.places import build, root
+from modeproof.kit.files import write_text
+from programs import certificate
 from programs.bind import Binding, read_binding
 from programs.check import check
+from programs.output import junit_of, vector_of, write_record
 from programs.product import Product
 from programs.reference import reference
 from programs.replay import Difference
@@ -22,38 +24,75 @@ from programs.tree import Source, Unit
 from programs.verdict import Verdict, judge
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
-TRUSTED = "the reader and translator of programs, the model of the timers, the binding, the path explorer, z3"
+TRUSTED = "; ".join([*certificate.TRUSTED, "z3"])
 
 
 def run(args: argparse.Namespace) -> int:
     """Judge the program and print the verdict; the exit status is that of the verdict."""
     started = time.process_time()
-    product = make(args.files, args.target, args.unit, args.binding, args.wrap)
+    if args.recheck is not None:
+        return _recheck(args, started)
+    given = {} if args.binding is None else read_binding(args.binding)
+    product = make(args.files, args.target, args.unit, given, args.wrap)
 
     def tell(text: str) -> None:
         if sys.stderr.isatty():
             print(f"\r{text:<100}", end="", file=sys.stderr, flush=True)
 
     found = judge(product, root() / "vectors" / args.target, args.seconds, tell)
+    lines = []
+    if args.certificate is not None and found.word == "PROVED":
+        assert found.replayed is not None
+        tell("writing the certificate")
+        unreached = certificate.write(found.product, found.replayed, args.certificate, args.binding)
+        way = f"; no scans were found to {unreached} of its pairs" if unreached else ""
+        lines.append(f"  certificate {args.certificate}{way}; check it with --recheck {args.certificate}")
+    if found.difference is not None:
+        lines.append(f"  vector      {_keep(found, args.vector)}")
     tell("")
     seconds = time.process_time() - started
-    print("\n".join(text_of(found, seconds)))
-    if args.json is not None:
-        record = json.dumps(record_of(found, seconds), indent=1, ensure_ascii=False)
-        args.json.write_text(record + "\n", "utf-8")
+    print("\n".join([*text_of(found, seconds), *lines]))
+    record = record_of(found, seconds)
+    write_record(root(), record, args.json)
+    if args.junit is not None:
+        write_text(args.junit, junit_of(record, "\n".join(text_of(found, seconds))))
     return EXIT[found.word]
 
 
+def _keep(found: Verdict, path: Path | None) -> str:
+    """Save the scans of a difference as a vector file; returns what is printed of it."""
+    assert found.difference is not None
+    run, reference = found.difference.run, found.product.binding.reference
+    if run.retained:
+        return "none: a vector file cannot hold the first values of RETAIN variables"
+    name = f"{reference.device.name}-{found.product.binding.unit.name}.jsonl"
+    place = path or build(root()) / "programs" / name
+    write_text(place, vector_of(found.difference, found.product.binding))
+    return f"{place}; test it with `modeproof conform {reference.device.name} --vectors {place} ...`"
+
+
+def _recheck(args: argparse.Namespace, started: float) -> int:
+    from programs.recheck import recheck
+
+    found = recheck(args.recheck)
+    print("\n".join(found.lines(time.process_time() - started)))
+    return found.status
+
+
 def make(
-    files: list[Path], target: str, unit: str | None = None, binding: Path | None = None, wrap: bool = False
+    files: list[Path],
+    target: str,
+    unit: str | None = None,
+    binding: Mapping[str, Any] | None = None,
+    wrap: bool = False,
+    split: tuple[str, ...] = (),
 ) -> Product:
-    """The program beside the target. Raises Unjudged with file, line and cause."""
+    """The program beside the target; binding: see `read_binding`. Raises Unjudged with file, line, cause."""
     of = reference(target)
     source = read_sources(files)
     chosen = choose(source, unit)
     check(source, chosen)
-    given: Mapping[str, Any] = {} if binding is None else read_binding(binding)
-    return Product(Binding(of, source, chosen, **given), wrap)
+    return Product(Binding(of, source, chosen, **(binding or {})), wrap, split)
 
 
 def choose(source: Source, unit: str | None) -> Unit:
@@ -85,14 +124,20 @@ def text_of(found: Verdict, seconds: float) -> Iterator[str]:
         case "UNKNOWN":
             yield f"UNKNOWN: {name} and {target}: no proof and no difference"
             yield f"  missing     {found.missing}"
-    for label, text in _about(found):
+    for label, text in about(found.product):
         yield f"  {label:<11} {text}"
+    if found.replayed is not None:
+        cases, scans = found.replayed.cases, found.replayed.scans
+        yield f"  vectors     {cases} published cases, {scans:,} scans, no difference"
+    if found.word == "PROVED":
+        yield f"  trusted     {TRUSTED}"
     pairs, queries = len(found.product.nodes), found.product.queries
     yield f"  effort      {pairs} pairs, {queries} questions, {seconds:.1f} s CPU"
 
 
-def _about(found: Verdict) -> Iterator[tuple[str, str]]:
-    binding, signals = found.product.binding, found.product.binding.reference.signals("parameters")
+def about(product: Product) -> Iterator[tuple[str, str]]:
+    """What a verdict is about, in lines of a label and a text."""
+    binding, signals = product.binding, product.binding.reference.signals("parameters")
     yield "compared", ", ".join(binding.compared)
     yield "left out", ", ".join(binding.left_out) or "no output"
     narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
@@ -113,19 +158,14 @@ def _about(found: Verdict) -> Iterator[tuple[str, str]]:
     longest = binding.longest_scan
     most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
     yield "inputs", f"every value, {most} of whole milliseconds"
-    yield "numbers", "wrap" if found.product.wrap else "stay within their types"
-    if found.replayed is not None:
-        yield (
-            "vectors",
-            f"{found.replayed.cases} published cases, {found.replayed.scans:,} scans, no difference",
-        )
-    if found.word == "PROVED":
-        yield "trusted", TRUSTED
+    yield "numbers", "wrap" if product.wrap else "stay within their types"
 
 
 def _difference(found: Difference) -> Iterator[str]:
     yield f"  found by    {found.found_by}; replayed on the reference and on the program's interpreter"
     yield "  set         " + (_row(found.parameters) or "no parameters")
+    if found.run.retained:
+        yield "  retained    " + _row(found.run.retained)
     before: Mapping[str, Any] = {}
     for number, (dt_ms, inputs) in enumerate(found.scans, 1):
         changed = {
@@ -183,6 +223,7 @@ def record_of(found: Verdict, seconds: float) -> dict[str, Any]:
         record["difference"] = {
             "found_by": difference.found_by,
             "parameters": difference.parameters,
+            "retained": difference.run.retained,
             "scans": [{"dt_ms": dt_ms, "in": inputs} for dt_ms, inputs in difference.scans],
             "reference": difference.expected,
             "program": difference.given,

@@ -1,16 +1,12 @@
-"""A program beside a reference: equal outputs in every scan from power-up, or what could not be shown.
+"""A program beside a reference, on the same inputs: one scan of both from each pair of control states.
 
-Both run on the same inputs. Pairs of control states are found from power-up on; for each pair the relations
-between the two memories that hold in all scans seen are kept (equal values, constants, sums that are a
-parameter, tables from a number to a value), and what a solver shows not to survive a scan is dropped until
-the rest is inductive (Houdini). Then the outputs of every pair must be equal, and the program must stay
-within its types.
+A pair is a control state of the reference with the values of the program's control variables. What is known
+of a pair is a list of relations between the two memories. `owed` says what must hold so that the outputs are
+equal for ever; it rests on the pairs and relations alone, not on how they were found.
 """
 
 from __future__ import annotations
 
-import time
-from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -19,15 +15,16 @@ from typing import Any
 import z3
 
 from programs.bind import Binding
-from programs.relations import Relation, Values, candidates, like, plain
-from programs.symbolic import Obligation, Translator
+from programs.relations import Relation, Vocabulary, like
+from programs.symbolic import Obligation, Scan, Translator
 from programs.terms import Slot, constant, in_range, live, slots, symbol
 
-MOST_PAIRS = 2_000
+OUTPUTS = "outputs are equal"
+RANGES = "memory stays within its ranges"
+NEXT = "the next pair is known and its relations hold"
+START = "the relations hold at power-up"
 LIMIT_MS = 30_000
 """For one question."""
-OUTPUTS = "outputs are equal"
-
 
 Pair = tuple[str, tuple[int, ...]]
 """A control state of the reference, and the values of the program's control variables."""
@@ -35,7 +32,7 @@ Pair = tuple[str, tuple[int, ...]]
 
 @dataclass
 class Node:
-    """A pair: what is known of it."""
+    """A pair: what is known of it, and the pairs that one scan leads to."""
 
     relations: list[Relation]
     successors: set[Pair] = field(default_factory=set)
@@ -51,14 +48,36 @@ class Owed:
     place: str = ""
 
 
+@dataclass(frozen=True)
+class Both:
+    """One scan of both from a pair, as terms over the symbols before it.
+
+    premise: what the scan takes for granted but the relations. where: the number of the control state of the
+    reference and the control variables after the scan. after: every other value.
+    """
+
+    premise: z3.BoolRef
+    where: tuple[Any, ...]
+    after: Mapping[str, Any]
+    outputs: Mapping[str, tuple[Any, Any]]
+    """Of the reference and of the program."""
+    obligations: tuple[Obligation, ...]
+
+
 @dataclass
 class Product:
-    """The program and the reference, run together."""
+    """The program and the reference, run together.
+
+    split: paths of BOOL variables that count as control variables too.
+    """
 
     binding: Binding
     wrap: bool = False
+    split: tuple[str, ...] = ()
     queries: int = 0
     nodes: dict[Pair, Node] = field(default_factory=dict)
+    _both: dict[tuple[Pair, bool], Both] = field(default_factory=dict)
+    _own: dict[tuple[int, ...], Scan] = field(default_factory=dict)
 
     # ------------------------------------------------------------ the two sides
 
@@ -86,7 +105,7 @@ class Product:
         return {path: symbol(slot.type, f"p.{path}") for path, slot in self.slots.items()}
 
     @cached_property
-    def translated(self) -> Any:
+    def translated(self) -> Scan:
         """One scan of the program over the symbols of both sides."""
         reference = self.binding.reference
         given = {path: self.binding.term(path) for path in self.binding.bound_paths}
@@ -103,7 +122,7 @@ class Product:
                 values = _constants(self.translated.after[path], self.memory[path])
                 if values is not None and len(values) <= 64:
                     found.append(path)
-        return tuple(found)
+        return (*found, *self.split)
 
     @cached_property
     def symbols(self) -> dict[str, Any]:
@@ -116,29 +135,56 @@ class Product:
         }
 
     @cached_property
+    def vocabulary(self) -> Vocabulary:
+        """What relations may speak of."""
+        signals = self.binding.reference.device.register.memory.values()
+        times = {f"r:{signal.python}" for signal in signals if signal.type == "ms"}
+        sizes = {
+            f"p:{path}": slot.type.high - slot.type.low + 1
+            for path, slot in self.slots.items()
+            if self.wrap and slot.type.kind in ("int", "time") and not path.endswith(".age")
+        }
+        sorts = {name: str(term.sort()) for name, term in self.symbols.items()}
+        keys = {name for name in sorts if name.startswith("r:") and sorts[name] == "Int"} - times
+        return Vocabulary(sorts, frozenset(keys), sizes)
+
+    @cached_property
     def assumed(self) -> z3.BoolRef:
         """The ranges of parameters, and what the binding says of them."""
-        parts = [self.binding.reference.ranges, *self.binding.conditions]
-        return z3.And(*parts)
+        return z3.And(self.binding.reference.ranges, *self.binding.conditions)
 
-    def terms_after(self, pair: Pair) -> dict[str, Any]:
-        """Each value after a scan from this pair, over the symbols before it."""
-        if pair not in self._after:
-            step = self.binding.reference.steps[pair[0]]
-            own = self._substituted(pair[1])
-            self._after[pair] = {
-                **{f"r:{place}": term for place, term in step.after.items()},
-                **{f"p:{path}": own["after"][path] for path in self.memory if path not in self.control},
-                **{f"g:{place}": term for place, term in self.binding.reference.parameter_terms.items()},
-                "control": step.control_after,
-                **{f"control {path}": own["after"][path] for path in self.control},
-            }
-        return self._after[pair]
+    def both(self, pair: Pair, whole: bool = False) -> Both:
+        """One scan from this pair.
 
-    _after: dict[Pair, dict[str, Any]] = field(default_factory=dict)
-    _own: dict[tuple[int, ...], dict[str, Any]] = field(default_factory=dict)
+        whole: the program as it was translated, its control variables fixed by the premise; else they are
+        put in as constants and the terms simplified.
+        """
+        key = pair, whole
+        if key not in self._both:
+            reference = self.binding.reference
+            step, scan = reference.steps[pair[0]], self.translated if whole else self._specialised(pair[1])
+            fixed = [
+                _equal(self.memory[path], number)
+                for path, number in zip(self.control, pair[1], strict=True)
+                if whole
+            ]
+            self._both[key] = Both(
+                z3.And(step.premise, self.assumed, self.within(self.symbols.__getitem__), *fixed),
+                (step.control_after, *(scan.after[path] for path in self.control)),
+                {
+                    **{f"r:{place}": term for place, term in step.after.items()},
+                    **{f"p:{path}": scan.after[path] for path in self.memory if path not in self.control},
+                    **{f"g:{place}": term for place, term in reference.parameter_terms.items()},
+                },
+                {
+                    place: (step.outputs[place], term)
+                    for place, term in self.binding.outputs(scan.outputs).items()
+                },
+                scan.obligations,
+            )
+        return self._both[key]
 
-    def _substituted(self, control: tuple[int, ...]) -> dict[str, Any]:
+    def _specialised(self, control: tuple[int, ...]) -> Scan:
         """The program's scan with its control variables as constants."""
         if control not in self._own:
             where = [
@@ -150,26 +196,14 @@ class Product:
                 return z3.simplify(z3.substitute(term, *where)) if where else z3.simplify(term)
 
             scan = self.translated
-            self._own[control] = {
-                "after": {path: put(scan.after[path]) for path in self.memory},
-                "outputs": {name: put(term) for name, term in scan.outputs.items()},
-                "obligations": [
-                    Obligation(put(owed.formula), owed.text, owed.place) for owed in scan.obligations
-                ],
-            }
+            self._own[control] = Scan(
+                {path: put(scan.after[path]) for path in self.memory},
+                {name: put(term) for name, term in scan.outputs.items()},
+                tuple(Obligation(put(owed.formula), owed.text, owed.place) for owed in scan.obligations),
+            )
         return self._own[control]
 
-    def differ(self, pair: Pair) -> z3.BoolRef:
-        """Some output that is compared is not equal after a scan from this pair."""
-        step, own = self.binding.reference.steps[pair[0]], self._substituted(pair[1])["outputs"]
-        found = [
-            step.outputs[place] != term
-            for place, term in self.binding.outputs(own).items()
-            if not z3.is_true(z3.simplify(step.outputs[place] == term))
-        ]
-        return z3.Or(found) if found else z3.BoolVal(False)
-
-    # ------------------------------------------------------------ the fixpoint
+    # ------------------------------------------------------------ power-up
 
     @cached_property
     def start(self) -> tuple[Pair, dict[str, Any]]:
@@ -183,117 +217,17 @@ class Product:
         numbers = tuple(int(self.slots[path].initial or 0) for path in self.control)
         return (control, numbers), values
 
-    def solver(self, pair: Pair) -> z3.Solver:
-        """A solver that knows the premises of a pair."""
-        found = z3.Solver()
-        found.set("timeout", LIMIT_MS)
-        found.add(self.premises(pair))
-        return found
+    @cached_property
+    def retained(self) -> z3.BoolRef:
+        """The RETAIN variables are within their types at power-up; nothing else is known of them."""
+        kept = [(slot, self.memory[path]) for path, slot in self.slots.items() if slot.initial is None]
+        return z3.And(z3.BoolVal(True), *(in_range(slot.type, term) for slot, term in kept))
 
-    def fixpoint(
-        self, samples: Mapping[Pair, Sequence[Values]], until: float, tell: Callable[[str], None] = print
-    ) -> None:
-        """Find all pairs and their inductive relations.
+    def at_start(self, name: str) -> Any:
+        """A value at power-up as a term."""
+        return self.start[1].get(name, self.symbols.get(name))
 
-        Raises TimeoutError: no answer, too many pairs, or the clock (`time.monotonic`) is past `until`.
-        """
-        pair, values = self.start
-        first = z3.Solver()
-        first.set("timeout", LIMIT_MS)
-        first.add(self.assumed)
-        self.nodes = {}
-        self._weaken(first, pair, self._at_start(values), samples)
-        waiting = deque([pair])
-        while waiting:
-            here = waiting.popleft()
-            tell(f"{len(self.nodes)} pairs, {self.queries} questions")
-            for changed in self._scan_from(here, samples):
-                if changed not in waiting:
-                    waiting.append(changed)
-            if len(self.nodes) > MOST_PAIRS:
-                raise TimeoutError(f"more than {MOST_PAIRS:,} pairs of states")
-            if time.monotonic() > until:
-                raise TimeoutError(f"the time is over at pair {shown(here)}")
-
-    def _scan_from(self, pair: Pair, samples: Mapping[Pair, Sequence[Values]]) -> Iterator[Pair]:
-        """Follow all scans from a pair; yields each pair that is new or became weaker."""
-        after = self.terms_after(pair)
-        solver = self.solver(pair)
-        where = [after["control"], *(after[f"control {path}"] for path in self.control)]
-        known: set[Pair] = set()
-        while True:
-            solver.push()
-            for other in known:
-                solver.add(z3.Not(self.at(where, other)))
-            answer = self.ask(solver)
-            if answer == z3.unsat:
-                solver.pop()
-                break
-            model = solver.model()
-            numbers = [plain(model.eval(term, model_completion=True)) for term in where]
-            solver.pop()
-            target: Pair = (self.binding.reference.controls[numbers[0]], tuple(numbers[1:]))
-            known.add(target)
-        self.nodes[pair].successors = known
-        for target in sorted(known):
-            solver.push()
-            solver.add(self.at(where, target))
-            if self._weaken(solver, target, after.__getitem__, samples):
-                yield target
-            solver.pop()
-
-    def at(self, where: Sequence[Any], pair: Pair) -> z3.BoolRef:
-        numbers = (self.binding.reference.controls.index(pair[0]), *pair[1])
-        return z3.And([_equal(term, number) for term, number in zip(where, numbers, strict=True)])
-
-    def ask(self, solver: z3.Solver) -> z3.CheckSatResult:
-        self.queries += 1
-        answer = solver.check()
-        if answer == z3.unknown:
-            raise TimeoutError(f"a question had no answer: {solver.reason_unknown()}")
-        return answer
-
-    def _weaken(
-        self,
-        solver: z3.Solver,
-        target: Pair,
-        term: Callable[[str], Any],
-        samples: Mapping[Pair, Sequence[Values]],
-    ) -> bool:
-        """Drop what does not hold of `target` under the solver's premises; whether anything changed."""
-        new = target not in self.nodes
-        if new:
-            if self.ask(solver) == z3.unsat:
-                raise TimeoutError("the ranges cannot hold together")
-            model = solver.model()
-            seen = [self._values(model, term), *samples.get(target, ())]
-            self.nodes[target] = Node(candidates(seen, self.symbols))
-        node = self.nodes[target]
-        changed = new
-        while node.relations:
-            solver.push()
-            solver.add(z3.Not(z3.And([relation.formula(term) for relation in node.relations])))
-            answer = self.ask(solver)
-            if answer == z3.unsat:
-                solver.pop()
-                return changed
-            values = self._values(solver.model(), term)
-            solver.pop()
-            left = [relation for relation in node.relations if relation.holds(values)]
-            assert len(left) < len(node.relations)
-            node.relations, changed = left, True
-        return changed
-
-    def _values(self, model: z3.ModelRef, term: Callable[[str], Any]) -> Values:
-        return {name: plain(model.eval(term(name), model_completion=True)) for name in self.symbols}
-
-    # ------------------------------------------------------------ the verdict
-
-    def premises(self, pair: Pair) -> z3.BoolRef:
-        """What is known before a scan from this pair: ranges, parameters, and the relations found."""
-        relations = [relation.formula(self.symbols.__getitem__) for relation in self.nodes[pair].relations]
-        ranges = self.binding.reference.steps[pair[0]].premise
-        return z3.And(ranges, self.assumed, self.within(self.symbols.__getitem__), *relations)
+    # ------------------------------------------------------------ what is owed
 
     def within(self, term: Callable[[str], Any]) -> z3.BoolRef:
         """The memory of the program is within its types, and that of the reference within its ranges."""
@@ -309,59 +243,75 @@ class Product:
         where = [(symbol, term(f"r:{place}")) for place, symbol in reference.memory_terms.items()]
         return z3.And(*parts, z3.substitute(reference.memory_ranges, *where))
 
-    def reaches(self, target: Pair, where: Sequence[Any], term: Callable[[str], Any]) -> z3.BoolRef:
-        """The values are those of this pair, and its relations hold."""
-        relations = [relation.formula(term) for relation in self.nodes[target].relations]
-        return z3.And(self.at(where, target), *relations)
+    def at(self, where: Sequence[Any], pair: Pair) -> z3.BoolRef:
+        """These control terms have the values of the pair."""
+        numbers = (self.binding.reference.controls.index(pair[0]), *pair[1])
+        return z3.And([_equal(term, number) for term, number in zip(where, numbers, strict=True)])
+
+    def premises(self, pair: Pair, whole: bool = False) -> z3.BoolRef:
+        """What is known before a scan from this pair: ranges, parameters, and the relations found."""
+        relations = [relation.formula(self.symbols.__getitem__) for relation in self.nodes[pair].relations]
+        return z3.And(self.both(pair, whole).premise, *relations)
+
+    def reaches(self, target: Pair, both: Both) -> z3.BoolRef:
+        """After the scan the values are those of this pair, and its relations hold."""
+        relations = [relation.formula(both.after.__getitem__) for relation in self.nodes[target].relations]
+        return z3.And(self.at(both.where, target), *relations)
 
     def owed_at_start(self) -> Owed:
         """What must hold at power-up."""
-        pair, values = self.start
-        retained = [
-            in_range(slot.type, self.memory[path])
-            for path, slot in self.slots.items()
-            if slot.initial is None
-        ]
-        known = z3.And(self.assumed, *retained)
-        relations = [relation.formula(self._at_start(values)) for relation in self.nodes[pair].relations]
-        there = z3.And(self.within(self._at_start(values)), *relations)
-        return Owed(pair, "the relations hold at power-up", z3.Implies(known, there))
+        pair, _ = self.start
+        known = z3.And(self.assumed, self.retained)
+        relations = [relation.formula(self.at_start) for relation in self.nodes[pair].relations]
+        return Owed(pair, START, z3.Implies(known, z3.And(self.within(self.at_start), *relations)))
 
-    def _at_start(self, values: Mapping[str, Any]) -> Callable[[str], Any]:
-        return lambda name: values.get(name, self.symbols.get(name))
-
-    def owed(self, pair: Pair) -> Iterator[Owed]:
+    def owed(self, pair: Pair, whole: bool = False) -> Iterator[Owed]:
         """All that must hold in every scan from this pair, so that outputs are equal for ever."""
-        yield Owed(pair, OUTPUTS, z3.Not(self.differ(pair)))
-        for part in self._substituted(pair[1])["obligations"]:
-            if not z3.is_true(part.formula):
+        both = self.both(pair, whole)
+        equal = [own == term for own, term in both.outputs.values()]
+        yield Owed(pair, OUTPUTS, z3.And(equal))
+        for part in both.obligations:
+            if whole or not z3.is_true(part.formula):
                 yield Owed(pair, part.text, part.formula, f"{part.place.file}:{part.place.line}")
-        after = self.terms_after(pair)
-        where = [after["control"], *(after[f"control {path}"] for path in self.control)]
-        yield Owed(pair, "memory stays within its ranges", self.within(after.__getitem__))
+        yield Owed(pair, RANGES, self.within(both.after.__getitem__))
         known = [target for target in sorted(self.nodes[pair].successors) if target in self.nodes]
-        goes_on = [self.reaches(target, where, after.__getitem__) for target in known]
-        yield Owed(pair, "the next pair is known and its relations hold", z3.Or(goes_on))
+        goes_on = [self.reaches(target, both) for target in known]
+        yield Owed(pair, NEXT, z3.Or(goes_on) if goes_on else z3.BoolVal(False))
+
+    # ------------------------------------------------------------ questions
+
+    def solver(self, *known: z3.BoolRef) -> z3.Solver:
+        """A solver that knows this. The plain core: what the full solver would do before costs far more."""
+        found = z3.SimpleSolver()
+        found.set("timeout", LIMIT_MS)
+        found.add(*known)
+        return found
+
+    def ask(self, solver: z3.Solver, *assumed: z3.BoolRef) -> z3.ModelRef | None:
+        """A model of what the solver knows, or None: there is none. Raises TimeoutError: no answer."""
+        self.queries += 1
+        answer = solver.check(*assumed)
+        if answer == z3.unknown:
+            raise TimeoutError(f"a question had no answer: {solver.reason_unknown()}")
+        return solver.model() if answer == z3.sat else None
 
     def doubts(self) -> Iterator[Owed]:
-        """What does not follow: none means PROVED. It rests on the pairs and relations alone, not on how
-        they were found. Raises TimeoutError: a question had no answer, or a pair has no values.
+        """What does not follow: none means PROVED.
+
+        Raises TimeoutError: a question had no answer, or a pair has no values.
         """
         start = self.owed_at_start()
-        solver = z3.Solver()
-        solver.set("timeout", LIMIT_MS)
-        solver.add(z3.Not(start.formula))
-        if self.ask(solver) == z3.sat:
+        if self.ask(self.solver(z3.Not(start.formula))) is not None:
             yield start
         for pair in list(self.nodes):
-            solver = self.solver(pair)
-            if self.ask(solver) == z3.unsat:
+            solver = self.solver(self.premises(pair))
+            if self.ask(solver) is None:
                 raise TimeoutError(f"pair {shown(pair)}: no values fulfil its relations")
-            for one in self.owed(pair):
+            for owed in self.owed(pair):
                 solver.push()
-                solver.add(z3.Not(one.formula))
-                if self.ask(solver) == z3.sat:
-                    yield one
+                solver.add(z3.Not(owed.formula))
+                if self.ask(solver) is not None:
+                    yield owed
                 solver.pop()
 
 

@@ -211,6 +211,11 @@ class Reference:
         signals = self.signals(group)
         return {name: _from_wire(signals[name], value) for name, value in values.items()}
 
+    def to_wire(self, group: str, values: Mapping[str, Any]) -> dict[str, Any]:
+        """Values of the code by the names and in the forms of a test vector."""
+        signals = self.signals(group)
+        return {name: _to_wire(signals[name], value) for name, value in values.items()}
+
     def in_code(self, name: str, value: Any) -> Any:
         """The value of a parameter in a register or in TOML as a value of the code."""
         if self.signals("parameters")[name].type != "modes":
@@ -248,4 +253,17 @@ def _from_wire(signal: Signal, value: Any) -> Any:
             return tuple(mode in value for mode in range(5))
         case "text":
             return value or ""
+    return value
+
+
+def _to_wire(signal: Signal, value: Any) -> Any:
+    match signal.type:
+        case "word":
+            return f"{value:04X}"
+        case "mode":
+            return None if value == -1 else value
+        case "modes":
+            return [mode for mode, there in enumerate(value) if there]
+        case "text":
+            return value or None
     return value

@@ -1,10 +1,14 @@
-"""Relations between the memories of a reference and of a program: the candidates for an invariant."""
+"""Relations between the memories of a reference and of a program: the candidates for an invariant.
+
+They are read off values that were met: what all of them fulfil is a candidate. Values that are always equal
+form a class, and one of each class stands for the rest, so that there are few candidates; a new value splits
+a class.
+"""
 
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,11 +16,17 @@ import z3
 
 Values = dict[str, Any]
 """Plain values: `r:` memory of the reference, `p:` memory of the program, `g:` parameters."""
+Column = tuple[Any, ...]
+"""The values of one name in all samples."""
+
+MOST_KEYS = 24
+"""Entries of a table; more say that the one value does not determine the other."""
+KINDS = ("constant", "equal", "unequal", "at most", "at least", "sum", "sum modulo", "least", "table")
 
 
 @dataclass(frozen=True)
 class Relation:
-    """One candidate: its kind, the two sides, and a constant, a sum or a table."""
+    """One candidate: its kind, the two sides, and a constant, a third name, or the rows of a table."""
 
     kind: str
     left: str
@@ -25,49 +35,65 @@ class Relation:
 
     def holds(self, values: Values) -> bool:
         """Whether it is true of plain values."""
-        left = values[self.left]
+        left, right = values[self.left], values[self.right] if self.right else None
         match self.kind:
             case "constant":
                 return bool(left == self.value)
             case "equal":
-                return bool(left == values[self.right])
+                return bool(left == right)
             case "unequal":
-                return bool(left != values[self.right])
+                return bool(left != right)
             case "at most":
-                return bool(left <= values[self.right])
+                return bool(left <= right)
             case "at least":
                 return bool(left >= self.value)
             case "sum":
-                return bool(left + values[self.right] == values[self.value])
+                return bool(left + right == values[self.value])
+            case "sum modulo":
+                total, size = self.value
+                return bool((left + right - values[total]) % size == 0)
             case "least":
-                return bool(left == min(values[self.right], values[self.value]))
+                return bool(left == min(right, values[self.value]))
             case "table":
-                return bool(dict(self.value).get(left, values[self.right]) == values[self.right])
+                return (left, right) in self.value
         raise AssertionError(self.kind)
 
     def formula(self, term: Callable[[str], Any]) -> z3.BoolRef:
         """The same as a formula over terms."""
-        left = term(self.left)
+        left, right = term(self.left), term(self.right) if self.right else None
         match self.kind:
             case "constant":
                 return left == like(left, self.value)
             case "equal":
-                return left == term(self.right)
+                return left == right
             case "unequal":
-                return left != term(self.right)
+                return left != right
             case "at most":
-                return left <= term(self.right)
+                return left <= right
             case "at least":
                 return left >= self.value
             case "sum":
-                return left + term(self.right) == term(self.value)
+                return left + right == term(self.value)
+            case "sum modulo":
+                total, size = self.value
+                return (left + right - term(total)) % size == 0
             case "least":
-                age, limit = term(self.right), term(self.value)
-                return left == z3.If(age <= limit, age, limit)
-        right = term(self.right)
-        return z3.And(
-            [z3.Implies(left == like(left, key), right == like(right, value)) for key, value in self.value]
-        )
+                limit = term(self.value)
+                return left == z3.If(right <= limit, right, limit)
+            case "table":
+                rows = [
+                    z3.And(left == like(left, key), right == like(right, value)) for key, value in self.value
+                ]
+                return z3.Or(rows)
+        raise AssertionError(self.kind)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The values that it speaks of."""
+        third = {"sum": self.value, "least": self.value}.get(self.kind)
+        if self.kind == "sum modulo":
+            third = self.value[0]
+        return tuple(name for name in (self.left, self.right, third) if name)
 
     def __str__(self) -> str:
         match self.kind:
@@ -83,9 +109,11 @@ class Relation:
                 return f"{self.left} >= {self.value}"
             case "sum":
                 return f"{self.left} + {self.right} = {self.value}"
+            case "sum modulo":
+                return f"{self.left} + {self.right} = {self.value[0]} modulo {self.value[1]}"
             case "least":
                 return f"{self.left} = min({self.right}, {self.value})"
-        return f"{self.right} by {self.left}: " + ", ".join(f"{key}: {value}" for key, value in self.value)
+        return f"{self.left}, {self.right}: " + ", ".join(f"{key}, {value}" for key, value in self.value)
 
 
 def like(term: Any, value: Any) -> Any:
@@ -99,62 +127,97 @@ def plain(term: Any) -> Any:
     return z3.is_true(term) if z3.is_bool(term) else term.as_long()
 
 
-def candidates(seen: Sequence[Values], symbols: Mapping[str, Any]) -> list[Relation]:
-    """All relations of the known kinds that hold in every sample."""
-    groups: dict[str, list[str]] = defaultdict(list)
-    for name, term in symbols.items():
-        groups[str(term.sort())].append(name)
-    found: list[Relation] = []
-    first = seen[0]
-    for name in symbols:
-        if name.startswith("g:"):
-            continue
-        relation = Relation("constant", name, value=first[name])
-        if _all(relation, seen):
-            found.append(relation)
-    for sort, names in groups.items():
-        free = list(names)
-        numbers = sort == "Int"
-        for left, right in itertools.combinations(free, 2):
-            if left.startswith("g:") and right.startswith("g:"):
+@dataclass(frozen=True)
+class Vocabulary:
+    """What relations may speak of. sorts: the sort of each name. keys: names that tables may begin with.
+
+    sizes: of the program's numbers that wrap, how many values each has.
+    """
+
+    sorts: Mapping[str, str]
+    keys: Collection[str] = ()
+    sizes: Mapping[str, int] | None = None
+
+    def candidates(self, seen: Sequence[Values]) -> list[Relation]:
+        """The relations of all kinds that hold in every sample, without those that follow from others."""
+        columns: dict[str, Column] = {name: tuple(values[name] for values in seen) for name in self.sorts}
+        found, moving = [], {}
+        for name, column in columns.items():
+            if all(value == column[0] for value in column):
+                if not is_parameter(name):
+                    found.append(Relation("constant", name, value=column[0]))
+            else:
+                moving[name] = column
+        numbers: dict[str, Column] = {}
+        stand_for: dict[str, Column] = {}
+        classes: dict[tuple[str, Column], str] = {}
+        for name in sorted(moving, key=_rank):
+            sort, column = self.sorts[name], moving[name]
+            first = classes.get((sort, column))
+            opposite = tuple(not value for value in column) if sort == "Bool" else ()
+            if first is not None:
+                found.append(Relation("equal", name, first))
+            elif (sort, opposite) in classes:
+                found.append(Relation("unequal", name, classes[sort, opposite]))
+            else:
+                classes[sort, column] = name
+                stand_for[name] = column
+                if sort == "Int":
+                    numbers[name] = column
+        found = [relation for relation in found if not all(map(is_parameter, relation.names))]
+        return [*found, *self._numeric(numbers), *self._tables(stand_for)]
+
+    def _numeric(self, numbers: Mapping[str, Column]) -> list[Relation]:
+        found = []
+        own = [name for name in numbers if not is_parameter(name)]
+        for name in own:
+            least = min(numbers[name])
+            low = next((low for low in (1, 0, -1) if low <= least), None)
+            if low is not None:
+                found.append(Relation("at least", name, value=low))
+        for left, right in itertools.permutations(numbers, 2):
+            if is_parameter(left) and is_parameter(right):
                 continue
-            tries = [Relation("equal", left, right)]
-            if sort == "Bool":
-                tries.append(Relation("unequal", left, right))
-            if numbers:
-                tries += [Relation("at most", left, right), Relation("at most", right, left)]
-            found += [relation for relation in tries if _all(relation, seen)]
-        if numbers:
-            own = [name for name in free if not name.startswith("g:")]
-            found += [
-                Relation("at least", name, value=low)
-                for name in own
-                for low in (0, -1)
-                if _all(Relation("at least", name, value=low), seen)
-            ][:200]
-            ages = [name for name in own if name.endswith(".age")]
-            limits = [name for name in names if name.startswith("g:") or name.endswith(".PT")]
-            for left, age, limit in itertools.product(own, ages, limits):
-                relation = Relation("least", left, age, limit)
-                if left != age and _all(relation, seen):
-                    found.append(relation)
-            for left, right in itertools.combinations(own, 2):
-                for total in names:
-                    if total.startswith("g:"):
-                        relation = Relation("sum", left, right, total)
-                        if _all(relation, seen):
-                            found.append(relation)
-    keys = [name for name in groups.get("Int", ()) if name.startswith("r:")]
-    for left in keys:
-        if len({values[left] for values in seen}) > 40:
-            continue
-        for right in symbols:
-            if right.startswith("p:"):
+            if all(first <= second for first, second in zip(numbers[left], numbers[right], strict=True)):
+                found.append(Relation("at most", left, right))
+        for left, right in itertools.combinations(own, 2):
+            sums = [first + second for first, second in zip(numbers[left], numbers[right], strict=True)]
+            for total, column in numbers.items():
+                if total in (left, right):
+                    continue
+                apart = [first - second for first, second in zip(sums, column, strict=True)]
+                size = (self.sizes or {}).get(total, 0)
+                if not any(apart):
+                    found.append(Relation("sum", left, right, total))
+                elif size and not any(rest % size for rest in apart):
+                    found.append(Relation("sum modulo", left, right, (total, size)))
+        ages = [name for name in own if name.endswith(".age")]
+        limits = [name for name in numbers if is_parameter(name) or name.endswith(".PT")]
+        for left, age, limit in itertools.product(own, ages, limits):
+            rows = zip(numbers[left], numbers[age], numbers[limit], strict=True)
+            if left != age and all(value == min(since, most) for value, since, most in rows):
+                found.append(Relation("least", left, age, limit))
+        return found
+
+    def _tables(self, columns: Mapping[str, Column]) -> list[Relation]:
+        found = []
+        for left in columns:
+            if left not in self.keys:
+                continue
+            for right, column in columns.items():
+                if not right.startswith("p:"):
+                    continue
                 table: dict[Any, Any] = {}
-                if all(table.setdefault(values[left], values[right]) == values[right] for values in seen):
+                pairs = zip(columns[left], column, strict=True)
+                told = all(table.setdefault(key, value) == value for key, value in pairs)
+                if told and len(table) <= MOST_KEYS:
                     found.append(Relation("table", left, right, tuple(sorted(table.items()))))
-    return found
+        return found
 
 
-def _all(relation: Relation, seen: Iterable[Values]) -> bool:
-    return all(relation.holds(values) for values in seen)
+def is_parameter(name: str) -> bool:
+    return name.startswith("g:")
+
+
+def _rank(name: str) -> tuple[int, str]:
+    return "grp".index(name[0]), name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -25,16 +25,38 @@ Scans = Sequence[tuple[int, Mapping[str, Any]]]
 
 
 @dataclass(frozen=True)
-class Difference:
-    """Scans from power-up after which the outputs differ, or in which the program stops (`stopped`)."""
+class Run:
+    """What both are run on. retained: the first values of RETAIN variables by their paths; else their own."""
 
     parameters: Mapping[str, Any]
     scans: Scans
+    retained: Mapping[str, Any] = field(default_factory=dict)
+
+    def upto(self, number: int) -> Run:
+        """The first scans of it."""
+        return Run(self.parameters, self.scans[:number], self.retained)
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Scans from power-up after which the outputs differ, or in which the program stops (`stopped`)."""
+
+    run: Run
     expected: tuple[Mapping[str, Any], ...]
     given: tuple[Mapping[str, Any], ...]
     """Of the program; one fewer than `expected` where it stops."""
     found_by: str
     stopped: str = ""
+
+    @property
+    def parameters(self) -> Mapping[str, Any]:
+        """The parameters of the run."""
+        return self.run.parameters
+
+    @property
+    def scans(self) -> Scans:
+        """The scans of the run."""
+        return self.run.scans
 
     @property
     def differing(self) -> list[str]:
@@ -44,52 +66,84 @@ class Difference:
         return [name for name, value in self.given[-1].items() if value != self.expected[-1][name]]
 
 
+@dataclass(frozen=True)
+class Met:
+    """The memories of both after a scan without a difference."""
+
+    control: str
+    values: Values
+    """Every value, control variables of the program too."""
+    run: Run
+    number: int
+    """Scans of the run up to here."""
+
+    def pair(self, product: Product) -> Pair:
+        """The pair of control states."""
+        return self.control, tuple(int(self.values[f"p:{path}"]) for path in product.control)
+
+
 @dataclass
 class Replayed:
     """What was replayed without a difference, and the values that were met."""
 
-    cases: int
-    scans: int
-    samples: Mapping[Pair, Sequence[Values]]
+    cases: int = 0
+    scans: int = 0
+    met: list[Met] = field(default_factory=list)
+
+    def samples(self, product: Product) -> Mapping[Pair, Sequence[Values]]:
+        """Some of the values that were met in each pair."""
+        found: dict[Pair, list[Values]] = defaultdict(list)
+        for met in self.met:
+            kept = found[met.pair(product)]
+            if len(kept) < MOST_SAMPLES:
+                values = {name: met.values[name] for name in product.symbols}
+                if values not in kept:
+                    kept.append(values)
+        return found
+
+    def ways(self, product: Product) -> Mapping[Pair, Run]:
+        """The fewest scans that led to each pair."""
+        found: dict[Pair, Met] = {}
+        for met in self.met:
+            pair = met.pair(product)
+            if pair not in found or met.number < found[pair].number:
+                found[pair] = met
+        return {pair: met.run.upto(met.number) for pair, met in found.items()}
 
 
-def replay(
-    binding: Binding, wrap: bool, parameters: Mapping[str, Any], scans: Scans, found_by: str
-) -> Difference | None:
+def replay(binding: Binding, wrap: bool, run: Run, found_by: str) -> Difference | None:
     """Run both from power-up to the first difference; None: there is none."""
-    return next((found for found in _steps(binding, wrap, parameters, scans, found_by) if found), None)
+    return next((step for step in steps(binding, wrap, run, found_by) if isinstance(step, Difference)), None)
 
 
-def _steps(
-    binding: Binding,
-    wrap: bool,
-    parameters: Mapping[str, Any],
-    scans: Scans,
-    found_by: str,
-    product: Product | None = None,
-    samples: dict[Pair, list[Values]] | None = None,
-) -> Iterator[Difference | None]:
+def steps(binding: Binding, wrap: bool, run: Run, found_by: str = "") -> Iterator[Difference | Met]:
+    """Run both from power-up: what was met after each scan, up to the first difference."""
     reference, machine = binding.reference, Machine(binding.source, binding.unit, wrap)
-    state = reference.start(parameters)
+    for path, value in run.retained.items():
+        _put(machine.memory, path, value)
+    state = reference.start(run.parameters)
     expected: list[Mapping[str, Any]] = []
     given: list[Mapping[str, Any]] = []
-    constants = _parameters(binding, parameters)
-    for number, (dt_ms, inputs) in enumerate(scans, 1):
+    constants = _parameters(binding, run.parameters)
+    for number, (dt_ms, inputs) in enumerate(run.scans, 1):
         state, row = reference.scan(state, dt_ms, inputs)
         expected.append({name: row[name] for name in binding.compared})
         stopped = ""
         try:
-            given.append(
-                binding.plain_outputs(machine.scan(binding.plain_inputs(inputs, parameters, dt_ms), dt_ms))
-            )
+            own = machine.scan(binding.plain_inputs(inputs, run.parameters, dt_ms), dt_ms)
+            given.append(binding.plain_outputs(own))
         except Overflow as error:
             stopped = error.message
         if stopped or given[-1] != expected[-1]:
-            yield Difference(parameters, scans[:number], tuple(expected), tuple(given), found_by, stopped)
+            yield Difference(run.upto(number), tuple(expected), tuple(given), found_by, stopped)
             return
-        if product is not None and samples is not None:
-            _keep(product, samples, reference.plain_memory(state), memory_of(machine), constants)
-        yield None
+        control, memory = reference.plain_memory(state)
+        values = {
+            **{f"r:{place}": value for place, value in memory.items()},
+            **{f"p:{path}": value for path, value in memory_of(machine).items()},
+            **constants,
+        }
+        yield Met(control, values, run, number)
 
 
 def _parameters(binding: Binding, parameters: Mapping[str, Any]) -> Values:
@@ -101,26 +155,6 @@ def _parameters(binding: Binding, parameters: Mapping[str, Any]) -> Values:
         else:
             found[f"g:{name}"] = signal.values.index(value) if signal.type == "text" else value
     return found
-
-
-def _keep(
-    product: Product,
-    samples: dict[Pair, list[Values]],
-    of_reference: tuple[str, Mapping[str, Any]],
-    own: Mapping[str, Any],
-    constants: Values,
-) -> None:
-    pair = of_reference[0], tuple(int(own[path]) for path in product.control)
-    kept = samples[pair]
-    if len(kept) < MOST_SAMPLES:
-        values = {
-            **{f"r:{place}": value for place, value in of_reference[1].items()},
-            **{f"p:{path}": value for path, value in own.items()},
-            **constants,
-        }
-        values = {name: values[name] for name in product.symbols}
-        if values not in kept:
-            kept.append(values)
 
 
 def memory_of(machine: Machine) -> dict[str, Any]:
@@ -147,37 +181,45 @@ def _values(frame: Frame, above: str, now: int) -> Iterator[tuple[str, Any]]:
             yield path, value
 
 
-def published(product: Product, folder: Path) -> Difference | Replayed:
+def _put(frame: Frame, path: str, value: Any) -> None:
+    """Give a variable a first value."""
+    name, _, rest = path.partition(".")
+    if rest:
+        _put(frame.values[name], rest, value)
+    elif name.endswith("]"):
+        name, _, index = name.rstrip("]").partition("[")
+        frame.values[name][int(index) - getattr(frame.unit.variables[name].type, "low", 0)] = value
+    else:
+        frame.values[name] = value
+
+
+def published(binding: Binding, wrap: bool, folder: Path) -> Difference | Replayed:
     """Replay the published vectors whose parameters the binding allows.
 
-    The shortest difference of the first suite that has one, else what was replayed. Raises Unjudged for a
-    vector file that cannot be read.
+    The first difference, else what was replayed. Raises Unjudged for a vector file that cannot be read.
     """
-    binding, reference = product.binding, product.binding.reference
-    samples: dict[Pair, list[Values]] = defaultdict(list)
-    cases = scans = 0
+    reference, replayed = binding.reference, Replayed()
     for name in SUITES:
         path = folder / f"{name}.jsonl.gz"
         if not path.is_file():
             continue
-        found: list[Difference] = []
         try:
             for case in open_suite(path).cases():
-                given = reference.from_wire("parameters", case.params)
-                parameters = reference.with_defaults(given)
+                parameters = reference.with_defaults(reference.from_wire("parameters", case.params))
                 if case.requests or not case.reset or not binding.allows(parameters):
                     continue
                 longest = max(scan.dt_ms for scan in case.scans)
-                if scans + len(case.scans) > MOST_SCANS or longest > (binding.longest_scan or longest):
+                if replayed.scans + len(case.scans) > MOST_SCANS:
+                    continue
+                if longest > (binding.longest_scan or longest):
                     continue
                 taken = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
+                replayed.cases, replayed.scans = replayed.cases + 1, replayed.scans + len(taken)
                 where = f"published vector {case.id} of {name}"
-                cases, scans = cases + 1, scans + len(taken)
-                found += filter(
-                    None, _steps(binding, product.wrap, parameters, taken, where, product, samples)
-                )
+                for step in steps(binding, wrap, Run(parameters, taken), where):
+                    if isinstance(step, Difference):
+                        return step
+                    replayed.met.append(step)
         except KitUnjudged as error:
             raise Unjudged(str(error)) from None
-        if found:
-            return min(found, key=lambda difference: len(difference.scans))
-    return Replayed(cases, scans, samples)
+    return replayed

@@ -1,10 +1,11 @@
-"""The scans after which a program differs, looked for along the pairs from power-up."""
+"""The fewest scans from power-up to a state, looked for along the pairs."""
 
 from __future__ import annotations
 
 import time
 from collections import defaultdict, deque
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import z3
@@ -12,22 +13,47 @@ import z3
 from programs.product import LIMIT_MS, Owed, Pair, Product
 from programs.relations import plain
 
+Numbers = Mapping[str, Any]
+"""Plain values of a solver."""
 
-def way_to(product: Product, doubt: Owed, longest: int, seconds: float) -> list[dict[str, Any]] | None:
-    """The fewest scans from power-up to the doubt: inputs of each, parameters in the first.
 
-    None: not found. Raises TimeoutError: a question had no answer.
+@dataclass(frozen=True)
+class Way:
+    """Scans from power-up: the inputs of each (with `dt_ms`), the parameters, the first RETAIN values."""
+
+    scans: tuple[Numbers, ...]
+    parameters: Numbers
+    retained: Numbers
+
+
+def shortest(product: Product, doubts: Sequence[Owed], longest: int, seconds: float) -> Way | None:
+    """The fewest scans from power-up of which the last does not do what is owed; None: not found.
+
+    longest: most scans that are tried. seconds: of CPU. Raises TimeoutError: a question had no answer.
     """
-    distance = _distances(product, doubt.pair)
-    start, values = product.start
-    if start not in distance:
-        return None
-    until = time.monotonic() + seconds
-    for length in range(distance[start], longest):
-        found = _walk(product, doubt, start, values, length, distance, until)
+    until = time.process_time() + seconds
+    distances = {doubt.pair: _distances(product, doubt.pair) for doubt in doubts}
+    for length in range(longest):
+        for doubt in doubts:
+            walk = _Walk(product, distances[doubt.pair], z3.Not(doubt.formula), until)
+            found = walk.of(length)
+            if found is not None:
+                return found
+            if time.process_time() > until:
+                return None
+    return None
+
+
+def way_to(product: Product, pair: Pair, longest: int, seconds: float) -> Way | None:
+    """The fewest scans from power-up to a pair; None: not found. Raises TimeoutError."""
+    until = time.process_time() + seconds
+    distance = _distances(product, pair)
+    start, _ = product.start
+    for length in range(distance.get(start, longest), longest):
+        found = _Walk(product, distance, None, until).of(length)
         if found is not None:
             return found
-        if time.monotonic() > until:
+        if time.process_time() > until:
             return None
     return None
 
@@ -48,75 +74,81 @@ def _distances(product: Product, target: Pair) -> dict[Pair, int]:
     return found
 
 
-def _walk(
-    product: Product,
-    doubt: Owed,
-    start: Pair,
-    values: Mapping[str, Any],
-    length: int,
-    distance: Mapping[Pair, int],
-    until: float,
-) -> list[dict[str, Any]] | None:
-    solver = z3.Solver()
-    solver.set("timeout", LIMIT_MS)
-    solver.add(product.assumed)
-    inputs = product.binding.reference.input_terms
-    symbols = {**product.symbols}
+@dataclass
+class _Walk:
+    """All ways of one length. goal: what the inputs of one more scan must fulfil; None: no more scan."""
 
-    def fresh(number: int) -> dict[str, Any]:
-        return {name: z3.Const(f"{name}@{number}", term.sort()) for name, term in inputs.items()}
+    product: Product
+    distance: Mapping[Pair, int]
+    goal: z3.BoolRef | None
+    until: float
 
-    def go(pair: Pair, now: Mapping[str, Any], left: int, read: list[dict[str, Any]]) -> Any:
-        if time.monotonic() > until:
+    def of(self, length: int) -> Way | None:
+        start, _ = self.product.start
+        if self.distance.get(start, length + 1) > length:
             return None
-        scan_inputs = fresh(len(read))
+        self.solver = z3.SimpleSolver()
+        self.solver.set("timeout", LIMIT_MS)
+        self.solver.add(self.product.assumed, self.product.retained)
+        first = {name: self.product.at_start(name) for name in self.product.symbols}
+        return self._go(start, first, length, [])
+
+    def _go(self, pair: Pair, now: Numbers, left: int, read: list[dict[str, Any]]) -> Way | None:
+        if time.process_time() > self.until:
+            return None
+        if left == 0 and self.goal is None:
+            return self._found(read)
+        product, solver, inputs = self.product, self.solver, self.product.binding.reference.input_terms
+        given = {name: z3.Const(f"{name}@{len(read)}", term.sort()) for name, term in inputs.items()}
         where = [
-            *((term, now[name]) for name, term in symbols.items() if not name.startswith("g:")),
-            *((term, scan_inputs[name]) for name, term in inputs.items()),
+            *((term, now[name]) for name, term in product.symbols.items() if not name.startswith("g:")),
+            *((term, given[name]) for name, term in inputs.items()),
         ]
 
-        def put(term: Any) -> Any:
-            return z3.substitute(term, *where)
+        def put(terms: Iterable[Any]) -> list[Any]:
+            return [z3.substitute(term, *where) for term in terms]
 
+        both = product.both(pair)
         solver.push()
-        solver.add(put(z3.And(product.binding.reference.steps[pair[0]].premise, product.assumed)))
+        solver.add(*put([both.premise]))
+        found = None
         if left == 0:
-            solver.add(put(z3.Not(doubt.formula)))
-            found = [*read, scan_inputs] if product.ask(solver) == z3.sat else None
-            result = None
-            if found is not None:
-                model = solver.model()
-                result = [
-                    {name: plain(model.eval(term, model_completion=True)) for name, term in scan.items()}
-                    for scan in found
-                ]
-                result[0]["parameters"] = {
-                    name: plain(model.eval(term, model_completion=True))
-                    for name, term in product.binding.reference.parameter_terms.items()
-                }
-            solver.pop()
-            return result
-        after = product.terms_after(pair)
-        where_after = [put(after["control"]), *(put(after[f"control {path}"]) for path in product.control)]
-        for target in sorted(product.nodes[pair].successors):
-            if distance.get(target, length + 1) > left - 1:
-                continue
-            solver.push()
-            solver.add(product.at(where_after, target))
-            if product.ask(solver) == z3.sat:
-                then = {
-                    name: z3.Const(f"{name}@{len(read) + 1}", symbols[name].sort())
-                    for name in symbols
-                    if not name.startswith("g:")
-                }
-                solver.add(*[then[name] == put(after[name]) for name in then])
-                found = go(target, then, left - 1, [*read, scan_inputs])
+            solver.add(*put([self.goal]))
+            found = self._found([*read, given])
+        else:
+            after = dict(zip(both.after, put(both.after.values()), strict=True))
+            control = put(both.where)
+            for target in sorted(product.nodes[pair].successors):
+                if self.distance.get(target, left) > left - 1:
+                    continue
+                solver.push()
+                solver.add(product.at(control, target))
+                if product.ask(solver) is not None:
+                    then = {
+                        name: z3.Const(f"{name}@{len(read) + 1}", term.sort())
+                        for name, term in product.symbols.items()
+                        if not name.startswith("g:")
+                    }
+                    solver.add(*[then[name] == after[name] for name in then])
+                    found = self._go(target, then, left - 1, [*read, given])
+                solver.pop()
                 if found is not None:
-                    solver.pop()
-                    solver.pop()
-                    return found
-            solver.pop()
+                    break
         solver.pop()
-        return None
+        return found
 
-    return go(start, values, length, [])  # type: ignore[no-any-return]
+    def _found(self, read: Sequence[Mapping[str, Any]]) -> Way | None:
+        model = self.product.ask(self.solver)
+        if model is None:
+            return None
+
+        def numbers(terms: Mapping[str, Any]) -> Numbers:
+            return {name: plain(model.eval(term, model_completion=True)) for name, term in terms.items()}
+
+        kept = {
+            path: self.product.memory[path]
+            for path, slot in self.product.slots.items()
+            if slot.initial is None
+        }
+        parameters = self.product.binding.reference.parameter_terms
+        return Way(tuple(map(numbers, read)), numbers(parameters), numbers(kept))

@@ -30,6 +30,7 @@ from programs.terms import (
     in_range,
     merge,
     negated,
+    rotated,
     shifted,
     singles,
     standard_call,
@@ -376,8 +377,7 @@ class Context:
                 return shifted(node.name, term, z3.Int2BV(number, kind.width))
             by = self.types.constant(given[1])
             if node.name in ("ROL", "ROR"):
-                rotate = z3.RotateLeft if node.name == "ROL" else z3.RotateRight
-                return rotate(term, by % kind.width)
+                return rotated(term, by if node.name == "ROL" else -by)
             return term << by if node.name == "SHL" else z3.LShR(term, by)
         if "_TO_" in node.name:
             return self.converted(node, given[0], kind, env, here)

@@ -173,6 +173,16 @@ def truncated(left: Any, right: Any) -> Any:
     return z3.If((left < 0) == (right < 0), size, -size)
 
 
+def rotated(term: Any, by: int) -> Any:
+    """A bit string whose bits go round to the left."""
+    by %= term.size()
+    if by == 0:
+        return term
+    return z3.Concat(
+        z3.Extract(term.size() - by - 1, 0, term), z3.Extract(term.size() - 1, term.size() - by, term)
+    )
+
+
 def merge(env: Env, condition: z3.BoolRef, yes: Env, no: Env) -> None:
     for key in {**yes, **no}:
         if key in yes and key in no:

@@ -19,13 +19,23 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
         "which they differ. UNKNOWN (2): neither.",
     )
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="ST, SCL, PLCopen XML or AWL")
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="ST, SCL, PLCopen XML or AWL")
     parser.add_argument("--target", metavar="T", help="a published target, as in vectors/")
     parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
     parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
     parser.add_argument(
         "--wrap", action="store_true", help="integers wrap; without it they must not overflow"
     )
+    parser.add_argument(
+        "--certificate", type=Path, metavar="FOLDER", help="of a proof, write there what others can check"
+    )
+    parser.add_argument(
+        "--recheck", type=Path, metavar="FOLDER", help="check a certificate with z3 and cvc5; no search"
+    )
+    parser.add_argument(
+        "--vector", type=Path, metavar="FILE", help="keep the scans of a difference there (build/programs/)"
+    )
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdict as JUnit XML as well")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdict there as well")
     parser.add_argument(
         "--seconds", type=float, default=300, metavar="S", help="limit of the search for pairs (300)"
@@ -42,11 +52,22 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdict. Raises Unjudged."""
+    asked = [name for name in ("target", "property", "recheck") if getattr(args, name) is not None]
+    if len(asked) != 1 or (args.recheck is None) != bool(args.files):
+        raise Unjudged(
+            "prove-program: name the program's files and --target T, or --property TOML for a program of "
+            "your own; or a certificate alone, with --recheck"
+        )
+    beside = {
+        "recheck": ("binding", "unit", "wrap"),
+        "property": ("certificate", "vector", "junit"),
+    }
+    for name in beside.get(asked[0], ()):
+        if getattr(args, name):
+            raise Unjudged(f"--{name} goes with --target, not with --{asked[0]}")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
-    if (args.target is None) == (args.property is None):
-        raise Unjudged("prove-program: either --target T, or --property TOML for a program of your own")
     room = "command" if args.property is None else "property_command"
     return int(proofs_module(f"programs.{room}").run(args))

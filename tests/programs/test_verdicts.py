@@ -13,9 +13,11 @@ import z3
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from modeproof.kit.vectors import open_suite
 from programs.command import make, record_of, text_of
+from programs.fixpoint import Search
 from programs.product import Product
-from programs.replay import Difference, replay
+from programs.replay import Difference, Run, replay
 from programs.verdict import Verdict, judge
 
 ROOT = Path(__file__).parents[2]
@@ -58,9 +60,7 @@ def changed(folder: Path, old: str, new: str) -> Path:
 def replayed(found: Verdict) -> Difference:
     """The difference, after it came out once more."""
     assert found.difference is not None
-    again = replay(
-        found.product.binding, found.product.wrap, found.difference.parameters, found.difference.scans, ""
-    )
+    again = replay(found.product.binding, found.product.wrap, found.difference.run, "")
     assert again is not None and again.differing == found.difference.differing and again.differing
     assert len(again.scans) == len(found.difference.scans)
     return found.difference
@@ -155,7 +155,7 @@ def test_the_scan_time_may_be_an_input(tmp_path: Path) -> None:
 def fresh(path: Path = EDM) -> Product:
     """A product whose pairs were found."""
     product = make([path], "sf_edm")
-    product.fixpoint({}, time.monotonic() + 120, silent)
+    Search(product, {}, time.process_time() + 120, silent).run()
     return product
 
 
@@ -200,7 +200,7 @@ def test_memory_ranges_of_the_reference_are_shown(monkeypatch: pytest.MonkeyPatc
     reference = product.binding.reference
     narrow = z3.And(reference.memory_ranges, reference.memory_terms["elapsed_ms"] <= 1000)
     reference.__dict__["memory_ranges"] = narrow
-    product.fixpoint({}, time.monotonic() + 120, silent)
+    Search(product, {}, time.process_time() + 120, silent).run()
     assert any("memory stays within" in doubt.what for doubt in product.doubts())
 
 
@@ -212,13 +212,57 @@ def test_an_obligation_of_the_program_is_asked(tmp_path: Path) -> None:
 
 
 @pytest.mark.deep
-def test_a_retained_value_may_be_any(tmp_path: Path) -> None:
+def test_a_difference_of_a_first_retained_value_is_replayed(tmp_path: Path) -> None:
     path = changed(
         tmp_path, "missing : WORD;\nEND_VAR", "missing : WORD;\nEND_VAR\nVAR RETAIN kept : BOOL; END_VAR"
     )
     text = path.read_text("utf-8").replace("Ready := mode <> Inactive;", "Ready := mode <> Inactive OR kept;")
     path.write_text(text, "utf-8")
-    assert judged(path, "sf_edm").word == "UNKNOWN"
+    found = judged(path, "sf_edm")
+    assert found.word == "REFUTED" and replayed(found).run.retained == {"KEPT": True}
+    assert "  retained    KEPT=1" in "\n".join(text_of(found, 1.0))
+
+
+@pytest.mark.deep
+def test_a_difference_is_kept_as_a_vector(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, file = changed(tmp_path, *FAULTS["an output that stays on"]), tmp_path / "difference.jsonl"
+    junit = tmp_path / "out.xml"
+    given = ["prove-program", str(path), "--target", "sf_edm", "--vector", str(file), "--junit", str(junit)]
+    assert main(given) == 1
+    assert 'failures="1"' in junit.read_text("utf-8")
+    case = next(iter(open_suite(file).cases()))
+    assert len(case.scans) == 3
+    assert main(["conform", "sf_edm", "--builtin", "refimpl", "--vectors", str(file)]) == 0
+    assert "CONFORMS(exact, difference)" in capsys.readouterr().out
+    reference = make([path], "sf_edm").binding.reference
+    scans = [(scan.dt_ms, reference.from_wire("inputs", scan.inputs)) for scan in case.scans]
+    run = Run(reference.with_defaults(reference.from_wire("parameters", case.params)), scans)
+    again = replay(make([path], "sf_edm").binding, False, run, "")
+    assert again is not None and again.differing == ["S_EDM_Out"]
+
+
+@pytest.mark.deep
+def test_a_difference_has_the_fewest_scans(tmp_path: Path) -> None:
+    path = changed(tmp_path, *FAULTS["a code of another error"])
+    found = judged(path, "sf_edm")
+    assert found.difference is not None and len(found.difference.scans) == 4
+
+
+@pytest.mark.deep
+def test_flags_that_tell_states_apart_are_found(tmp_path: Path) -> None:
+    """A level that is latched in one of two words, by a flag that no state of the reference knows."""
+    path = tmp_path / "plc.st"
+    text = (EDM.parent / "plc.st").read_text("utf-8")
+    text = text.replace("turn : BYTE", "first, second : WORD; side : BOOL; turn : BYTE")
+    text = text.replace(
+        "IF (turn AND 16#01) <> 16#00 THEN ReadAuthorization := MW01; END_IF",
+        "IF (turn AND 16#01) <> 16#00 THEN side := NOT side; "
+        "IF side THEN first := MW01; ELSE second := MW01; END_IF END_IF\n"
+        "IF side THEN ReadAuthorization := first; ELSE ReadAuthorization := second; END_IF",
+    )
+    path.write_text(text, "utf-8")
+    found = judged(path, "plc")
+    assert found.word == "PROVED" and found.product.split == ("SIDE",)
 
 
 # ---------------------------------------------------------------- the binding

@@ -20,6 +20,7 @@ ORDER = (
     "findings",
     "faults",
     "conformance",
+    "programs",
     "strength",
     "proofs",
     "matrix",

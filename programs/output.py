@@ -1,0 +1,139 @@
+"""What `prove-program` leaves behind: a difference as a vector file, JUnit XML, and the record of a run."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from modeproof.ground.places import build
+from modeproof.kit.files import write_json
+from modeproof.kit.ids import case_id
+from modeproof.kit.vectors import KIND, VERSION
+from modeproof.registers import Signal
+from programs.bind import Binding
+from programs.replay import Difference
+
+UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What XML 1.0 cannot hold."""
+
+
+def record_path(place: Path, target: str, unit: str) -> Path:
+    """Where the record of the last run on a program lies."""
+    return build(place) / "programs" / f"{target}-{unit}.json"
+
+
+def write_record(place: Path, record: Mapping[str, Any], also: Path | None) -> None:
+    """Write the record of a run to its place, and to a file that was asked for. Raises Unjudged."""
+    path = record_path(place, record["target"], record["unit"])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_json(path, record)
+    if also is not None:
+        write_json(also, record)
+
+
+def junit_of(record: Mapping[str, Any], text: str) -> str:
+    """The verdict as JUnit XML: one test case; REFUTED is a failure, UNKNOWN an error."""
+    word = record["verdict"]
+    attributes = {
+        "name": record["target"],
+        "tests": "1",
+        "failures": str(int(word == "REFUTED")),
+        "errors": str(int(word == "UNKNOWN")),
+        "skipped": "0",
+        "time": str(record["cpu_seconds"]),
+    }
+    root = ElementTree.Element("testsuites", name="modeproof prove-program")
+    suite = ElementTree.SubElement(root, "testsuite", attributes)
+    case = ElementTree.SubElement(
+        suite, "testcase", classname=record["target"], name=record["unit"], time=str(record["cpu_seconds"])
+    )
+    properties = ElementTree.SubElement(case, "properties")
+    said = {
+        "verdict": word,
+        "compared": ", ".join(record["compared"]),
+        "left out": ", ".join(record["left_out"]),
+    }
+    for name, value in {**said, **record["sources"]}.items():
+        ElementTree.SubElement(properties, "property", name=_xml(name), value=_xml(value))
+    text = _xml(text)
+    if word == "PROVED":
+        ElementTree.SubElement(case, "system-out").text = text
+    else:
+        kind = "failure" if word == "REFUTED" else "error"
+        ElementTree.SubElement(case, kind, message=text.partition("\n")[0]).text = text
+    ElementTree.indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _xml(text: str) -> str:
+    return UNPRINTABLE.sub("?", text)
+
+
+# ---------------------------------------------------------------- a difference as a vector
+
+
+def vector_of(difference: Difference, binding: Binding) -> str:
+    """The scans of a difference with what the reference gives, as a vector file that the kit can run."""
+    reference, register = binding.reference, binding.reference.device.register
+    state = reference.start(difference.parameters)
+    params = reference.to_wire("parameters", difference.parameters)
+    rows: list[dict[str, Any]] = []
+    before = dict[str, Any](), dict[str, Any]()
+    for dt_ms, given in difference.scans:
+        state, sends = reference.scan(state, dt_ms, given)
+        now = reference.to_wire("inputs", given), reference.to_wire("outputs", sends)
+        going_in, out = (
+            {name: value for name, value in part.items() if name not in old or old[name] != value}
+            for part, old in zip(now, before, strict=True)
+        )
+        rows.append({"dt_ms": dt_ms, "in": going_in, "out": out, "step": 0, "to": 0, "column": 0})
+        before = now
+    header = {
+        "kind": KIND,
+        "version": VERSION,
+        "target": reference.device.name,
+        "document": reference.document,
+        "protocol": 1,
+        "suite": "difference",
+        "relations": ["exact"],
+        "shrink": "prefix",
+        "guarantees": f"one case, after which {binding.unit.name} differed from the reference",
+        "hypothesis": "none",
+        "does_not_show": "everything else",
+        "generator": "modeproof prove-program",
+        "cases": 1,
+        "scans": len(rows),
+        "inputs": {name: _declared(signal) for name, signal in register.inputs.items()},
+        "outputs": {name: _declared(signal) for name, signal in register.outputs.items()},
+        "parameters": {
+            name: {**_declared(signal), "default": signal.default}
+            for name, signal in register.parameters.items()
+        },
+        "steps": [{"name": "a scan of the difference", "clauses": [], "findings": [], "transitions": 0}],
+        "graphs": [{"run": "none", "params": params, "initial": 0, "views": ["not known"]}],
+    }
+    case = {
+        "id": case_id(reference.device.name, params, [(row["dt_ms"], row["in"]) for row in rows]),
+        "clauses": [],
+        "basis": "document",
+        "why": f"a difference of {binding.unit.name}, found by {difference.found_by}",
+        "params": params,
+        "graph": 0,
+        "scans": rows,
+    }
+    return "".join(json.dumps(row, ensure_ascii=False) + "\n" for row in (header, case))
+
+
+def _declared(signal: Signal) -> dict[str, Any]:
+    found: dict[str, Any] = {"type": signal.type}
+    if signal.values:
+        found["values"] = list(signal.values)
+    if signal.minimum is not None:
+        found["min"] = signal.minimum
+    if signal.maximum is not None:
+        found["max"] = signal.maximum
+    return found

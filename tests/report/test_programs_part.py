@@ -1,0 +1,91 @@
+"""Verdicts on programs of users in the report: read, and judged again by their own figures."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.report.whole import make_whole
+
+from modeproof.report.build import make
+from modeproof.report.parts import programs
+from modeproof.report.sources import DIFFERS, NOTE, gather
+
+PROVED: dict[str, Any] = {
+    "command": "prove-program",
+    "verdict": "PROVED",
+    "status": 0,
+    "unit": "Box",
+    "sources": {},
+    "target": "box",
+    "compared": ["open"],
+    "left_out": [],
+    "pairs": 3,
+    "queries": 40,
+    "missing": "",
+}
+REFUTED: dict[str, Any] = {
+    **PROVED,
+    "verdict": "REFUTED",
+    "status": 1,
+    "difference": {
+        "scans": [{"dt_ms": 0, "in": {}}],
+        "reference": [{"open": True}],
+        "program": [{"open": False}],
+        "differing": ["open"],
+        "stopped": "",
+    },
+}
+
+
+def kept(root: Path, record: Any) -> programs.Part:
+    """The part, with this record of a program in its place."""
+    path = root / "build" / "programs" / "box-Box.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps(record), "utf-8")
+    return programs.part(gather(root))
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """The box with all that a report needs."""
+    return make_whole(tmp_path)
+
+
+@pytest.mark.parametrize("record", [PROVED, REFUTED], ids=["proved", "refuted"])
+def test_a_verdict_on_a_program_is_a_row(record: dict[str, Any], root: Path) -> None:
+    found = kept(root, record)
+    assert found.troubles == ()
+    assert [(row["unit"], row["verdict"]) for row in found.data["rows"]] == [("Box", record["verdict"])]
+    assert "Programs of users" in make(root).html
+
+
+def test_a_tree_without_programs_has_an_empty_part(root: Path) -> None:
+    found = programs.part(gather(root))
+    assert found.data["rows"] == [] and found.troubles == ()
+
+
+@pytest.mark.parametrize(
+    ("record", "said"),
+    [
+        ({**PROVED, "status": 1}, "PROVED with status 1"),
+        ({**PROVED, "pairs": 0}, "0 pairs"),
+        ({**PROVED, "missing": "a pair"}, "its figures say: a pair"),
+        ({**PROVED, "compared": []}, "no output was compared"),
+        ({**REFUTED, "verdict": "PROVED", "status": 0}, "holds a difference"),
+        ({**PROVED, "verdict": "REFUTED", "status": 1}, "REFUTED without scans"),
+        ({**PROVED, "verdict": "UNKNOWN", "status": 2}, "nothing is missing"),
+        ({**REFUTED, "difference": {**REFUTED["difference"], "program": [{"open": True}]}}, "differ: none"),
+        ({"verdict": "PROVED"}, "cannot be judged"),
+    ],
+)
+def test_a_record_that_contradicts_itself_is_told(record: dict[str, Any], said: str, root: Path) -> None:
+    troubles = kept(root, record).troubles
+    assert [trouble.status for trouble in troubles] == [DIFFERS] and said in troubles[0].what
+
+
+def test_a_program_that_changed_since_is_noted(root: Path) -> None:
+    troubles = kept(root, {**PROVED, "sources": {"box.st": "0" * 64}}).troubles
+    assert [(trouble.status, trouble.items) for trouble in troubles] == [(NOTE, ("box.st",))]
