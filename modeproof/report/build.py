@@ -169,6 +169,7 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
             for name, data in part.attachments.items()
         },
         "files": dict(sorted(sources.files.items())),
+        "results": sources.results,
     }
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -202,6 +203,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
         json_sha256=json_sha256,
         digest=sources.digest,
         files=dict(sorted(sources.files.items())),
+        results=sources.results,
         folders=_folders(sources),
         payload=payload,
         styles=Markup("\n".join(_file(name) for name in STYLES)),
