@@ -174,8 +174,9 @@ def _add(commands: Any, name: str, module: str) -> None:
 
 
 def _complain(line: str) -> None:
+    erase = "\r\x1b[K" if sys.stderr.isatty() else ""  # a line of progress may stand there
     with contextlib.suppress(OSError):
-        print(f"modeproof: {line}", file=sys.stderr, flush=True)
+        print(f"{erase}modeproof: {line}", file=sys.stderr, flush=True)
 
 
 def _stop_tools() -> None:
