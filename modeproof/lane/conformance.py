@@ -110,6 +110,8 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
     from modeproof.kit.adapter import Adapter
     from modeproof.kit.errors import Unjudged as KitUnjudged
     from modeproof.kit.judge import Options, Plan, run_suite
+    from modeproof.kit.vectors import open_suite
+    from modeproof.registers.vector_files import published
     from modeproof.suites.build import ready_suite
     from modeproof.suites.command import OWN, own_files, own_record
 
@@ -117,7 +119,8 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
     evidence.discard(place, document, name)
     started = time.time()
     try:
-        suite = ready_suite(place, document, target, suite_name)
+        path = published(place, target, suite_name)
+        suite = ready_suite(place, document, target, suite_name) if path is None else open_suite(path)
         found = run_suite(
             suite,
             lambda: Adapter([sys.executable, str(place / OWN), target], ANSWER_SECONDS),

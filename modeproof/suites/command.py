@@ -172,7 +172,7 @@ def _suites(place: Path, document: str, device: Device, args: argparse.Namespace
     found = []
     greeted = False
     for name in names:
-        if path := published(place, args.target, name):
+        if (path := published(place, args.target, name)) is not None:
             found.append(open_suite(path))
             continue
         if not greeted:

@@ -18,6 +18,8 @@ from modeproof.suites import command
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
 
+LOGS = TREE / "examples" / "logs"
+
 
 @pytest.fixture
 def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
@@ -227,6 +229,19 @@ def test_the_version_names_the_tool_as_evidence_does(capsys: pytest.CaptureFixtu
         (["conform", "F-PLC", "--builtin", "refimpl"], "no target 'F-PLC'; did you mean 'fplc'? "),
         (["trace", "F-PLC", "x.csv"], "no log can be of 'F-PLC'; did you mean 'fplc'? "),
         (["conform", "fplc", "--adapter", "x", "--suite", "breif"], "did you mean 'brief'? "),
+        (
+            ["trace", "plc", f"{LOGS}/fplc_good.csv"],
+            f"those of fplc: modeproof trace fplc {LOGS}/fplc_good.csv",
+        ),
+        (
+            ["trace", "fplc", f"{LOGS}/key_flows_good.jsonl"],
+            "its names are those of key_flows: modeproof trace ",
+        ),
+        (
+            ["trace", "fplc", f"{LOGS}/fplc_good.csv", "--param", "T_ms=1"],
+            "no parameter 'T_ms'; did you mean",
+        ),
+        (["trace", "hmi", f"{LOGS}/none.csv"], "none.csv: No such file or directory"),
         (["vectors", "build", "F_PLC"], "no target 'F_PLC'; did you mean 'fplc'? "),
         ([], "the following arguments are required: COMMAND"),
         (["conform", "fplc"], "--help` says what is allowed"),

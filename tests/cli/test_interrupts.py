@@ -139,7 +139,7 @@ def test_an_interrupt_leaves_files_and_children_clean(copy: Path, command: list[
 
 
 @pytest.mark.deep
-def test_an_interrupt_leaves_the_terminal_at_the_begin_of_a_line(copy: Path) -> None:
+def test_an_interrupt_wipes_the_line_of_progress(copy: Path) -> None:
     ours, theirs = pty.openpty()
     words = ["prove", "--document", "edm"]
     running = subprocess.Popen(

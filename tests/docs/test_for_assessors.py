@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -11,6 +12,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from modeproof.lane.conformance import _over_protocol
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "for-assessors.md").read_text(encoding="utf-8")
@@ -21,6 +24,7 @@ PARTS = [part.strip() for cell in MINUTES for part in cell.split(",")]
 PROPERTY = re.findall(r"\(`(\w+)` of `(\w+)`", PAGE)
 RUNS = ("edm/MC_SF_EDM_arbitrary", "edm/NEG_SF_EDM_reset_by_level")
 THEOREM = "neither_inhibit_nor_error_goes_without_an_edge"
+ADAPTER = f"'{sys.executable} examples/adapters/refimpl_adapter.py sf_edm'"
 FAILS = "# VIOLATED ("
 """So the page marks the command that must end with 1."""
 
@@ -29,9 +33,18 @@ FAILS = "# VIOLATED ("
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A checkout with one document, what the page's claim rests on, and the report of that."""
     place = tmp_path_factory.mktemp("checkout")
-    for room in ("spec/edm", "spec/common", "refimpl", "proofs", "docs"):
+    for room in (
+        "spec/edm",
+        "spec/common",
+        "refimpl",
+        "proofs",
+        "docs",
+        "examples/adapters",
+        "vectors/sf_edm",
+    ):
         shutil.copytree(ROOT / room, place / room, ignore=shutil.ignore_patterns("__pycache__"))
     (place / "modeproof").symlink_to(ROOT / "modeproof")
+    shutil.copyfile(ROOT / "vectors/SHA256SUMS", place / "vectors/SHA256SUMS")
     programs = place / ".venv" / "bin"
     programs.mkdir(parents=True)
     start = f'#!/bin/sh\nexec "{sys.executable}" -m modeproof "$@"\n'
@@ -42,6 +55,7 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
         done(place, command)
     done(place, f".venv/bin/modeproof check {' '.join(RUNS)} --quiet")
     done(place, f".venv/bin/modeproof prove --document edm {THEOREM} --quiet")
+    assert _over_protocol(place, "edm", "sf_edm", "brief")["verdict"] == "CONFORMS"
     assert run(place, ".venv/bin/modeproof report").returncode == 2, "what the claim does not need is missing"
     return place
 
@@ -87,6 +101,20 @@ def test_every_command_of_the_page_does_what_the_page_says(built: Path) -> None:
 
 
 @pytest.mark.deep
+def test_each_run_repeated_as_the_report_says_is_reproduced(built: Path) -> None:
+    report = json.loads((built / "build/report/report.json").read_text(encoding="utf-8"))
+    rows = [row for of in report["parts"]["reproduce"]["documents"] for row in of["evidence"]]
+    assert {row["kind"] for row in rows} == {"tlc", "proof", "conformance"} and len(rows) == 4
+    for row in rows:
+        done(built, f".venv/bin/{row['command']}")
+    said = done(built, ".venv/bin/modeproof report --verify").splitlines()
+    assert said[-1].endswith("as it was made; 4 made again since: reproduced, same result")
+    done(built, ".venv/bin/modeproof conform sf_edm --suite brief --name mine --adapter " + ADAPTER)
+    assert (built / "build/yours/edm/mine_sf_edm_brief.json").is_file()
+    assert done(built, ".venv/bin/modeproof report --verify").splitlines() == said
+
+
+@pytest.mark.deep
 def test_the_report_has_every_part_of_the_ten_minutes(built: Path) -> None:
     page = (built / "build/report/report.html").read_text(encoding="utf-8")
     titles = re.findall(r'<h2 id="[\w-]+-title"><a [^>]*>([^<]+)</a>', page)
@@ -95,7 +123,7 @@ def test_the_report_has_every_part_of_the_ten_minutes(built: Path) -> None:
     ]
 
 
-def test_the_claim_of_the_page_is_the_one_that_its_commands_judge() -> None:
+def test_the_commands_of_the_page_judge_its_claim() -> None:
     ((name, document),) = PROPERTY
     from modeproof.registers.load import load_document
 
