@@ -55,6 +55,13 @@ def test_a_property_stands_with_verdict_strength_and_count(root: Path) -> None:
     assert one["environments"][0]["good"].value == one["environments"][0]["of"].value == 1
 
 
+def test_a_reading_that_fails_as_predicted_is_not_called_violated(root: Path) -> None:
+    page = make(root).html
+    assert "the other reading fails, as predicted</span>" in page and "✓</span> VIOLATED" not in page
+    put(root, "NEG_Box_eager", verdict="HOLDS", as_expected=False, reason="nothing fails")
+    assert "the other reading fails, as predicted</span>" not in make(root).html
+
+
 def test_kinds_of_evidence_are_counted_apart(root: Path) -> None:
     put_graph(root, 4, 4)
     assert counts(root) == {
