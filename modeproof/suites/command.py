@@ -122,6 +122,10 @@ def _write_yours(
             f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
             f"--suite {suite.name}",
             *([f"--relation {args.relation}"] if manner else []),
+            *([f"--latency {args.latency}"] if args.latency is not None else []),
+            *([f"--hold {args.hold}"] if args.hold else []),
+            *([f"--slow {args.slow}"] if args.slow != 1 else []),
+            *(["--codes"] if args.codes else []),
         ]
     )
     id = "_".join([name[:60], args.target, suite.name, *manner])
