@@ -18,26 +18,33 @@ from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import Any, NoReturn
 
-from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
+from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged, suggestion
 from modeproof.ground.places import root
 
-COMMANDS = {
-    "verify": "modeproof.lane.verify",
-    "check": "modeproof.tlc.command",
-    "prove": "modeproof.lane.prove",
-    "prove-program": "modeproof.lane.prove_program",
-    "conform": "modeproof.suites.command",
-    "vectors": "modeproof.suites.vectors_command",
-    "map": "modeproof.suites.map_command",
-    "trace": "modeproof.trace.command",
-    "registers": "modeproof.registers.command",
-    "render": "modeproof.lane.render",
-    "walks": "modeproof.lane.walks",
-    "report": "modeproof.report.command",
-    "mutate": "modeproof.strength.command",
-    "doctor": "modeproof.lane.doctor",
+GROUPS = {
+    "commands": {
+        "verify": "modeproof.lane.verify",
+        "conform": "modeproof.suites.command",
+        "prove-program": "modeproof.lane.prove_program",
+        "trace": "modeproof.trace.command",
+        "report": "modeproof.report.command",
+        "doctor": "modeproof.lane.doctor",
+    },
+    "commands for maintainers": {
+        "check": "modeproof.tlc.command",
+        "prove": "modeproof.lane.prove",
+        "registers": "modeproof.registers.command",
+        "render": "modeproof.lane.render",
+        "walks": "modeproof.lane.walks",
+        "vectors": "modeproof.suites.vectors_command",
+        "map": "modeproof.suites.map_command",
+        "mutate": "modeproof.strength.command",
+    },
 }
-"""For each command the module that has its `add_parser`; only the module of the command given is imported."""
+"""The commands as the help groups them, each with the module that has its `add_parser`."""
+
+COMMANDS = {name: module for group in GROUPS.values() for name, module in group.items()}
+"""The same without groups; only the module of the command given is imported."""
 
 JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report", "mutate")
 """Commands that end in a verdict: their first line names the tree that it is about."""
@@ -92,20 +99,63 @@ def main(argv: list[str] | None = None) -> int:
     return EXIT_UNJUDGED
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser whose refusal is one line, like any other of ours."""
+
+    def error(self, message: str) -> NoReturn:
+        raise Unjudged(f"{message} (`{self.prog} --help` says what is allowed)")
+
+
+class _Grouped(argparse.HelpFormatter):
+    """Lists the commands by their groups."""
+
+    def _format_action(self, action: argparse.Action) -> str:
+        shown = super()._format_action
+        if not isinstance(action, argparse._SubParsersAction):
+            return shown(action)
+        listed = {choice.dest: choice for choice in action._choices_actions}
+        text = ""
+        for title, names in GROUPS.items():
+            text += f"\n{title}:\n" if text else ""
+            text += "".join(shown(listed[name]) for name in names if name in listed)
+        return text
+
+
 def make_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
-    """The command that the arguments name, with its options; all commands where they name none."""
-    parser = argparse.ArgumentParser(
+    """The command that the arguments name, with its options; all commands where they name none.
+
+    Raises Unjudged for a word that is no command.
+    """
+    command = next((word for word in argv if not word.startswith("-")), None)
+    if command is not None and command not in COMMANDS:
+        raise Unjudged(f"no command {command!r}; {suggestion(command, COMMANDS)}")
+    parser = _Parser(
         prog="modeproof",
         description="Checks published safety procedures by TLA+ models and proofs. It certifies nothing.",
         epilog="exit status: 0 as expected, 1 not as expected, 2 could not be judged",
+        formatter_class=_Grouped,
     )
     parser.add_argument("--debug", action="store_true", help="show where an error comes from")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-
+    parser.add_argument("--version", action=_Version, nargs=0, help="show version and SHA-256 of the tool")
+    commands = parser.add_subparsers(
+        dest="command", required=True, metavar="COMMAND", title=next(iter(GROUPS))
+    )
     for name, module in COMMANDS.items():
-        if name in argv or not any(one in COMMANDS for one in argv):
+        if command in (name, None):
             _add(commands, name, module)
     return parser
+
+
+class _Version(argparse.Action):
+    """Ends with a line that names the tool as evidence does."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *given: Any) -> NoReturn:
+        from modeproof.ground.evidence import own_tools
+
+        tools = own_tools()
+        own, python = tools["modeproof"], tools["python"]
+        print(f"modeproof {own['version']}, sha256 {str(own['sha256'])[:12]}, Python {python['version']}")
+        parser.exit()
 
 
 def _add(commands: Any, name: str, module: str) -> None:
@@ -124,8 +174,9 @@ def _add(commands: Any, name: str, module: str) -> None:
 
 
 def _complain(line: str) -> None:
+    erase = "\r\x1b[K" if sys.stderr.isatty() else ""  # a line of progress may stand there
     with contextlib.suppress(OSError):
-        print(f"modeproof: {line}", file=sys.stderr, flush=True)
+        print(f"{erase}modeproof: {line}", file=sys.stderr, flush=True)
 
 
 def _stop_tools() -> None:

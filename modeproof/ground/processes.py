@@ -45,7 +45,7 @@ def in_processes(
     def take(number: int, result: T) -> None:
         results[number] = result
         done(result)
-        progress.update(name, f"{len(results)} of {len(tasks)}")
+        progress.update(name, f"{len(results)} of {len(tasks)}", len(results) / len(tasks))
 
     if len(tasks) < 2 or cores() < 2:
         try:

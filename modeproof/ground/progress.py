@@ -9,6 +9,8 @@ import threading
 import time
 from typing import TextIO
 
+from modeproof.kit.text import left
+
 QUIET_SECONDS = 10.0
 """Elsewhere than on a terminal a running task says a word this often."""
 
@@ -21,6 +23,8 @@ class Progress:
         self._quiet = quiet
         self._terminal = self._stream.isatty()
         self._tasks: dict[str, tuple[float, str]] = {}
+        self._marks: dict[str, tuple[float, float]] = {}
+        """When each task first said how much of it was done, and how much: starting up takes a while."""
         self._last = time.monotonic()
         self._width = 0
         self._guard = threading.Lock()
@@ -38,17 +42,21 @@ class Progress:
             self._tasks[name] = (time.monotonic(), "")
             self._show()
 
-    def update(self, name: str, text: str) -> None:
-        """A running task has something to say, such as counts so far."""
+    def update(self, name: str, text: str, share: float = 0.0) -> None:
+        """A running task has something to say, such as counts so far, and how much of it is done (0 to 1)."""
         with self._guard:
-            began, _ = self._tasks.get(name, (time.monotonic(), ""))
-            self._tasks[name] = (began, text)
+            now = time.monotonic()
+            began, _ = self._tasks.get(name, (now, ""))
+            since, done = self._marks.setdefault(name, (now, share)) if share else (now, 0.0)
+            rest = left(now - since, (share - done) / (1 - done)) if done < share < 1 else ""
+            self._tasks[name] = (began, text + rest)
             self._show()
 
     def end(self, name: str) -> None:
         """A task is over."""
         with self._guard:
             self._tasks.pop(name, None)
+            self._marks.pop(name, None)
             self._done += 1
             self._wipe()
 

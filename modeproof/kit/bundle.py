@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from modeproof.kit.errors import Unjudged
+from modeproof.kit.errors import Unjudged, suggestion
 from modeproof.kit.vectors import Suite, open_suite
 
 FOLDER = "vectors"
@@ -46,7 +46,7 @@ class Bundle:
         contents = self.contents()
         targets = contents["targets"]
         if target not in targets:
-            raise Unjudged(f"no target {target!r} inside; there are: {', '.join(targets)}")
+            raise Unjudged(f"no target {target!r} inside; {suggestion(target, targets)}")
         rows = targets[target]
         chosen = []
         for name, row in rows.items():
@@ -56,7 +56,7 @@ class Bundle:
         missing = [name for name in names if name != FAST and name not in rows]
         if missing:
             left_out = contents.get("left_out", {}).get(target, {}).get(missing[0], "")
-            why = f": {left_out}" if left_out else f"; there are: {', '.join(rows)}"
+            why = f": {left_out}" if left_out else f"; {suggestion(missing[0], [FAST, *rows])}"
             raise Unjudged(f"suite {missing[0]} is not inside{why}")
         if not chosen:
             raise Unjudged(f"no suite of {target} is for relation {relation}")

@@ -8,7 +8,8 @@ import shlex
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+import time
+from collections.abc import Callable, Container, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from modeproof.kit.bundle import Bundle
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import EXIT, Difference, Options, Plan, Verdict, run_suite
 from modeproof.kit.machine import with_parameters
+from modeproof.kit.relation import read_hello
 from modeproof.kit.resume import Resume, identity
 from modeproof.kit.text import (
     as_junit,
@@ -26,6 +28,7 @@ from modeproof.kit.text import (
     difference_lines,
     joined,
     joint_word,
+    left,
     say,
     together,
     write_json,
@@ -117,6 +120,10 @@ def add_parser(
     parser.add_argument(
         "--resume", type=Path, metavar="FILE", help="note there what passed, and go on from there"
     )
+    if run is not None:
+        parser.add_argument(
+            "--name", metavar="NAME", help="the name of your run in the report (default: as the program says)"
+        )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON as well")
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the result as JUnit XML as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
@@ -160,6 +167,20 @@ def run_kit(args: argparse.Namespace) -> int:
         return EXIT_UNJUDGED
 
 
+def greet(args: argparse.Namespace, outputs: Container[str]) -> None:
+    """Start the adapter, say hello and end it, before anything slow begins; without one do nothing.
+
+    `outputs` are those of the target. Raises Unjudged as a run would.
+    """
+    if args.adapter is None:
+        return
+    with Adapter(args.adapter, args.timeout) as adapter:
+        try:
+            read_hello(adapter.hello(args.target), outputs, args.relation)
+        except Unjudged as error:
+            raise Unjudged(f"hello: {error}") from None
+
+
 def open_vectors(args: argparse.Namespace) -> Suite:
     """The file that --vectors names. Raises Unjudged where it is of another target."""
     suite = open_suite(args.vectors)
@@ -178,6 +199,7 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
     if args.resume is not None and (args.case is not None or len(suites) > 1):
         raise Unjudged("--resume is for one suite at a time, and all its cases")
     if args.param:
+        greet(args, suites[0].outputs)
         suites = [with_parameters(suite, args.param, args.relation) for suite in suites]
     verdicts: list[Verdict] = []
     with _ended_alike():
@@ -245,11 +267,14 @@ def _judge(args: argparse.Namespace, suite: Suite) -> Verdict:
             with contextlib.suppress(Unjudged):  # nobody need read it
                 say(text, sys.stderr)
 
+    began = time.monotonic()
+
     def progress(done: int, total: int) -> None:
-        tell(f"{suite.target} {suite.name}: {done:,} of {total:,} scans")
+        rest = left(time.monotonic() - began, done / total if total else 0)
+        tell(f"{suite.target} {suite.name}: {done:,} of {total:,} scans{rest}")
 
     def first(found: Difference) -> None:
-        tell(joined(["first difference:", *difference_lines(found, suite)[:12]]))
+        tell(joined(["first difference:", *difference_lines(found, suite, way=False)]))
 
     verdict = run_suite(
         suite,

@@ -1,9 +1,14 @@
-"""The one error of the kit, and foreign text made harmless."""
+"""The one error of the kit, foreign text made harmless, and what somebody may have meant."""
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Iterable
+
 LONGEST = 600
 """Characters of a message, and of a piece of foreign text in it."""
+MANY = 40
+"""More names than these are not listed in one line, if one of them is close."""
 
 
 class Unjudged(Exception):
@@ -25,3 +30,21 @@ def plain(text: object, longest: int = LONGEST) -> str:
     if line.isprintable():
         return line
     return "".join(one if one.isprintable() else one.encode("unicode_escape").decode("ascii") for one in line)
+
+
+def suggestion(name: str, allowed: Iterable[str]) -> str:
+    """The words `did you mean ..; allowed: ..` for a name that is not allowed.
+
+    Capitals, hyphens and other marks make no difference to what is close.
+    """
+    names = list(dict.fromkeys(allowed))
+    bare = {_bare(known): known for known in reversed(names)}
+    close = difflib.get_close_matches(_bare(name), bare, n=1, cutoff=0.5)
+    mean = f"did you mean {bare[close[0]]!r}? " if close else ""
+    if mean and len(names) > MANY:
+        return f"{mean}{len(names):,} names are allowed"
+    return f"{mean}allowed: {', '.join(names)}" if names else "there are none"
+
+
+def _bare(name: str) -> str:
+    return "".join(char for char in name.casefold() if char.isalnum())

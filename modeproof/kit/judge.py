@@ -16,7 +16,7 @@ from modeproof.kit.adapter import Program
 from modeproof.kit.builtin import reference
 from modeproof.kit.contract import Watch
 from modeproof.kit.diagnosis import timing
-from modeproof.kit.errors import Unjudged
+from modeproof.kit.errors import Unjudged, suggestion
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
 from modeproof.kit.vectors import EXACT, MONITOR, Case, Scan, Suite
@@ -110,16 +110,19 @@ class _Run:
 
     def _cases(self) -> Iterator[tuple[int, Case]]:
         plan, found = self.plan, False
+        ids: list[str] = []
         for number, case in enumerate(self.suite.cases()):
             if plan.only is not None:
                 if case.id != plan.only:
+                    ids.append(case.id)
                     continue
                 found = True
                 if plan.part is not None:
                     case = cut(self.suite, case, read_part(plan.part, case))
             yield number, case
         if plan.only is not None and not found:
-            raise Unjudged(f"no case with the id {plan.only}")
+            where = f"in the suite {self.suite.name} of {self.suite.target}"
+            raise Unjudged(f"no case with the id {plan.only} {where}; {suggestion(plan.only, ids)}")
 
     def _next(self) -> tuple[int, Case] | None:
         with self.lock:
@@ -390,7 +393,7 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
 
     whole = Part(tuple(range(found.scan)))
     if found.step == PROTOCOL:
-        return _with(suite, found, whole, True)
+        return _with(suite, found, whole, None)
     if plan.part is not None or plan.effort <= 0:
         return _with(suite, found, whole, None)
     anything = plan.options.relation == MONITOR

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import marshal
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -92,7 +92,7 @@ class Session:
                 f"suite {suite.name} is for relation {' or '.join(suite.relations)}, not {options.relation}"
             )
         self._where: tuple[Any, ...] = ("hello",)
-        self.hello = read_hello(program.hello(suite.target), suite, options.relation)
+        self.hello = read_hello(program.hello(suite.target), suite.outputs, options.relation)
         self.latency = self.hello.latency if options.latency is None else options.latency
         if not 0 <= self.latency <= MOST_LATENCY:
             raise Unjudged(f"a latency of 0 to {MOST_LATENCY} scans expected, not {self.latency}")
@@ -121,6 +121,7 @@ class Session:
         self._counting = _Counting(self)
         self._at = 0
         self._adapter = program if isinstance(program, Adapter) else None
+        self._where = ()
 
     @property
     def place(self) -> str:
@@ -407,8 +408,10 @@ def _differ(got: Mapping[str, Any], wanted: Mapping[str, Any], names: Sequence[s
     return any(got[name] != wanted[name] for name in names)
 
 
-def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -> Hello:
-    """Check the answer to hello. Raises Unjudged when the relation is not possible with it."""
+def read_hello(answer: Mapping[str, Any], outputs: Container[str], relation: str = EXACT) -> Hello:
+    """Check the answer to hello of a target with these outputs. Raises Unjudged when the relation is not
+    possible with it.
+    """
     if not isinstance(answer, Mapping) or answer.get("ok") is not True:
         raise Unjudged(f"hello was answered with {shown(answer, 200)}")
     offered = answer.get("relations", [EXACT])
@@ -424,7 +427,7 @@ def read_hello(answer: Mapping[str, Any], suite: Suite, relation: str = EXACT) -
         raise Unjudged(f"relation {relation} allows no latency, the adapter has {shown(latency)} scans")
     unobserved = answer.get("unobserved", [])
     if not isinstance(unobserved, list) or not all(
-        isinstance(name, str) and name in suite.outputs for name in unobserved
+        isinstance(name, str) and name in outputs for name in unobserved
     ):
         raise Unjudged(f"unobserved must list outputs of the target, got {shown(unobserved)}")
     lists = answer.get("scans", False)

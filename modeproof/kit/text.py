@@ -40,6 +40,14 @@ def say(text: str, stream: IO[str] | None = None) -> None:
         raise Unjudged(f"the result cannot be printed: {error}") from None
 
 
+def left(seconds: float, share: float) -> str:
+    """How long the rest takes if `share` (0 to 1) took so many seconds; nothing while nobody can say."""
+    if seconds < 2 or not 0.02 <= share < 1:
+        return ""
+    rest = seconds * (1 - share) / share
+    return f", about {rest:.0f} s left" if rest < 100 else f", about {rest / 60:.0f} min left"
+
+
 def as_text(verdict: Verdict, again: str = "", suite: Suite | None = None, last: bool = True) -> str:
     """What is printed at the end; `again` is the command that runs the shortest case again.
 
@@ -163,8 +171,11 @@ def _coverage(verdict: Verdict, last: bool) -> list[str]:
     return lines
 
 
-def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]:
-    """One difference in words: where, what, by which clause and decision, and the shortest way there."""
+def difference_lines(found: Difference, suite: Suite | None = None, way: bool = True) -> list[str]:
+    """One difference in words: where, what, by which clause and decision, and the shortest way there.
+
+    Without `way` the last is left out: nothing was run again as yet.
+    """
     clauses = ", ".join(found.clauses) or "none cited"
     lines = [
         f"case {found.case.id}, scan {found.scan} of {len(found.case.scans)}",
@@ -190,8 +201,7 @@ def difference_lines(found: Difference, suite: Suite | None = None) -> list[str]
     lines += ["", f"{'output':<20} {'expected':<20} got"]
     for name, wanted in found.expected.items():
         lines.append(f"{name:<20} {json.dumps(wanted):<20} {json.dumps(found.got.get(name, found.got))}")
-    lines += ["", *_way(found, suite)]
-    return lines
+    return [*lines, "", *_way(found, suite)] if way else lines
 
 
 def _why(found: Difference, suite: Suite | None) -> str:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +20,6 @@ from modeproof.ground.progress import Progress
 from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]
-ADAPTER = "examples/adapters/refimpl_adapter.py"
-SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
-"""The suite that runs over the adapter protocol, by lane."""
 ANSWER_SECONDS = 30.0
 
 
@@ -44,6 +40,8 @@ def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task
     """What `compare_reference` has to do, each task by itself, what takes longest first; by document, why
     there is nothing to do.
     """
+    from modeproof.suites.command import OWN_SUITES
+
     troubles: dict[str, str] = {}
     tasks: list[tuple[int, Task[Record]]] = []
     for document in names:
@@ -56,9 +54,9 @@ def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task
             troubles[document] = error.message
             continue
         for target in targets:
-            task: Task[Record] = (_over_protocol, (place, document, target, SUITES[lane]))
+            task: Task[Record] = (_over_protocol, (place, document, target, OWN_SUITES[lane]))
             tasks.append((max(_edges(run) for run in runs if _is_of(run, target)), task))
-        tasks += [(_edges(run), (_one, (place, run, lane))) for run in runs]
+        tasks += [(_edges(run), (_one, (place, run))) for run in runs]
     tasks.sort(key=lambda task: -task[0])
     return [task for _, task in tasks], troubles
 
@@ -78,67 +76,20 @@ def say(record: Record, progress: Progress) -> None:
     progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")
 
 
-def _one(place: Path, run: Run, lane: str) -> dict[str, Any]:
-    from modeproof.graph.device import compared_files
+def _one(place: Path, run: Run) -> dict[str, Any]:
     from modeproof.graph.export import export_file
+    from modeproof.suites.command import compared, comparison_record
 
-    assert run.graph is not None
-    name = f"{REFERENCE}_{run.id}"
-    evidence.discard(place, run.document, name)
+    evidence.discard(place, run.document, f"{REFERENCE}_{run.id}")
     export_file(place, run.document, run.id).unlink(missing_ok=True)
     started = time.time()
-    verdict, reason, strength = "UNJUDGED", "", ""
-    result: dict[str, Any] = {"run": run.id, "device": run.graph.device, "implementation": REFERENCE}
     try:
-        found, drawn, exported = _compare(place, run)
-        result["chart"] = drawn
-        verdict = found.verdict
-        strength = (
-            f"{found.states:,} states, {found.replayed:,} of {found.transitions:,} transitions, "
-            f"{sum(done == total for done, total in found.covered.values())} of {len(found.covered)} steps "
-            "in full, both ways, in process"
-        )
-        result |= asdict(found) | {"artefacts": evidence.hashes(place, [exported])}
-        reason = "" if found.equal else found.summary()
-        if found.differences:
-            reason = f"{reason}; first: {found.differences[0]}"
+        found, result = compared(place, run, REFERENCE)
+        record = comparison_record(place, run, REFERENCE, started, found, result)
     except Unjudged as error:
-        reason = error.message
-    good = verdict == "EQUAL"
-    record = evidence.make(
-        kind="conformance",
-        id=name,
-        document=run.document,
-        verdict=verdict,
-        expected="EQUAL",
-        as_expected=good,
-        environment=run.environment,
-        strength=strength,
-        command=f"modeproof verify --document {run.document} --lane {lane}",
-        started=started,
-        seconds=time.time() - started,
-        inputs=evidence.hashes(place, compared_files(place, run, REFERENCE)),
-        result=result,
-        reason=reason,
-    )
+        record = comparison_record(place, run, REFERENCE, started, None, {}, error.message)
     evidence.write(place, record)
     return record
-
-
-def _compare(place: Path, run: Run) -> tuple[Any, Record | None, Path]:
-    """The comparison, the state chart of the graph that was compared, and the export of that graph."""
-    from modeproof.graph.chart import chart
-    from modeproof.graph.device import load_device_graph
-    from modeproof.graph.equal import compare
-    from modeproof.graph.export import write_export
-    from modeproof.graph.implementation import load_implementation
-
-    assert run.graph is not None
-    graph = load_device_graph(place, run)
-    exported = write_export(place, run, graph)
-    code = load_implementation(REFERENCE, run.document, run.graph.device)
-    drawn = chart(graph)
-    return compare(graph, code), None if drawn is None else asdict(drawn), exported
 
 
 def _targets(place: Path, document: str, lane: str) -> list[str]:
@@ -157,55 +108,39 @@ def _targets(place: Path, document: str, lane: str) -> list[str]:
 
 def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> dict[str, Any]:
     from modeproof.kit.adapter import Adapter
-    from modeproof.kit.command import quoted
     from modeproof.kit.errors import Unjudged as KitUnjudged
     from modeproof.kit.judge import Options, Plan, run_suite
-    from modeproof.kit.text import as_record
+    from modeproof.kit.vectors import open_suite
+    from modeproof.registers.vector_files import published
     from modeproof.suites.build import ready_suite
+    from modeproof.suites.command import OWN, own_files, own_record
 
     name = f"adapter_{target}_{suite_name}"
     evidence.discard(place, document, name)
     started = time.time()
-    script = place / ADAPTER
-    adapter = quoted(f"python {ADAPTER} {target}")
-    verdict, reason, strength = "UNJUDGED", "", f"suite {suite_name} over the adapter protocol"
-    inputs: dict[str, str] = {}
-    result: dict[str, Any] = {"device": target, "implementation": REFERENCE}
     try:
-        inputs = evidence.hashes(place, [script, *sorted((place / REFERENCE / document).glob("*.py"))])
-        suite = ready_suite(place, document, target, suite_name)
-        inputs |= evidence.hashes(place, [suite.path])
+        path = published(place, target, suite_name)
+        suite = ready_suite(place, document, target, suite_name) if path is None else open_suite(path)
         found = run_suite(
             suite,
-            lambda: Adapter([sys.executable, str(script), target], ANSWER_SECONDS),
+            lambda: Adapter([sys.executable, str(place / OWN), target], ANSWER_SECONDS),
             plan=Plan(Options(codes=True)),  # of our own code every output
         )
-        verdict, reason = found.word, found.reason
-        done, total = (sum(counts) for counts in zip(*found.covered.values(), strict=True))
-        strength = (
-            f"relation {found.relation}, suite {found.suite} over the adapter protocol: "
-            f"{found.scans:,} scans, {done:,} of {total:,} merged transitions"
-        )
-        result |= {**as_record(found), "says": suite.says}
-        if found.word == "DIFFERS" and not reason:
-            reason = f"the program differs: {found.difference}"
+        record = own_record(place, document, suite, found, started, own_files(place, document))
     except (Unjudged, KitUnjudged) as error:
-        reason = str(error)
-    good = verdict == "CONFORMS"
-    record = evidence.make(
-        kind="conformance",
-        id=name,
-        document=document,
-        verdict=verdict,
-        expected="CONFORMS",
-        as_expected=good,
-        strength=strength,
-        command=f"modeproof conform {target} --adapter {adapter} --suite {suite_name}",
-        started=started,
-        seconds=time.time() - started,
-        inputs=inputs,
-        result=result,
-        reason="" if good else reason or "the program could not be judged",
-    )
+        record = evidence.make(
+            kind="conformance",
+            id=name,
+            document=document,
+            verdict="UNJUDGED",
+            expected="CONFORMS",
+            as_expected=False,
+            strength=f"suite {suite_name} over the adapter protocol",
+            command=f"modeproof verify --document {document}",
+            started=started,
+            seconds=time.time() - started,
+            result={"device": target, "implementation": REFERENCE},
+            reason=str(error) or "the program could not be judged",
+        )
     evidence.write(place, record)
     return record

@@ -1,4 +1,4 @@
-"""The command `modeproof registers`: judge the registers, print or write the matrix, render tables."""
+"""The command `modeproof registers`: judge the registers, print or write the matrix."""
 
 from __future__ import annotations
 

@@ -5,6 +5,7 @@ A document without the file has no rendered traces.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -74,6 +75,20 @@ class Traces(Entry, frozen=True, kw_only=True):
 def has_replay(root: Path, name: str) -> bool:
     """Whether the document has the register."""
     return (root / "spec" / name / "replay.toml").is_file()
+
+
+def meanings(
+    traces: Traces, tables: Mapping[str, Sequence[Sequence[int]]]
+) -> dict[str, tuple[str, dict[int, int]]]:
+    """For each signal whose words mean something: what a number is called, and the number of each word.
+
+    `tables` holds, for each table, pairs of number and word.
+    """
+    return {
+        signal: (words.says, {word: number for number, word in tables.get(words.table, ())})
+        for words in traces.words
+        for signal in words.signals
+    }
 
 
 def load_replay(root: Path, name: str) -> Traces:

@@ -168,6 +168,7 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
             for name, data in part.attachments.items()
         },
         "files": dict(sorted(sources.files.items())),
+        "results": sources.results,
     }
     return json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -201,6 +202,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
         json_sha256=json_sha256,
         digest=sources.digest,
         files=dict(sorted(sources.files.items())),
+        results=sources.results,
         folders=_folders(sources),
         payload=payload,
         styles=Markup(_file("report.css")),

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from modeproof.registers.replay import Traces
+from modeproof.registers.replay import Traces, meanings
 from modeproof.registers.rows import Interface
 
 NONE = "none"
@@ -30,11 +30,7 @@ class Cells:
         self, interface: Interface, traces: Traces, tables: Mapping[str, Sequence[Sequence[int]]]
     ) -> None:
         self.interface, self.traces = interface, traces
-        self._meaning = {
-            signal: (words.says, {word: number for number, word in tables.get(words.table, ())})
-            for words in traces.words
-            for signal in words.signals
-        }
+        self._meaning = meanings(traces, tables)
         self._types = {
             name: signal.type
             for device in interface.devices.values()

@@ -114,6 +114,8 @@ def _verify(args: argparse.Namespace, place: Path) -> int:
     for difference in found.differences:
         print(f"{difference.word:<8} {difference.path}: {difference.why}")
     words = {0: "as it was made", DIFFERS: "NOT as it was made", HOLE: "NOT complete"}[found.status]
+    if found.again:
+        words += f"; {found.again} made again since: reproduced, same result"
     print(f"{file}: {found.compared} files: {words}")
     _write_json(args, found.status, report=str(file), differences=plain(found.differences))
     return found.status

@@ -11,19 +11,23 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.files import read
-from modeproof.ground.evidence.record import other_tools
+from modeproof.ground.evidence.files import YOURS, read
+from modeproof.ground.evidence.record import other_tools, result_sha256
 from modeproof.report.baseline import NAME
 from modeproof.report.integrity import json_of_page, seal_of_json, seal_of_page
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, few
 
 PAGE = "report.html"
-_SOURCES = re.compile(r'<script type="application/json" id="sources">(.*?)</script>', re.DOTALL)
+_SCRIPT = r'<script type="application/json" id="{id}">(.*?)</script>'
+AGAIN = "again"
+"""The word for evidence that was made again and says the same."""
 
 
 @dataclass(frozen=True)
 class Difference:
-    """One artefact that is not what the report says: it differs, is gone or new; `status` as of troubles."""
+    """One artefact that is not what the report says: it differs, is gone or new, or was made again with the
+    same result; `status` as of troubles.
+    """
 
     word: str
     path: str
@@ -45,6 +49,11 @@ class Recheck:
             (difference.status for difference in self.differences if difference.status != NOTE), default=0
         )
 
+    @property
+    def again(self) -> int:
+        """How many pieces of evidence were made again, with the same result."""
+        return sum(difference.word == AGAIN for difference in self.differences)
+
 
 def recheck(root: Path, file: Path) -> Recheck:
     """Recompute all hashes of a report, given its page or JSON; the other is compared when it is beside.
@@ -61,6 +70,7 @@ def recheck(root: Path, file: Path) -> Recheck:
     }
     found: list[Difference] = []
     listed: dict[Path, Mapping[str, str]] = {}
+    results: Mapping[str, str] = {}
     for one, text in texts.items():
         seal = seal_of_json(text) if one.suffix == ".json" else seal_of_page(text)
         if seal is None:
@@ -72,7 +82,8 @@ def recheck(root: Path, file: Path) -> Recheck:
                 f"its text was changed since it was written: SHA-256 {seal[1][:12]}, sealed as {seal[0][:12]}"
             )
             found.append(Difference("differs", str(one), why, DIFFERS))
-        listed[one] = _files(one, text)
+        listed[one] = _hashes(one, text, "files")
+        results = results or _hashes(one, text, "results")
     if page in texts and record in texts:
         sealed = seal_of_json(texts[record])
         if sealed is not None and json_of_page(texts[page]) != sealed[0]:
@@ -80,7 +91,7 @@ def recheck(root: Path, file: Path) -> Recheck:
             found.append(Difference("differs", str(page), why, DIFFERS))
         found += _attachments(record, texts[record])
     files = listed[file]
-    found += [*_compare(root, files), *_tools(root, "".join(texts.values()))]
+    found += [*_compare(root, files, results), *_tools(root, "".join(texts.values()))]
     return Recheck(len(files), tuple(dict.fromkeys(found)))
 
 
@@ -91,19 +102,18 @@ def _text(path: Path) -> str:
         raise Unjudged(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
 
 
-def _files(path: Path, text: str) -> Mapping[str, str]:
-    """The hashes that a report lists. Raises Unjudged when they cannot be read."""
+def _hashes(path: Path, text: str, id: str) -> Mapping[str, str]:
+    """The hashes that a report lists: of `files`, or of `results`. Raises Unjudged for a damaged list."""
     try:
         if path.suffix == ".json":
-            files = json.loads(text)["files"]
+            found = json.loads(text)[id]
         else:
-            match = _SOURCES.search(text)
-            files = json.loads(match.group(1)) if match else None
-        return {str(name): str(digest) for name, digest in files.items()}
+            name = "sources" if id == "files" else id
+            match = re.search(_SCRIPT.format(id=name), text, re.DOTALL)
+            found = json.loads(match.group(1)) if match else None
+        return {str(name): str(digest) for name, digest in found.items()}
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        raise Unjudged(
-            f"{path}: damaged: its list of files cannot be read ({type(error).__name__})"
-        ) from None
+        raise Unjudged(f"{path}: damaged: its list of {id} cannot be read ({type(error).__name__})") from None
 
 
 def _attachments(record: Path, text: str) -> Iterator[Difference]:
@@ -117,14 +127,22 @@ def _attachments(record: Path, text: str) -> Iterator[Difference]:
             )
 
 
-def _compare(root: Path, files: Mapping[str, str]) -> Iterator[Difference]:
-    """The listed files, and registers and evidence that are not listed."""
+def _compare(root: Path, files: Mapping[str, str], results: Mapping[str, str]) -> Iterator[Difference]:
+    """The listed files, and registers and evidence that are not listed.
+
+    Evidence whose hash is another but whose result is the same was made again.
+    """
     for path, digest in files.items():
         now = _sha256(root / path)
-        if now is None and path.startswith("build/") and not path.startswith("build/evidence/"):
+        if path.startswith(f"build/{YOURS}/"):
+            if now != digest:
+                yield Difference("yours", path, "your run, made again since or taken away", NOTE)
+        elif now is None and path.startswith("build/") and not path.startswith("build/evidence/"):
             yield Difference("gone", path, "it was made, and is made again by what used it", NOTE)
         elif now is None:
             yield Difference("gone", path, f"the report has it as {digest[:12]}", HOLE)
+        elif now != digest and (made := _made_again(root / path, results.get(path))):
+            yield Difference(AGAIN, path, f"made again {made}: reproduced, same result", NOTE)
         elif now != digest:
             yield Difference("differs", path, f"SHA-256 {now[:12]}, the report has {digest[:12]}", DIFFERS)
     for place in ("build/evidence/*/*.json", "spec/*/*.toml"):
@@ -132,6 +150,15 @@ def _compare(root: Path, files: Mapping[str, str]) -> Iterator[Difference]:
             name = one.relative_to(root).as_posix()
             if name not in files:
                 yield Difference("new", name, "the report does not know it", DIFFERS)
+
+
+def _made_again(path: Path, result: str | None) -> str:
+    """When a piece of evidence was made, if it has this result; else nothing."""
+    with contextlib.suppress(Unjudged):
+        record = read(path) if result is not None else {}
+        if record and result_sha256(record) == result:
+            return str(record["started"])
+    return ""
 
 
 def _tools(root: Path, text: str) -> Iterator[Difference]:

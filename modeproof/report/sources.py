@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.files import read
-from modeproof.ground.evidence.record import other_tools
+from modeproof.ground.evidence.files import OURS, YOURS, read
+from modeproof.ground.evidence.record import other_tools, result_sha256
 from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
@@ -51,7 +51,8 @@ class Figure:
 
 @dataclass(frozen=True)
 class Evidence:
-    """One piece of evidence: its record, its file relative to the root, and the SHA-256 of that file.
+    """One piece of evidence: its record, its file relative to the root, the SHA-256 of that file, and that
+    of what was found, apart from times and host.
 
     `changed`, `gone`: the files that it rests on or made which are no longer what they were, or not there;
     a tool that made it and is no longer what it was is in `changed` too.
@@ -60,6 +61,7 @@ class Evidence:
     record: Mapping[str, Any]
     path: str
     sha256: str
+    result_sha256: str = ""
     changed: tuple[str, ...] = ()
     gone: tuple[str, ...] = ()
 
@@ -101,6 +103,8 @@ class Sources:
     evidence: Mapping[str, Mapping[str, Evidence]]
     files: dict[str, str]
     troubles: tuple[Trouble, ...] = ()
+    yours: Mapping[str, Mapping[str, Evidence]] = field(default_factory=dict)
+    """What was found out about a user's programs and logs: shown, and counted for nothing."""
     cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
 
@@ -119,6 +123,11 @@ class Sources:
         """All evidence, by document and id."""
         for of_document in self.evidence.values():
             yield from of_document.values()
+
+    @property
+    def results(self) -> dict[str, str]:
+        """For each file of evidence the SHA-256 of what was found, apart from times and host."""
+        return {piece.path: piece.result_sha256 for piece in self.everything()}
 
     def content(self, path: str) -> bytes | None:
         """A file by its path relative to the root, and from now on one of `files`; None: there is none."""
@@ -154,6 +163,7 @@ def gather(root: Path) -> Sources:
     files: dict[str, str] = {}
     found: dict[str, Document] = {}
     evidence: dict[str, dict[str, Evidence]] = {}
+    yours: dict[str, dict[str, Evidence]] = {}
     hashes = _Hashes(root)
     for name in chosen:
         try:
@@ -165,27 +175,24 @@ def gather(root: Path) -> Sources:
         for path in sorted((root / "spec" / name).glob("*.toml")):
             shown = path.relative_to(root).as_posix()
             files[shown] = hashes[shown] or ""
-        evidence[name] = {}
-        for path in sorted((root / "build/evidence" / name).glob("*.json")):
-            shown = path.relative_to(root).as_posix()
-            try:
-                record = read(path)
-            except Unjudged as error:
-                what = error.message.replace(f"{root}/", "")
-                troubles.append(Trouble(HOLE, "verdict", what, "modeproof verify"))
-                continue
-            artefacts = record["result"].get("artefacts", {})
-            before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
-            changed = (
-                *other_tools(record),
-                *(one for one, digest in before.items() if hashes[one] not in (digest, None)),
-            )
-            gone = tuple(file for file in before if hashes[file] is None)
-            if why := "" if changed else contradiction(root, found[name], record):
-                record |= {"as_expected": False, "reason": f"the evidence contradicts itself: {why}"}
-            files[shown] = hashes[shown] or ""
-            files |= {file: digest for file in before if (digest := hashes[file]) is not None}
-            evidence[name][path.stem] = Evidence(record, shown, files[shown], changed, gone)
+        pieces: dict[str, dict[str, Evidence]] = {OURS: {}, YOURS: {}}
+        for folder, of in pieces.items():
+            for path in sorted((root / "build" / folder / name).glob("*.json")):
+                shown = path.relative_to(root).as_posix()
+                files[shown] = hashes[shown] or ""
+                try:
+                    piece, before = _piece(root, found[name], path, shown, hashes)
+                except Unjudged as error:
+                    what = error.message.replace(f"{root}/", "")
+                    remedy = "modeproof verify" if folder == OURS else "modeproof conform"
+                    status, part = (HOLE, "verdict") if folder == OURS else (NOTE, "conformance")
+                    troubles.append(Trouble(status, part, what, remedy))
+                    files.pop(shown)
+                    continue
+                if folder == OURS:
+                    files |= {file: digest for file in before if (digest := hashes[file]) is not None}
+                of[path.stem] = piece
+        evidence[name], yours[name] = pieces[OURS], pieces[YOURS]
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
@@ -197,7 +204,26 @@ def gather(root: Path) -> Sources:
         {document.name: evidence[document.name] for document in ordered},
         dict(sorted(files.items())),
         tuple(troubles),
+        {document.name: yours[document.name] for document in ordered},
     )
+
+
+def _piece(
+    root: Path, document: Document, path: Path, shown: str, hashes: _Hashes
+) -> tuple[Evidence, Sequence[str]]:
+    """One piece of evidence, and the files that it rests on or made. Raises Unjudged as `read` does."""
+    record = read(path)
+    artefacts = record["result"].get("artefacts", {})
+    before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
+    changed = (
+        *other_tools(record),
+        *(one for one, digest in before.items() if hashes[one] not in (digest, None)),
+    )
+    gone = tuple(file for file in before if hashes[file] is None)
+    found = result_sha256(record)
+    if why := "" if changed else contradiction(root, document, record):
+        record |= {"as_expected": False, "reason": f"the evidence contradicts itself: {why}"}
+    return Evidence(record, shown, hashes[shown] or "", found, changed, gone), tuple(before)
 
 
 def few(names: Sequence[str], most: int = 3) -> str:

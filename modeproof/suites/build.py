@@ -10,7 +10,7 @@ from pathlib import Path
 from modeproof import kit
 from modeproof.graph.device import current_graph, load_device_graph, open_runs
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import build, documents
 from modeproof.ground.progress import Progress
 from modeproof.kit.errors import Unjudged as KitUnjudged
@@ -34,12 +34,12 @@ def find_target(place: Path, target: str, document: str | None = None) -> tuple[
         if not (place / "spec" / name / "interface.toml").is_file():
             continue
         devices = load_interface(place, name).devices
-        known += devices
+        known += devices if document in (None, name) else ()
         if target in devices and document in (None, name):
             found.append((name, devices[target]))
     if not found:
         where = f" in {document}" if document else ""
-        raise Unjudged(f"no target {target!r}{where}; there are: {', '.join(known) or 'none'}")
+        raise Unjudged(f"no target {target!r}{where}; {suggestion(target, known)}")
     if len(found) > 1:
         raise Unjudged(f"{target} is in {' and '.join(name for name, _ in found)}; choose with --document")
     return found[0]
@@ -105,7 +105,7 @@ def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) 
     """
     strange = [name for name in names if name not in SUITES]
     if strange:
-        raise Unjudged(f"no suite {strange[0]!r}; there are: {', '.join(SUITES)}")
+        raise Unjudged(f"no suite {strange[0]!r}; {suggestion(strange[0], SUITES)}")
     found = []
     for target, device in load_interface(place, document).devices.items():
         runs = open_runs(place, document, target)

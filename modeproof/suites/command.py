@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import argparse
+import re
+import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from modeproof.graph.chart import chart
 from modeproof.graph.device import compared_files, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
+from modeproof.graph.export import write_export
 from modeproof.graph.implementation import REFERENCE, load_implementation
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.lock import only_one
-from modeproof.ground.places import root
+from modeproof.ground.places import build, root
 from modeproof.ground.progress import Progress
 from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
 from modeproof.kit.text import as_record, joint_word, write_json
 from modeproof.kit.vectors import EXACT, SETTLED, Suite, open_suite
+from modeproof.kit.verdict import Verdict
+from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.registers.vector_files import published
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
@@ -58,42 +64,124 @@ def _program(args: argparse.Namespace) -> int:
         suites = [kit_command.open_vectors(args)]
     else:
         with only_one(place):
-            suites = _suites(place, document, args)
+            suites = _suites(place, document, device, args)
+    ours = _is_ours(args)
+    if ours:  # by this Python, whatever `python` is here
+        args.adapter = " ".join(map(kit_command.quoted, [sys.executable, str(place / OWN), args.target]))
     started = time.time()
     verdicts = kit_command.judge(args, suites)
     for suite, verdict in zip(suites, verdicts, strict=False):  # an interrupted run has fewer
-        if args.case is not None or args.vectors is not None or args.adapter is None or args.param:
+        whole = args.case is None and args.vectors is None and not args.param and not verdict.interrupted
+        if args.adapter is None or not whole or not verdict.adapter:
             continue
-        manner = [] if args.relation == EXACT else [args.relation]
-        record = evidence.make(
-            kind="conformance",
-            id="_".join(["adapter", args.target, suite.name, *manner]),
-            document=document,
-            verdict=verdict.word,
-            expected="CONFORMS",
-            as_expected=verdict.status == 0,
-            strength=f"relation {verdict.relation}, suite {verdict.suite}: {verdict.scans:,} scans",
-            command=f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
-            started=started,
-            seconds=verdict.seconds,
-            inputs=evidence.hashes(place, [suite.path]),
-            result={**as_record(verdict), "says": suite.says},
-            reason="" if verdict.status == 0 else verdict.reason or "the program differs",
-        )
-        evidence.write(place, record)
+        if ours and suite.name in OWN_SUITES.values():
+            inputs = own_files(place, document)
+            record = own_record(place, document, suite, verdict, started, inputs)
+            evidence.write(place, record)
+        else:
+            _write_yours(place, document, args, suite, verdict, started)
     return EXIT[joint_word(verdicts)]
 
 
-def _suites(place: Path, document: str, args: argparse.Namespace) -> list[Suite]:
+OWN = "examples/adapters/refimpl_adapter.py"
+"""The adapter of the reference implementation."""
+OWN_SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
+"""The suite that it runs through in each lane."""
+
+
+def _is_ours(args: argparse.Namespace) -> bool:
+    """Whether the arguments are those of a run that `verify` makes, so that it is made again."""
+    usual = (args.relation, args.latency, args.hold, args.slow) == (EXACT, None, 0, 1)
+    return usual and bool(args.codes) and args.adapter == f"python {OWN} {args.target}"
+
+
+def own_files(place: Path, document: str) -> list[Path]:
+    """What a run of the reference implementation rests on, besides the suite."""
+    return [place / OWN, *sorted((place / REFERENCE / document).glob("*.py"))]
+
+
+def own_record(
+    place: Path, document: str, suite: Suite, verdict: Verdict, started: float, inputs: Sequence[Path]
+) -> dict[str, Any]:
+    """The evidence of the reference implementation behind the adapter protocol."""
+    about = {"device": suite.target, "implementation": REFERENCE}
+    adapter = kit_command.quoted(f"python {OWN} {suite.target}")
+    command = f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes"
+    id = f"adapter_{suite.target}_{suite.name}"
+    return _record(place, document, suite, verdict, id, command, started, [*inputs, suite.path], about)
+
+
+def _write_yours(
+    place: Path, document: str, args: argparse.Namespace, suite: Suite, verdict: Verdict, started: float
+) -> None:
+    """The evidence of a user's program: in a place of its own, under its own name."""
+    name = re.sub(r"[^A-Za-z0-9.-]+", "-", args.name or verdict.adapter).strip("-.") or "program"
+    manner = [] if args.relation == EXACT else [args.relation]
+    command = " ".join(
+        [
+            f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
+            f"--suite {suite.name}",
+            *([f"--relation {args.relation}"] if manner else []),
+            *([f"--latency {args.latency}"] if args.latency is not None else []),
+            *([f"--hold {args.hold}"] if args.hold else []),
+            *([f"--slow {args.slow}"] if args.slow != 1 else []),
+            *(["--codes"] if args.codes else []),
+        ]
+    )
+    id = "_".join([name[:60], args.target, suite.name, *manner])
+    record = _record(place, document, suite, verdict, id, command, started, [suite.path], {"name": name})
+    evidence.write(place, record, evidence.YOURS)
+    say(f"kept as {build(place).name}/{evidence.YOURS}/{document}/{id}.json; `modeproof report` shows it")
+
+
+def _record(
+    place: Path,
+    document: str,
+    suite: Suite,
+    verdict: Verdict,
+    id: str,
+    command: str,
+    started: float,
+    inputs: Sequence[Path],
+    about: Mapping[str, Any],
+) -> dict[str, Any]:
+    done, total = verdict.transitions
+    return evidence.make(
+        kind="conformance",
+        id=id,
+        document=document,
+        verdict=verdict.word,
+        expected="CONFORMS",
+        as_expected=verdict.status == 0,
+        strength=f"relation {verdict.relation}, suite {verdict.suite} over the adapter protocol: "
+        f"{verdict.scans:,} scans, {done:,} of {total:,} merged transitions",
+        command=command,
+        started=started,
+        seconds=verdict.seconds,
+        inputs=evidence.hashes(place, inputs),
+        result={**about, **as_record(verdict), "says": suite.says},
+        reason="" if verdict.status == 0 else verdict.reason or "the program differs",
+    )
+
+
+def _suites(place: Path, document: str, device: Device, args: argparse.Namespace) -> list[Suite]:
     """The suites asked for, made where none is published or it is of another text. Raises Unjudged.
 
-    One that was not named itself is left out where the target has no cases of its kind.
+    One that was not named itself is left out where the target has no cases of its kind. The program is
+    greeted before one is made: that takes long.
     """
+    names = chosen_suites(args.suite, args.relation)
+    if strange := [name for name in names if name not in SUITES]:
+        raise Unjudged(f"no suite {strange[0]!r}; {suggestion(strange[0], [kit_command.FAST, *SUITES])}")
     found = []
-    for name in chosen_suites(args.suite, args.relation):
-        if path := published(place, args.target, name):
+    greeted = False
+    for name in names:
+        if (path := published(place, args.target, name)) is not None:
             found.append(open_suite(path))
             continue
+        if not greeted:
+            kit_command.greet(args, device.outputs)
+            greeted = True
         try:
             make_graphs(place, open_runs(place, document, args.target), args.quiet)
             found.append(ready_suite(place, document, args.target, name, say))
@@ -131,14 +219,13 @@ def _builtin(args: argparse.Namespace) -> int:
         raise Unjudged(
             "--case, --param and --relation need --suite or --vectors; --builtin alone is exact, and whole"
         )
-    code = load_implementation(args.builtin, document, device.id)
+    load_implementation(args.builtin, document, device.id)  # what cannot be loaded is said before TLC begins
     progress = Progress(quiet=args.quiet)
     found: list[tuple[Run, Comparison]] = []
     with only_one(place):
         make_graphs(place, runs, args.quiet)
         for kit_run in runs:
-            codes = args.codes or args.builtin == REFERENCE  # of our own code every output
-            found.append((kit_run, _compare(place, kit_run, code, args.builtin, progress, codes)))
+            found.append((kit_run, _compare(place, kit_run, args.builtin, progress, args.codes)))
     for kit_run, result in found:
         print(_text(kit_run, result))
     status = max(0 if result.equal else 1 for _, result in found)
@@ -148,39 +235,85 @@ def _builtin(args: argparse.Namespace) -> int:
     return status
 
 
-def _compare(place: Path, run: Run, code: Any, builtin: str, progress: Progress, codes: bool) -> Comparison:
+def _compare(place: Path, run: Run, builtin: str, progress: Progress, codes: bool) -> Comparison:
+    folder = evidence.OURS if builtin == REFERENCE else evidence.YOURS
     name = f"{builtin}_{run.id}"
-    evidence.discard(place, run.document, name)
+    evidence.discard(place, run.document, name, folder)
     started = time.time()
     progress.begin(name)
     try:
-        graph = load_device_graph(place, run)
-        found = compare(
-            graph,
-            code,
-            lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions"),
-            codes=codes,
+        found, result = compared(
+            place,
+            run,
+            builtin,
+            codes,
+            lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions", done / total),
         )
     finally:
         progress.end(name)
-    record = evidence.make(
+    evidence.write(place, comparison_record(place, run, builtin, started, found, result), folder)
+    return found
+
+
+def compared(
+    place: Path,
+    run: Run,
+    builtin: str,
+    codes: bool = False,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> tuple[Comparison, dict[str, Any]]:
+    """A graph beside a program, and what evidence says of it: with our own code the graph is exported and
+    its chart drawn, and every output is compared. Raises Unjudged for a graph that cannot be used.
+    """
+    graph = load_device_graph(place, run)
+    code = load_implementation(builtin, run.document, graph.device.id)
+    ours = builtin == REFERENCE
+    result: dict[str, Any] = {}
+    if ours:
+        drawn = chart(graph)
+        exported = evidence.hashes(place, [write_export(place, run, graph)])
+        result = {"chart": None if drawn is None else asdict(drawn), "artefacts": exported}
+    found = compare(graph, code, on_progress, codes=codes or ours)
+    return found, {**result, **asdict(found)}
+
+
+def comparison_record(
+    place: Path,
+    run: Run,
+    builtin: str,
+    started: float,
+    found: Comparison | None,
+    result: Mapping[str, Any],
+    why: str = "",
+) -> dict[str, Any]:
+    """The evidence of a comparison; without one UNJUDGED, and `why`."""
+    assert run.graph is not None
+    device = run.graph.device
+    strength, reason = "", why
+    if found is not None:
+        strength = (
+            f"{found.states:,} states, {found.replayed:,} of {found.transitions:,} transitions, "
+            f"{sum(done == total for done, total in found.covered.values())} of {len(found.covered)} steps "
+            "in full, both ways, in process"
+        )
+        first = f"; first: {found.differences[0]}" if found.differences else ""
+        reason = "" if found.equal else f"{found.summary()}{first}"
+    return evidence.make(
         kind="conformance",
-        id=name,
+        id=f"{builtin}_{run.id}",
         document=run.document,
-        verdict=found.verdict,
+        verdict="UNJUDGED" if found is None else found.verdict,
         expected="EQUAL",
-        as_expected=found.equal,
+        as_expected=found is not None and found.equal,
         environment=run.environment,
-        strength=f"{found.states:,} states, {found.transitions:,} transitions, both ways, in process",
-        command=f"modeproof conform {graph.device.id} --builtin {builtin} --document {run.document}",
+        strength=strength,
+        command=f"modeproof conform {device} --builtin {builtin} --document {run.document}",
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, compared_files(place, run, builtin)),
-        result={"run": run.id, "device": graph.device.id, "implementation": builtin, **asdict(found)},
-        reason="" if found.equal else found.summary(),
+        result={"run": run.id, "device": device, "implementation": builtin, **result},
+        reason=reason,
     )
-    evidence.write(place, record)
-    return found
 
 
 def _text(run: Run, found: Comparison) -> str:

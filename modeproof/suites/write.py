@@ -13,7 +13,7 @@ from typing import Any
 
 from modeproof.graph.columns import merge_columns
 from modeproof.graph.device import DeviceGraph
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.vectors import KIND, MONITOR, PACKED, VERSION, id_of_text
 from modeproof.registers.rows import Device
@@ -81,7 +81,7 @@ def write_suite(
     cannot be written.
     """
     if suite not in SUITES:
-        raise Unjudged(f"no suite {suite!r}; there are: {', '.join(SUITES)}")
+        raise Unjudged(f"no suite {suite!r}; {suggestion(suite, SUITES)}")
     if not devices or len({(device.document, device.device.id) for device in devices}) != 1:
         raise Unjudged("a suite is built from the graphs of one target")
     devices = SUITES[suite].variants(devices)

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Any
 
 from modeproof.ground import evidence
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import build, documents
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
@@ -64,13 +64,15 @@ def select(
     """
     known = documents(place)
     if document is not None and document not in known:
-        raise Unjudged(f"no document {document!r} in spec/; there are: {', '.join(known) or 'none'}")
+        raise Unjudged(f"no document {document!r} in spec/; {suggestion(document, known)}")
     chosen = [name for name in known if document in (None, name)]
     runs = [run for name in chosen if _has_runs(place, name) for run in load_runs(place, name)]
     for pattern in names:
         named = [run for run in runs if _named(run, pattern)]
         if not named:
-            raise Unjudged(f"no run {pattern!r} in runs.toml of {', '.join(chosen) or 'any document'}")
+            ids = [run.name if "/" in pattern else run.id for run in runs]
+            where = ", ".join(chosen) or "any document"
+            raise Unjudged(f"no run {pattern!r} in runs.toml of {where}; {suggestion(pattern, ids)}")
         if lane is not None and not any(lane in run.lanes for run in named):
             raise Unjudged(f"{pattern} is not in the lane {lane}, but in {', '.join(named[0].lanes)}")
     picked = tuple(
@@ -156,10 +158,12 @@ def check_one(
             raise Unjudged(f"{run.name}: heap_mb = {run.heap_mb}, but this machine has {there} MiB of memory")
 
         def on_progress(counts: Counts) -> None:
-            progress.update(run.id, f"{counts.distinct:,} distinct, {counts.generated:,} generated")
+            text = f"{counts.distinct:,} distinct, {counts.generated:,} generated"
+            progress.update(run.id, text, counts.generated / run.generated if run.generated else 0.0)
 
         def on_lines(lines: int) -> None:
-            progress.update(run.id, f"{lines:,} lines of the graph")
+            whole = (run.graph.states or 0) + (run.graph.edges or 0) if run.graph is not None else 0
+            progress.update(run.id, f"{lines:,} lines of the graph", lines / whole if whole else 0.0)
 
         if where is None:
             outcome = run_tlc(place, run, tools, on_progress, on_lines)

@@ -10,10 +10,13 @@ from __future__ import annotations
 import atexit
 import contextlib
 import os
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
@@ -31,6 +34,7 @@ for group in groups:
 """
 
 _RUNNING: dict[int, subprocess.Popen[bytes]] = {}
+_ROOMS: set[Path] = set()
 _GUARD = threading.RLock()
 _watcher: subprocess.Popen[bytes] | None = None
 _pipe: int | None = None
@@ -121,7 +125,23 @@ def running() -> tuple[int, ...]:
 
 
 def stop_all() -> None:
-    """Kill everything that was started; for Ctrl-C and for the end of the program."""
+    """Kill everything that was started, and remove the rooms; for Ctrl-C and for the end of the program."""
     with _GUARD:
         for process in list(_RUNNING.values()):
             kill(process)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(timeout=5)
+    for room in list(_ROOMS):
+        shutil.rmtree(room, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def room(prefix: str, folder: Path) -> Iterator[Path]:
+    """A folder of its own for a program while it runs. Raises OSError when it cannot be made."""
+    place = Path(tempfile.mkdtemp(prefix=prefix, dir=folder))
+    _ROOMS.add(place)
+    try:
+        yield place
+    finally:
+        shutil.rmtree(place, ignore_errors=True)
+        _ROOMS.discard(place)

@@ -15,13 +15,16 @@ from modeproof.ground.places import root
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
 from modeproof.ground.reason import ask_reason, refuse_in_ci
+from modeproof.registers.load import load_interface
+from modeproof.registers.replay import has_replay, load_replay, meanings
 from modeproof.registers.runs import LANES
 from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_problems, select
 from modeproof.tlc.distributed import Where, refusal
 from modeproof.tlc.messages import essence, format_trace
 from modeproof.tlc.repin import Move, apply, cfg_diff, moves
 from modeproof.tlc.resume import why_stale
-from modeproof.tlc.toolchain import find_toolchain
+from modeproof.tlc.toolchain import Toolchain, find_toolchain
+from modeproof.tlc.walk import read_walk, recorded, walk_all
 
 
 def add_parser(commands: Any) -> None:
@@ -86,7 +89,7 @@ def run(args: argparse.Namespace) -> int:
                 place, again, tools, progress, lambda checked: progress.say(line_of(checked)), spread
             )
         for checked in done if not args.repin or args.trace else ():
-            _show_trace(checked, args)
+            _show_trace(place, checked, args, tools)
         status: int = max(checked.status for checked in done)
         problems: list[str] = []
         for document in sorted({run.document for run in runs}):
@@ -153,7 +156,7 @@ def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[
     return found
 
 
-def _show_trace(checked: Any, args: argparse.Namespace) -> None:
+def _show_trace(place: Path, checked: Checked, args: argparse.Namespace, tools: Toolchain) -> None:
     if checked.outcome is not None and not checked.judgement.judged:
         for _, text in checked.outcome.log.errors[:4]:
             print("\n".join(f"    {line}" for line in essence(text)[:12]))
@@ -165,7 +168,41 @@ def _show_trace(checked: Any, args: argparse.Namespace) -> None:
         f"counterexample of {checked.run.name}"
         + (f" ({checked.judgement.violated})" if checked.judgement.violated else "")
     )
-    print(format_trace(checked.outcome.log.trace, checked.outcome.log.loop, args.all_variables))
+    trace = checked.outcome.log.trace
+    wires: list[dict[str, str]] = []
+    if args.trace and has_replay(place, checked.run.document):
+        try:
+            wires = on_the_wires(place, checked, tools)
+        except Unjudged as error:
+            print(f"words are not decoded: {error.message}")
+    whole = wires if len(wires) == len(trace) else []
+    print(format_trace(trace, checked.outcome.log.loop, args.all_variables, whole))
+
+
+def on_the_wires(place: Path, checked: Checked, tools: Toolchain) -> list[dict[str, str]]:
+    """What stands on the wires in each state of a counterexample: words in hex, with what they mean there.
+
+    Raises Unjudged when TLC cannot follow the counterexample once more.
+    """
+    document, trace = checked.run.document, recorded(checked.record)
+    walk = read_walk(place, document, trace) or walk_all(place, document, [trace], tools)[trace.run]
+    means = meanings(load_replay(place, document), walk["tables"])
+    words = {
+        name
+        for device in load_interface(place, document).devices.values()
+        for table in (device.inputs, device.outputs)
+        for name, signal in table.items()
+        if signal.type == "word"
+    }
+
+    def shown(name: str, value: Any) -> str:
+        if name not in words or isinstance(value, bool) or not isinstance(value, int):
+            return str(value).upper() if isinstance(value, bool) else str(value)
+        says, numbers = means.get(name, ("", {}))
+        meaning = f"{says} {numbers[value]}" if value in numbers else "no code" if value and numbers else ""
+        return f"{value:04X}" + (f" ({meaning})" if meaning else "")
+
+    return [{name: shown(name, value) for name, value in row["wires"].items()} for row in walk["rows"]]
 
 
 def _repin(place: Path, done: list[Any], given: str | None) -> int:

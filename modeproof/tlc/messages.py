@@ -6,7 +6,7 @@ Codes are judged, never English sentences; a sentence is read only for the numbe
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 # Message codes of TLC 2.15 (tlc2.output.EC).
@@ -297,16 +297,21 @@ def essence(text: str) -> list[str]:
 
 
 def format_trace(
-    trace: list[TraceState] | tuple[TraceState, ...], loop: str, everything: bool = False
+    trace: list[TraceState] | tuple[TraceState, ...],
+    loop: str,
+    everything: bool = False,
+    wires: Sequence[Mapping[str, str]] = (),
 ) -> str:
     """A counterexample to read: each step with the variables that it changed (all of them in the first
     state).
+
+    `wires` gives for each state what stands on the wires; it takes the place of variables of the same name.
     """
     lines: list[str] = []
     before: dict[str, str] = {}
-    for state in trace:
+    for state, told in zip(trace, wires or [{}] * len(trace), strict=True):
         lines.append(f"{state.number:>4}  {state.action}")
-        now = dict(state.variables)
+        now = {**dict(state.variables), **told}
         changed = {name: value for name, value in now.items() if everything or before.get(name) != value}
         width = max((len(name) for name in changed), default=0)
         lines.extend(f"        {name:<{width}} = {value}" for name, value in changed.items())

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-import tempfile
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -158,13 +157,14 @@ def run_tlc(
         logs.mkdir(parents=True, exist_ok=True)
         for stale in logs.glob(f"{run.id}.????????"):  # of a run that was killed
             shutil.rmtree(stale, ignore_errors=True)
-        metadir = Path(tempfile.mkdtemp(prefix=f"{run.id}.", dir=logs))
     except OSError as error:
         raise Unjudged(f"{run.name}: cannot write to {logs}: {error.strerror}") from None
     try:
-        (metadir / "tmp").mkdir()
-        command = command_line(run, tools, metadir, places, quick)
-        if run.kind == "OPEN":
+        with children.room(f"{run.id}.", logs) as metadir:
+            (metadir / "tmp").mkdir()
+            command = command_line(run, tools, metadir, places, quick)
+            if run.kind != "OPEN":
+                return _follow(run, command, folder, metadir, logs, None, on_progress, None, watch)
             graph.parent.mkdir(parents=True, exist_ok=True)
             graph.unlink(missing_ok=True)
             part = metadir / "graph"
@@ -172,20 +172,13 @@ def run_tlc(
                 outcome = _follow(run, command, folder, metadir, logs, stream, on_progress, on_lines, None)
                 stream.flush()
                 os.fsync(stream.fileno())
-            if (
-                outcome.log.success
-                and outcome.log.finished
-                and not outcome.log.broken
-                and outcome.status == 0
-            ):
+            log = outcome.log
+            if log.success and log.finished and not log.broken and outcome.status == 0:
                 part.replace(graph)
                 return _with_graph(outcome, graph)
             return outcome
-        return _follow(run, command, folder, metadir, logs, None, on_progress, None, watch)
     except OSError as error:
         raise Unjudged(f"{run.name}: {error.strerror or error} ({error.filename or logs})") from None
-    finally:
-        shutil.rmtree(metadir, ignore_errors=True)
 
 
 def _with_graph(outcome: Outcome, graph: Path) -> Outcome:

@@ -25,7 +25,7 @@ from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
 from modeproof.trace.table import TableForm, read_table, wire_param
-from modeproof.trace.targets import Target, find_target
+from modeproof.trace.targets import Target, find_target, rather_of
 from modeproof.trace.text import as_json, as_record, as_text
 from modeproof.trace.why import Why
 
@@ -83,13 +83,16 @@ def run(args: argparse.Namespace) -> int:
     """Run `trace`; the exit status is that of the verdict."""
     place = root()
     target = find_target(place, args.target, args.document)
-    log = read_log(args, target)
+    try:
+        log = read_log(args, target)
+    except Unjudged as error:
+        raise Unjudged(error.message + rather_of(place, target, args.log)) from None
     if not args.codes:
         log = without_codes(log, target)
     tools = find_toolchain()
     id = f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
     with only_one(place):
-        evidence.discard(place, target.document, id)
+        evidence.discard(place, target.document, id, evidence.YOURS)
         started = time.time()
         graphs = Graphs(place, lambda runs: make_graphs(place, runs, args.quiet))
         if not args.quiet:
@@ -200,7 +203,7 @@ def _write(
         },
         reason=found if isinstance(found, str) else _reason(found),
     )
-    evidence.write(place, record)
+    evidence.write(place, record, evidence.YOURS)
     return record
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -88,6 +89,14 @@ class Target:
         """The part of a target of one device."""
         return next(iter(self.parts.values()))
 
+    @property
+    def names(self) -> frozenset[str]:
+        """The names that a log of it may use: of signals, as declared or as tags, and of parameters."""
+        devices = [part.device for part in self.parts.values()]
+        tables = [table for one in devices for table in (one.inputs, one.outputs, one.parameters)]
+        signals = [signal for table in tables for signal in table.values()]
+        return frozenset(name for one in signals for name in (one.name, one.tag) if name)
+
     def timed(self, device: str) -> bool:
         """Whether the device counts time: some of its memory is milliseconds."""
         return any(signal.type == "ms" for signal in self.parts[device].device.memory.values())
@@ -148,10 +157,29 @@ def find_target(place: Path, name: str, document: str | None = None) -> Target:
     found = [listed for listed in known if listed.id == name and document in (None, listed.document)]
     if not found:
         where = f" in {document}" if document else ""
-        names = ", ".join(dict.fromkeys(listed.id for listed in known)) or "none"
-        raise Unjudged(f"no log can be of {name!r}{where}; there are: {names}")
+        names = [listed.id for listed in known if document in (None, listed.document)]
+        raise Unjudged(f"no log can be of {name!r}{where}; {suggestion(name, names)}")
     if len(found) > 1:
         raise Unjudged(
             f"{name} is in {' and '.join(listed.document for listed in found)}; choose with --document"
         )
     return found[0]
+
+
+def rather_of(place: Path, target: Target, path: Path) -> str:
+    """Of which target a log rather is than of this one, in words that end a complaint; empty: of this one.
+
+    It is of the one that has all names of its first lines that are names of any target.
+    """
+    try:
+        with path.open(encoding="utf-8", errors="replace") as lines:
+            words = set(re.findall(r"\w+", "".join(itertools.islice(lines, 40))))
+    except OSError:
+        return ""
+    known = [listed for each in documents(place) for listed in targets_of(place, each)]
+    told = words & frozenset().union(*(other.names for other in known))
+    fitting = [other for other in known if told <= other.names]
+    if not told or target.names >= told or not fitting:
+        return ""
+    likely = min(fitting, key=lambda other: len(other.names))
+    return f"; its names are those of {likely.id}: modeproof trace {likely.id} {path}"

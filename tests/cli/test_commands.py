@@ -10,11 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.cli import COMMANDS, main
+from modeproof.cli import COMMANDS, GROUPS, main
+from modeproof.ground.evidence import own_tools
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import TREE
+from modeproof.suites import command
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
+
+LOGS = TREE / "examples" / "logs"
 
 
 @pytest.fixture
@@ -194,8 +198,69 @@ def test_a_command_whose_packages_are_missing_says_so(
     assert "check cannot be loaded: No module named" in only_line(capsys)
 
 
-def test_without_a_command_all_are_named(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_help_names_each_command_in_its_group(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["--help"])
     said = capsys.readouterr().out
-    assert ended.value.code == 0 and not [name for name in COMMANDS if f"\n    {name}" not in said]
+    groups = said[said.index("\ncommands:") :].split("\n\n")
+    assert ended.value.code == 0 and len(GROUPS) == 2
+    for (title, names), text in zip(GROUPS.items(), groups, strict=False):
+        head, *lines = text.strip().splitlines()
+        assert head == f"{title}:"
+        assert [line.split()[0] for line in lines if line[:3] == "  " + line[2:3].strip()] == list(names)
+    assert {"verify", "conform", "prove-program", "trace", "report", "doctor"} <= set(GROUPS["commands"])
+
+
+def test_the_version_names_the_tool_as_evidence_does(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    own = own_tools()["modeproof"]
+    assert ended.value.code == 0
+    assert f"modeproof {own['version']}, sha256 {str(own['sha256'])[:12]}, " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["confrom", "fplc"], "no command 'confrom'; did you mean 'conform'?"),
+        (["check", "MC_KeyFlow_smoke"], "no run 'MC_KeyFlow_smoke' in"),
+        (["check", "MC_KeyFlow_smoke"], "did you mean 'MC_KeyFlows_smoke'? "),
+        (["prove", "every_state_has_it_row"], "did you mean 'every_state_has_its_row'? "),
+        (["conform", "F-PLC", "--builtin", "refimpl"], "no target 'F-PLC'; did you mean 'fplc'? "),
+        (["trace", "F-PLC", "x.csv"], "no log can be of 'F-PLC'; did you mean 'fplc'? "),
+        (["conform", "fplc", "--adapter", "x", "--suite", "breif"], "did you mean 'brief'? "),
+        (
+            ["trace", "plc", f"{LOGS}/fplc_good.csv"],
+            f"those of fplc: modeproof trace fplc {LOGS}/fplc_good.csv",
+        ),
+        (
+            ["trace", "fplc", f"{LOGS}/key_flows_good.jsonl"],
+            "its names are those of key_flows: modeproof trace ",
+        ),
+        (
+            ["trace", "fplc", f"{LOGS}/fplc_good.csv", "--param", "T_ms=1"],
+            "no parameter 'T_ms'; did you mean",
+        ),
+        (["trace", "hmi", f"{LOGS}/none.csv"], "none.csv: No such file or directory"),
+        (["vectors", "build", "F_PLC"], "no target 'F_PLC'; did you mean 'fplc'? "),
+        ([], "the following arguments are required: COMMAND"),
+        (["conform", "fplc"], "--help` says what is allowed"),
+    ],
+)
+def test_a_slip_is_one_line_with_what_was_meant(
+    capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    assert main(arguments) == 2
+    assert words in only_line(capsys)
+
+
+@pytest.mark.parametrize("adapter", ["false", f"{sys.executable} -c print('hi')", "no-such-program"])
+def test_an_adapter_is_greeted_before_a_suite_is_made(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, adapter: str
+) -> None:
+    def slow(*given: object) -> None:
+        raise AssertionError("TLC was asked for a graph")
+
+    monkeypatch.setattr(command, "make_graphs", slow)
+    assert main(["conform", "fplc", "--adapter", adapter, "--suite", "tour"]) == 2
+    assert "modeproof: hello: " in (line := only_line(capsys)) or "the adapter cannot be started" in line

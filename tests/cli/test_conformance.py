@@ -6,6 +6,7 @@ import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 
@@ -14,6 +15,7 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.progress import Progress
 from modeproof.lane import conformance
+from modeproof.suites import command
 from tests.toy_tree import toy_tree
 
 
@@ -31,6 +33,13 @@ class Found:
 
     def summary(self) -> str:
         return "9 states, 18 transitions, DIFFERS: 1 differences"
+
+
+@dataclass
+class Drawn:
+    """A state chart."""
+
+    initial: str
 
 
 @pytest.fixture
@@ -72,25 +81,28 @@ def test_a_missing_graph_is_unjudged(toy: Path) -> None:
 
 def test_a_difference_is_named(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = Found("DIFFERS", False, differences=("outputs in Up after 3 scans: expected MW01='0000'",))
-    monkeypatch.setattr(conformance, "_compare", lambda *_: (found, None, export(toy)))
+    monkeypatch.setattr(command, "compared", lambda *_: (found, {}))
     record = compare(toy)
     assert (record["verdict"], record["as_expected"]) == ("DIFFERS", False)
     assert "first: outputs in Up after 3 scans" in record["reason"]
 
 
 def test_equal_says_how_much_was_covered(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(
-        conformance, "_compare", lambda *_: (Found("EQUAL", True), {"initial": "Off"}, export(toy))
-    )
+    monkeypatch.setattr(command, "compared", lambda *_: (Found("EQUAL", True), {}))
     record = compare(toy)
     assert record["as_expected"] and "18 of 18 transitions, 1 of 2 steps in full" in record["strength"]
-    assert record["result"]["chart"] == {"initial": "Off"}
 
 
 def test_the_export_of_the_graph_is_named_with_its_hash(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(conformance, "_compare", lambda *_: (Found("EQUAL", True), None, export(toy)))
+    for name in ("load_device_graph", "load_implementation"):
+        monkeypatch.setattr(command, name, Mock())
+    monkeypatch.setattr(command, "chart", lambda graph: Drawn("Off"))
+    monkeypatch.setattr(command, "write_export", lambda *_: export(toy))
+    monkeypatch.setattr(command, "compare", lambda *_, codes: Found("EQUAL", codes))
     digest = hashlib.sha256(b"a graph").hexdigest()
-    assert compare(toy)["result"]["artefacts"] == {"build/export/toy/OPEN_toy.json.gz": digest}
+    result = compare(toy)["result"]
+    assert result["artefacts"] == {"build/export/toy/OPEN_toy.json.gz": digest}
+    assert result["chart"] == {"initial": "Off"} and result["equal"], "of our own code every output"
 
 
 def test_an_export_of_an_earlier_run_does_not_stay(toy: Path) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import pty
 import re
 import shutil
 import signal
@@ -14,6 +17,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.places import TREE
+from tests.any_machine import until
 
 LIMIT_S = 40
 HARD = """
@@ -34,9 +38,11 @@ print("went on:", solver.check())
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A tree of its own, so that nobody else holds its lock."""
     place = tmp_path_factory.mktemp("copy")
-    for room in ("spec/edm", "spec/common", "refimpl", "proofs"):
+    for room in ("spec/edm", "spec/common", "refimpl", "proofs", "examples/adapters", "vectors/sf_edm"):
         shutil.copytree(TREE / room, place / room, ignore=shutil.ignore_patterns("__pycache__"))
     (place / "modeproof").symlink_to(TREE / "modeproof")
+    shutil.copyfile(TREE / "vectors/SHA256SUMS", place / "vectors/SHA256SUMS")
+    (place / "log.jsonl").write_text('{"dt_ms":10,"out":{"Ready":false}}\n')
     return place
 
 
@@ -95,3 +101,59 @@ def test_interrupted_proofs_end_with_one_line(copy: Path, moment: int) -> None:
     status, out, err = interrupted(copy, [sys.executable, "-m", "modeproof", *prove], 0.2 * moment)
     assert (status, err) == (2, "modeproof: interrupted: no verdict; what was finished before is kept\n")
     assert not re.search(r"^proofs ", out, re.MULTILINE)
+
+
+def lives(place: Path) -> list[str]:
+    """The processes that work on a tree."""
+    found = subprocess.run(["ps", "-wweo", "args"], capture_output=True, text=True, check=True).stdout
+    return [line for line in found.splitlines() if str(place) in line]
+
+
+def left_over(place: Path) -> list[str]:
+    """Files and folders that are there for a while only."""
+    return [path.name for path in (place / "build").rglob("*") if re.search(r"\.[a-z0-9_]{8}$", path.name)]
+
+
+SAID = "modeproof: interrupted: no verdict; what was finished before is kept\n"
+CONFORM = ["conform", "sf_edm", "--suite", "times", "--jobs", "2", "--quiet", "--adapter"]
+TRACE = ["trace", "sf_edm", "log.jsonl", "--quiet"]
+
+
+@pytest.mark.parametrize(
+    ("command", "after_s"),
+    [
+        pytest.param(CONFORM, 1.5),
+        *(pytest.param(CONFORM, after, marks=pytest.mark.deep) for after in (0.0, 0.5, 2.5)),
+        *(pytest.param(TRACE, after, marks=pytest.mark.deep) for after in (0.0, 0.5, 1.5, 3.0)),
+        *(pytest.param(["report"], after, marks=pytest.mark.deep) for after in (0.0, 0.4, 0.8)),
+    ],
+)
+def test_an_interrupt_leaves_files_and_children_clean(copy: Path, command: list[str], after_s: float) -> None:
+    adapter = [f"'{sys.executable}' '{copy}/examples/adapters/refimpl_adapter.py' sf_edm"]
+    whole = [*command, *(adapter if command is CONFORM else [])]
+    status, out, err = interrupted(copy, [sys.executable, "-m", "modeproof", *whole], after_s)
+    assert status == 2 and (err.endswith(SAID) or "UNJUDGED: interrupted after " in out), err
+    assert "Traceback" not in err + out
+    until(lambda: not lives(copy), "the end of all that it has started")
+    assert not left_over(copy) and not (copy / "build/yours").exists()
+
+
+@pytest.mark.deep
+def test_an_interrupt_wipes_the_line_of_progress(copy: Path) -> None:
+    ours, theirs = pty.openpty()
+    words = ["prove", "--document", "edm"]
+    running = subprocess.Popen(
+        [sys.executable, "-m", "modeproof", *words],
+        cwd=copy, stdin=theirs, stdout=theirs, stderr=theirs, start_new_session=True,
+    )  # fmt: skip
+    os.close(theirs)
+    said, sent = b"", False
+    with contextlib.suppress(OSError):  # at its end
+        while chunk := os.read(ours, 4096):
+            said += chunk
+            if not sent and b"] proofs" in said:
+                sent = True
+                running.send_signal(signal.SIGINT)
+    assert running.wait(timeout=60) == 2
+    last = said.decode().replace("\r\n", "\n").rstrip("\n").rsplit("\n", 1)[-1]
+    assert re.split(r"\r\x1b\[K|\r", last)[-1] + "\n" == SAID and b"\x1b[?" not in said

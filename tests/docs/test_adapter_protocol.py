@@ -27,7 +27,7 @@ def test_the_page_names_every_field_that_the_kit_reads() -> None:
             return super().get(key, default)
 
     asked: set[str] = set()
-    read_hello(Asked(ok=True), SUITE, "exact")
+    read_hello(Asked(ok=True), SUITE.outputs, "exact")
     table = PAGE.partition("## What hello says")[2].partition("\n## ")[0]
     rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
     assert asked == {name for row in rows for name in re.findall(r"`(\w+)`", row)}
@@ -48,7 +48,7 @@ def test_the_page_names_every_field_that_the_kit_reads() -> None:
 )
 def test_hello_is_read_as_the_page_says(hello: Mapping[str, Any], relation: str, good: bool) -> None:
     try:
-        read_hello({"ok": True, **hello}, SUITE, relation)
+        read_hello({"ok": True, **hello}, SUITE.outputs, relation)
     except Unjudged:
         assert not good
     else:

@@ -208,7 +208,8 @@ def test_a_program_that_is_not_there_is_unjudged(suite: Suite) -> None:
 
 def test_a_case_that_does_not_exist_is_unjudged(suite: Suite, tmp_path: Path) -> None:
     verdict = run_suite(suite, starter(tmp_path), only="lamp-000000000000")
-    assert verdict.word == "UNJUDGED" and "no case with the id" in verdict.reason
+    assert verdict.word == "UNJUDGED" and verdict.reason.startswith("no case with the id lamp-0000")
+    assert "in the suite " in verdict.reason and "allowed: " in verdict.reason
 
 
 def test_a_suite_without_cases_shows_nothing(suite: Suite) -> None:

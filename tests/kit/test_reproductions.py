@@ -57,6 +57,7 @@ def test_what_was_not_run_again_is_not_said_to_be(capsys: pytest.CaptureFixture[
     assert kit_main(args) == 1
     told = capsys.readouterr()
     assert "first difference:" in told.err and "NO difference" not in told.err + told.out
+    assert "the case up to there" not in told.err and "shortest way there" not in told.err
     again = next(line for line in told.out.splitlines() if line.startswith("again:")).split()
     tail = [word.strip('"') for word in again[again.index("--case") :]]
     assert kit_main([*args, *tail]) == 1

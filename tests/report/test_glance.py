@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,13 @@ def test_a_property_stands_with_verdict_strength_and_count(root: Path) -> None:
     assert cell["distinct"].value == 5 and cell["distinct"].source == "build/evidence/box/MC_Box.json"
     assert one["strengths"] == [{"mark": cell["mark"], "text": "any door"}]
     assert one["environments"][0]["good"].value == one["environments"][0]["of"].value == 1
+
+
+def test_a_reading_that_fails_as_predicted_is_not_called_violated(root: Path) -> None:
+    words, page = "the other reading fails, as predicted</span>", make(root).html
+    assert words in page and not re.search(r'✓</span> (<span class="figure"[^>]*>)?VIOLATED', page)
+    put(root, "NEG_Box_eager", verdict="HOLDS", as_expected=False, reason="nothing fails")
+    assert make(root).html.count(words) < page.count(words)
 
 
 def test_kinds_of_evidence_are_counted_apart(root: Path) -> None:

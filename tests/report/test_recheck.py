@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.evidence import evidence_path, result_sha256
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_of_page, seal_page
 from tests.report.paper import change, make_whole, put
 
@@ -75,8 +78,54 @@ def test_a_page_alone_is_verified_by_what_it_carries(root: Path, capsys: pytest.
     moved.write_bytes(page.read_bytes())
     assert main(["report", "--verify", str(moved)]) == 0
     put(root, "MC_Box", seconds=9.0)
+    assert main(["report", "--verify", str(moved)]) == 0
+    said = capsys.readouterr().out
+    assert "again    build/evidence/box/MC_Box.json: made again 1970-01-01T00:00:00Z: " in said
+    assert said.endswith("as it was made; 1 made again since: reproduced, same result\n")
+    put(root, "MC_Box", result={"generated": 12})
     assert main(["report", "--verify", str(moved)]) == 1
     assert "differs  build/evidence/box/MC_Box.json" in capsys.readouterr().out
+
+
+CHANGES: list[tuple[dict[str, Any], bool]] = [
+    ({"started": 1.0, "seconds": 77.0, "command": "typed otherwise"}, True),
+    ({"result": {"queries": [{"seconds": 3.0}], "workers": 7, "log": "elsewhere"}}, True),
+    ({"verdict": "REFUTED"}, False),
+    ({"inputs": {"spec/box/Box.tla": "1" * 64}}, False),
+    ({"result": {"queries": [{"seconds": 3.0, "z3": "sat"}]}}, False),
+    ({"environment": "honest"}, False),
+]
+
+
+@pytest.mark.parametrize(("change", "same"), CHANGES)
+def test_times_and_host_alone_leave_a_result_the_same(change: dict[str, Any], same: bool) -> None:
+    usual = {"verdict": "HOLDS", "result": {"queries": [{"seconds": 1.0}]}, "environment": "arbitrary"}
+    usual |= {"inputs": {"spec/box/Box.tla": "0" * 64}, "started": 0.0, "machine": {"cores": 2}}
+    assert (result_sha256(usual | change) == result_sha256(usual)) == same
+
+
+def test_a_user_s_runs_are_shown_and_turn_nothing_red(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = {"verdict": "DIFFERS", "as_expected": False, "reason": "the program differs"}
+    put(root, "mine_box_brief", kind="conformance", **said)
+    path = evidence_path(root, "box", "mine_box_brief")
+    place = root / "build/yours/box/mine_box_brief.json"
+    place.parent.mkdir(parents=True)
+    assert main(["report"]) == 1
+    path.rename(place)
+    capsys.readouterr()
+    assert main(["report"]) == 0
+    row = re.search(r'<tr id="conformance-yours-mine_box_brief">.*?</tr>', page(root), re.DOTALL)
+    assert row is not None and "DIFFERS" in row.group()
+    place.write_text("{")
+    assert main(["report", "--verify"]) == 0
+    assert "yours    build/yours/box/mine_box_brief.json" in capsys.readouterr().out
+    assert main(["report"]) == 0, "one that is damaged is told, and no more"
+    place.unlink()
+    assert main(["report"]) == 0 and "none yet" in page(root)
+
+
+def page(root: Path) -> str:
+    return (root / "build/report/report.html").read_text(encoding="utf-8")
 
 
 def test_page_and_json_of_two_reports_do_not_belong_together(

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from modeproof.report.build import make
+from modeproof.report.parts import verdict
 from modeproof.report.parts.strength import part
 from modeproof.report.sources import HOLE, NOTE, gather
 from tests.report.paper import make_paper, put
@@ -118,6 +119,11 @@ def test_without_evidence_the_counts_kept_in_git_are_shown(root: Path) -> None:
     score = found["score"]
     assert (found["recorded"], score["killed"].value, score["different"].value) == (None, 7, 8)
     assert "of an earlier text" in make(root).html
+    by = {row["judge"]: row for row in verdict.part(gather(root)).data["documents"][0]["mutants"]}
+    row = by["theorems"]
+    assert (row["killed"].value, row["of"].value, row["killed"].source) == (7, 8, "spec/box/scores.toml")
+    assert row["note"] == "2026-11-22, of an earlier text" and by["properties"]["note"] == ""
+    assert "not measured" not in make(root).html and "1 of 2 campaigns" not in make(root).html
 
 
 def test_the_text_of_an_edit_cannot_become_markup(root: Path) -> None:

@@ -82,12 +82,17 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+def yours(toy: Path, id: str) -> Path:
+    """Where what a user found out is kept."""
+    return evidence.evidence_path(toy, "toy", id, evidence.YOURS)
+
+
 def test_a_builtin_is_compared_both_ways(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet", "--json", str(toy / "v.json")]) == 0
     said = capsys.readouterr().out
     assert "3 states, 54 transitions, EQUAL" in said and "SwitchOn          3 / 3" in said
     assert json.loads((toy / "v.json").read_text())["runs"][0]["verdict"] == "EQUAL"
-    record = evidence.read(evidence.evidence_path(toy, "toy", "toyimpl_OPEN_Lamp"))
+    record = evidence.read(yours(toy, "toyimpl_OPEN_Lamp"))
     assert record["kind"] == "conformance" and record["as_expected"] is True
 
 
@@ -143,7 +148,7 @@ def test_a_wrong_builtin_differs(toy: Path, capsys: pytest.CaptureFixture[str]) 
     assert main(["conform", "lamp", "--builtin", "brokenimpl", "--quiet"]) == 1
     said = capsys.readouterr().out
     assert "DIFFERS" in said and "first difference: outputs in Expire after 2 scans" in said
-    assert evidence.read(evidence.evidence_path(toy, "toy", "brokenimpl_OPEN_Lamp"))["verdict"] == "DIFFERS"
+    assert evidence.read(yours(toy, "brokenimpl_OPEN_Lamp"))["verdict"] == "DIFFERS"
 
 
 def test_a_suite_built_once_judges_an_adapter(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -155,7 +160,7 @@ def test_a_suite_built_once_judges_an_adapter(toy: Path, capsys: pytest.CaptureF
     stamp = vectors.stat().st_mtime_ns
     assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
     assert vectors.stat().st_mtime_ns == stamp
-    found = evidence.read(evidence.evidence_path(toy, "toy", "adapter_lamp_tour"))
+    found = evidence.read(yours(toy, "lamp-1_lamp_tour"))
     assert found["verdict"] == "CONFORMS"
     assert "every transition" in found["result"]["says"]["guarantees"]
 
@@ -183,19 +188,23 @@ def test_own_parameters_need_a_suite_to_be_put_in(toy: Path, capsys: pytest.Capt
 def test_a_broken_adapter_is_unjudged(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     command = " ".join(f'"{word}"' for word in program(toy, "sys.exit('no licence')"))
     assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 2
-    assert "UNJUDGED: hello: the adapter ended with status 1; it said: no licence" in capsys.readouterr().out
-    assert evidence.read(evidence.evidence_path(toy, "toy", "adapter_lamp_tour"))["verdict"] == "UNJUDGED"
+    assert "hello: the adapter ended with status 1; it said: no licence" in capsys.readouterr().err
+    assert not list(toy.glob("build/vectors/**/*.gz")), "it was greeted before the suite was made"
+    assert (
+        not (toy / "build/yours").exists()
+        and not (toy / "build/evidence/toy/adapter_lamp_tour.json").exists()
+    )
 
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["lmap", "--builtin", "toyimpl"], "no target 'lmap'; there are: lamp"),
+        (["lmap", "--builtin", "toyimpl"], "no target 'lmap'; did you mean 'lamp'?"),
         (["lamp", "--builtin", "noimpl"], "noimpl.toy.lamp cannot be imported"),
         (["lamp", "--builtin", "toyimpl", "--document", "other"], "no target 'lamp' in other"),
         (
             ["lamp", "--adapter", "x", "--suite", "toru"],
-            "no suite 'toru'; there are: tour, brief, wp, words, refusals, sic, times, sequences, parameters",
+            "no suite 'toru'; did you mean 'tour'? allowed: fast, tour, brief, wp, words, refusals",
         ),
         (["lamp", "--adapter", "x", "--vectors", "none.jsonl"], "No such file"),
     ],
@@ -212,4 +221,4 @@ def test_a_graph_that_lost_an_edge_is_no_basis(toy: Path, capsys: pytest.Capture
     vouch(toy, "toy")
     assert main(["conform", "lamp", "--builtin", "toyimpl", "--quiet"]) == 2
     assert "OPEN_Lamp.txt: 1 edges are missing" in capsys.readouterr().err
-    assert not evidence.evidence_path(toy, "toy", "toyimpl_OPEN_Lamp").exists()
+    assert not yours(toy, "toyimpl_OPEN_Lamp").exists()

@@ -38,6 +38,12 @@ def test_a_counterexample_shows_what_each_step_changes() -> None:
     assert shown.count("count = ") == 4 and shown.count("top") == 1
 
 
+def test_wires_take_the_place_of_variables_of_their_name() -> None:
+    trace = read_log(log_lines("NEG_small")).trace
+    shown = format_trace(trace, "", wires=[{"count": f"{n:04X} (mode {n})"} for n in range(len(trace))])
+    assert shown.count("count = ") == 4 and "count = 0003 (mode 3)" in shown and "count = 3" not in shown
+
+
 @given(st.text(st.characters(codec="utf-8", exclude_characters="\n\r")))
 def test_a_printed_string_comes_back_as_the_model_wrote_it(text: str) -> None:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')

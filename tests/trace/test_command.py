@@ -47,7 +47,7 @@ def test_a_log_that_fits_and_one_that_does_not(
     out = capsys.readouterr().out
     assert f"first impossible scan: {at + 1:,}, line {at + 1} of the log" in out
     assert "SwitchMSO  0000       1234\n" in out and "the specification takes ShowEcho (Hmi.tla:" in out
-    record = evidence.read(evidence.evidence_path(place, "mode_selection", "trace_hmi_hmi"))
+    record = evidence.read(evidence.evidence_path(place, "mode_selection", "trace_hmi_hmi", evidence.YOURS))
     assert (record["kind"], record["verdict"], record["as_expected"]) == ("trace", "DIFFERS", False)
     assert record["result"]["accepted"] == at and record["result"]["why"]["taken"][0]["wrong"] == [
         "SwitchMSO"
@@ -59,7 +59,7 @@ def test_a_log_that_fits_and_one_that_does_not(
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [
-        (["hmj", "log.jsonl"], "no log can be of 'hmj'; there are: "),
+        (["hmj", "log.jsonl"], "no log can be of 'hmj'; did you mean 'hmi'? "),
         (["hmi", "nothing.jsonl"], "nothing.jsonl: No such file or directory"),
         (["hmi", "empty.jsonl"], "empty.jsonl: no scan in it"),
         (["hmi", "cut.jsonl"], "cut.jsonl: line 2, column 16: the last line is cut off"),

@@ -1,6 +1,8 @@
 """Evidence: one JSON file a run, written atomically, checked by one schema on writing and on reading."""
 
 from modeproof.ground.evidence.files import (
+    OURS,
+    YOURS,
     discard,
     discard_undeclared,
     evidence_path,
@@ -16,13 +18,16 @@ from modeproof.ground.evidence.record import (
     other_tools,
     own_tools,
     package,
+    result_sha256,
     sha256,
     solvers,
     tool,
 )
 
 __all__ = [
+    "OURS",
     "SCHEMA_VERSION",
+    "YOURS",
     "discard",
     "discard_undeclared",
     "evidence_path",
@@ -34,6 +39,7 @@ __all__ = [
     "package",
     "read",
     "read_document",
+    "result_sha256",
     "sha256",
     "solvers",
     "tool",

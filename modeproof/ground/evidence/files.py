@@ -1,4 +1,5 @@
-"""Writes and reads evidence files: build/evidence/<document>/<id>.json.
+"""Writes and reads evidence files: build/evidence/<document>/<id>.json; of users' programs and logs below
+build/yours/.
 
 A file appears whole or not at all: it is written beside its place, flushed to the disk, then renamed.
 """
@@ -31,19 +32,23 @@ def _check(record: Any, place: str) -> None:
         raise Unjudged(f"{place}: not valid evidence at {at}: {error.message[:200]}")
 
 
-def evidence_path(place: Path, document: str, id: str) -> Path:
+OURS, YOURS = "evidence", "yours"
+"""Folders of build/: what this project claims, and what was found out about a user's programs and logs."""
+
+
+def evidence_path(place: Path, document: str, id: str, folder: str = OURS) -> Path:
     """Where the evidence of a run lies."""
-    return build(place) / "evidence" / document / f"{id}.json"
+    return build(place) / folder / document / f"{id}.json"
 
 
-def write(place: Path, record: Mapping[str, Any]) -> Path:
+def write(place: Path, record: Mapping[str, Any], folder: str = OURS) -> Path:
     """Write one piece of evidence and return its path.
 
     Raises Unjudged when the record breaks the schema or cannot be written (no space, no permission); then
     nothing is left behind.
     """
     _check(record, "evidence to be written")
-    path = evidence_path(place, record["document"], record["id"])
+    path = evidence_path(place, record["document"], record["id"], folder)
     text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     write_whole(path, text.encode("utf-8"))
     return path
@@ -61,10 +66,10 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
         raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
-def discard(place: Path, document: str, id: str) -> None:
+def discard(place: Path, document: str, id: str, folder: str = OURS) -> None:
     """Remove the evidence of an earlier run, so that a run that fails to write any cannot pass for it."""
     try:
-        evidence_path(place, document, id).unlink(missing_ok=True)
+        evidence_path(place, document, id, folder).unlink(missing_ok=True)
     except OSError as error:
         raise Unjudged(f"evidence {document}/{id} cannot be removed: {error.strerror or error}") from None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import platform
 import time
@@ -15,6 +16,11 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 
 SCHEMA_VERSION = 1
+_OF_THE_RUN = frozenset({"started", "seconds", "machine", "tools", "command"})
+_OF_TIME_AND_HOST = frozenset(
+    {"seconds", "work", "shared", "first_difference_s", "tlc_command", "log", "workers", "heap_mb"}
+)
+"""Keys of a record, and of its `result`, that may be others when the same thing is found again."""
 
 
 def sha256(path: Path) -> str:
@@ -82,6 +88,21 @@ def other_tools(record: Mapping[str, Any]) -> tuple[str, ...]:
         for name, entry in record["tools"].items()
         if entry["sha256"] is not None and entry["sha256"] != now.get(name, entry)["sha256"]
     )
+
+
+def result_sha256(record: Mapping[str, Any]) -> str:
+    """SHA-256 of what was found, on which files: the same whenever and wherever it is found again.
+
+    Times, the machine, versions of tools and the command as it was typed are left out.
+    """
+
+    def kept(value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return {key: kept(inner) for key, inner in value.items() if key not in _OF_TIME_AND_HOST}
+        return list(map(kept, value)) if isinstance(value, (list, tuple)) else value
+
+    found = {key: kept(value) for key, value in record.items() if key not in _OF_THE_RUN}
+    return hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()
 
 
 @cache

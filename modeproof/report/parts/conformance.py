@@ -1,4 +1,6 @@
-"""Conformance: each complete graph beside the reference implementation, each program under each suite."""
+"""Conformance: each complete graph beside the reference implementation, each program under each suite; and
+what users judged, which counts for nothing here.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,26 @@ RELATIONS = (
 def part(sources: Sources) -> Part:
     """One entry a document: graphs, programs, coverage."""
     found = [_document(sources, document) for document in sources.documents.values()]
-    return Part(ID, "Conformance", {"relations": RELATIONS, "documents": found})
+    yours = [
+        _yours(sources.documents[name], piece) for name, of in sources.yours.items() for piece in of.values()
+    ]
+    return Part(ID, "Conformance", {"relations": RELATIONS, "documents": found, "yours": yours})
+
+
+def _yours(document: Document, piece: Evidence) -> dict[str, Any]:
+    """A user's program, or a log of one."""
+    log = piece.result.get("log")
+    if not isinstance(log, Mapping):
+        return {**_program(document, piece), "name": piece.result.get("name", piece.id), "log": None}
+    lines = {"accepted": piece.figure("result", "accepted"), "lines": piece.figure("result", "log", "lines")}
+    return {
+        **_verdict(piece),
+        "id": piece.id,
+        "name": str(log["name"]),
+        "target": piece.result.get("target", ""),
+        "log": lines,
+        "command": piece.record["command"],
+    }
 
 
 def _document(sources: Sources, document: Document) -> dict[str, Any]:

@@ -29,6 +29,7 @@ def part(sources: Sources) -> Part:
                             "started": record.record["started"],
                             "seconds": record.figure("seconds", unit="s"),
                             "sha256": Figure(record.sha256, record.path),
+                            "result_sha256": Figure(record.result_sha256, record.path),
                             "inputs": len(record.record["inputs"]),
                             "stale": bool(record.changed),
                         }

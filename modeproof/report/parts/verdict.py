@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
+from modeproof.registers.scores import Score, load_scores
 from modeproof.report.campaigns import KINDS, id_of
 from modeproof.report.part import Part
 from modeproof.report.snapshot import as_it_counts, lines_of, mutants_of
@@ -14,7 +15,7 @@ from modeproof.report.verdicts import ASIDE, NOT_AS_DECLARED, Line, status_of
 
 GROUPS: tuple[tuple[str, str, Callable[[Evidence], bool]], ...] = (
     ("theorems", "PROVED", lambda one: one.record["kind"] == "proof"),
-    ("negatives", "VIOLATED, as expected", lambda one: one.result.get("run") == "NEG"),
+    ("negatives", "the other reading fails, as predicted", lambda one: one.result.get("run") == "NEG"),
     ("witnesses", "REACHED", lambda one: one.result.get("run") == "WIT"),
     ("graphs", "complete", lambda one: one.result.get("run") == "OPEN"),
     ("conformance", "EQUAL or CONFORMS", lambda one: one.record["kind"] == "conformance"),
@@ -92,8 +93,11 @@ def _count(statuses: Sequence[int], folder: str) -> dict[str, Any]:
 
 
 def _mutants(sources: Sources, document: str) -> list[dict[str, Any]]:
-    """KILLED of those that behave differently and were measured, for each judge."""
+    """KILLED of those that behave differently, for each judge: by evidence of the present text, else as the
+    register keeps it, with the day and whether the text has changed since.
+    """
     found = mutants_of(sources, document)
+    kept: dict[str, Score] = {score.what: score for score in load_scores(sources.root, document)}
     rows = []
     for kind, (_, judge, _) in KINDS.items():
         counts = found.get(judge, {})
@@ -101,8 +105,17 @@ def _mutants(sources: Sources, document: str) -> list[dict[str, Any]]:
         if different:
             path = sources.evidence[document][id_of(kind)].path
             killed = counts.get("KILLED", 0)
-            rows.append({"judge": judge, "killed": Figure(killed, path), "of": Figure(different, path)})
+            rows.append(_killed(judge, killed, different, path))
+        elif score := kept.get(kind):
+            path = f"spec/{document}/scores.toml"
+            note = f"{score.judged_on}{', of an earlier text' if score.earlier_text else ''}"
+            rows.append(_killed(judge, score.killed, score.different, path, note))
     return rows
+
+
+def _killed(judge: str, killed: int, of: int, path: str, note: str = "") -> dict[str, Any]:
+    """How many of the mutants a judge kills; `note` is the day of a recorded campaign, and its text."""
+    return {"judge": judge, "killed": Figure(killed, path), "of": Figure(of, path), "note": note}
 
 
 def _rows(
@@ -164,13 +177,11 @@ def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
     for _, judge, _ in KINDS.values():
         rows = [row for document in documents for row in document["mutants"] if row["judge"] == judge]
         if rows:
-            mutants.append(
-                {
-                    "judge": judge,
-                    "killed": Figure(sum(row["killed"].value for row in rows), folder),
-                    "of": Figure(sum(row["of"].value for row in rows), folder),
-                }
-            )
+            old = sum("earlier" in row["note"] for row in rows)
+            note = f"{old} of {len(rows)} campaigns of an earlier text" if old else ""
+            where = "spec/" if any(row["note"] for row in rows) else folder
+            killed, of = (sum(row[key].value for row in rows) for key in ("killed", "of"))
+            mutants.append(_killed(judge, killed, of, where, note))
     return {
         "properties": add([cell for document in documents for cell in document["environments"]]),
         "groups": [
