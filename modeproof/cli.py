@@ -34,6 +34,7 @@ COMMANDS = {
     "render": "modeproof.lane.render",
     "walks": "modeproof.lane.walks",
     "report": "modeproof.report.command",
+    "simulate": "modeproof.simulate.command",
     "mutate": "modeproof.strength.command",
     "doctor": "modeproof.lane.doctor",
 }
