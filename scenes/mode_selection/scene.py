@@ -45,11 +45,11 @@ class Scene:
         self.system = key_flows.System(*states, *outs)
         self.faults = Faults()
         self.lines: list[dict[str, Any]] = []
-        self.read: dict[str, dict[str, Any]] = {}
         self.wrote = {name: on_wire(self.rows[name]["outputs"], self.devices[name].out) for name in self.rows}
         self.since = {name: 0 for name in self.rows}
         self.clock = self.scans = 0
         self.last = ""
+        self.misread: dict[str, list[str]] = {}
         self.level = self.touched = self.confirmed = NONE
         self.differs = ""
 
@@ -76,9 +76,10 @@ class Scene:
                 for device, dt_ms in ROUND:
                     self.scan(device, dt_ms)
         elif word == "scan":
-            names = [name for name in rest.split(" ") if name in self.rows]
-            times = rest.split(" ")[-1]
-            for _ in range(int(times) if times.isdigit() else 1):
+            *names, times = rest.split(" ") if rest[-1:].isdigit() else [*rest.split(" "), "1"]
+            if any(name not in self.rows for name in names):
+                raise ValueError(f"{text!r} is no action of this cell")
+            for _ in range(int(times)):
                 for name in names:
                     self.scan(name, dict(ROUND)[name])
         elif word == "insert":
@@ -94,6 +95,7 @@ class Scene:
             self.faults.begin(rest, self.words())
         elif word == "mend":
             self.faults.end()
+            self.misread = {}
         elif word in ("word", "other", "output") and (rest in RANGE_OF or rest in ("LA", *OUTPUTS)):
             setattr(self.faults, word, rest)
         elif word == "mode":
@@ -120,7 +122,10 @@ class Scene:
             "plc": key_flows.plc_inputs,
             "hmi": key_flows.hmi_inputs,
         }[name](self.system, dt_ms)
-        self._step(name, self.faults.read(name, read, self.words()), dt_ms)
+        faulty = self.faults.read(name, read, self.words())
+        fields = self.rows[name]["inputs"]
+        self.misread[name] = [of for of in fields if getattr(faulty, of) != getattr(read, of)]
+        self._step(name, faulty, dt_ms)
 
     def _step(self, name: str, inputs: Any, dt_ms: int) -> None:
         before = self.words()
@@ -131,9 +136,9 @@ class Scene:
             self.system = replace(self.system, touch=hmi.NO_TOUCH)
         for word, value in self.words().items():
             self.faults.written(word, before[word], value)
-        self.read[name] = on_wire(self.rows[name]["inputs"], inputs)
+        read = on_wire(self.rows[name]["inputs"], inputs)
         self.wrote[name] = on_wire(self.rows[name]["outputs"], out)
-        self.lines.append({"device": name, "dt_ms": dt_ms, "in": self.read[name], "out": self.wrote[name]})
+        self.lines.append({"device": name, "dt_ms": dt_ms, "in": read, "out": self.wrote[name]})
         self.since[name] += dt_ms
         self.clock = max(self.since.values())
         self.scans += 1
@@ -190,7 +195,6 @@ class Scene:
     def show(self) -> dict[str, Any]:
         """What stands where: texts, what is lit, what can be touched, and the step of each device."""
         signals = {name: value for out in self.wrote.values() for name, value in out.items()}
-        read = self.read.get("fplc", {})
         shown = picture(self.facts, signals)
         shown["text"] |= {
             "time": f"{self.clock / 1000:.2f} s",
@@ -200,13 +204,7 @@ class Scene:
             "level": "" if self.level == NONE else str(self.level),
             "dwell": f"{self.system.fplc_state.params.T_DWELL_ms} ms",
         }
-        shown["misread"] = [
-            name
-            for device, inputs in self.read.items()
-            for name, value in inputs.items()
-            if name in signals and value != signals[name] and self.faults.active and device != "eks"
-        ]
-        shown["as_read"] = {name: read[name] for name in shown["misread"] if name in read}
+        shown["misread"] = [name for names in self.misread.values() for name in names]
         shown["on"] |= {f"key.{level}": self.level == level for level in LEVELS}
         shown["on"] |= {"key": self.system.key is not None or self.level != NONE, "fault": bool(self.faults.active)}
         shown["devices"] = {
@@ -262,6 +260,10 @@ def recorded(facts: dict[str, Any], wires: dict[str, Any], states: dict[str, str
         if name in types
     }
     shown = picture(facts, signals)
+    for name in RANGE_OF:
+        if name not in signals:
+            shown["text"] |= {name: "", f"{name}.says": "not recorded"}
+    shown["text"] |= {"user": "Recorded: what the user did stands above.", "dwell": "not recorded"}
     shown["devices"] = {
         name: {"state": states.get(name, "not in this model"), "step": step if name == who else "", "last": name == who}
         for name in rows

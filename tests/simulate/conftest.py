@@ -1,0 +1,60 @@
+"""The page of this tree, made once, opened once for the tests that only play; and scenes without a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser
+
+from modeproof.ground.places import documents
+from modeproof.registers.load import load_document
+from modeproof.simulate import facts
+from modeproof.simulate.build import make
+from modeproof.simulate.program.block import Block
+from scenes.mode_selection.scene import Scene
+from tests.report.browser.conftest import browser as browser
+from tests.report.browser.opened import Opened, open_page
+
+ROOT = Path(__file__).resolve().parents[2]
+READY = "() => window.modeproofReady !== undefined"
+SCENE = "mode_selection"
+
+
+@pytest.fixture(scope="session")
+def known() -> dict[str, Any]:
+    """The facts of every document."""
+    return {name: facts.of_document(load_document(ROOT, name)) for name in documents(ROOT)}
+
+
+@pytest.fixture(scope="session")
+def told() -> dict[str, Any]:
+    """The stories by their ids."""
+    return {story["id"]: story for story in facts.stories(ROOT, [SCENE])}
+
+
+@pytest.fixture(scope="session")
+def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of this tree."""
+    path = tmp_path_factory.mktemp("simulate") / "simulate.html"
+    path.write_text(make(ROOT), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def opened(browser: Browser, page_file: Path) -> Iterator[Opened]:
+    """The page, ready, opened once for a module."""
+    with open_page(browser, page_file) as page:
+        page.page.wait_for_function(READY)
+        yield page
+
+
+def scenes_of(story: dict[str, Any], known: dict[str, Any]) -> list[Any]:
+    """The scenes that a story is played in, without a browser."""
+    cells = [cell["params"] for cell in story.get("cell", [{"params": {}}])]
+    if story["of"] == SCENE:
+        return [Scene(known[SCENE], params) for params in cells]
+    about = next(about for about in known.values() if story["of"] in about["devices"])
+    return [Block(story["of"], about, params) for params in cells]

@@ -98,9 +98,10 @@ def spelt(name: str) -> str:
     """A name of a state in words: `WaitForReset1` is "wait for reset 1"."""
     out = ""
     for at, sign in enumerate(name):
-        begins = sign.isupper() and not (at and name[at - 1].isupper()) or sign.isdigit() and at
-        after = sign.isdigit() and at and name[at - 1].isdigit()
-        out += (" " if begins and at and not after else "") + sign
+        before, after = name[at - 1 : at], name[at + 1 : at + 2]
+        begins = sign.isupper() and (before.islower() or before.isdigit() or after.islower())
+        begins = begins or (sign.isdigit() and not before.isdigit())
+        out += (" " if begins and at else "") + sign
     words = [word if word.isupper() and len(word) > 1 else word.lower() for word in out.split(" ")]
     return " ".join(words)
 

@@ -24,6 +24,8 @@ class Page:
         self.player: Player | None = None
         self.running: dict[Any, Any] = {}
         self.told: Any = None
+        self.keys = 0
+        self.drawn_fault: dict[str, str] = {}
         self.code: dict[str, Any] = {}
         for name in FACTS["scenes"]:
             self.code[name] = __import__(f"scenes.{name}.scene", fromlist=["Scene"])
@@ -64,6 +66,7 @@ class Page:
                 self.listen(card, id)
                 for field in card.select("[data-param]"):
                     field.bind("change", lambda event, id=id: self.set_param(id, event.currentTarget))
+                self.after(id)
 
     def set_param(self, id: str, field: Any) -> None:
         """Another parameter of a block; a value out of range is said and not taken."""
@@ -96,7 +99,7 @@ class Page:
             frame.classList.add("two")
         else:
             frame.classList.remove("two")
-        root.classList.remove("recorded")
+        _allow(root, True)
         self.after(name)
 
     def listen(self, root: Any, name: str) -> None:
@@ -136,9 +139,9 @@ class Page:
     def draw_faults(self, root: Any, view: View) -> None:
         """Which fault is in, and what the table says of it."""
         active = view.scene.faults.active
-        if active == getattr(self, "drawn_fault", None):
+        if active == self.drawn_fault.get(root.id):
             return
-        self.drawn_fault = active
+        self.drawn_fault[root.id] = active
         for button in root.select("[data-fault]"):
             button.attrs["aria-pressed"] = "true" if button.attrs["data-fault"] == active else "false"
         about = root.select_one("[data-about]")
@@ -173,8 +176,10 @@ class Page:
 
     def toggle(self, button: Any, work: Any, every_ms: int) -> None:
         """Play or pause; each button plays by itself."""
-        id = button.id or button.attrs.get("aria-label") or f"play {len(self.running)}"
-        key = button.attrs.setdefault("data-key", id) if hasattr(button.attrs, "setdefault") else id
+        if "data-key" not in button.attrs:
+            self.keys += 1
+            button.attrs["data-key"] = str(self.keys)
+        key = button.attrs["data-key"]
         if key in self.running:
             window.clearInterval(self.running.pop(key)[0])
             button.attrs["aria-pressed"], button.text = "false", "Play"
@@ -226,7 +231,7 @@ class Page:
             return
         self.show_part(f"scene-{name}")
         self.open_cells(name, [{"title": "", "params": {}}])
-        document[f"scene-{name}"].classList.add("recorded")
+        _allow(document[f"scene-{name}"], False)
         view, code = self.views[name][0], self.code[name]
 
         def draw(row: dict[str, Any]) -> None:
@@ -362,6 +367,13 @@ def _place(node: Any, code: Any) -> None:
         field.style.width, field.style.height = f"{width}%", f"{height}%"
     for field in node.select("[data-mode]"):
         field.text = code.MODE_NAMES[int(field.attrs["data-mode"])]
+
+
+def _allow(root: Any, free: bool) -> None:
+    """Whether the user may act in a part; what the panel has open is for the view to say."""
+    for button in root.select("[data-do], [data-go]"):
+        if not button.attrs.get("data-open"):
+            button.disabled = not free
 
 
 def _line(about: Any, head: str, text: str) -> None:

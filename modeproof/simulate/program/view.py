@@ -20,7 +20,7 @@ class View:
         self.devices = _by(root, "data-device")
         self.shown: dict[str, Any] = {"text": {}, "on": {}, "open": {}, "devices": {}, "misread": []}
         self.drawn: dict[str, Any] = {}
-        self.changed: list[Any] = []
+        self.changed: list[Any] = list(root.select(".changed"))
 
     def refresh(self) -> str:
         """Draw the scene; what is new for one who listens."""
