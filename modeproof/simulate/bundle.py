@@ -8,7 +8,6 @@ from pathlib import Path
 from modeproof.ground.errors import Unjudged
 
 HERE = Path(__file__).parent
-OURS = ("refimpl", "scenes", "modeproof/simulate/program")
 
 
 def brython() -> tuple[str, str]:
@@ -27,7 +26,8 @@ def modules(place: Path) -> dict[str, list[object]]:
     Raises Unjudged where a folder of them holds none.
     """
     found: dict[str, list[object]] = {name: _module("", True) for name in ("modeproof", "modeproof.simulate")}
-    for folder, base in [*((place / name, place) for name in OURS), (HERE / "standard", HERE / "standard")]:
+    rooms = ((place / "refimpl", place), (place / "scenes", place), (HERE / "program", HERE.parents[1]))
+    for folder, base in (*rooms, (HERE / "standard", HERE / "standard")):
         files = sorted(folder.rglob("*.py"))
         if not files:
             raise Unjudged(f"{folder}: no Python here; the page runs it")

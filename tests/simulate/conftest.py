@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,8 +11,10 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser
 
+from modeproof.ground import evidence
 from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
+from modeproof.report.story import digest_of
 from modeproof.simulate import facts
 from modeproof.simulate.build import make
 from modeproof.simulate.program.block import Block
@@ -41,6 +45,37 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("simulate") / "simulate.html"
     path.write_text(make(ROOT), encoding="utf-8")
     return path
+
+
+RUN = "NEG_Fplc_figure7"
+WIRES = {"LA": True, "A": False, "B": False, "C": True, "D": False, "STR": False, "MW01": 0x3333, "MW03": 0x33CC,
+         "MW05": 0x3C3C, "MW07": 0x0FF0, "MSO_0": False, "MSO_1": False, "MSO_2": False, "MSO_3": False,
+         "MSO_4": False, "ERROR": False}  # fmt: skip
+
+
+@pytest.fixture
+def recorded_place(tmp_path: Path) -> Path:
+    """A tree with one counterexample of two states in its evidence, and the walk of it."""
+    for folder in ("spec", "refimpl", "scenes", "proofs"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    states = [{"fplcState": "Switch"}, {"fplcState": "Settle"}]
+    trace = [{"number": n, "variables": {"fplcState": f'"{one["fplcState"]}"'}} for n, one in enumerate(states, 1)]
+    record = evidence.make(
+        kind="tlc", id=RUN, document=SCENE, verdict="VIOLATED", expected="VIOLATED", as_expected=True,
+        command=f"modeproof check {RUN}", started=0.0, seconds=1.0, result={"trace": trace},
+    )  # fmt: skip
+    evidence.write(tmp_path, record)
+    wires = [WIRES, {**WIRES, "MSO_3": True, "MW01": 0, "MW05": 0}]
+    steps = [("", ""), ("SwitchMode", "fplc")]
+    rows = [
+        {"at": n, "step": step, "who": who, "wires": wires[n], "variables": states[n]}
+        for n, (step, who) in enumerate(steps)
+    ]
+    walk = {"rows": rows, "tables": {}, "trace_sha256": digest_of(trace)}
+    path = tmp_path / "build/walks" / SCENE / f"{RUN}.json"
+    path.parent.mkdir(parents=True)
+    path.write_text(json.dumps(walk), encoding="utf-8")
+    return tmp_path
 
 
 @pytest.fixture(scope="module")
