@@ -52,8 +52,14 @@ def make(place: Path) -> str:
         blocks=blocks,
         stories=told,
     )
-    if len(html.encode("utf-8")) > LARGEST:
-        raise Unjudged(f"the page has {len(html.encode()):,} bytes, more than {LARGEST:,}: not written")
+    return small_enough(html)
+
+
+def small_enough(html: str) -> str:
+    """The page, unless it has more than `LARGEST` bytes: then raises Unjudged."""
+    size = len(html.encode("utf-8"))
+    if size > LARGEST:
+        raise Unjudged(f"the page has {size:,} bytes, more than {LARGEST:,}: not written")
     return html
 
 

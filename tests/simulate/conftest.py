@@ -11,12 +11,12 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser
 
+from modeproof.cli import main
 from modeproof.ground import evidence
 from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
 from modeproof.report.story import digest_of
 from modeproof.simulate import facts
-from modeproof.simulate.build import make
 from modeproof.simulate.program.block import Block
 from scenes.mode_selection.scene import Scene
 from tests.report.browser.conftest import browser as browser
@@ -43,7 +43,7 @@ def told() -> dict[str, Any]:
 def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page of this tree."""
     path = tmp_path_factory.mktemp("simulate") / "simulate.html"
-    path.write_text(make(ROOT), encoding="utf-8")
+    assert main(["simulate", "--out", str(path)]) == 0
     return path
 
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.load import load_document
 from modeproof.report.story import digest_of
@@ -43,10 +42,10 @@ def test_the_page_carries_the_shipped_code_unchanged(page_file: Path) -> None:
         assert modules[name][1] == path.read_text(encoding="utf-8"), name
 
 
-def test_a_page_that_is_too_large_is_not_made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(build, "LARGEST", 1_000_000)
-    with pytest.raises(Unjudged, match="bytes, more than 1,000,000: not written"):
-        build.make(ROOT)
+def test_a_page_that_is_too_large_is_not_made() -> None:
+    assert build.small_enough("x" * build.LARGEST)
+    with pytest.raises(Unjudged, match="4,000,001 bytes, more than 4,000,000: not written"):
+        build.small_enough("x" * (build.LARGEST - 1) + "é")
 
 
 def test_without_brython_no_page_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -65,12 +64,6 @@ def test_a_step_without_a_mark_is_refused(tmp_path: Path) -> None:
     code.write_text(code.read_text(encoding="utf-8").replace("# Initialize", "# Begin"), encoding="utf-8")
     with pytest.raises(Unjudged, match="sf_edm.py: no line is marked with the step Initialize"):
         facts.of_document(load_document(tmp_path, "edm"))
-
-
-def test_the_command_writes_the_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = tmp_path / "play.html"
-    assert main(["simulate", "--out", str(file)]) == 0
-    assert f"{file}: {file.stat().st_size:,} bytes" in capsys.readouterr().out
 
 
 def test_no_text_can_end_its_script() -> None:
