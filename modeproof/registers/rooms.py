@@ -62,7 +62,20 @@ RULES = (
 )
 
 ORDER = (
-    *("kit", "s7", "ground", "registers", "tlc", "graph", "suites", "strength", "trace", "report", "simulate", "lane"),
+    *(
+        "kit",
+        "s7",
+        "ground",
+        "registers",
+        "tlc",
+        "graph",
+        "suites",
+        "strength",
+        "trace",
+        "report",
+        "simulate",
+        "lane",
+    ),
     "cli",
 )
 """The rooms of modeproof/ from the ground up: a module imports from its own room and from those before it."""

@@ -68,7 +68,9 @@ def _palette() -> str:
     text = resources.files("modeproof.report").joinpath("page", "report.css").read_text(encoding="utf-8")
     found = re.search(r":root \{[^}]*\}", text)
     if found is None:
-        raise Unjudged("modeproof/report/page/report.css: no rule for :root; the page takes its colours from it")
+        raise Unjudged(
+            "modeproof/report/page/report.css: no rule for :root; the page takes its colours from it"
+        )
     return found.group(0) + "\n"
 
 

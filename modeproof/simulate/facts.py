@@ -1,4 +1,4 @@
-"""What the page says, taken from the registers: names, clauses, findings, faults, recorded counterexamples."""
+"""What the page says, from the registers: names, clauses, findings, faults, recorded counterexamples."""
 
 from __future__ import annotations
 
@@ -108,7 +108,11 @@ def _recorded(document: Document, traces: Traces | None) -> list[dict[str, Any]]
                 "property": run.property,
                 "says": next((p.sentence for p in document.properties if p.tla == run.property), ""),
                 "findings": [
-                    [f.id, f.title, f.telling.story if f.telling and f.telling.run == run.id else f.consequence]
+                    [
+                        f.id,
+                        f.title,
+                        f.telling.story if f.telling and f.telling.run == run.id else f.consequence,
+                    ]
                     for f in document.findings
                     if run.id in f.evidence
                 ],

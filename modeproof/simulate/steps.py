@@ -1,7 +1,8 @@
 """Functions of a reference implementation in which each marked line reports the step that it takes.
 
-The source marks it with a comment, `return ...  # StepName` (or an assignment). The copy holds `step` and what leads from it to
-a mark, and no other function; it is executed beside the code itself and never in its place.
+The source marks it with a comment, `return ...  # StepName` (or an assignment). The copy holds `step` and
+what leads from it to a mark, and no other function; it is executed beside the code itself and never in its
+place.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ def labelled(source: str, steps: Iterable[str]) -> tuple[str, frozenset[str]]:
                 if taken is None and above and isinstance(node, ast.Return):
                     taken = alone[max(above)]
                 if taken is not None:
-                    given: list[ast.expr] = [ast.Constant(taken), node.value]
+                    given: list[ast.expr] = [ast.Tuple([ast.Constant(step) for step in taken]), node.value]
                     node.value = ast.Call(ast.Name(TOOK), given, [])
                     marked.add(name)
                     reported |= {*taken}

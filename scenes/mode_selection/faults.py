@@ -125,7 +125,7 @@ KINDS = (
 
 
 def _straddled(name: str, words: dict[str, int]) -> int:
-    """The word at the even address that overlaps the end of this one: its low byte, then the next high byte."""
+    """The word at the even address that overlaps this one: its low byte, then the next high byte."""
     after = FLAG_WORDS.index(name) + 1
     following = words[FLAG_WORDS[after]] if after < len(FLAG_WORDS) else 0
     return (words[name] & 0x00FF) << 8 | following >> 8

@@ -25,7 +25,7 @@ LEVELS = range(5)
 
 
 class Scene:
-    """One cell after power-up. `facts` are the registers' words, `params` those of the devices, as a log has them."""
+    """One cell after power-up. `facts` are the words of the registers; `params` are as in a log."""
 
     document = "mode_selection"
 
@@ -46,7 +46,7 @@ class Scene:
         self.faults = Faults()
         self.lines: list[dict[str, Any]] = []
         self.wrote = {name: on_wire(self.rows[name]["outputs"], self.devices[name].out) for name in self.rows}
-        self.since = {name: 0 for name in self.rows}
+        self.since = dict.fromkeys(self.rows, 0)
         self.clock = self.scans = 0
         self.last = ""
         self.misread: dict[str, list[str]] = {}
@@ -57,7 +57,9 @@ class Scene:
         """The parameters of a device; the panel permits what the F-PLC does. E-47"""
         given = self.params.get("fplc" if name == "hmi" else name, {})
         own = self.rows[name]["parameters"]
-        values = {key: take(own[key], value) for key, value in given.items() if key in own and key != "checksum"}
+        values = {
+            key: take(own[key], value) for key, value in given.items() if key in own and key != "checksum"
+        }
         if name != "eks":
             return values
         answer = int(given.get("checksum", f"{CHECKSUM:04X}"), 16)
@@ -158,7 +160,11 @@ class Scene:
         """Every scan since power-up as JSON Lines, with the parameters in front."""
         params = {
             "fplc": self.params.get("fplc", {}),
-            "eks": {"checksum": f"{CHECKSUM:04X}", "dip_switches": DIP_SWITCHES, **self.params.get("eks", {})},
+            "eks": {
+                "checksum": f"{CHECKSUM:04X}",
+                "dip_switches": DIP_SWITCHES,
+                **self.params.get("eks", {}),
+            },
         }
         head = {"target": "key_flows", "params": params}
         return "".join([json.dumps(row, separators=(",", ":")) + "\n" for row in [head, *self.lines]])
@@ -167,7 +173,9 @@ class Scene:
     def params_of(header: dict[str, Any]) -> dict[str, Any]:
         """The F-PLC's parameters in the header of a log. Raises ValueError for a log of something else."""
         if header.get("target") != "key_flows":
-            raise ValueError(f"a log of {header.get('target')!r} cannot be played here, only one of 'key_flows'")
+            raise ValueError(
+                f"a log of {header.get('target')!r} cannot be played here, only one of 'key_flows'"
+            )
         params: dict[str, Any] = header["params"]
         return params
 
@@ -206,7 +214,10 @@ class Scene:
         }
         shown["misread"] = [name for names in self.misread.values() for name in names]
         shown["on"] |= {f"key.{level}": self.level == level for level in LEVELS}
-        shown["on"] |= {"key": self.system.key is not None or self.level != NONE, "fault": bool(self.faults.active)}
+        shown["on"] |= {
+            "key": self.system.key is not None or self.level != NONE,
+            "fault": bool(self.faults.active),
+        }
         shown["devices"] = {
             name: {"state": device.control(), "step": device.step, "last": name == self.last}
             for name, device in self.devices.items()
@@ -219,7 +230,9 @@ class Scene:
             return "No key is in the reader."
         key = f"Key of level {self.level} is in. "
         if self.touched == NONE:
-            confirmed = "nothing" if self.confirmed == NONE else f"nothing and confirmed mode {self.confirmed}"
+            confirmed = (
+                "nothing" if self.confirmed == NONE else f"nothing and confirmed mode {self.confirmed}"
+            )
             return f"{key}The user touched {confirmed}."
         confirmed = "and confirmed it" if self.confirmed == self.touched else "and has not confirmed it"
         return f"{key}The user touched mode {self.touched} {confirmed}."
@@ -234,7 +247,13 @@ def picture(facts: dict[str, Any], signals: dict[str, Any]) -> dict[str, Any]:
             on[name] = value
         elif name in RANGE_OF:
             mode = decode(RANGE_OF[name], int(value, 16))
-            says = "nothing" if value == "0000" else "no code" if mode == NONE else f"{facts['says'][name]} {mode}"
+            says = (
+                "nothing"
+                if value == "0000"
+                else "no code"
+                if mode == NONE
+                else f"{facts['says'][name]} {mode}"
+            )
             text[name], text[f"{name}.says"] = value, says
     active = [mode for mode in LEVELS if signals.get(f"MSO_{mode}")]
     text["active"] = f"{active[0]}: {MODE_NAMES[active[0]]}" if active else "none"
@@ -242,15 +261,20 @@ def picture(facts: dict[str, Any], signals: dict[str, Any]) -> dict[str, Any]:
     enabled = signals.get("enabled", [])
     on["error"] = bool(signals.get("ERROR"))
     text["screen"] = {
-        "inhibited": "Insert a key", "select": "Select a mode", "waiting": "Please wait", "confirm": "Is this right?",
-    }.get(str(screen), "")  # fmt: skip
+        "inhibited": "Insert a key",
+        "select": "Select a mode",
+        "waiting": "Please wait",
+        "confirm": "Is this right?",
+    }.get(str(screen), "")
     text["echo"] = "" if shown is None else f"Mode {shown}: {MODE_NAMES[shown]}"
     can = {f"select:{mode}": mode in enabled for mode in LEVELS}
     can |= {hmi.CONFIRM: screen == "confirm", hmi.REJECT: screen == "confirm"}
     return {"text": text, "on": on, "open": can}
 
 
-def recorded(facts: dict[str, Any], wires: dict[str, Any], states: dict[str, str], step: str, who: str) -> dict[str, Any]:
+def recorded(
+    facts: dict[str, Any], wires: dict[str, Any], states: dict[str, str], step: str, who: str
+) -> dict[str, Any]:
     """A row of a recorded counterexample as the drawing shows it: what the evidence has, and nothing else."""
     rows = facts["devices"]
     types = {name: of for row in rows.values() for name, of in {**row["inputs"], **row["outputs"]}.items()}
@@ -265,7 +289,11 @@ def recorded(facts: dict[str, Any], wires: dict[str, Any], states: dict[str, str
             shown["text"] |= {name: "", f"{name}.says": "not recorded"}
     shown["text"] |= {"user": "Recorded: what the user did stands above.", "dwell": "not recorded"}
     shown["devices"] = {
-        name: {"state": states.get(name, "not in this model"), "step": step if name == who else "", "last": name == who}
+        name: {
+            "state": states.get(name, "not in this model"),
+            "step": step if name == who else "",
+            "last": name == who,
+        }
         for name in rows
     }
     return shown

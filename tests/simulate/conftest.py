@@ -48,9 +48,12 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 RUN = "NEG_Fplc_figure7"
-WIRES = {"LA": True, "A": False, "B": False, "C": True, "D": False, "STR": False, "MW01": 0x3333, "MW03": 0x33CC,
+WIRES = {
+    "LA": True, "A": False, "B": False, "C": True, "D": False, "STR": False, "MW01": 0x3333,
+    "MW03": 0x33CC,
          "MW05": 0x3C3C, "MW07": 0x0FF0, "MSO_0": False, "MSO_1": False, "MSO_2": False, "MSO_3": False,
-         "MSO_4": False, "ERROR": False}  # fmt: skip
+         "MSO_4": False, "ERROR": False,
+}  # fmt: skip
 
 
 @pytest.fixture
@@ -59,7 +62,9 @@ def recorded_place(tmp_path: Path) -> Path:
     for folder in ("spec", "refimpl", "scenes", "proofs"):
         shutil.copytree(ROOT / folder, tmp_path / folder)
     states = [{"fplcState": "Switch"}, {"fplcState": "Settle"}]
-    trace = [{"number": n, "variables": {"fplcState": f'"{one["fplcState"]}"'}} for n, one in enumerate(states, 1)]
+    trace = [
+        {"number": n, "variables": {"fplcState": f'"{one["fplcState"]}"'}} for n, one in enumerate(states, 1)
+    ]
     record = evidence.make(
         kind="tlc", id=RUN, document=SCENE, verdict="VIOLATED", expected="VIOLATED", as_expected=True,
         command=f"modeproof check {RUN}", started=0.0, seconds=1.0, result={"trace": trace},

@@ -62,7 +62,7 @@ def test_a_step_without_a_mark_is_refused(tmp_path: Path) -> None:
         shutil.copytree(ROOT / folder, tmp_path / folder)
     code = tmp_path / "refimpl/edm/sf_edm.py"
     code.write_text(code.read_text(encoding="utf-8").replace("# Initialize", "# Begin"), encoding="utf-8")
-    with pytest.raises(Unjudged, match="sf_edm.py: no line is marked with the step Initialize"):
+    with pytest.raises(Unjudged, match=r"sf_edm\.py: no line is marked with the step Initialize"):
         facts.of_document(load_document(tmp_path, "edm"))
 
 
@@ -80,4 +80,3 @@ def test_a_walk_of_another_trace_is_not_shown(tmp_path: Path, recorded_place: Pa
     found = json.loads(walk.read_text())
     walk.write_text(json.dumps({**found, "trace_sha256": digest_of([])}))
     assert facts.of_document(document)["recorded"] == []
-

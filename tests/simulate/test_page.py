@@ -17,13 +17,37 @@ from tests.report.browser.opened import WAIT_MS, Opened, open_page
 from tests.simulate.conftest import READY, ROOT, SCENE, scenes_of
 from tests.simulate.test_program import STORIES, play, wrong_ends
 
-WORDS = ("MW01", "MW03", "MW05", "MW07", "ReadAuthorization", "CheckMSO", "SelectMSO", "SwitchMSO", "active", "screen")
+WORDS = (
+    "MW01",
+    "MW03",
+    "MW05",
+    "MW07",
+    "ReadAuthorization",
+    "CheckMSO",
+    "SelectMSO",
+    "SwitchMSO",
+    "active",
+    "screen",
+)
 STANDS = """(root) => Object.fromEntries([...root.querySelectorAll("[data-text]")].map(
     (node) => [node.dataset.text, node.textContent]))"""
 LIT = """(root) => [...root.querySelectorAll(".on[data-on]")].map((node) => node.dataset.on).sort()"""
-TARGETS = ("fplc", "plc", "hmi", "sf_edm", "sf_guard_locking", "sf_enable_switch", "sf_testable_safety_sensor")
+TARGETS = (
+    "fplc",
+    "plc",
+    "hmi",
+    "sf_edm",
+    "sf_guard_locking",
+    "sf_enable_switch",
+    "sf_testable_safety_sensor",
+)
 SUITES = ("brief", "words", "times", "sequences")
-PUBLISHED = [f"{target}/{suite}" for suite in SUITES for target in TARGETS if (ROOT / f"vectors/{target}/{suite}.jsonl.gz").is_file()]
+PUBLISHED = [
+    f"{target}/{suite}"
+    for suite in SUITES
+    for target in TARGETS
+    if (ROOT / f"vectors/{target}/{suite}.jsonl.gz").is_file()
+]
 MOST_SCANS = 2_000
 """Of a larger suite the test runs every n-th case; with MODEPROOF_SIMULATE=whole it runs all."""
 
@@ -98,7 +122,9 @@ def test_what_is_closed_on_the_panel_cannot_be_touched(cell: Opened) -> None:
 
 
 @pytest.mark.parametrize("id", STORIES)
-def test_a_story_is_told_to_its_end(id: str, opened: Opened, told: dict[str, Any], known: dict[str, Any]) -> None:
+def test_a_story_is_told_to_its_end(
+    id: str, opened: Opened, told: dict[str, Any], known: dict[str, Any]
+) -> None:
     story, page = told[id], opened.page
     page.select_option("#choose", f"story {STORIES.index(id)}")
     for _ in story["step"]:
@@ -161,7 +187,9 @@ def test_a_saved_log_is_played_again(cell: Opened, tmp_path: Path) -> None:
         log.write_text(content)
         page.set_input_files("#log", [])
         page.set_input_files("#log", log)
-        page.wait_for_function(f"() => document.getElementById('told').textContent.startsWith('A log of {scans}')")
+        page.wait_for_function(
+            f"() => document.getElementById('told').textContent.startsWith('A log of {scans}')"
+        )
         for _ in range(scans):
             page.click("#next")
         assert "The log is at its end." in page.locator("#told").inner_text()
@@ -188,7 +216,9 @@ def verdict(opened: Opened, file: Path) -> list[str]:
     before = page.locator(rows).count()
     page.set_input_files("#vectors", [])
     page.set_input_files("#vectors", file)
-    page.wait_for_function(f"() => document.querySelectorAll('{rows}').length > {before}", timeout=10 * WAIT_MS)
+    page.wait_for_function(
+        f"() => document.querySelectorAll('{rows}').length > {before}", timeout=10 * WAIT_MS
+    )
     return page.locator(rows).last.locator("td").all_inner_texts()
 
 
@@ -252,5 +282,3 @@ def test_a_recorded_counterexample_is_shown_row_by_row(browser: Browser, recorde
         assert page.get_by_role("button", name="Insert the key of level 1").is_disabled()
         page.click("#leave")
         assert page.get_by_role("button", name="Insert the key of level 1").is_enabled()
-
-

@@ -27,9 +27,20 @@ from scenes.mode_selection.scene import CHECKSUM, DIP_SWITCHES, ROUND, Scene
 from tests.simulate.conftest import ROOT, SCENE, scenes_of
 
 STORIES = (
-    "normal_change", "key_pulled", "stale_confirmation", "figure_7", "repeated_acknowledgment", "welded_contactor",
+    "normal_change", "key_pulled", "stale_confirmation", "figure_7",
+    "repeated_acknowledgment", "welded_contactor",
 )  # fmt: skip
-CHANGE = ("round 30", "insert 2", "round 31", "touch select:1", "round 6", "touch confirm", "round 12", "remove", "round 34")
+CHANGE = (
+    "round 30",
+    "insert 2",
+    "round 31",
+    "touch select:1",
+    "round 6",
+    "touch confirm",
+    "round 12",
+    "remove",
+    "round 34",
+)
 
 
 def play(scene: Any, story: dict[str, Any]) -> None:
@@ -103,7 +114,9 @@ def test_trace_reads_a_log_of_the_cell(tmp_path: Path, known: dict[str, Any]) ->
 
 
 @pytest.mark.deep
-def test_a_log_of_a_block_is_accepted_by_trace(tmp_path: Path, known: dict[str, Any], told: dict[str, Any]) -> None:
+def test_a_log_of_a_block_is_accepted_by_trace(
+    tmp_path: Path, known: dict[str, Any], told: dict[str, Any]
+) -> None:
     scene = scenes_of(told["welded_contactor"], known)[0]
     play(scene, told["welded_contactor"])
     log = tmp_path / "played.jsonl"
@@ -151,14 +164,25 @@ def test_every_class_of_faults_can_be_put_in(known: dict[str, Any]) -> None:
     assert {fault["id"] for fault in known[SCENE]["faults"]} == set(KINDS)
 
 
-WHERE = {"straddled_read": ("word MW03",), "register_check": (), "stuck_at_0": ("output C",), "crossed_wires": ("output B",),
-         "extra_wire": ("output C",), "la_stuck_at_1": ()}  # fmt: skip
+WHERE = {
+    "straddled_read": ("word MW03",), "register_check": (), "stuck_at_0": ("output C",),
+    "crossed_wires": ("output B",),
+         "extra_wire": ("output C",), "la_stuck_at_1": (),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_fault_changes_what_is_read_until_it_is_taken_out(kind: str, known: dict[str, Any]) -> None:
     scene = Scene(known[SCENE], {})
-    for action in ("round 30", "insert 2", "round 31", "touch select:1", "round 6", "touch confirm", "scan hmi plc 5"):
+    for action in (
+        "round 30",
+        "insert 2",
+        "round 31",
+        "touch select:1",
+        "round 6",
+        "touch confirm",
+        "scan hmi plc 5",
+    ):
         scene.do(action)
     for action in (*WHERE.get(kind, ()), "mode 4", f"fault {kind}"):
         scene.do(action)
@@ -175,7 +199,9 @@ def test_a_fault_changes_what_is_read_until_it_is_taken_out(kind: str, known: di
     assert not scene.show()["misread"]
 
 
-@pytest.mark.parametrize("id", ["sf_edm", "sf_guard_locking", "sf_enable_switch", "sf_testable_safety_sensor"])
+@pytest.mark.parametrize(
+    "id", ["sf_edm", "sf_guard_locking", "sf_enable_switch", "sf_testable_safety_sensor"]
+)
 def test_a_block_starts_up_and_names_its_step(id: str, known: dict[str, Any]) -> None:
     about = next(about for about in known.values() if id in about["devices"])
     block = Block(id, about, {})

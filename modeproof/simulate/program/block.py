@@ -23,7 +23,7 @@ class Block:
         own = self.row["parameters"]
         params = {name: take(own[name], value) for name, value in self.params.items()}
         self.device = Device(self.facts["module"] + self.id, self.facts["labelled"][self.id], params)
-        self.given = {name: False for name in self.row["inputs"]}
+        self.given = dict.fromkeys(self.row["inputs"], False)
         self.wrote = on_wire(self.row["outputs"], self.device.out)
         self.lines: list[dict[str, Any]] = []
         self.clock = self.scans = 0
@@ -32,7 +32,7 @@ class Block:
     def do(self, text: str) -> None:
         """`set NAME 1`, `flip NAME`, `call [MS [TIMES]]`, `round [TIMES]`, `param NAME VALUE`, `reset`.
 
-        Raises ValueError for what is no action, InputError or ParameterError for values out of range.
+        Raises ValueError for what is no action, or a kind of it for values out of range.
         """
         word, _, rest = text.strip().partition(" ")
         name, _, value = rest.partition(" ")
@@ -68,7 +68,9 @@ class Block:
     def begin_log(self, header: dict[str, Any]) -> None:
         """Power up with the parameters of a log. Raises ValueError for a log of something else."""
         if header.get("target") != self.id:
-            raise ValueError(f"a log of {header.get('target')!r} cannot be played here, only one of {self.id!r}")
+            raise ValueError(
+                f"a log of {header.get('target')!r} cannot be played here, only one of {self.id!r}"
+            )
         self.params = header.get("params", {})
         self.reset()
 
@@ -95,7 +97,7 @@ class Block:
 
 
 def spelt(name: str) -> str:
-    """A name of a state in words: `WaitForReset1` is "wait for reset 1"."""
+    """A name of a state in words: its capitals and numbers begin words."""
     out = ""
     for at, sign in enumerate(name):
         before, after = name[at - 1 : at], name[at + 1 : at + 2]

@@ -19,7 +19,7 @@ class View:
         self.wires = _by(root, "data-wire")
         self.devices = _by(root, "data-device")
         self.shown: dict[str, Any] = {"text": {}, "on": {}, "open": {}, "devices": {}, "misread": []}
-        self.drawn: dict[str, Any] = {}
+        self.drawn: dict[tuple[str, str], Any] = {}
         self.changed: list[Any] = list(root.select(".changed"))
 
     def refresh(self) -> str:
@@ -44,12 +44,12 @@ class View:
                         self._mark(name)
                         if name in ("active", "screen", "echo", "says") and value:
                             news.append(f"{name}: {value}")
-        for name, nodes in self.hidden.items():
-            for node in nodes:
+        for name, hidden in self.hidden.items():
+            for node in hidden:
                 node.style.display = "" if shown["on"].get(name) else "none"
         misread = shown.get("misread", [])
-        for name, nodes in self.wires.items():
-            for node in nodes:
+        for name, wires in self.wires.items():
+            for node in wires:
                 _class(node, "misread", name in misread)
         for name, of in shown["devices"].items():
             for node in self.devices.get(name, []):
@@ -91,9 +91,9 @@ class View:
             line = document.createElement("li")
             head = document.createElement("b")
             head.text = f"{id} "
-            line <= head
-            line <= document.createTextNode(self.facts["texts"].get(id, ""))
-            listed <= line
+            line.appendChild(head)
+            line.appendChild(document.createTextNode(self.facts["texts"].get(id, "")))
+            listed.appendChild(line)
 
 
 def _by(root: Any, attribute: str) -> dict[str, list[Any]]:

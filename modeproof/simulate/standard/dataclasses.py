@@ -1,6 +1,5 @@
 """`dataclass`, `field`-less: frozen records with defaults, compared and hashed by their values."""
 
-# ruff: noqa: S102 -- the constructor of a record is made as text, as the standard library makes it
 from __future__ import annotations
 
 
@@ -19,18 +18,18 @@ class FrozenInstanceError(AttributeError):
 class Field:
     """One field of a record: its name, and its default where it has one."""
 
-    def __init__(self, name, default):  # type: ignore[no-untyped-def]
+    def __init__(self, name, default):
         self.name, self.default, self.default_factory = name, default, MISSING
 
 
-def dataclass(cls=None, *, frozen=False, slots=False):  # type: ignore[no-untyped-def]
+def dataclass(cls=None, *, frozen=False, slots=False):
     """Make a class a record. `slots` changes nothing here; of `frozen` a later assignment is refused."""
     if cls is None:
         return lambda of: _made(of, frozen)
     return _made(cls, frozen)
 
 
-def _made(cls, frozen):  # type: ignore[no-untyped-def]
+def _made(cls, frozen):
     names = list(cls.__annotations__)
     cls.__dataclass_fields__ = {name: Field(name, getattr(cls, name, MISSING)) for name in names}
     given = ", ".join(
@@ -51,35 +50,35 @@ def _made(cls, frozen):  # type: ignore[no-untyped-def]
     return cls
 
 
-def _fields(cls):  # type: ignore[no-untyped-def]
+def _fields(cls):
     return cls.__dataclass_fields__.items()
 
 
-def _values(record):  # type: ignore[no-untyped-def]
+def _values(record):
     return tuple([getattr(record, name) for name in record.__dataclass_fields__])
 
 
-def _equal(self, other):  # type: ignore[no-untyped-def]
+def _equal(self, other):
     if type(self) is not type(other):
         return NotImplemented
     return _values(self) == _values(other)
 
 
-def _shown(self):  # type: ignore[no-untyped-def]
+def _shown(self):
     inner = ", ".join(f"{name}={getattr(self, name)!r}" for name in self.__dataclass_fields__)
     return f"{type(self).__qualname__}({inner})"
 
 
-def _refuse(self, name, value):  # type: ignore[no-untyped-def]
+def _refuse(self, name, value):
     raise FrozenInstanceError(f"cannot assign to field {name!r}")
 
 
-def fields(record):  # type: ignore[no-untyped-def]
+def fields(record):
     """The fields of a record or of its class, in order."""
     return tuple(record.__dataclass_fields__.values())
 
 
-def replace(record, **changes):  # type: ignore[no-untyped-def]
+def replace(record, **changes):
     """A record with other values in some fields."""
     values = {name: getattr(record, name) for name in record.__dataclass_fields__}
     return type(record)(**{**values, **changes})

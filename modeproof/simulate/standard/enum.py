@@ -6,7 +6,7 @@ from __future__ import annotations
 class _EnumType(type):
     """Makes the members, and is iterated and called for them."""
 
-    def __new__(meta, name, bases, body):  # type: ignore[no-untyped-def]
+    def __new__(meta, name, bases, body):
         """The class with one member for each value of its body."""
         values = {
             key: value for key, value in body.items() if not key.startswith("_") and not callable(value)
@@ -21,10 +21,10 @@ class _EnumType(type):
             setattr(made, key, member)
         return made
 
-    def __iter__(self):  # type: ignore[no-untyped-def]
+    def __iter__(self):
         return iter(self.members)
 
-    def __call__(self, value):  # type: ignore[no-untyped-def]
+    def __call__(self, value):
         """The member of this value. Raises ValueError."""
         for member in self.members:
             if member.value == value:
@@ -36,4 +36,4 @@ class Enum(metaclass=_EnumType):
     """Base of the classes of members."""
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}.{self.name}>"  # type: ignore[attr-defined]
+        return f"<{type(self).__name__}.{self.name}>"

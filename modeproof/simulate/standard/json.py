@@ -5,7 +5,7 @@ from __future__ import annotations
 MARKS = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
-def dumps(value, separators=(",", ":")):  # type: ignore[no-untyped-def]
+def dumps(value, separators=(",", ":")):
     """The text of a value. Raises TypeError for any other type."""
     if value is None:
         return "null"
@@ -17,13 +17,15 @@ def dumps(value, separators=(",", ":")):  # type: ignore[no-untyped-def]
         return str(value)
     comma, colon = separators
     if isinstance(value, dict):
-        return "{" + comma.join([dumps(str(k)) + colon + dumps(v, separators) for k, v in value.items()]) + "}"
+        return (
+            "{" + comma.join([dumps(str(k)) + colon + dumps(v, separators) for k, v in value.items()]) + "}"
+        )
     if isinstance(value, (list, tuple)):
         return "[" + comma.join([dumps(v, separators) for v in value]) + "]"
     raise TypeError(f"{value!r} is not written as JSON")
 
 
-def loads(text):  # type: ignore[no-untyped-def]
+def loads(text):
     """The value of a text, read by the browser. Raises ValueError."""
     from javascript import JSON
 
