@@ -254,7 +254,7 @@ def test_the_page_asks_for_nothing_and_says_nothing(opened: Opened, page_file: P
 
 
 @pytest.mark.parametrize("part", ["scene-mode_selection", "blocks", "suites"])
-def test_the_page_can_be_used_by_everyone_and_at_800_pixels(part: str, opened: Opened) -> None:
+def test_everyone_can_use_the_page_at_800_pixels(part: str, opened: Opened) -> None:
     page = opened.page
     page.click(f"nav [data-part={part}]")
     assert opened.inaccessible() == []

@@ -172,7 +172,7 @@ WHERE = {
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_fault_changes_what_is_read_until_it_is_taken_out(kind: str, known: dict[str, Any]) -> None:
+def test_a_fault_changes_what_is_read_until_mended(kind: str, known: dict[str, Any]) -> None:
     scene = Scene(known[SCENE], {})
     for action in (
         "round 30",
