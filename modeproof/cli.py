@@ -27,6 +27,7 @@ GROUPS = {
         "conform": "modeproof.suites.command",
         "prove-program": "modeproof.lane.prove_program",
         "trace": "modeproof.trace.command",
+        "simulate": "modeproof.simulate.command",
         "report": "modeproof.report.command",
         "doctor": "modeproof.lane.doctor",
     },

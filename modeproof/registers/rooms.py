@@ -14,7 +14,7 @@ from pathlib import Path
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.rows import Document, Interface, Problem
 
-OURS = ("modeproof", "refimpl", "proofs", "programs", "examples", "tests")
+OURS = ("modeproof", "refimpl", "scenes", "proofs", "programs", "examples", "tests")
 
 ORDINARY = frozenset({"ERROR"})
 """Declared names that are also ordinary words of any program."""
@@ -31,6 +31,8 @@ class Rule:
 
 RULES = (
     Rule("refimpl", ("refimpl",), stdlib_only=True),
+    Rule("scenes", ("scenes", "refimpl", "modeproof.simulate.program"), stdlib_only=True),
+    Rule("modeproof/simulate/program", ("modeproof.simulate.program",)),
     Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
     Rule("programs", ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit")),
     Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
@@ -56,7 +58,20 @@ RULES = (
 )
 
 ORDER = (
-    *("kit", "s7", "ground", "registers", "tlc", "graph", "suites", "strength", "trace", "report", "lane"),
+    *(
+        "kit",
+        "s7",
+        "ground",
+        "registers",
+        "tlc",
+        "graph",
+        "suites",
+        "strength",
+        "trace",
+        "report",
+        "simulate",
+        "lane",
+    ),
     "cli",
 )
 """The rooms of modeproof/ from the ground up: a module imports from its own room and from those before it."""

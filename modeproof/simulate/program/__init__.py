@@ -1,0 +1,1 @@
+"""What Brython runs in the page. All but `page` is plain Python and runs in tests too."""

@@ -1,0 +1,405 @@
+"""The page: draws what the scenes show, takes what the user does, plays stories, logs and recorded runs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from browser import document, window
+from javascript import JSON
+
+from modeproof.simulate.program.block import Block
+from modeproof.simulate.program.play import Player, of_log, of_recorded, of_story
+from modeproof.simulate.program.suites import judge
+from modeproof.simulate.program.view import View
+
+FACTS: dict[str, Any] = JSON.parse(document["facts"].textContent)
+NOTHING = "No fault is in."
+
+
+class Page:
+    """All that is open: the views by part, the story that is told, and what plays by itself."""
+
+    def __init__(self) -> None:
+        self.views: dict[str, list[View]] = {}
+        self.player: Player | None = None
+        self.running: dict[Any, Any] = {}
+        self.told: Any = None
+        self.keys = 0
+        self.drawn_fault: dict[str, str] = {}
+        self.code: dict[str, Any] = {}
+        for name in FACTS["scenes"]:
+            self.code[name] = __import__(f"scenes.{name}.scene", fromlist=["Scene"])
+        for name in FACTS["scenes"]:
+            self.open_cells(name, [{"title": "", "params": {}}])
+        self.parts = [nav.attrs["data-part"] for nav in document.select("nav [data-part]")]
+        for nav in document.select("nav [data-part]"):
+            nav.bind("click", lambda event: self.show_part(event.currentTarget.attrs["data-part"]))
+        self.show_part(self.parts[0])
+        document["choose"].bind("change", lambda event: self.choose(event.target.value))
+        document["next"].bind("click", lambda event: self.next())
+        document["leave"].bind("click", lambda event: self.leave())
+        document["run"].bind("click", lambda event: self.toggle(event.currentTarget, self.next, 1200))
+        document["vectors"].bind("change", lambda event: self.suites(list(event.target.files)))
+        document["log"].bind("change", lambda event: self.read_log(event.target))
+
+    # ---------------------------------------------------------------------------------------------- parts
+
+    def show_part(self, id: str) -> None:
+        """One part alone; the blocks are made when they are first looked at."""
+        if id == "blocks":
+            self.open_blocks()
+        for nav in document.select("nav [data-part]"):
+            part = nav.attrs["data-part"]
+            document[part].hidden = part != id
+            if part == id:
+                nav.attrs["aria-current"] = "page"
+            elif "aria-current" in nav.attrs:
+                del nav.attrs["aria-current"]
+
+    def open_blocks(self) -> None:
+        """A view of each card."""
+        for card in document.select("[data-block]"):
+            id = card.attrs["data-block"]
+            if id not in self.views:
+                facts = FACTS["documents"][card.attrs["data-document"]]
+                self.views[id] = [View(card, Block(id, facts, {}), facts)]
+                self.listen(card, id)
+                for field in card.select("[data-param]"):
+                    field.bind("change", lambda event, id=id: self.set_param(id, event.currentTarget))
+                self.after(id)
+
+    def set_param(self, id: str, field: Any) -> None:
+        """Another parameter of a block; a value out of range is said and not taken."""
+        self.act(id, f"param {field.attrs['data-param']} {field.value}")
+
+    def open_cells(self, name: str, cells: list[dict[str, Any]]) -> None:
+        """One drawing a cell, all of the same scene, each with its own parameters."""
+        root = document[f"scene-{name}"]
+        frame = root.select_one(".cells")
+        drawn = frame.select("[data-cell]")
+        for extra in drawn[1:]:
+            extra.remove()
+        fresh = name not in self.views
+        for _ in cells[1:]:
+            frame.appendChild(drawn[0].clone(True))
+        facts, code = FACTS["documents"][name], self.code[name]
+        self.views[name] = []
+        for of, node in zip(cells, frame.select("[data-cell]"), strict=True):
+            node.select_one("[data-title]").text = of["title"]
+            view = View(node, code.Scene(facts, of["params"]), facts)
+            self.views[name].append(view)
+            _place(node, code)
+            if not fresh and node is not drawn[0] and node != drawn[0]:
+                self.listen(node, name)
+        if fresh:
+            self.listen(root, name)
+            for field in root.select("[data-choose]"):
+                field.bind("change", lambda event: self.aim(root, name, event.currentTarget))
+        if len(cells) > 1:
+            frame.classList.add("two")
+        else:
+            frame.classList.remove("two")
+        _allow(root, True)
+        self.after(name)
+
+    def listen(self, root: Any, name: str) -> None:
+        """Buttons of a part: what they do, and what plays the time."""
+        for button in root.select("[data-do]"):
+            button.bind("click", lambda event: self.act(name, event.currentTarget.attrs["data-do"]))
+        for button in root.select("[data-go]"):
+            go = button.attrs["data-go"]
+            if go != "speed":
+                button.bind("click", lambda event, go=go: self.go(name, go, root, event.currentTarget))
+
+    # -------------------------------------------------------------------------------------------- actions
+
+    def act(self, name: str, text: str) -> None:
+        """One action in every view of a part; what is refused is said."""
+        try:
+            for view in self.views[name]:
+                view.scene.do(text)
+        except ValueError as error:
+            self.say(f"Refused: {error}")
+        self.after(name)
+
+    def after(self, name: str) -> None:
+        """Draw a part anew, and say what is new to one who listens."""
+        news = [view.refresh() for view in self.views[name]]
+        for line in news:
+            if line:
+                document["said"].text = line
+        view = self.views[name][0]
+        root = document.select_one(f'[data-scene="{name}"]')
+        if root is not None:
+            shown = view.shown["text"]
+            for node in root.select("[data-at]"):
+                node.text = shown.get(node.attrs["data-at"], "")
+            self.draw_faults(root, view)
+
+    def draw_faults(self, root: Any, view: View) -> None:
+        """Which fault is in, and what the table says of it."""
+        active = view.scene.faults.active
+        if active == self.drawn_fault.get(root.id):
+            return
+        self.drawn_fault[root.id] = active
+        for button in root.select("[data-fault]"):
+            button.attrs["aria-pressed"] = "true" if button.attrs["data-fault"] == active else "false"
+        about = root.select_one("[data-about]")
+        about.clear()
+        rows = [fault for fault in view.facts["faults"] if fault["id"] == active]
+        for fault in rows:
+            _line(about, "In: ", f"{fault['title']}. {fault['model']}")
+            _line(about, "Detected by: ", ", ".join(fault["detected_by"]) or "nothing")
+            for fall in fault["falls"]:
+                _line(about, f"{fall['property']} falls: ", fall["needs"])
+            _line(about, "Not detected: ", fault["not_detected"])
+        if not rows:
+            _line(about, "", NOTHING)
+
+    def aim(self, root: Any, name: str, field: Any) -> None:
+        """Where the fault is."""
+        self.act(name, f"{field.attrs['data-choose']} {field.value}")
+
+    def go(self, name: str, go: str, root: Any, button: Any) -> None:
+        """A button of the time: one round, play and pause, power off and on, save."""
+        if go == "round":
+            self.act(name, "round 1")
+        elif go == "reset":
+            self.act(name, "reset")
+        elif go == "play":
+            speed = root.select_one('[data-go="speed"]')
+            every = int(speed.value) if speed is not None else 100
+            self.toggle(button, lambda: self.act(name, "round 1"), every)
+        elif go == "save":
+            view = self.views[name][0]
+            window.saveText(f"{name}.jsonl", view.scene.log())
+
+    def toggle(self, button: Any, work: Any, every_ms: int) -> None:
+        """Play or pause; each button plays by itself."""
+        if "data-key" not in button.attrs:
+            self.keys += 1
+            button.attrs["data-key"] = str(self.keys)
+        key = button.attrs["data-key"]
+        if key in self.running:
+            window.clearInterval(self.running.pop(key)[0])
+            button.attrs["aria-pressed"], button.text = "false", "Play"
+        else:
+            self.running[key] = (window.setInterval(work, every_ms), button)
+            button.attrs["aria-pressed"], button.text = "true", "Pause"
+
+    def pause(self) -> None:
+        """Whatever plays stops."""
+        for number, button in self.running.values():
+            window.clearInterval(number)
+            button.attrs["aria-pressed"], button.text = "false", "Play"
+        self.running = {}
+
+    # -------------------------------------------------------------------------------------------- stories
+
+    def choose(self, value: str) -> None:
+        """Begin a story or a recorded run, or leave both."""
+        self.leave(keep=True)
+        kind, _, rest = value.partition(" ")
+        if kind == "story":
+            self.begin_story(FACTS["stories"][int(rest)])
+        elif kind == "run":
+            name, _, number = rest.partition(" ")
+            self.begin_recorded(name, FACTS["documents"][name]["recorded"][int(number)])
+
+    def begin_story(self, story: dict[str, Any]) -> None:
+        """Power up what the story needs and tell its beginning."""
+        of = story["of"]
+        cells = story.get("cell", [{"title": "", "params": {}}])
+        if of in FACTS["scenes"]:
+            self.show_part(f"scene-{of}")
+            self.open_cells(of, cells)
+        else:
+            self.show_part("blocks")
+            view = self.views[of][0]
+            view.scene.params = cells[0]["params"]
+            view.scene.reset()
+            self.after(of)
+            view.root.scrollIntoView()
+        self.told = of
+        self.begin(of_story(story, lambda text: self.act(of, text)))
+
+    def begin_recorded(self, name: str, run: dict[str, Any]) -> None:
+        """Show the recorded rows one by one where the scene draws them, else as text."""
+        if name not in FACTS["scenes"]:
+            self.show_part("suites")
+            self.begin(of_recorded(run, lambda row: None))
+            return
+        self.show_part(f"scene-{name}")
+        self.open_cells(name, [{"title": "", "params": {}}])
+        _allow(document[f"scene-{name}"], False)
+        view, code = self.views[name][0], self.code[name]
+
+        def draw(row: dict[str, Any]) -> None:
+            view.draw(code.recorded(view.facts, row["wires"], row["states"], row["step"], row["who"]))
+
+        self.told = name
+        self.begin(of_recorded(run, draw))
+
+    def begin(self, player: Player) -> None:
+        """A player takes over the box of the tour."""
+        self.player = player
+        document["told"].text = player.intro
+        for id in ("next", "run", "leave"):
+            document[id].disabled = False
+
+    def next(self) -> None:
+        """The next step of what is told; at its end nothing more."""
+        player = self.player
+        if player is None:
+            return
+        document["told"].text = player.next()
+        if player.ended:
+            document["next"].disabled = document["run"].disabled = True
+            self.pause()
+
+    def leave(self, keep: bool = False) -> None:
+        """Free play again, with everything powered up anew."""
+        self.pause()
+        if self.player is not None and self.told in FACTS["scenes"]:
+            self.open_cells(self.told, [{"title": "", "params": {}}])
+        self.player = self.told = None
+        document["told"].text = ""
+        for id in ("next", "run", "leave"):
+            document[id].disabled = True
+        if not keep:
+            document["choose"].value = ""
+
+    # ------------------------------------------------------------------------------------ suites and logs
+
+    def suites(self, files: list[Any]) -> None:
+        """Run the chosen vector files one after the other."""
+        if not files:
+            document["progress"].text = "All files have been run."
+            return
+        file = files[0]
+        document["progress"].text = f"Reading {file.name} …"
+        window.readLines(
+            file, lambda lines: self.run_suite(lines, files), lambda why: self.unread(file, why, files)
+        )
+
+    def unread(self, file: Any, why: str, files: list[Any]) -> None:
+        """A file that is no suite is named."""
+        _verdict(file.name, "", "UNJUDGED", why)
+        self.suites(files[1:])
+
+    def run_suite(self, lines: Any, files: list[Any]) -> None:
+        """All cases of one file, in slices."""
+        try:
+            header = JSON.parse(lines[0])
+            module = FACTS["documents"][header["document"]]["module"] + header["target"]
+            code = __import__(module, fromlist=["step"])
+            header["suite"], header["inputs"], header["cases"]
+        except Exception as error:  # whatever the text is; the browser's own complaint is no ValueError
+            self.unread(files[0], f"not a vector file of a device in this page: {error}", files)
+            return
+        going = judge(code, header, (JSON.parse(lines[n]) for n in range(1, len(lines))))
+
+        def slice_() -> None:
+            until = window.performance.now() + 60
+            try:
+                for verdict in going:
+                    if verdict.difference or verdict.done_cases == verdict.cases:
+                        _verdict(verdict.target, verdict.suite, verdict.word, verdict.compared())
+                        self.suites(files[1:])
+                        return
+                    if window.performance.now() > until:
+                        document["progress"].text = f"{verdict.target} {verdict.suite}: {verdict.compared()}"
+                        window.setTimeout(slice_, 0)
+                        return
+            except Exception as error:  # as above
+                self.unread(files[0], f"a case cannot be run: {error}", files)
+                return
+            self.unread(files[0], "it has fewer cases than its header says", files)
+
+        slice_()
+
+    def read_log(self, field: Any) -> None:
+        """Play a log where its device is drawn."""
+        for file in list(field.files)[:1]:
+            window.readLines(file, self.begin_log, lambda why: self.say(f"The log cannot be read: {why}"))
+
+    def begin_log(self, lines: Any) -> None:
+        """Power up with the log's parameters; each step is one line."""
+        self.leave()
+        try:
+            rows = [JSON.parse(lines[n]) for n in range(len(lines))]
+            self.open_blocks()
+            name = self.owner_of(rows[0])
+            view = self.views[name][0]
+            view.scene.begin_log(rows[0])
+        except Exception as error:  # as above
+            self.say(f"The log cannot be played: {error}")
+            return
+        self.show_part(f"scene-{name}" if name in FACTS["scenes"] else "blocks")
+        self.told = name
+
+        def play(row: dict[str, Any]) -> str:
+            view.scene.play(row)
+            self.after(name)
+            return str(view.scene.differs)
+
+        self.after(name)
+        self.begin(of_log(rows[1:], play))
+
+    def owner_of(self, header: dict[str, Any]) -> str:
+        """The part that plays a log. Raises ValueError where none does."""
+        target = header["target"]
+        if target in self.views:
+            return str(target)
+        for name in FACTS["scenes"]:
+            self.code[name].Scene.params_of(header)
+            return str(name)
+        raise ValueError(f"nothing here is {target!r}")
+
+    def say(self, text: str) -> None:
+        """Tell something in the box of the tour."""
+        document["told"].text = text
+
+
+def _place(node: Any, code: Any) -> None:
+    """Put the fields of the panel where the layout of the implementation has them."""
+    for name, (x, y, width, height) in code.places().items():
+        field = node.select_one(f'[data-open="{name}"]')
+        field.style.left, field.style.top = f"{x}%", f"{y}%"
+        field.style.width, field.style.height = f"{width}%", f"{height}%"
+    for field in node.select("[data-mode]"):
+        field.text = code.MODE_NAMES[int(field.attrs["data-mode"])]
+
+
+def _allow(root: Any, free: bool) -> None:
+    """Whether the user may act in a part; what the panel has open is for the view to say."""
+    for button in root.select("[data-do], [data-go]"):
+        if not button.attrs.get("data-open"):
+            button.disabled = not free
+
+
+def _line(about: Any, head: str, text: str) -> None:
+    line = document.createElement("p")
+    strong = document.createElement("b")
+    strong.text = head
+    line.appendChild(strong)
+    line.appendChild(document.createTextNode(text))
+    about.appendChild(line)
+
+
+def _verdict(target: str, suite: str, word: str, compared: str) -> None:
+    """A row of the table of verdicts."""
+    document["verdicts"].hidden = False
+    row = document.createElement("tr")
+    for text in (target, suite, word, compared):
+        cell = document.createElement("td")
+        cell.text = text
+        row.appendChild(cell)
+    row.children[2].class_name = "good" if word == "CONFORMS" else "bad"
+    document["verdicts"].select_one("tbody").appendChild(row)
+
+
+PAGE = Page()
+window.modeproofReady = window.performance.now()
+document["loading"].hidden = True
+document["app"].hidden = False

@@ -1,0 +1,3 @@
+"""Annotations are never evaluated in the page."""
+
+annotations = None

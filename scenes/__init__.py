@@ -1,0 +1,1 @@
+"""What is drawn and played of a document that is more than single blocks; run by the page of `simulate`."""

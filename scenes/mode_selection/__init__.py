@@ -1,0 +1,1 @@
+"""The four devices, the user and the wires between them."""

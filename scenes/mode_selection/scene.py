@@ -1,0 +1,311 @@
+"""The cell of the note: keys, reader, F-PLC, PLC, panel and user, wired as `key_flows` wires them.
+
+Every scan is one call of the reference implementation. `do` takes what the page sends, `show` says what
+stands where, `log` gives what was played as a log for `modeproof trace key_flows`.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from typing import Any
+
+from modeproof.simulate.program.device import Device, give, on_wire, take
+from refimpl.mode_selection import eks, hmi, key_flows
+from refimpl.mode_selection.code_tables import MODE_NAMES, NONE, RE, decode, encode
+from scenes.mode_selection.faults import KINDS, OUTPUTS, RANGE_OF, Faults
+
+CHECKSUM = 0x1234
+"""What the stand-in for the maker's checksum answers: it is not public."""
+DIP_SWITCHES = 3
+ROUND = (("eks", 20), ("fplc", 20), ("plc", 5), ("plc", 5), ("plc", 5), ("plc", 5), ("hmi", 20))
+"""One round of 20 ms: each device scans once, the PLC once for each of its four copies."""
+ROUND_MS = 20
+LEVELS = range(5)
+
+
+class Scene:
+    """One cell after power-up. `facts` are the words of the registers; `params` are as in a log."""
+
+    document = "mode_selection"
+
+    def __init__(self, facts: dict[str, Any], params: dict[str, Any]) -> None:
+        self.facts, self.rows = facts, facts["devices"]
+        self.params = params
+        self.reset()
+
+    def reset(self) -> None:
+        """Power off and on: no key, no fault, an empty log."""
+        self.devices = {
+            name: Device(self.facts["module"] + name, self.facts["labelled"][name], self._params(name))
+            for name in key_flows.DEVICES
+        }
+        states = [self.devices[name].state for name in key_flows.DEVICES]
+        outs = [self.devices[name].out for name in key_flows.DEVICES]
+        self.system = key_flows.System(*states, *outs)
+        self.faults = Faults()
+        self.lines: list[dict[str, Any]] = []
+        self.wrote = {name: on_wire(self.rows[name]["outputs"], self.devices[name].out) for name in self.rows}
+        self.since = dict.fromkeys(self.rows, 0)
+        self.clock = self.scans = 0
+        self.last = ""
+        self.misread: dict[str, list[str]] = {}
+        self.level = self.touched = self.confirmed = NONE
+        self.differs = ""
+
+    def _params(self, name: str) -> dict[str, Any]:
+        """The parameters of a device; the panel permits what the F-PLC does. E-47"""
+        given = self.params.get("fplc" if name == "hmi" else name, {})
+        own = self.rows[name]["parameters"]
+        values = {
+            key: take(own[key], value) for key, value in given.items() if key in own and key != "checksum"
+        }
+        if name != "eks":
+            return values
+        answer = int(given.get("checksum", f"{CHECKSUM:04X}"), 16)
+        return {"dip_switches": DIP_SWITCHES, **values, "checksum": lambda data: answer}
+
+    # ------------------------------------------------------------------------------------------ what is done
+
+    def do(self, text: str) -> None:
+        """One action: `insert 2`, `remove`, `touch confirm`, `round 8`, `scan eks fplc 3`, `fault loss`.
+
+        Raises ValueError for what is no action.
+        """
+        word, _, rest = text.strip().partition(" ")
+        if word == "round":
+            for _ in range(int(rest or 1)):
+                for device, dt_ms in ROUND:
+                    self.scan(device, dt_ms)
+        elif word == "scan":
+            *names, times = rest.split(" ") if rest[-1:].isdigit() else [*rest.split(" "), "1"]
+            if any(name not in self.rows for name in names):
+                raise ValueError(f"{text!r} is no action of this cell")
+            for _ in range(int(times)):
+                for name in names:
+                    self.scan(name, dict(ROUND)[name])
+        elif word == "insert":
+            self.level, self.touched, self.confirmed = int(rest), NONE, NONE
+            key = eks.KeyMemory(6, encode(RE, self.level), DIP_SWITCHES, CHECKSUM, 1 + self.level)
+            self.system = key_flows.insert_key(self.system, key)
+        elif word == "remove":
+            self.level = NONE
+            self.system = key_flows.remove_key(self.system)
+        elif word == "touch":
+            self.touch(rest)
+        elif word == "fault" and rest in KINDS:
+            self.faults.begin(rest, self.words())
+        elif word == "mend":
+            self.faults.end()
+            self.misread = {}
+        elif word in ("word", "other", "output") and (rest in RANGE_OF or rest in ("LA", *OUTPUTS)):
+            setattr(self.faults, word, rest)
+        elif word == "mode":
+            self.faults.mode = int(rest)
+        elif word == "reset":
+            self.reset()
+        else:
+            raise ValueError(f"{text!r} is no action of this cell")
+
+    def touch(self, field: str) -> None:
+        """The user touches a field; it counts in the panel's next scan."""
+        self.system = key_flows.touch(self.system, field)
+        screen = self.devices["hmi"].out
+        if field == hmi.CONFIRM and screen.screen == "confirm":
+            self.confirmed = screen.shown
+        elif field.startswith("select:") and screen.enabled[int(field[-1])]:
+            self.touched, self.confirmed = int(field[-1]), NONE
+
+    def scan(self, name: str, dt_ms: int) -> None:
+        """One scan of one device, with what the active fault makes of its inputs."""
+        read = {
+            "eks": key_flows.eks_inputs,
+            "fplc": key_flows.fplc_inputs,
+            "plc": key_flows.plc_inputs,
+            "hmi": key_flows.hmi_inputs,
+        }[name](self.system, dt_ms)
+        faulty = self.faults.read(name, read, self.words())
+        fields = self.rows[name]["inputs"]
+        self.misread[name] = [of for of in fields if getattr(faulty, of) != getattr(read, of)]
+        self._step(name, faulty, dt_ms)
+
+    def _step(self, name: str, inputs: Any, dt_ms: int) -> None:
+        before = self.words()
+        device = self.devices[name]
+        out = device.scan(inputs)
+        self.system = replace(self.system, **{f"{name}_state": device.state, f"{name}_out": out})
+        if name == "hmi":
+            self.system = replace(self.system, touch=hmi.NO_TOUCH)
+        for word, value in self.words().items():
+            self.faults.written(word, before[word], value)
+        read = on_wire(self.rows[name]["inputs"], inputs)
+        self.wrote[name] = on_wire(self.rows[name]["outputs"], out)
+        self.lines.append({"device": name, "dt_ms": dt_ms, "in": read, "out": self.wrote[name]})
+        self.since[name] += dt_ms
+        self.clock = max(self.since.values())
+        self.scans += 1
+        self.last = name
+
+    def words(self) -> dict[str, int]:
+        """All eight words as they were last written."""
+        f, p, h = self.system.fplc_out, self.system.plc_out, self.system.hmi_out
+        return {
+            "MW01": f.MW01, "MW05": f.MW05, "MW03": p.MW03, "MW07": p.MW07, "CheckMSO": p.CheckMSO,
+            "ReadAuthorization": p.ReadAuthorization, "SelectMSO": h.SelectMSO, "SwitchMSO": h.SwitchMSO,
+        }  # fmt: skip
+
+    # ------------------------------------------------------------------------------------------------- logs
+
+    def log(self) -> str:
+        """Every scan since power-up as JSON Lines, with the parameters in front."""
+        params = {
+            "fplc": self.params.get("fplc", {}),
+            "eks": {
+                "checksum": f"{CHECKSUM:04X}",
+                "dip_switches": DIP_SWITCHES,
+                **self.params.get("eks", {}),
+            },
+        }
+        head = {"target": "key_flows", "params": params}
+        return "".join([json.dumps(row, separators=(",", ":")) + "\n" for row in [head, *self.lines]])
+
+    @staticmethod
+    def params_of(header: dict[str, Any]) -> dict[str, Any]:
+        """The F-PLC's parameters in the header of a log. Raises ValueError for a log of something else."""
+        if header.get("target") != "key_flows":
+            raise ValueError(
+                f"a log of {header.get('target')!r} cannot be played here, only one of 'key_flows'"
+            )
+        params: dict[str, Any] = header["params"]
+        return params
+
+    def begin_log(self, header: dict[str, Any]) -> None:
+        """Power up with the parameters of a log."""
+        self.params = self.params_of(header)
+        self.reset()
+
+    def play(self, line: dict[str, Any]) -> None:
+        """One line of a log: the device scans with the inputs that the line shows."""
+        name, dt_ms = line["device"], line["dt_ms"]
+        rows = self.rows[name]["inputs"]
+        inputs = self.devices[name].code.Inputs(dt_ms, **{n: take(rows[n], line["in"][n]) for n in rows})
+        self._step(name, inputs, dt_ms)
+        if name == "eks":
+            held = decode(RE, inputs.authorization_level) if inputs.inserted else NONE
+            self.level = held
+        for output, logged in line.get("out", {}).items():
+            if self.wrote[name][output] != logged and not self.differs:
+                self.differs = f"scan {self.scans} ({name}): {output} is {self.wrote[name][output]}, "
+                self.differs += f"the log has {logged}"
+
+    # ------------------------------------------------------------------------------------------- what stands
+
+    def show(self) -> dict[str, Any]:
+        """What stands where: texts, what is lit, what can be touched, and the step of each device."""
+        signals = {name: value for out in self.wrote.values() for name, value in out.items()}
+        shown = picture(self.facts, signals)
+        shown["text"] |= {
+            "time": f"{self.clock / 1000:.2f} s",
+            "scans": str(self.scans),
+            "user": self.user(),
+            "differs": self.differs,
+            "level": "" if self.level == NONE else str(self.level),
+            "dwell": f"{self.system.fplc_state.params.T_DWELL_ms} ms",
+        }
+        shown["misread"] = [name for names in self.misread.values() for name in names]
+        shown["on"] |= {f"key.{level}": self.level == level for level in LEVELS}
+        shown["on"] |= {
+            "key": self.system.key is not None or self.level != NONE,
+            "fault": bool(self.faults.active),
+        }
+        shown["devices"] = {
+            name: {"state": device.control(), "step": device.step, "last": name == self.last}
+            for name, device in self.devices.items()
+        }
+        return shown
+
+    def user(self) -> str:
+        """What the user did with the key that is in."""
+        if self.level == NONE and self.system.key is None:
+            return "No key is in the reader."
+        key = f"Key of level {self.level} is in. "
+        if self.touched == NONE:
+            confirmed = (
+                "nothing" if self.confirmed == NONE else f"nothing and confirmed mode {self.confirmed}"
+            )
+            return f"{key}The user touched {confirmed}."
+        confirmed = "and confirmed it" if self.confirmed == self.touched else "and has not confirmed it"
+        return f"{key}The user touched mode {self.touched} {confirmed}."
+
+
+def picture(facts: dict[str, Any], signals: dict[str, Any]) -> dict[str, Any]:
+    """Signals (wire form) as the drawing shows them; also those of a recorded run."""
+    text: dict[str, str] = {}
+    on: dict[str, bool] = {}
+    for name, value in signals.items():
+        if isinstance(value, bool):
+            on[name] = value
+        elif name in RANGE_OF:
+            mode = decode(RANGE_OF[name], int(value, 16))
+            says = (
+                "nothing"
+                if value == "0000"
+                else "no code"
+                if mode == NONE
+                else f"{facts['says'][name]} {mode}"
+            )
+            text[name], text[f"{name}.says"] = value, says
+    active = [mode for mode in LEVELS if signals.get(f"MSO_{mode}")]
+    text["active"] = f"{active[0]}: {MODE_NAMES[active[0]]}" if active else "none"
+    screen, shown = signals.get("screen", ""), signals.get("shown")
+    enabled = signals.get("enabled", [])
+    on["error"] = bool(signals.get("ERROR"))
+    text["screen"] = {
+        "inhibited": "Insert a key",
+        "select": "Select a mode",
+        "waiting": "Please wait",
+        "confirm": "Is this right?",
+    }.get(str(screen), "")
+    text["echo"] = "" if shown is None else f"Mode {shown}: {MODE_NAMES[shown]}"
+    can = {f"select:{mode}": mode in enabled for mode in LEVELS}
+    can |= {hmi.CONFIRM: screen == "confirm", hmi.REJECT: screen == "confirm"}
+    return {"text": text, "on": on, "open": can}
+
+
+def recorded(
+    facts: dict[str, Any], wires: dict[str, Any], states: dict[str, str], step: str, who: str
+) -> dict[str, Any]:
+    """A row of a recorded counterexample as the drawing shows it: what the evidence has, and nothing else."""
+    rows = facts["devices"]
+    types = {name: of for row in rows.values() for name, of in {**row["inputs"], **row["outputs"]}.items()}
+    signals = {
+        name: value if types[name]["type"] == "modes" else give(types[name], value)
+        for name, value in wires.items()
+        if name in types
+    }
+    shown = picture(facts, signals)
+    for name in RANGE_OF:
+        if name not in signals:
+            shown["text"] |= {name: "", f"{name}.says": "not recorded"}
+    shown["text"] |= {"user": "Recorded: what the user did stands above.", "dwell": "not recorded"}
+    shown["devices"] = {
+        name: {
+            "state": states.get(name, "not in this model"),
+            "step": step if name == who else "",
+            "last": name == who,
+        }
+        for name in rows
+    }
+    return shown
+
+
+def places() -> dict[str, list[float]]:
+    """Where the fields of the panel lie, in per cent of its screen. EKS-2-22"""
+    layout = hmi.DEFAULT_LAYOUT
+    named = {f"select:{mode}": field for mode, field in enumerate(layout.selection)}
+    named |= {hmi.CONFIRM: layout.confirm, hmi.REJECT: layout.reject}
+    width, height = layout.screen.width, layout.screen.height
+    return {
+        name: [100 * of.x / width, 100 * of.y / height, 100 * of.width / width, 100 * of.height / height]
+        for name, of in named.items()
+    }

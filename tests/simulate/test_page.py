@@ -1,0 +1,284 @@
+"""The page in Chromium: it runs the devices, tells the stories, judges suites, and asks for nothing."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser
+
+from modeproof.simulate.build import make
+from scenes.mode_selection.scene import Scene
+from tests.report.browser.opened import WAIT_MS, Opened, open_page
+from tests.simulate.conftest import READY, ROOT, SCENE, scenes_of
+from tests.simulate.test_program import STORIES, play, wrong_ends
+
+WORDS = (
+    "MW01",
+    "MW03",
+    "MW05",
+    "MW07",
+    "ReadAuthorization",
+    "CheckMSO",
+    "SelectMSO",
+    "SwitchMSO",
+    "active",
+    "screen",
+)
+STANDS = """(root) => Object.fromEntries([...root.querySelectorAll("[data-text]")].map(
+    (node) => [node.dataset.text, node.textContent]))"""
+LIT = """(root) => [...root.querySelectorAll(".on[data-on]")].map((node) => node.dataset.on).sort()"""
+TARGETS = (
+    "fplc",
+    "plc",
+    "hmi",
+    "sf_edm",
+    "sf_guard_locking",
+    "sf_enable_switch",
+    "sf_testable_safety_sensor",
+)
+SUITES = ("brief", "words", "times", "sequences")
+PUBLISHED = [
+    f"{target}/{suite}"
+    for suite in SUITES
+    for target in TARGETS
+    if (ROOT / f"vectors/{target}/{suite}.jsonl.gz").is_file()
+]
+MOST_SCANS = 2_000
+"""Of a larger suite the test runs every n-th case; with MODEPROOF_SIMULATE=whole it runs all."""
+
+
+def stands(opened: Opened, root: str, number: int = 0) -> tuple[dict[str, str], list[str]]:
+    """The texts and the lit lamps of a drawing."""
+    node = opened.page.locator(root).nth(number).element_handle()
+    return opened.ask(STANDS, node), opened.ask(LIT, node)
+
+
+def as_shown(scene: Any) -> tuple[dict[str, str], list[str]]:
+    """The same of a scene that ran in Python."""
+    shown = scene.show()
+    return shown["text"], sorted(name for name, lit in shown["on"].items() if lit)
+
+
+def agree(opened: Opened, root: str, scene: Any, number: int = 0) -> None:
+    texts, lit = stands(opened, root, number)
+    expected, on = as_shown(scene)
+    assert texts == {name: expected[name] for name in texts}
+    assert set(lit) == {name for name in on if name in lit or name not in ("key", "fault", "error")}
+
+
+@pytest.fixture
+def cell(opened: Opened) -> Opened:
+    """The open page with the cell just switched on."""
+    opened.page.click("nav [data-part^=scene]")
+    opened.page.select_option("#choose", "story 0")
+    opened.page.click("#leave")
+    return opened
+
+
+def test_a_whole_change_stepped_by_hand_is_that_of_python(cell: Opened, known: dict[str, Any]) -> None:
+    scene, page = Scene(known[SCENE], {}), cell.page
+    page.get_by_role("button", name="Insert the key of level 2").click()
+    scene.do("insert 2")
+    for _ in range(62):
+        page.get_by_role("button", name="Step: every device once").click()
+        scene.do("round 1")
+    agree(cell, "[data-cell]", scene)
+    page.get_by_role("button", name="One scan of the F-PLC").click()
+    scene.do("scan fplc")
+    page.get_by_role("button", name="Pull the key out").click()
+    scene.do("remove")
+    for _ in range(31):
+        page.get_by_role("button", name="Step: every device once").click()
+        scene.do("round 1")
+    page.get_by_role("button", name="Insert the key of level 2").press("Enter")
+    scene.do("insert 2")
+    for _ in range(31):
+        page.get_by_role("button", name="Step: every device once").press("Enter")
+        scene.do("round 1")
+    page.get_by_role("button", name="1 Automatic mode", exact=True).click()
+    scene.do("touch select:1")
+    for _ in range(6):
+        page.get_by_role("button", name="Step: every device once").click()
+        scene.do("round 1")
+        agree(cell, "[data-cell]", scene)
+    page.get_by_role("button", name="Confirm").click()
+    scene.do("touch confirm")
+    for _ in range(8):
+        page.get_by_role("button", name="Step: every device once").click()
+        scene.do("round 1")
+        agree(cell, "[data-cell]", scene)
+    assert "MSO_1" in stands(cell, "[data-cell]")[1]
+    assert page.locator("#said").inner_text().startswith("active: 1: Automatic mode")
+
+
+def test_what_is_closed_on_the_panel_cannot_be_touched(cell: Opened) -> None:
+    assert cell.page.get_by_role("button", name="Confirm").is_disabled()
+    assert cell.page.get_by_role("button", name="0 Manual mode", exact=True).is_disabled()
+
+
+@pytest.mark.parametrize("id", STORIES)
+def test_a_story_is_told_to_its_end(
+    id: str, opened: Opened, told: dict[str, Any], known: dict[str, Any]
+) -> None:
+    story, page = told[id], opened.page
+    page.select_option("#choose", f"story {STORIES.index(id)}")
+    for _ in story["step"]:
+        page.click("#next")
+    assert page.locator("#told").inner_text().endswith(story["end"])
+    assert page.locator("#next").is_disabled()
+    root = "[data-cell]" if story["of"] == SCENE else f"[data-block={story['of']}]"
+    for number, scene in enumerate(scenes_of(story, known)):
+        play(scene, story)
+        assert not wrong_ends(scene, story["ends"][number])
+        agree(opened, root, scene, number)
+    page.click("#leave")
+
+
+def test_a_fault_is_shown_with_what_detects_it(cell: Opened, known: dict[str, Any]) -> None:
+    page = cell.page
+    for fault in known[SCENE]["faults"]:
+        page.click(f"[data-fault={fault['id']}]")
+        about = page.locator("[data-about]").inner_text()
+        assert f"Detected by: {', '.join(fault['detected_by']) or 'nothing'}" in about
+        assert fault["not_detected"] in about
+    page.get_by_role("button", name="Take the fault out").click()
+    assert page.locator("[data-about]").inner_text() == "No fault is in."
+
+
+def test_a_fault_is_marked_where_it_is_read(cell: Opened) -> None:
+    page = cell.page
+    page.select_option("[data-choose=word]", "MW03")
+    page.click("[data-fault=corruption]")
+    page.get_by_role("button", name="One scan of the F-PLC").click()
+    assert page.locator("[data-wire=MW03]").get_attribute("class") == "wire misread"
+    page.get_by_role("button", name="Take the fault out").click()
+    assert page.locator("[data-wire=MW03]").get_attribute("class") == "wire"
+
+
+def test_playing_goes_on_by_itself_and_pauses(cell: Opened) -> None:
+    button = cell.page.locator("[data-go=play]").first
+    button.click()
+    cell.page.wait_for_function("() => parseInt(document.querySelector('[data-at=scans]').textContent) > 20")
+    button.click()
+    assert button.get_attribute("aria-pressed") == "false"
+    before = cell.page.locator("[data-at=scans]").inner_text()
+    cell.page.wait_for_timeout(400)
+    assert cell.page.locator("[data-at=scans]").inner_text() == before
+
+
+def test_a_saved_log_is_played_again(cell: Opened, tmp_path: Path) -> None:
+    page = cell.page
+    page.get_by_role("button", name="Insert the key of level 1").click()
+    for _ in range(4):
+        page.get_by_role("button", name="Step: every device once").click()
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Save the log").first.click()
+    log = tmp_path / "log.jsonl"
+    saved.value.save_as(log)
+    scans = len(log.read_text().splitlines()) - 1
+    page.click("nav [data-part=suites]")
+    text = log.read_text().replace('"LA":false', '"LA":true', 1)
+    for content, difference in ((log.read_text(), ""), (text, "the log has True")):
+        log.write_text(content)
+        page.set_input_files("#log", [])
+        page.set_input_files("#log", log)
+        page.wait_for_function(
+            f"() => document.getElementById('told').textContent.startsWith('A log of {scans}')"
+        )
+        for _ in range(scans):
+            page.click("#next")
+        assert "The log is at its end." in page.locator("#told").inner_text()
+        assert page.locator("[data-cell] [data-text=differs]").inner_text().endswith(difference)
+        assert bool(difference) == bool(page.locator("[data-cell] [data-text=differs]").inner_text())
+    page.click("#leave")
+
+
+def thinned(path: Path, to: Path) -> dict[str, Any]:
+    """A published suite, or every n-th case of it, as a file."""
+    with gzip.open(path, "rt", encoding="utf-8") as file:
+        header, *cases = (json.loads(line) for line in file)
+    if os.environ.get("MODEPROOF_SIMULATE") != "whole":
+        cases = cases[:: max(1, header["scans"] // MOST_SCANS)]
+    header |= {"cases": len(cases), "scans": sum(len(case["scans"]) for case in cases)}
+    to.write_text("".join(json.dumps(row) + "\n" for row in (header, *cases)), encoding="utf-8")
+    return header
+
+
+def verdict(opened: Opened, file: Path) -> list[str]:
+    """The new row of the table after a file was chosen."""
+    page, rows = opened.page, "#verdicts tbody tr"
+    page.click("nav [data-part=suites]")
+    before = page.locator(rows).count()
+    page.set_input_files("#vectors", [])
+    page.set_input_files("#vectors", file)
+    page.wait_for_function(
+        f"() => document.querySelectorAll('{rows}').length > {before}", timeout=10 * WAIT_MS
+    )
+    return page.locator(rows).last.locator("td").all_inner_texts()
+
+
+@pytest.mark.sampled
+@pytest.mark.parametrize("name", sorted(PUBLISHED, key=lambda name: (name != "sf_edm/sequences", name)))
+def test_the_page_passes_a_published_suite(name: str, opened: Opened, tmp_path: Path) -> None:
+    target, suite = name.split("/")
+    header = thinned(ROOT / "vectors" / f"{name}.jsonl.gz", tmp_path / "suite.jsonl")
+    compared = f"{header['cases']:,} of {header['cases']:,} cases, {header['scans']:,} scans"
+    assert verdict(opened, tmp_path / "suite.jsonl") == [target, suite, "CONFORMS", compared]
+
+
+def test_the_page_says_where_it_differs_from_a_suite(opened: Opened, tmp_path: Path) -> None:
+    with gzip.open(ROOT / "vectors/sf_edm/sequences.jsonl.gz", "rt", encoding="utf-8") as file:
+        header, *cases = (json.loads(line) for line in file)
+    cases[2]["scans"][0]["out"]["Error"] = True
+    file = tmp_path / "planted.jsonl"
+    file.write_text("".join(json.dumps(row) + "\n" for row in (header, *cases)))
+    target, suite, word, compared = verdict(opened, file)
+    assert (target, suite, word) == ("sf_edm", "sequences", "DIFFERS")
+    assert compared.endswith(f"{cases[2]['id']}, scan 1: Error is False, expected True")
+
+
+def test_a_file_that_is_no_suite_is_unjudged(opened: Opened, tmp_path: Path) -> None:
+    file = tmp_path / "words.jsonl"
+    file.write_text("nothing\n")
+    assert verdict(opened, file)[::2] == ["words.jsonl", "UNJUDGED"]
+
+
+def test_the_page_asks_for_nothing_and_says_nothing(opened: Opened, page_file: Path) -> None:
+    assert [url for url in opened.asked if not url.startswith(("blob:", "data:"))] == [page_file.as_uri()]
+    assert [text for text in opened.said if "upgrade needed" not in text] == []
+
+
+@pytest.mark.parametrize("part", ["scene-mode_selection", "blocks", "suites"])
+def test_everyone_can_use_the_page_at_800_pixels(part: str, opened: Opened) -> None:
+    page = opened.page
+    page.click(f"nav [data-part={part}]")
+    assert opened.inaccessible() == []
+    page.set_viewport_size({"width": 800, "height": 900})
+    assert opened.ask("() => document.documentElement.scrollWidth") <= 800
+    page.set_viewport_size({"width": 1280, "height": 900})
+
+
+def test_a_recorded_counterexample_is_shown_row_by_row(browser: Browser, recorded_place: Path) -> None:
+    file = recorded_place / "simulate.html"
+    file.write_text(make(recorded_place), encoding="utf-8")
+    with open_page(browser, file) as opened:
+        page = opened.page
+        page.wait_for_function(READY)
+        page.select_option("#choose", f"run {SCENE} 0")
+        assert "E-01" in page.locator("#told").inner_text()
+        page.click("#next")
+        texts, lit = stands(opened, "[data-cell]")
+        assert (texts["MW07"], texts["MW07.says"], texts["active"]) == ("0FF0", "mode 3", "none")
+        assert texts["SelectMSO.says"] == "not recorded"
+        page.click("#next")
+        texts, lit = stands(opened, "[data-cell]")
+        assert texts["active"].startswith("3: ") and {"MSO_3", "C", "LA"} <= {*lit}
+        assert "Here SwitchNeedsMatchingPair fails" in page.locator("#told").inner_text()
+        assert page.get_by_role("button", name="Insert the key of level 1").is_disabled()
+        page.click("#leave")
+        assert page.get_by_role("button", name="Insert the key of level 1").is_enabled()
