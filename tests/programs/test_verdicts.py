@@ -14,6 +14,7 @@ import z3
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.kit.vectors import open_suite
+from programs.bind import read_binding
 from programs.command import make, record_of, text_of
 from programs.fixpoint import Search
 from programs.product import Product
@@ -285,7 +286,7 @@ def test_a_binding_that_cannot_be_right_is_refused(text: str, cause: str, tmp_pa
     path = tmp_path / "binding.toml"
     path.write_text(text, "utf-8")
     with pytest.raises(Unjudged, match=cause):
-        make([EDM], "sf_edm", binding=path)
+        make([EDM], "sf_edm", binding=read_binding(path))
 
 
 def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
@@ -293,7 +294,7 @@ def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
     program.write_text(EDM.read_text("utf-8").replace("S_OutControl", "Demand"), "utf-8")
     path = tmp_path / "binding.toml"
     path.write_text("left_out = ['DiagCode']\n[names]\nS_OutControl = 'Demand'\n", "utf-8")
-    found = judged(program, "sf_edm", binding=path)
+    found = judged(program, "sf_edm", binding=read_binding(path))
     assert found.word == "PROVED" and "DiagCode" not in found.product.binding.compared
 
 
@@ -301,4 +302,4 @@ def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
 def test_another_parameter_is_another_verdict(tmp_path: Path) -> None:
     path = tmp_path / "binding.toml"
     path.write_text("[parameters]\nAFTER_RESET = 'at_once'\n", "utf-8")
-    assert judged(EDM, "sf_edm", binding=path).word == "REFUTED"
+    assert judged(EDM, "sf_edm", binding=read_binding(path)).word == "REFUTED"
