@@ -79,13 +79,13 @@ def verdict_on(mutant: Mutant) -> tuple[str, str]:
     if found.word == "REFUTED":
         assert found.difference is not None
         scans = found.difference
-        again = replay(product.binding, product.wrap, scans.parameters, scans.scans, "")
+        again = replay(product.binding, product.wrap, scans.run, "")
         same = again is not None and again.differing == scans.differing and again.stopped == scans.stopped
         return found.word, "" if same else "the scans do not come out again"
     if found.word == "PROVED":
         for name, value in (("SUITES", SUITES), ("MOST_SCANS", MOST_SCANS)):
             setattr(replay_room, name, value)
-        other = published(product, vectors)
+        other = published(product.binding, product.wrap, vectors)
         return found.word, f"{other.found_by} differs" if isinstance(other, Difference) else ""
     return found.word, ""
 

@@ -80,9 +80,8 @@ def judge(fault: Fault, folder: Path) -> Verdict:
     product = make([path], fault.target)
     found = judge_product(product, ROOT / "vectors" / fault.target, SECONDS, lambda text: None)
     if found.difference is not None:
-        scans = found.difference
-        again = replay(product.binding, False, scans.parameters, scans.scans, "")
-        if again is None or again.differing != scans.differing:
+        again = replay(product.binding, False, found.difference.run, "")
+        if again is None or again.differing != found.difference.differing:
             raise Unjudged(f"{fault.id}: the scans did not come out again")
     return found
 

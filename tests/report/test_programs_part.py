@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.report.whole import make_whole
+from tests.report.paper import make_whole
 
 from modeproof.report.build import make
 from modeproof.report.parts import programs
