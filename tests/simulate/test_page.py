@@ -121,6 +121,7 @@ def test_what_is_closed_on_the_panel_cannot_be_touched(cell: Opened) -> None:
     assert cell.page.get_by_role("button", name="0 Manual mode", exact=True).is_disabled()
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("id", STORIES)
 def test_a_story_is_told_to_its_end(
     id: str, opened: Opened, told: dict[str, Any], known: dict[str, Any]
@@ -253,6 +254,7 @@ def test_the_page_asks_for_nothing_and_says_nothing(opened: Opened, page_file: P
     assert [text for text in opened.said if "upgrade needed" not in text] == []
 
 
+@pytest.mark.sampled
 @pytest.mark.parametrize("part", ["scene-mode_selection", "blocks", "suites"])
 def test_everyone_can_use_the_page_at_800_pixels(part: str, opened: Opened) -> None:
     page = opened.page

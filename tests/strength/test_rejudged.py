@@ -14,7 +14,7 @@ DOCUMENT = "mode_selection"
 STRENGTH = bench_of(DOCUMENT).strength
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("one", STRENGTH.rejudged, ids=lambda one: one.id)
 def test_a_mutant_meets_the_same_fate_again(one: Rejudged) -> None:
     (mutant,) = [mutant for mutant in mutants_of(DOCUMENT) if mutant.id == one.id]

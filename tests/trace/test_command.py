@@ -27,6 +27,7 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, alphabets: dict[str, 
     return tmp_path
 
 
+@pytest.mark.deep
 def test_a_log_that_fits_and_one_that_does_not(
     place: Path, alphabets: dict[str, Alphabet], capsys: pytest.CaptureFixture[str]
 ) -> None:

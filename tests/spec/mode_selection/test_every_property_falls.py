@@ -61,7 +61,7 @@ def test_the_property_falls_to_the_fault(
         assert "[][Next]_vars" in MODULES["ModeSelection"].splitlines()[int(place[1]) - 1]
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("trial", CONTROLS, ids=str)
 def test_without_a_fault_the_properties_hold(trial: Trial, trials: Callable[[Trial], Finding]) -> None:
     found = trials(trial)
