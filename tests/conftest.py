@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import signal
 from collections.abc import Iterator
 from pathlib import Path, PurePath
@@ -47,3 +49,33 @@ def time_to_shrink() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("modeproof.kit.judge.SHRINKING_S", PATIENCE_S)
         yield
+
+
+def program() -> str | None:
+    """The path of Chromium; None where there is none."""
+    named = os.environ.get("MODEPROOF_CHROMIUM")
+    return shutil.which(named) if named else shutil.which("chromium")
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """One Chromium for all tests of a process; it can reach nothing but files.
+
+    MODEPROOF_CHROMIUM names the program (default: chromium on the PATH). Without one the tests are skipped,
+    or fail where MODEPROOF_BROWSER is `required`.
+    """
+    from playwright.sync_api import expect, sync_playwright
+
+    from tests.report.browser.opened import ARGUMENTS, WAIT_MS
+
+    path = program()
+    if path is None:
+        reason = "no chromium here (Debian: apt install chromium), or MODEPROOF_CHROMIUM names none"
+        if os.environ.get("MODEPROOF_BROWSER") == "required":
+            pytest.fail(f"MODEPROOF_BROWSER=required: {reason}")
+        pytest.skip(reason)
+    expect.set_options(timeout=WAIT_MS)
+    with sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=path, args=list(ARGUMENTS))
+        yield started
+        started.close()

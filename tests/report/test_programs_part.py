@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.report.paper import make_whole
 
 from modeproof.report.build import make
 from modeproof.report.parts import programs
 from modeproof.report.sources import DIFFERS, NOTE, gather
+from tests.report.paper import make_whole
 
 PROVED: dict[str, Any] = {
     "command": "prove-program",

@@ -19,7 +19,6 @@ from modeproof.report.story import digest_of
 from modeproof.simulate import facts
 from modeproof.simulate.program.block import Block
 from scenes.mode_selection.scene import Scene
-from tests.report.browser.conftest import browser as browser
 from tests.report.browser.opened import Opened, open_page
 
 ROOT = Path(__file__).resolve().parents[2]

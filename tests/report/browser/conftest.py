@@ -1,47 +1,19 @@
-"""Chromium, started once for all tests of the page, and the page of the toy document.
-
-MODEPROOF_CHROMIUM names the program (default: chromium on the PATH). Without one the tests are skipped, or
-fail where MODEPROOF_BROWSER is `required`. MODEPROOF_REPORT names another page, for the tests that say
-something of any page.
-"""
+"""The page of the toy document; MODEPROOF_REPORT names another one, for the tests that say something of any."""
 
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, expect, sync_playwright
+from playwright.sync_api import Browser
 
 from modeproof.report.build import make
 from tests.report.box_graph import add_graph
 from tests.report.box_vectors import put_vectors
-from tests.report.browser.opened import ARGUMENTS, WAIT_MS, Opened, open_page
+from tests.report.browser.opened import Opened, open_page
 from tests.report.paper import make_paper, put, without
-
-
-def program() -> str | None:
-    """The path of Chromium; None where there is none."""
-    named = os.environ.get("MODEPROOF_CHROMIUM")
-    return shutil.which(named) if named else shutil.which("chromium")
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator[Browser]:
-    """One Chromium for all tests; it can reach nothing but files."""
-    path = program()
-    if path is None:
-        reason = "no chromium here (Debian: apt install chromium), or MODEPROOF_CHROMIUM names none"
-        if os.environ.get("MODEPROOF_BROWSER") == "required":
-            pytest.fail(f"MODEPROOF_BROWSER=required: {reason}")
-        pytest.skip(reason)
-    expect.set_options(timeout=WAIT_MS)
-    with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=list(ARGUMENTS))
-        yield started
-        started.close()
 
 
 @pytest.fixture(scope="session")
