@@ -1,4 +1,4 @@
-"""The page of the toy document; MODEPROOF_REPORT names another one, for the tests that say something of any."""
+"""The page of the toy document; MODEPROOF_REPORT names another, for tests that say something of any page."""
 
 from __future__ import annotations
 
