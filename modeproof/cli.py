@@ -51,11 +51,16 @@ JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report",
 """Commands that end in a verdict: their first line names the tree that it is about."""
 
 
+_HEARD: list[int] = []
+"""The signals that told this run of `main` to stop."""
+
+
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
     given = sys.argv[1:] if argv is None else argv
     args = argparse.Namespace(debug="--debug" in given)
     hook = sys.unraisablehook
+    _HEARD.clear()
     previous = _stop_on_signals()
     try:
         args = make_parser(given).parse_args(given)
@@ -64,14 +69,17 @@ def main(argv: list[str] | None = None) -> int:
         if args.command in JUDGES:
             print(f"{'tree':<12} {place}", flush=True)
         run: Callable[[argparse.Namespace], int] = args.run
-        return int(run(args))
+        status = int(run(args))
+        if _HEARD:  # a library has caught it and gone on
+            raise KeyboardInterrupt
+        return status
     except Unjudged as error:
         if args.debug:
             raise
         _complain(error.message)
     except KeyboardInterrupt:
         if signal.SIGTERM in previous:  # the main thread; a second Ctrl-C would only spoil the end
-            previous[signal.SIGINT] = signal.signal(signal.SIGINT, signal.SIG_IGN)
+            previous.setdefault(signal.SIGINT, signal.signal(signal.SIGINT, signal.SIG_IGN))
         exec("")  # else Python, interrupted inside another exec, ends itself by the signal and not with 2
         _stop_tools()
         _complain("interrupted: no verdict; what was finished before is kept")
@@ -210,10 +218,14 @@ def _stop_on_signals() -> dict[int, Any]:
         sys.unraisablehook = dropped
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
+        if number == signal.SIGINT and os.getpid() != pid:  # a fork that was made while it came
+            os._exit(EXIT_UNJUDGED)
+        _HEARD.append(number)
         raise KeyboardInterrupt
 
-    previous: dict[int, Any] = {}
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    pid, previous = os.getpid(), dict[int, Any]()
+    ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not ignored, as under nohup
+    for number in (signal.SIGTERM, signal.SIGHUP, *([signal.SIGINT] if ours else [])):
         with contextlib.suppress(ValueError, AttributeError):  # not the main thread
             previous[number] = signal.signal(number, stop)
     return previous
