@@ -15,6 +15,7 @@ from typing import Any
 import z3
 
 from programs.relations import plain
+from programs.terms import names_in
 
 LIMIT_MS = 20_000
 """For one question."""
@@ -46,7 +47,7 @@ class System:
         waiting = [*terms, self.assumed, self.inside]
         by_name = {str(term): path for path, term in self.state.items()}
         while waiting:
-            for name in _symbols(waiting.pop()):
+            for name in names_in([waiting.pop()]):
                 path = by_name.get(name)
                 if path is not None and path not in known:
                     known.add(path)
@@ -54,7 +55,7 @@ class System:
         kept = {path: term for path, term in self.state.items() if path in known}
         parts = _conjuncts(self.within)
         names = {str(term) for term in kept.values()}
-        within = z3.And([z3.BoolVal(True), *(part for part in parts if set(_symbols(part)) <= names)])
+        within = z3.And([z3.BoolVal(True), *(part for part in parts if names_in([part]) <= names)])
         return System(
             kept,
             self.inputs,
@@ -314,19 +315,3 @@ def _conjuncts(term: Any) -> list[Any]:
     if z3.is_and(term):
         return [part for child in term.children() for part in _conjuncts(child)]
     return [term]
-
-
-def _symbols(term: Any) -> set[str]:
-    """The names of the symbols in a term."""
-    found: set[str] = set()
-    seen: set[int] = set()
-    waiting = [term]
-    while waiting:
-        node = waiting.pop()
-        if node.get_id() in seen:
-            continue
-        seen.add(node.get_id())
-        if z3.is_const(node) and node.decl().kind() == z3.Z3_OP_UNINTERPRETED:
-            found.add(str(node))
-        waiting += node.children()
-    return found

@@ -15,8 +15,9 @@ from programs.cell import Asked, Cell, Judge, Scans, Trace
 from programs.houdini import Houdini
 from programs.induction import System, Way, induction, shortest, spacer
 from programs.questions import TYPES
+from programs.relations import like
 from programs.replay import memory_of
-from programs.terms import in_range
+from programs.terms import in_range, parts
 
 RUNS, LENGTH = 60, 50
 """Of the random runs from which the candidates of invariants come."""
@@ -110,15 +111,18 @@ class Judgement:
         """The program with the watchers of the properties that have a time."""
         cell = self.cell
         state = {path: cell.symbols[path] for path in cell.slots}
-        start = {path: _like(state[path], slot.initial) for path, slot in cell.slots.items()}
+        start = {
+            path: None if slot.initial is None else like(state[path], slot.initial)
+            for path, slot in cell.slots.items()
+        }
         after = {path: cell.after[path] for path in cell.slots}
-        parts = []
+        fits = []
         for path, slot in cell.slots.items():
             if path.endswith(".age"):
-                parts.append(state[path] >= 0)
+                fits.append(state[path] >= 0)
             elif not path.rpartition(".")[2].islower():  # the others are memory of a block
-                parts.append(in_range(slot.type, state[path]))
-        parts += [block.ranges(path, state) for path, block in instances(cell.source, cell.unit)]
+                fits.append(in_range(slot.type, state[path]))
+        fits += [block.ranges(path, state) for path, block in instances(cell.source, cell.unit)]
         for asked in self.asked:
             if asked.watched:
                 waits, since = z3.Bool(f"{asked.id} waits"), z3.Int(f"{asked.id} since")
@@ -127,10 +131,10 @@ class Judgement:
                 after[str(waits)] = self._waits(asked)
                 timed = asked.within_ms is not None
                 after[str(since)] = z3.If(waits, since + cell.dt_ms, 0) if timed else z3.IntVal(0)
-                parts.append(since >= 0)
+                fits.append(since >= 0)
         inputs = {path: cell.symbols[path] for path in cell.inputs} | {"dt_ms": cell.dt_ms}
         inside = z3.And([z3.BoolVal(True), *(owed.formula for owed in cell.obligations)])
-        within = z3.And([z3.BoolVal(True), *(part for part in parts if not z3.is_true(part))])
+        within = z3.And([z3.BoolVal(True), *(part for part in fits if not z3.is_true(part))])
         return System(state, inputs, start, after, cell.environment, inside, within)
 
     def _waits(self, asked: Asked) -> z3.BoolRef:
@@ -244,25 +248,13 @@ class Judgement:
         return retained, scans
 
 
-def _like(term: Any, value: Any) -> Any:
-    if value is None:
-        return None
-    if z3.is_bool(term):
-        return z3.BoolVal(bool(value))
-    return z3.BitVecVal(int(value), term.size()) if z3.is_bv(term) else z3.IntVal(int(value))
-
-
 def _numbers(terms: Sequence[Any]) -> set[int]:
-    """The whole numbers above 0 that times are compared with in these terms."""
-    found: set[int] = set()
-    seen: set[int] = set()
-    waiting = list(terms)
-    while waiting:
-        node = waiting.pop()
-        if node.get_id() in seen:
-            continue
-        seen.add(node.get_id())
-        if z3.is_le(node) or z3.is_ge(node) or z3.is_lt(node) or z3.is_gt(node):
-            found |= {abs(part.as_long()) for part in node.children() if z3.is_int_value(part)} - {0, 1}
-        waiting += node.children()
-    return found
+    """The whole numbers above 1 that times are compared with in these terms."""
+    compared = (z3.is_le, z3.is_ge, z3.is_lt, z3.is_gt)
+    return {
+        abs(side.as_long())
+        for part in parts(terms)
+        if any(kind(part) for kind in compared)
+        for side in part.children()
+        if z3.is_int_value(side)
+    } - {0, 1}

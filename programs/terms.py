@@ -68,6 +68,27 @@ def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
             yield Slot(place, single, None if variable.section == "retain" else initial, variable.section)
 
 
+def parts(terms: Iterable[Any]) -> Iterator[Any]:
+    """The terms and all that they are made of, each of them once."""
+    seen: set[int] = set()
+    waiting = list(terms)
+    while waiting:
+        term = waiting.pop()
+        if term.get_id() not in seen:
+            seen.add(term.get_id())
+            yield term
+            waiting += term.children()
+
+
+def names_in(terms: Iterable[Any]) -> set[str]:
+    """The names of the symbols in terms."""
+    return {
+        term.decl().name()
+        for term in parts(terms)
+        if z3.is_const(term) and term.decl().kind() == z3.Z3_OP_UNINTERPRETED
+    }
+
+
 def live(asked: Iterable[Any], after: Mapping[str, tuple[str, Any]]) -> set[str]:
     """The paths on which the terms that are asked for depend, in this scan or a later one.
 

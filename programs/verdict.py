@@ -6,9 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
-
-import z3
+from typing import Literal
 
 from programs.certificate import run_of
 from programs.fixpoint import Search, prune
@@ -16,6 +14,7 @@ from programs.product import OUTPUTS, Owed, Product, shown
 from programs.replay import Difference, Replayed, published, replay
 from programs.search import shortest
 from programs.shorten import shortened
+from programs.terms import names_in
 
 LONGEST = 20
 """Scans of a counterexample that is searched for along the pairs."""
@@ -95,7 +94,7 @@ def _doubts(product: Product, replayed: Replayed, seconds: float, tell: Tell) ->
 def _flags(product: Product, doubts: Sequence[Owed]) -> tuple[str, ...]:
     """BOOL variables that may tell states apart: read before they are written, free in a doubtful pair."""
     scan = product.translated
-    read = _symbols([*scan.after.values(), *scan.outputs.values()])
+    read = names_in([*scan.after.values(), *scan.outputs.values()])
     fixed = {
         relation.left
         for doubt in doubts
@@ -109,21 +108,6 @@ def _flags(product: Product, doubts: Sequence[Owed]) -> tuple[str, ...]:
         if f"p.{path}" in read and f"p:{path}" not in fixed and slot.section != "input"
     ]
     return tuple(found[:MOST_SPLIT])
-
-
-def _symbols(terms: Sequence[Any]) -> set[str]:
-    found: set[str] = set()
-    seen: set[int] = set()
-    waiting = list(terms)
-    while waiting:
-        node = waiting.pop()
-        if node.get_id() in seen:
-            continue
-        seen.add(node.get_id())
-        if z3.is_const(node) and node.decl().kind() == z3.Z3_OP_UNINTERPRETED:
-            found.add(node.decl().name())
-        waiting += node.children()
-    return found
 
 
 def _words(doubt: Owed) -> str:

@@ -55,9 +55,14 @@ def _hear_interrupts(z3: Any) -> None:
     read, write = os.pipe()
     os.set_blocking(write, False)
     signal.set_wakeup_fd(write, warn_on_full_buffer=False)
+    # A copy of this process would write into the same pipe, and what ends the copy would end our query
+    os.register_at_fork(after_in_child=lambda: signal.set_wakeup_fd(-1))
+
+    ends = {getattr(signal, name, signal.SIGINT) for name in ("SIGINT", "SIGTERM", "SIGHUP")}
 
     def listen() -> None:
-        while os.read(read, 64):
-            z3.main_ctx().interrupt()
+        while heard := os.read(read, 64):
+            if ends & set(heard):  # not a timer, or the end of a child
+                z3.main_ctx().interrupt()
 
     threading.Thread(target=listen, daemon=True).start()

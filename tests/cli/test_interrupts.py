@@ -180,3 +180,26 @@ def test_an_interrupt_wipes_the_line_of_progress(copy: Path) -> None:
     assert running.wait(timeout=60) == 2
     last = said.decode().replace("\r\n", "\n").rstrip("\n").rsplit("\n", 1)[-1]
     assert re.split(r"\r\x1b\[K|\r", last)[-1] + "\n" == SAID and b"\x1b[?" not in said
+
+
+def test_the_end_of_a_copy_leaves_its_parent_alone() -> None:
+    """A worker that ran out of its time is ended before it has handlers of its own: it writes into our pipe."""
+    text = """
+import os, signal, sys, time
+from modeproof.ground.proofs import proofs_module
+proofs_module("proofs.theorem")
+import z3
+signal.signal(signal.SIGTERM, lambda *_: None)
+child = os.fork()
+if not child:
+    time.sleep(0.3)
+    os._exit(0)
+time.sleep(0.1)
+os.kill(child, signal.SIGTERM)
+os.waitpid(child, 0)
+time.sleep(0.2)
+x = z3.Int("x")
+print(z3.simplify(z3.substitute(z3.And(x + 3 > 4, x < 9), (x, z3.IntVal(5)))))
+"""
+    found = subprocess.run([sys.executable, "-c", text], cwd=TREE, capture_output=True, text=True, check=True)
+    assert found.stdout == "True\n"

@@ -171,6 +171,19 @@ def test_an_edited_certificate_is_refused(edit: Callable[[Any], None], cause: st
         recheck(folder)
 
 
+def test_wrapping_numbers_are_no_numbers_that_stay_in_range(tmp_path: Path) -> None:
+    program, place = tmp_path / "plc.st", tmp_path / "certificate"
+    text = PLC.read_text("utf-8").replace("16#11;", "16#11; count : SINT;")
+    program.write_text(text.replace("turn := ROL(turn, 1);", "turn := ROL(turn, 1); count := count + 1;"))
+    given = ["prove-program", str(program), "--target", "plc", "--certificate", str(place)]
+    assert main([*given, "--wrap"]) == 0 and recheck(place).status == 0
+    record = record_of(place)
+    assert record["wrap"] is True
+    keep(place, record | {"wrap": False})
+    with pytest.raises(Unjudged, match="not the obligation that follows from the program"):
+        recheck(place)
+
+
 def test_a_weaker_query_is_refused(folder: Path) -> None:
     path = sorted(folder.glob("*.smt2"))[1]
     path.write_text(path.read_text("utf-8").replace("(push 1)", "(push 1)\n(assert false)", 1), "utf-8")
