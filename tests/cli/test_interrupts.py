@@ -183,7 +183,7 @@ def test_an_interrupt_wipes_the_line_of_progress(copy: Path) -> None:
 
 
 def test_the_end_of_a_copy_leaves_its_parent_alone() -> None:
-    """A worker that ran out of its time is ended before it has handlers of its own: it writes into our pipe."""
+    """A worker out of time is ended before it has handlers of its own: it writes into our pipe."""
     text = """
 import os, signal, sys, time
 from modeproof.ground.proofs import proofs_module
