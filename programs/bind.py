@@ -20,6 +20,7 @@ import z3
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers import Signal
+from modeproof.registers.profiles import LETTER, PROFILES, value_in
 from programs.reference import Reference
 from programs.terms import Slot, slots
 from programs.tree import BOOL, Array, Scalar, Source, Unit
@@ -34,7 +35,7 @@ class Binding:
     """A program and the reference, with what the binding file says.
 
     names: a signal of the document to a name of the program. fixed: values of parameters (by their names in
-    the document). left_out: outputs that are not compared.
+    the document). left_out: outputs that are not compared. profile: whose values the other parameters have.
     """
 
     reference: Reference
@@ -43,6 +44,7 @@ class Binding:
     names: Mapping[str, str] = field(default_factory=dict)
     fixed: Mapping[str, Any] = field(default_factory=dict)
     left_out: tuple[str, ...] = ()
+    profile: str = LETTER
 
     def __post_init__(self) -> None:
         groups = ("inputs", "outputs", "parameters")
@@ -198,11 +200,17 @@ class Binding:
                         f"binding: {name} is an input of {self.unit.name}, so it has no single value"
                     )
                 continue
-            value = self.fixed.get(name, signal.default)
+            value = self.fixed.get(name, value_in(signal, self.profile))
             if value is None:
                 raise Unjudged(f"binding: {name} has no default; give it a value under [parameters]")
             found[name] = value
         return found
+
+    @property
+    def chosen(self) -> dict[str, Any]:
+        """The values that are given, and those of the profile that are not the default."""
+        of = self.reference.signals("parameters")
+        return {n: value for n, value in self.values.items() if n in self.fixed or value != of[n].default}
 
     @cached_property
     def conditions(self) -> tuple[z3.BoolRef, ...]:
@@ -336,20 +344,24 @@ def _plain_name(name: str, loose: bool) -> str:
 
 
 def read_binding(path: Path) -> dict[str, Any]:
-    """The arguments `names`, `fixed` and `left_out` of a Binding from a TOML file. Raises Unjudged."""
+    """The arguments of a Binding that a TOML file gives. Raises Unjudged."""
     try:
         table = tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
         raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise Unjudged(f"{path}: no TOML: {error}") from None
-    keys = {"names": dict, "parameters": dict, "left_out": list}
+    keys = {"names": dict, "parameters": dict, "left_out": list, "profile": str}
+    words: dict[type, str] = {dict: "table", list: "list of names", str: "text"}
     for key, value in table.items():
         if key not in keys:
             raise Unjudged(f"{path}: unknown key {key!r}; {suggestion(key, keys)}")
         if not isinstance(value, keys[key]):
-            raise Unjudged(f"{path}: {key}: a {'table' if keys[key] is dict else 'list of names'} is needed")
+            raise Unjudged(f"{path}: {key}: a {words[keys[key]]} is needed")
     names, left_out = table.get("names", {}), table.get("left_out", [])
     if not all(isinstance(value, str) for value in (*names.values(), *left_out)):
         raise Unjudged(f"{path}: [names] and left_out hold names in quotation marks")
-    return {"names": names, "fixed": table.get("parameters", {}), "left_out": tuple(left_out)}
+    if (profile := table.get("profile", LETTER)) not in PROFILES:
+        raise Unjudged(f"{path}: no profile {profile!r}; {suggestion(profile, PROFILES)}")
+    fixed = table.get("parameters", {})
+    return {"names": names, "fixed": fixed, "left_out": tuple(left_out), "profile": profile}

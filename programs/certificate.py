@@ -173,7 +173,7 @@ def _claim(product: Product) -> dict[str, Any]:
         "fixed_parameters": binding.values,
         "binding": {
             "names": dict(binding.names),
-            "parameters": dict(binding.fixed),
+            "parameters": binding.chosen,
             "left_out": list(binding.left_out),
         },
         "wrap": product.wrap,

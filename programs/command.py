@@ -12,6 +12,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
+from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
 from programs import certificate
 from programs.bind import Binding, read_binding
 from programs.check import check
@@ -155,6 +156,10 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
             ]
         ),
     )
+    if known := profiles_of(binding.reference.device.register):
+        given = {name: value for name, value in binding.values.items() if name in known[LETTER]}
+        same = [profile for profile, values in known.items() if given.items() <= values.items()]
+        yield "profile", " and ".join(same) or NEITHER
     longest = binding.longest_scan
     most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
     yield "inputs", f"every value, {most} of whole milliseconds"

@@ -17,7 +17,7 @@ enum {
 
 sf_edm_parameters sf_edm_defaults(void)
 {
-    const sf_edm_parameters set = {.MonitoringTime_ms = 0, .AFTER_RESET = 0}; /* EDM-IN-TIME-2, EDMF-09 */
+    const sf_edm_parameters set = {.MonitoringTime_ms = 0, .AFTER_RESET = 1}; /* EDM-IN-TIME-2, EDMF-09; EDMF-04 */
     return set;
 }
 

@@ -8,7 +8,7 @@
 
 typedef struct {
     uint32_t MonitoringTime_ms; /* 0..3600000: longest time for the contactors to change over (EDM-IN-TIME-1) */
-    uint8_t AFTER_RESET;        /* 0 stop_first: S_OutControl must be FALSE before it counts; 1 at_once (EDMF-04) */
+    uint8_t AFTER_RESET;        /* 0 stop_first: S_OutControl must be FALSE before it counts; 1 at_once, the letter (EDMF-04) */
 } sf_edm_parameters;
 
 typedef struct {

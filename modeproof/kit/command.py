@@ -19,6 +19,7 @@ from modeproof.kit.bundle import Bundle
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import EXIT, Difference, Options, Plan, Verdict, run_suite
 from modeproof.kit.machine import with_parameters
+from modeproof.kit.profile import ALL, LETTER, PROFILES, OfProfile, of_profile
 from modeproof.kit.relation import read_hello
 from modeproof.kit.resume import Resume, identity
 from modeproof.kit.text import (
@@ -102,6 +103,12 @@ def add_parser(
         help="a parameter of your machine, in all cases; the reference implementation says what to expect",
     )
     parser.add_argument(
+        "--profile",
+        choices=PROFILES,
+        help="whose choices count where the document leaves some: letter (default, what its words say), "
+        "cautious (what we recommend), all (a program that takes them as parameters)",
+    )
+    parser.add_argument(
         "--codes", action="store_true", help="compare outputs too whose values the document does not give"
     )
     parser.add_argument(
@@ -159,7 +166,7 @@ def run_kit(args: argparse.Namespace) -> int:
             suites = [open_vectors(args)]
         else:
             suites = Bundle.own().suites(args.target, args.suite or [FAST], args.relation)
-        verdicts = judge(args, suites)
+        verdicts = judge(args, in_profile(args, suites))
         return EXIT[joint_word(verdicts)]
     except (Unjudged, KeyboardInterrupt) as error:
         with contextlib.suppress(Unjudged):
@@ -198,6 +205,12 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
         raise Unjudged("--scans belongs to --case")
     if args.resume is not None and (args.case is not None or len(suites) > 1):
         raise Unjudged("--resume is for one suite at a time, and all its cases")
+    given = {word.partition("=")[0] for word in args.param}
+    profiles = {
+        suite.name: suite.profile
+        for suite in suites
+        if isinstance(suite, OfProfile) and not given & suite.values.keys()
+    }
     if args.param:
         greet(args, suites[0].outputs)
         suites = [with_parameters(suite, args.param, args.relation) for suite in suites]
@@ -206,6 +219,7 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
         for suite in suites:
             verdict = _judge(args, suite)
             verdict.params = tuple(args.param)
+            verdict.profile = profiles.get(suite.name, "")
             verdicts.append(verdict)
             last = suite is suites[-1] or verdict.interrupted
             say(as_text(verdict, again(args, suite, verdict), suite, last))
@@ -226,6 +240,29 @@ def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
     if args.junit is not None:
         write_text(args.junit, as_junit(verdicts))
     return verdicts
+
+
+def profile_of(args: argparse.Namespace) -> str:
+    """The profile that a run is for: the letter, unless another is named, or a single case is."""
+    return args.profile or (LETTER if args.case is None else ALL)
+
+
+def in_profile(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Suite]:
+    """The cases of the suites that speak of the profile. Raises Unjudged where there are none.
+
+    A suite that was not asked for by its name is left out where it has none.
+    """
+    profile = profile_of(args)
+    found = []
+    for suite in suites:
+        part = of_profile(suite, profile)
+        if part is not None:
+            found.append(part)
+        elif args.vectors is not None or suite.name in (args.suite or ()):
+            raise Unjudged(f"{suite.path.name}: no case of {suite.name} is for the profile {profile}")
+    if not found:
+        raise Unjudged(f"no case of these suites is for the profile {profile}")
+    return found
 
 
 @contextlib.contextmanager
@@ -297,6 +334,7 @@ def _identity(args: argparse.Namespace) -> dict[str, Any]:
         "program": _program_words(args),
         "files": identity([*words, *([str(args.map)] if args.map else [])]) | package_files(args.builtin),
         **{name: getattr(args, name) for name in ("relation", "latency", "hold", "slow", "codes", "param")},
+        "profile": profile_of(args),
     }
 
 
@@ -355,6 +393,8 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
         if value != usual:
             words.append(f"--{name} {value}")
     words += [f"--param {quoted(text)}" for text in args.param]
+    if args.profile not in (None, LETTER):
+        words.append(f"--profile {args.profile}")
     if args.codes:
         words.append("--codes")
     # A part of a case has another id than the case, which no file knows.

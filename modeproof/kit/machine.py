@@ -24,13 +24,15 @@ STEP = Step("a scan with parameters of your own", (), (), 0)
 class OwnParameters(Suite):
     """A suite in which every case has the parameters `machine` instead of its own."""
 
+    whole: Suite | None = None
     machine: Mapping[str, Any] = field(default_factory=dict)
     relation: str = EXACT
 
     def cases(self) -> Iterator[Case]:
         """As of the suite, with other outputs. Raises Unjudged for parameters that are refused."""
+        assert self.whole is not None
         program = own_reference(self)
-        for case in super().cases():
+        for case in self.whole.cases():
             params = {**case.params, **self.machine} if case.reset else case.params
             try:
                 program.reset(params)
@@ -78,6 +80,6 @@ def with_parameters(suite: Suite, words: Sequence[str], relation: str) -> Suite:
         machine[name] = value
     values = {one.name: getattr(suite, one.name) for one in fields(Suite)}
     values["steps"] = (*(replace(step, transitions=0) for step in suite.steps), STEP)
-    own = OwnParameters(**values, machine=machine, relation=relation)
+    own = OwnParameters(**values, whole=suite, machine=machine, relation=relation)
     own_reference(own)
     return own

@@ -107,6 +107,8 @@ def _word(verdicts: Sequence[Verdict]) -> str:
         f"{verdict.only} of {verdict.suite}" if verdict.only else verdict.suite for verdict in verdicts
     )
     notes = [f"{first.relation}, {suites}"]
+    if first.profile:
+        notes.append(f"profile {first.profile}")
     hidden = {name: None for verdict in verdicts for name in verdict.unobserved}
     if hidden:
         have, all_ = first.outputs
@@ -264,6 +266,7 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
         "cases": verdict.cases,
         "cases_total": verdict.cases_total,
         "only": verdict.only,
+        "profile": verdict.profile,
         "params": list(verdict.params),
         "cases_of_an_earlier_run": verdict.earlier,
         "scans": verdict.scans,

@@ -70,10 +70,10 @@ class Verdict:
     `differences` holds one for each case that came out wrong, up to the number asked for; `properties` in how
     many scans each safety property was put to the program; `passed` the numbers of the cases that passed;
     `not_compared` the outputs left out because the document does not give their values. `only` says which
-    part of the suite was asked for, if not all of it; `params` which parameters were given; `compared` counts
-    the scans whose outputs were compared and the requests that were refused, `outputs` the outputs that were
-    compared and all; `earlier` cases passed in an earlier run. A transition is covered only if a compared
-    output shows it.
+    part of the suite was asked for, if not all of it; `profile` whose choices it is about, where the target
+    has profiles; `params` which parameters were given; `compared` counts the scans whose outputs were
+    compared and the requests that were refused, `outputs` the outputs that were compared and all; `earlier`
+    cases passed in an earlier run. A transition is covered only if a compared output shows it.
     """
 
     word: str
@@ -93,6 +93,7 @@ class Verdict:
     properties: dict[str, int] = field(default_factory=dict)
     unjudged: tuple[str, ...] = ()
     only: str = ""
+    profile: str = ""
     params: tuple[str, ...] = ()
     compared: int = 0
     outputs: tuple[int, int] = (0, 0)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from modeproof.ground.errors import suggestion
 from modeproof.registers.citations import Sources
 from modeproof.registers.fault_table import check_faults
+from modeproof.registers.profiles import check_profiles
 from modeproof.registers.rows import Device, Document, Problem, Signal
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
@@ -32,6 +33,7 @@ def cross_check(document: Document, sources: Sources) -> list[Problem]:
         *_clauses(document),
         *_interface(document),
         *_properties(document, sources),
+        *check_profiles(document, value_fault),
         *_theorems(document, sources),
         *_findings(document, sources),
         *_assumptions(document),

@@ -16,6 +16,7 @@ from typing import Any
 
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
@@ -110,6 +111,7 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
     parts = [
         _head(document),
         _shown(document, sources),
+        *_profiles(document),
         _limits(document),
         *_counterexamples(document, tables),
         _findings(document),
@@ -189,6 +191,45 @@ def _shown(document: Document, sources: Sources) -> str:
         "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
         "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
     )
+
+
+def _profiles(document: Document) -> Iterator[str]:
+    """Each choice, what it is in either profile, and what happens otherwise."""
+    rows = []
+    if not differing(document.interface):
+        return
+    for signal, finding in rows_of(document):
+        letter, cautious = (_value(value_in(signal, profile)) for profile in PROFILES)
+        rows.append(
+            [
+                f"`{signal.name}`: {signal.why}",
+                letter,
+                cautious if cautious != letter else "the same",
+                signal.because or _sentence(finding.decision),
+                f"{_sentence(finding.consequence)} {_evidence(document, finding)}",
+            ]
+        )
+    of = [profile_of(document.root, run, document.interface) for run in document.runs]
+    counts = ", ".join(f"{of.count(profile)} of the profile {profile}" for profile in PROFILES)
+    only = ", ".join(
+        f"`{row.id}` ({' and '.join(row.profiles)})"
+        for row in document.properties
+        if row.profiles != PROFILES
+    )
+    yield (
+        "## The two profiles\n\n"
+        "The document leaves a choice, or we would rather have something else. *Letter*, the default, is "
+        "what the words\nsay, in their order, wherever that can work; *cautious* is what we recommend. "
+        "Models, vectors and the kit\n(`--profile`) name the profile that they speak of; a theorem holds for "
+        "every value, unless its sentence\nnames one.\n\n"
+        f"Runs: {counts}. "
+        + (f"Properties of one profile alone: {only}.\n\n" if only else "Every property holds in both.\n\n")
+        + markdown(["choice", "letter", "cautious", "why", "what happens otherwise"], rows)
+    )
+
+
+def _value(value: Any) -> str:
+    return f"`{str(value).upper()}`" if isinstance(value, bool) else f"`{value}`"
 
 
 def _score(score: Score) -> list[str]:

@@ -101,7 +101,7 @@ def _device(source: str, name: str, row: Table) -> Device:
 def _signal(place: str, group: str, name: str, row: Any) -> Signal:
     if not isinstance(row, dict):
         raise Unjudged(f"{place}: must be a table, not {row!r}")
-    for key in ("default", "required"):
+    for key in ("default", "required", "cautious", "because"):
         if key in row and group != "parameters":
             raise Unjudged(f"{place}: {key} belongs to parameters")
     return typed(Signal, {"python": name, "tla": name, **row, "name": name}, place)

@@ -87,7 +87,8 @@ class Signal(Entry, frozen=True, kw_only=True):
     `python` and `tla` are its names in the implementation and the specification (`tla` is empty when the
     specification leaves it out); `tag` is that of the document's own wiring. `project`: our own choice, which
     the document does not print. Parameters alone may be required or have a default, which is None where none
-    is declared.
+    is declared. The defaults are the profile `letter`; `cautious` is the value of the profile of that name
+    where it is another, and `because` says why either is what it is.
     """
 
     name: str
@@ -102,6 +103,8 @@ class Signal(Entry, frozen=True, kw_only=True):
     values: tuple[str, ...] = ()
     default: int | str | bool | list[int] | None = None
     required: bool = False
+    cautious: int | str | bool | list[int] | None = None
+    because: str = ""
     project: bool = False
 
 
@@ -130,7 +133,10 @@ class Interface:
 
 
 class Property(Entry, frozen=True, kw_only=True):
-    """What must be true. `tla` is its operator in `module`; `antecedent` the witness that it is not empty."""
+    """What must be true. `tla` is its operator in `module`; `antecedent` the witness that it is not empty.
+
+    `profiles` are those with which it holds.
+    """
 
     id: Name
     title: Text
@@ -143,6 +149,10 @@ class Property(Entry, frozen=True, kw_only=True):
     environments: Annotated[tuple[LowerName, ...], Meta(min_length=1)]
     antecedent: str
     findings: tuple[RowId, ...] = ()
+    profiles: Annotated[tuple[Literal["letter", "cautious"], ...], Meta(min_length=1)] = (
+        "letter",
+        "cautious",
+    )
     reason: str = ""
 
 

@@ -57,7 +57,7 @@ class Run(Entry, frozen=True, kw_only=True):
     the temporal property of a LIVE run.
 
     Of a run with `base`, `module` and `cfg` are those of its base; `constants`, `specification` and `view`
-    take the place of what that cfg gives.
+    take the place of what that cfg gives. `more_witnesses` are reached besides those of the base.
     """
 
     document: str
@@ -169,6 +169,8 @@ def _derived(
     if "properties" not in values:
         negative = str(values.get("id", "")).startswith("NEG_") and "property" in values
         table["properties"] = [values["property"]] if negative else list(of_base)
+    if "more_witnesses" in values:
+        table["witnesses"] = [*found[base].witnesses, *table.pop("more_witnesses")]
     run = _run(document, source, table)
     deadlock = ("deadlock",) if run.deadlock else ()
     for name in (*run.properties, *((run.property,) if run.property else ())):

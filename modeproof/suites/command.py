@@ -24,6 +24,7 @@ from modeproof.ground.progress import Progress
 from modeproof.kit import command as kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
+from modeproof.kit.profile import ALL, LETTER
 from modeproof.kit.text import as_record, joint_word, write_json
 from modeproof.kit.vectors import EXACT, SETTLED, Suite, open_suite
 from modeproof.kit.verdict import Verdict
@@ -65,6 +66,7 @@ def _program(args: argparse.Namespace) -> int:
     else:
         with only_one(place):
             suites = _suites(place, document, device, args)
+    suites = kit_command.in_profile(args, suites)
     ours = _is_ours(args)
     if ours:  # by this Python, whatever `python` is here
         args.adapter = " ".join(map(kit_command.quoted, [sys.executable, str(place / OWN), args.target]))
@@ -92,7 +94,8 @@ OWN_SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
 def _is_ours(args: argparse.Namespace) -> bool:
     """Whether the arguments are those of a run that `verify` makes, so that it is made again."""
     usual = (args.relation, args.latency, args.hold, args.slow) == (EXACT, None, 0, 1)
-    return usual and bool(args.codes) and args.adapter == f"python {OWN} {args.target}"
+    usual = usual and bool(args.codes) and args.profile == ALL
+    return usual and args.adapter == f"python {OWN} {args.target}"
 
 
 def own_files(place: Path, document: str) -> list[Path]:
@@ -106,7 +109,9 @@ def own_record(
     """The evidence of the reference implementation behind the adapter protocol."""
     about = {"device": suite.target, "implementation": REFERENCE}
     adapter = kit_command.quoted(f"python {OWN} {suite.target}")
-    command = f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes"
+    command = (
+        f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes --profile {ALL}"
+    )
     id = f"adapter_{suite.target}_{suite.name}"
     return _record(place, document, suite, verdict, id, command, started, [*inputs, suite.path], about)
 
@@ -117,6 +122,7 @@ def _write_yours(
     """The evidence of a user's program: in a place of its own, under its own name."""
     name = re.sub(r"[^A-Za-z0-9.-]+", "-", args.name or verdict.adapter).strip("-.") or "program"
     manner = [] if args.relation == EXACT else [args.relation]
+    profile = [] if args.profile in (None, LETTER) else [args.profile]
     command = " ".join(
         [
             f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
@@ -126,9 +132,10 @@ def _write_yours(
             *([f"--hold {args.hold}"] if args.hold else []),
             *([f"--slow {args.slow}"] if args.slow != 1 else []),
             *(["--codes"] if args.codes else []),
+            *(f"--profile {name}" for name in profile),
         ]
     )
-    id = "_".join([name[:60], args.target, suite.name, *manner])
+    id = "_".join([name[:60], args.target, suite.name, *manner, *profile])
     record = _record(place, document, suite, verdict, id, command, started, [suite.path], {"name": name})
     evidence.write(place, record, evidence.YOURS)
     say(f"kept as {build(place).name}/{evidence.YOURS}/{document}/{id}.json; `modeproof report` shows it")
@@ -146,6 +153,7 @@ def _record(
     about: Mapping[str, Any],
 ) -> dict[str, Any]:
     done, total = verdict.transitions
+    of_profile = f", profile {verdict.profile}" if verdict.profile else ""
     return evidence.make(
         kind="conformance",
         id=id,
@@ -153,7 +161,7 @@ def _record(
         verdict=verdict.word,
         expected="CONFORMS",
         as_expected=verdict.status == 0,
-        strength=f"relation {verdict.relation}, suite {verdict.suite} over the adapter protocol: "
+        strength=f"relation {verdict.relation}, suite {verdict.suite}{of_profile} over the adapter protocol: "
         f"{verdict.scans:,} scans, {done:,} of {total:,} merged transitions",
         command=command,
         started=started,

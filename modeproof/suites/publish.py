@@ -31,11 +31,12 @@ class Published:
     removed: tuple[str, ...]
 
 
-def publish(place: Path, targets: Mapping[str, str]) -> Published:
+def publish(place: Path, targets: Mapping[str, str], whole: bool = True) -> Published:
     """Bring the room up to date with the suites of `targets` (target to document), which have been built.
 
     A file with the same lines is left as it is: what packs them may pack otherwise on another machine. So is
-    one that was made by other code of this tool and is the same otherwise. Raises Unjudged where a file
+    one that was made by other code of this tool and is the same otherwise. With `whole` these are all targets
+    that there are, so that files of others are removed. Raises Unjudged where a file
     cannot be written.
     """
     wanted: dict[Path, Path] = {Path(__file__).with_name(SCHEMA): place / ROOM / SCHEMA}
@@ -56,7 +57,7 @@ def publish(place: Path, targets: Mapping[str, str]) -> Published:
             written.append(shown)
     removed = []
     for path in sorted((place / ROOM).rglob(FILE_NAME.format(suite="*"))):
-        if path not in wanted.values():
+        if path not in wanted.values() and (whole or path.parent.name in targets):
             path.unlink()
             removed.append(path.relative_to(place).as_posix())
     write_whole(place / ROOM / SUMS, sums_text(place / ROOM).encode())

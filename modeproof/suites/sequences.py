@@ -33,8 +33,8 @@ step of the specification each scan takes. What the outputs must be, it does not
 
 `set` holds what changes (all of it in the first scan of a flow), `dt_ms` is as in the scan before where it
 is left out, `times` repeats a scan. Clauses and basis may name tables too. A branch has the flow's `for` and
-`when` unless it has its own. With `basis` a case rests on a finding of ours and not on the document alone, as
-in `basis = "finding:E-21"`.
+`when` unless it has its own, and its `graph`, which may be a list of graphs: of each profile, for instance.
+With `basis` a case rests on a finding of ours and not on the document alone, as in `basis = "finding:E-21"`.
 
 A scan that takes another step than it says is refused: then the diagram, as it was read here, is not what the
 specification does.
@@ -60,7 +60,7 @@ FILE = "sequences.toml"
 END = "end"
 """Where a branch goes on after the whole flow."""
 _FLOW = {"name", "device", "graph", "for", "when", "why", "clauses", "basis", "scans"}
-_BRANCH = {"of", "at", "for", "when", "why", "clauses", "basis", "scans"}
+_BRANCH = {"of", "at", "graph", "for", "when", "why", "clauses", "basis", "scans"}
 _SCAN = {"set", "dt_ms", "step", "times"}
 _ENTRY = re.compile(r"(\w+)\[(\w+)\]")
 _WHEN = re.compile(r"(\w+) *(<=|>=|==|!=|<|>) *(\w+)")
@@ -109,20 +109,21 @@ class _Declared:
         names = [row["name"] for row in every]
         if len(set(names)) != len(names):
             raise Unjudged(f"{self.where}: two flows have the same name")
-        self.flows = {row["name"]: row for row in every if self._is_mine(row)}
+        self.flows = {row["name"]: row for row in every}
         self.branches = []
         for row in rows.get("branch", []):
             self._only(row, _BRANCH, f"branch of {row.get('of')!r}")
             if row["of"] not in names:
                 raise Unjudged(f"{self.where}: a branch of {row['of']!r}, which is no flow")
-            if row["of"] in self.flows:
-                self.branches.append(row)
+            self.branches.append(row)
 
     def _is_mine(self, row: Mapping[str, Any]) -> bool:
-        return (row["device"], row["graph"]) == (self.device.device.id, self.device.run)
+        graphs = [row["graph"]] if isinstance(row["graph"], str) else row["graph"]
+        return row["device"] == self.device.device.id and self.device.run in graphs
 
     def _only(self, row: Mapping[str, Any], allowed: set[str], name: object) -> None:
-        missing = (allowed - {"for", "when", "basis"}) - set(row)
+        optional = {"for", "when", "basis"} | ({"graph"} if "of" in allowed else set())
+        missing = allowed - optional - set(row)
         if set(row) - allowed or missing:
             odd = sorted((set(row) - allowed) | missing)[0]
             raise Unjudged(f"{self.where}: {name}: {odd!r} is missing or unknown")
@@ -135,9 +136,10 @@ class _Declared:
     def cases(self) -> Iterator[Script]:
         """Flows in the order of the file, each followed by its branches."""
         for name, flow in self.flows.items():
-            yield from self._each(name, flow, flow, self._scans(flow), {})
+            if self._is_mine(flow):
+                yield from self._each(name, flow, flow, self._scans(flow), {})
             for branch in self.branches:
-                if branch["of"] == name:
+                if branch["of"] == name and self._is_mine({**flow, **branch}):
                     yield from self._branch(name, flow, branch)
 
     def _branch(self, name: str, flow: Mapping[str, Any], branch: Mapping[str, Any]) -> Iterator[Script]:

@@ -16,6 +16,7 @@ from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.vectors import KIND, MONITOR, PACKED, VERSION, id_of_text
+from modeproof.registers.profiles import profiles_of
 from modeproof.registers.rows import Device
 from modeproof.suites.contract import declare, declare_parameters
 from modeproof.suites.kinds import SUITES
@@ -240,6 +241,7 @@ class _Writer:
             "inputs": declare(device.inputs, modes),
             "outputs": declare(device.outputs, modes),
             "parameters": declare_parameters(device, modes),
+            **({"profiles": profiles} if (profiles := profiles_of(device)) else {}),
             "steps": self._steps(device),
             **({"contract": contract} if contract else {}),
             "graphs": self.graphs,

@@ -9,6 +9,7 @@ from typing import Any
 
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.made import cfg_text
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.runs import Run
 from modeproof.tlc.judge import REACHED, VIOLATED, judge
 from modeproof.tlc.messages import Counts, Log, TraceState
@@ -43,7 +44,7 @@ def doubt(place: Path, run: Run, record: Mapping[str, Any]) -> str:
 
     Empty where they agree. Raises Unjudged when the cfg of the run cannot be read.
     """
-    head = {"expected": run.expect, "environment": run.environment, "strength": run.strength}
+    head = {"expected": run.expect, "environment": run.environment, "strength": strength_of(place, run)}
     for said, meant in ((record, head), (record["result"], declared(run))):
         for name, value in meant.items():
             if said.get(name) != value:

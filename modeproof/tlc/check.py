@@ -20,6 +20,7 @@ from modeproof.ground.progress import Progress
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, module_text
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc import children
@@ -280,7 +281,7 @@ def _record(
         expected=run.expect,
         as_expected=judgement.as_expected,
         environment=run.environment,
-        strength=run.strength,
+        strength=strength_of(place, run),
         command=f"modeproof check {option}{run.name}",
         started=started,
         seconds=outcome.seconds if outcome is not None else time.time() - started,

@@ -72,12 +72,13 @@ n1 the first contactor, n2 the second, n3 both. EDMF-01
 class Params:
     """MonitoringTime_ms: longest time for the contactors to change over, 0..3600000 ms, 0 if it is not set.
 
-    AFTER_RESET: what S_OutControl must do after a reset by hand, ``"stop_first"`` be FALSE before it counts,
-    or ``"at_once"`` nothing. EDM-IN-TIME-1, EDM-IN-TIME-2, EDM-IN-RESET-4, EDMF-04. Raises ParameterError.
+    AFTER_RESET: what S_OutControl must do after a reset by hand, ``"at_once"`` nothing, which is the letter
+    of the page, or ``"stop_first"``, the cautious value, be FALSE before it counts. EDM-IN-TIME-1,
+    EDM-IN-TIME-2, EDM-IN-RESET-4, EDMF-04. Raises ParameterError.
     """
 
     MonitoringTime_ms: int = 0
-    AFTER_RESET: str = STOP_FIRST
+    AFTER_RESET: str = AT_ONCE
 
     def __post_init__(self) -> None:
         check_int("MonitoringTime_ms", self.MonitoringTime_ms, 0, MONITORING_TIME_MAX_MS, ParameterError)

@@ -42,9 +42,6 @@ Unfounded_RequestWaits(i) == FALSE
 \* EDM-IN-EDM-2, EDM-IN-TIME-1, EDMF-06: a request at the timeout is what the error is named after
 LateInDisable_RequestBeforeTimeout(i) == Expired(i) /\ ~Feedback(i, TRUE) /\ ~Unfounded(i)
 
-\* EDM-IN-RESET-4, EDMF-04: a request that stands there at the Reset counts, whatever AFTER_RESET says
-CountsAfterReset_RequestCountsAtOnce(i) == TRUE
-
 ----------------------------------------------------------------------------
 (* Reset.                                                                  *)
 

@@ -62,6 +62,8 @@ Wires == Alphabet[in] @@ EDMOutputs
 ResetEdge == Scanned.Reset /\ ~resetWas
 BothAre(dropped) == Scanned.S_EDM1 = dropped /\ Scanned.S_EDM2 = dropped
 OnTime == unchanged + Scanned.dt < MONITORING_TIME
+\* EDM-IN-RESET-4, EDMF-04: S_OutControl counts as it stands, or once it was FALSE since a reset by hand
+Counts == AFTER_RESET = "at_once" \/ released
 
 \* EDM-IN-ACTIVATE, EDM-IN-CONTROL-2, EDM-OUT-EDM-1: in the very call that is not active, or asks for the stop
 StopAtOnce == [][~Scanned.Activate \/ ~Scanned.S_OutControl => ~S_EDM_Out']_beat
@@ -90,7 +92,7 @@ CauseIsGone == [][Error /\ ResetRequest /\ Ready' /\ ~Error' => BothAre(TRUE)]_b
 ErrorsAreLeftAsDocumented ==
     [][Error /\ Ready' /\ ~Error'
         => IF ResetRequest THEN SafetyDemand' ELSE ResetRequest' /\ ~Scanned.Reset]_beat
-\* EDM-IN-RESET-4, EDMF-04: the reset button does not start the machine
+\* EDM-IN-RESET-4, EDMF-04: with stop_first the reset button does not start the machine
 ResetNeverStarts == [][~S_EDM_Out /\ S_EDM_Out' => released]_beat
 \* EDM-IN-RESET-1, EDMF-10
 HeldResetIsAnError ==
@@ -116,7 +118,7 @@ Follows ==
 OneTransitionACall == [][state' \in {state, "Idle"} \cup Follows]_beat
 \* EDM-IN-CONTROL-3, EDM-OUT-EDM-2, EDM-SEQ-3: what may switch on does so in that call
 SwitchesOnAtOnce ==
-    [][SafetyDemand /\ Scanned.Activate /\ BothAre(TRUE) /\ Scanned.S_OutControl /\ released
+    [][SafetyDemand /\ Scanned.Activate /\ BothAre(TRUE) /\ Scanned.S_OutControl /\ Counts
         => S_EDM_Out']_beat
 \* EDM-IN-START-1, EDM-IN-START-3: without inhibit nothing is waited for
 StartsByItself ==
@@ -133,7 +135,7 @@ ResetsAtOnce ==
 ErrorNeedsCause ==
     [][~Error /\ Error' =>
         CASE S_EDM_Out -> ~OnTime /\ ~BothAre(FALSE)
-          [] SafetyDemand -> ~BothAre(TRUE) /\ (~OnTime \/ (Scanned.S_OutControl /\ released))
+          [] SafetyDemand -> ~BothAre(TRUE) /\ (~OnTime \/ (Scanned.S_OutControl /\ Counts))
           [] OTHER -> /\ ~Scanned.S_StartReset /\ Scanned.Reset
                       /\ resetWas \/ (Scanned.S_OutControl /\ ~controlWas)]_beat
 \* EDM-OUT-DIAG, EDMF-01, EDMF-10, EDMF-11: the code of an error names the contactor that did not follow, and

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from programs.bind import read_binding
 from programs.command import make
 from programs.run import Machine
 from programs.verdict import Verdict, judge
@@ -256,7 +257,8 @@ def test_a_coil_passes_on_what_reaches_it(tmp_path: Path) -> None:
 
 def judged(path: Path, target: str) -> Verdict:
     """The verdict on a program."""
-    return judge(make([path], target), ROOT / "vectors" / target, 120, lambda text: None)
+    product = make([path], target, binding=read_binding(ROOT / "examples" / "cautious.toml"))
+    return judge(product, ROOT / "vectors" / target, 120, lambda text: None)
 
 
 @pytest.mark.deep

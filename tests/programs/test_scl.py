@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.errors import Unjudged
+from programs.bind import read_binding
 from programs.check import check
 from programs.command import make
 from programs.run import Machine
@@ -15,6 +16,7 @@ from programs.tree import Source
 from programs.verdict import judge
 
 ROOT = Path(__file__).parents[2]
+CAUTIOUS = read_binding(ROOT / "examples" / "cautious.toml")
 HEAD = """FUNCTION_BLOCK "B"
 TITLE = it's a block
 { S7_Optimized_Access := 'TRUE' }
@@ -112,7 +114,7 @@ def test_a_variable_with_the_name_of_an_attribute_is_kept() -> None:
 
 @pytest.mark.deep
 def test_the_example_in_scl_is_proved() -> None:
-    product = make([ROOT / "examples" / "st" / "sf_edm.scl"], "sf_edm")
+    product = make([ROOT / "examples" / "st" / "sf_edm.scl"], "sf_edm", binding=CAUTIOUS)
     assert judge(product, ROOT / "vectors" / "sf_edm", 120, lambda text: None).word == "PROVED"
 
 
@@ -120,5 +122,7 @@ def test_another_code_in_scl_is_refuted(tmp_path: Path) -> None:
     path = tmp_path / "sf_edm.scl"
     text = (ROOT / "examples" / "st" / "sf_edm.scl").read_text("utf-8")
     path.write_text(text.replace("#code := 16#C070", "#code := 16#C080"), "utf-8")
-    found = judge(make([path], "sf_edm"), ROOT / "vectors" / "sf_edm", 120, lambda text: None)
+    found = judge(
+        make([path], "sf_edm", binding=CAUTIOUS), ROOT / "vectors" / "sf_edm", 120, lambda text: None
+    )
     assert found.word == "REFUTED" and found.difference is not None

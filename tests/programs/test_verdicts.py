@@ -28,7 +28,10 @@ EDM_OUTPUTS = ["Ready", "S_EDM_Out", "SafetyDemand", "ResetRequest", "Error", "D
 VECTORS = ROOT / "vectors"
 FAULTS = {
     "a code of another error": ("code := 16#C070", "code := 16#C080"),
-    "a lost release": ("IF NOT S_OutControl THEN released := TRUE; END_IF", ""),
+    "a request that must go first": (
+        "IF S_OutControl THEN\n                    mode := On",
+        "IF control.Q THEN\n                    mode := On",
+    ),
     "a timer that is not restarted": ("mode := On; restart := TRUE;", "mode := On;"),
     "one contactor for two": ("IF S_EDM1 AND S_EDM2 THEN", "IF S_EDM1 THEN"),
     "an output that stays on": ("S_EDM_Out := mode = On;", "S_EDM_Out := mode = On OR mode = Fault;"),
@@ -72,7 +75,7 @@ def test_the_example_is_proved_equal() -> None:
     found = edm()
     assert found.word == "PROVED"
     text = "\n".join(text_of(found, 1.0))
-    assert "any MonitoringTime_ms 0..3600000; AFTER_RESET = stop_first" in text
+    assert "any MonitoringTime_ms 0..3600000; AFTER_RESET = at_once" in text
     assert len(found.product.nodes) == 24 and found.replayed is not None and found.replayed.cases > 100
 
 
@@ -175,7 +178,7 @@ def test_a_relation_that_does_not_hold_is_noticed() -> None:
     product = edm().product
     pair = next(pair for pair in product.nodes if pair[0] == "OutputDisable")
     before = product.nodes[pair].relations
-    product.nodes[pair].relations = [*before, Relation("constant", "p:RELEASED", value=False)]
+    product.nodes[pair].relations = [*before, Relation("constant", "p:STARTFAULT", value=False)]
     try:
         assert any("the next pair is known" in doubt.what for doubt in product.doubts())
     finally:
@@ -277,6 +280,8 @@ def test_flags_that_tell_states_apart_are_found(tmp_path: Path) -> None:
         ("left_out = ['Activate']\n", "Activate is no output"),
         ("[parameters]\nMonitoringTime_ms = 5\n", "is an input of SF_EDM, so it has no single value"),
         ("[parameters]\nAFTER_RESET = 'never'\n", "AFTER_RESET"),
+        ("profile = 'bold'\n", "no profile 'bold'"),
+        ("profile = 1\n", "profile: a text is needed"),
         ("[name]\n", "unknown key 'name'; did you mean 'names'"),
         (f"left_out = {EDM_OUTPUTS}\n", "no output is compared"),
         ("[names]\nS_EDM1 = 'S_EDM2'\n", "are both bound to S_EDM2"),
@@ -301,5 +306,5 @@ def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
 @pytest.mark.deep
 def test_another_parameter_is_another_verdict(tmp_path: Path) -> None:
     path = tmp_path / "binding.toml"
-    path.write_text("[parameters]\nAFTER_RESET = 'at_once'\n", "utf-8")
+    path.write_text("profile = 'cautious'\n", "utf-8")
     assert judged(EDM, "sf_edm", binding=read_binding(path)).word == "REFUTED"

@@ -25,18 +25,18 @@ class Trial:
 
 EDM = Trial(
     Watched("edm", "sf_edm", (0, 5, 10), {"Activate": 0.97, "Reset": 0.4}),
-    [{"MonitoringTime_ms": 20}, {"MonitoringTime_ms": 20, "AFTER_RESET": "at_once"}],
+    [{"MonitoringTime_ms": 20, "AFTER_RESET": "stop_first"}, {"MonitoringTime_ms": 20}],
     {
         "OutputNeedsAll": [
             (
                 "Outputs(True, True, False, False, False, 0x8000)",
-                "Outputs(True, True, True, False, False, 0x8000)",
+                "Outputs(True, True, False, False, True, 0x8000)",
             )
         ],
         "IdleShowsNothing": [
             (
                 "Outputs(False, False, False, False, False, 0x0000)",
-                "Outputs(False, False, False, True, False, 0x0000)",
+                "Outputs(False, False, False, False, True, 0x0000)",
             )
         ],
         "InactiveAtOnce": [("elif not inputs.Activate:", "elif not inputs.Activate and not inputs.Reset:")],

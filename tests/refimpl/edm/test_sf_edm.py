@@ -14,6 +14,7 @@ from refimpl.edm.sf_edm import ERRORS, Inputs, Outputs, Params, State, Step, out
 from refimpl.errors import InputError, ParameterError, StateError
 
 PARAMS = Params(MonitoringTime_ms=100)
+CAUTIOUS = replace(PARAMS, AFTER_RESET="stop_first")
 DROPPED, PICKED = (True, True), (False, False)
 FEEDBACKS = tuple(itertools.product((False, True), repeat=2))
 BLAMED = {(False, True): 0, (True, False): 1, (False, False): 2}
@@ -48,9 +49,12 @@ def enabled(elapsed_ms: int = 0, params: Params = PARAMS) -> State:
     return at(Step.OUTPUT_ENABLE, out_control_before=True, elapsed_ms=elapsed_ms, params=params)
 
 
-@pytest.mark.parametrize("control", ["taken back", "still there"])
-def test_the_signal_sequence_of_the_document(control: str) -> None:
-    state, out = run(power_up(PARAMS), call(Activate=False))  # 0
+@pytest.mark.parametrize(
+    ("params", "control"),
+    [(PARAMS, "taken back"), (CAUTIOUS, "taken back"), (CAUTIOUS, "still there")],
+)
+def test_the_signal_sequence_of_the_document(params: Params, control: str) -> None:
+    state, out = run(power_up(params), call(Activate=False))  # 0
     assert not any((out.Ready, out.S_EDM_Out, out.SafetyDemand, out.ResetRequest, out.Error, out.DiagCode))
     state, out = run(state, call(), call(dt_ms=500))  # 1: the inhibit
     assert (out.Ready, out.ResetRequest, out.S_EDM_Out) == (True, True, False)
@@ -76,7 +80,7 @@ def test_the_signal_sequence_of_the_document(control: str) -> None:
 
 
 def test_reset_with_a_standing_request_starts_only_where_chosen() -> None:
-    for params, starts in ((PARAMS, False), (replace(PARAMS, AFTER_RESET="at_once"), True)):
+    for params, starts in ((PARAMS, True), (CAUTIOUS, False)):
         for before in (Step.EDM_ERROR_33, Step.INIT):
             state = at(before, params=params, out_control_before=True)
             state, out = run(state, on(Reset=True))

@@ -48,7 +48,10 @@ FAULTS = {
         'To(IF i.S_StartReset THEN "OutputEnable" ELSE "Init") /\\ Did("Initialize")',
     ),
     "OneTransitionACall": ('To("Init") /\\ Did("ReturnToInit")', 'Disable(TRUE) /\\ Did("ReturnToInit")'),
-    "SwitchesOnAtOnce": ("stopSeen' = (stopSeen \\/ ~i.S_OutControl)", "stopSeen' = stopSeen"),
+    "SwitchesOnAtOnce": (
+        'Disable(CountsAfterReset(i))\n    /\\ Did("ResetError")',
+        'Disable(FALSE)\n    /\\ Did("ResetError")',
+    ),
     "RemovesInhibitAtOnce": (
         "Together(i) == ResetRises(i) /\\ Rises(i.S_OutControl, outControlBefore)",
         "Together(i) == ResetRises(i) /\\ i.S_OutControl",
@@ -81,7 +84,7 @@ def test_every_property_falls_to_something() -> None:
 
 def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
     readings, tried = BLOCK.readings(), BLOCK.tried()
-    assert len(readings) == 15 and set(tried) == readings
+    assert len(readings) == 14 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
         "RequestWaits",
         "ResetSeenOnlyWhileActive",
@@ -91,7 +94,8 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
 
 def test_every_state_code_and_transition_is_witnessed() -> None:
     device = BLOCK.registers.interface.devices["sf_edm"]
-    (witnessed,) = [set(run.witnesses) for run in BLOCK.registers.runs if run.kind == "WIT"]
+    witnessed, cautious = [set(run.witnesses) for run in BLOCK.registers.runs if run.kind == "WIT"]
+    assert cautious == witnessed | {"RequestHeldOverReset"}
     assert set(device.steps) <= witnessed
     assert {f"at {state}" for state in device.states} <= witnessed
     assert len({name for name in witnessed if name.startswith("code ")}) == len(device.states) == 24
