@@ -20,10 +20,12 @@ enum {
 
 void sf_guard_locking_defaults(sf_guard_locking_params *set)
 {
-    set->UNLOCK_ON = UNLOCK_ON_EDGE;
+    set->UNLOCK_ON = UNLOCK_ON_LATCHED;
+    set->UNLOCK_ENDS = UNLOCK_ENDS_WITH_REQUEST;
     set->ZONE_LOST = ZONE_LOST_ERROR;
     set->START_UP_INHIBIT = START_UP_INHIBIT_UNTIL_RESET;
-    set->CAUSE_OF_LOSS = CAUSE_OF_LOSS_GUARD_AND_ZONE;
+    set->CAUSE_OF_LOSS = CAUSE_OF_LOSS_WHAT_WAS_LOST;
+    set->MESSAGE_OF_LOSS = MESSAGE_OF_LOSS_UNTIL_RESET;
 }
 
 void sf_guard_locking_power_up(sf_guard_locking_memory *memory, const sf_guard_locking_params *set)
@@ -50,6 +52,7 @@ static uint16_t next(const sf_guard_locking_memory *m, const sf_guard_locking_in
     const bool zone_lost = !in->S_SafetyActive;
     const bool edge = rises(in->Reset, m->reset_before);
     const bool stuck = held(in->Reset, m->reset_before);
+    const bool ends = !in->UnlockRequest && m->set.UNLOCK_ENDS == UNLOCK_ENDS_WITH_REQUEST; /* GL-SEQ-3, GLF-03 */
     const bool alone = in->S_AutoReset && !m->start_up_inhibit; /* GL-IN-AUTORESET, GLF-08 */
 
     switch (m->code) {
@@ -72,14 +75,20 @@ static uint16_t next(const sf_guard_locking_memory *m, const sf_guard_locking_in
         if (zone_lost && m->set.ZONE_LOST == ZONE_LOST_ERROR) {
             return SAFETY_LOST;
         }
+        if (ends) {
+            return WAIT_FOR_OPERATOR;
+        }
         if (!in->S_GuardMonitoring) {
             return OPEN_AND_UNLOCKED;
         }
         return in->UnlockRequest ? CLOSED_BUT_UNLOCKED : WAIT_FOR_OPERATOR;
 
-    case OPEN_AND_UNLOCKED: /* GL-SEQ-4: with or without a request (GLF-03) */
+    case OPEN_AND_UNLOCKED: /* GL-SEQ-4 */
         if (zone_lost && (m->set.ZONE_LOST == ZONE_LOST_ERROR || !in->S_GuardMonitoring)) {
             return SAFETY_LOST;
+        }
+        if (ends) {
+            return WAIT_FOR_OPERATOR;
         }
         return in->S_GuardMonitoring ? CLOSED_BUT_UNLOCKED : OPEN_AND_UNLOCKED;
 
@@ -87,10 +96,10 @@ static uint16_t next(const sf_guard_locking_memory *m, const sf_guard_locking_in
         if (zone_lost && !secured) {
             return SAFETY_LOST;
         }
-        if (!in->S_GuardMonitoring || (in->UnlockRequest && in->S_SafetyActive)) {
+        if ((!in->S_GuardMonitoring && !ends) || (in->UnlockRequest && in->S_SafetyActive)) {
             return OPEN_AND_UNLOCKED;
         }
-        return in->S_GuardLock ? WAIT_FOR_RESET : WAIT_FOR_OPERATOR;
+        return secured ? WAIT_FOR_RESET : WAIT_FOR_OPERATOR;
 
     case WAIT_FOR_RESET: /* GL-IN-AUTORESET */
         if (stuck && !alone) {
@@ -111,7 +120,7 @@ static uint16_t next(const sf_guard_locking_memory *m, const sf_guard_locking_in
         if (zone_lost) {
             return SAFETY_LOST;
         }
-        if (!secured && m->set.CAUSE_OF_LOSS == CAUSE_OF_LOSS_GUARD_AND_ZONE) {
+        if (!secured && (m->guard_lost || m->set.CAUSE_OF_LOSS == CAUSE_OF_LOSS_GUARD_AND_ZONE)) {
             return SAFETY_RETURN; /* GLF-14 */
         }
         return edge ? WAIT_FOR_OPERATOR : SAFETY_RETURN;
@@ -139,6 +148,12 @@ void sf_guard_locking_call(sf_guard_locking_memory *m, const sf_guard_locking_in
     } else if (was == INIT && m->code == WAIT_FOR_OPERATOR) {
         m->start_up_inhibit = !in->S_StartReset && m->set.START_UP_INHIBIT == START_UP_INHIBIT_UNTIL_RESET;
     }
+    /* GLF-14: what was lost, from the loss to its reset */
+    if (m->code == SAFETY_LOST && was == CLOSED_AND_LOCKED) {
+        m->guard_lost = m->set.CAUSE_OF_LOSS == CAUSE_OF_LOSS_WHAT_WAS_LOST;
+    } else if (m->code != SAFETY_LOST && m->code != SAFETY_RETURN && m->code != RESET_ERROR_2) {
+        m->guard_lost = false;
+    }
     m->request_pending = m->code == CLOSED_AND_LOCKED && in->UnlockRequest && (rose || m->request_pending);
     m->request_before = in->UnlockRequest;
     m->reset_before = in->Reset; /* in every call, active or not */
@@ -146,6 +161,6 @@ void sf_guard_locking_call(sf_guard_locking_memory *m, const sf_guard_locking_in
     out->Ready = m->code != IDLE;
     out->S_GuardLocked = m->code == CLOSED_AND_LOCKED;
     out->S_UnlockGuard = m->code == OPEN_AND_UNLOCKED || m->code == CLOSED_BUT_UNLOCKED;
-    out->Error = m->code > ERRORS;
+    out->Error = m->code > ERRORS || (m->code == SAFETY_RETURN && m->set.MESSAGE_OF_LOSS == MESSAGE_OF_LOSS_UNTIL_RESET);
     out->DiagCode = m->code;
 }

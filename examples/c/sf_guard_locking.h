@@ -8,10 +8,12 @@
 enum { UNLOCK_ON_EDGE, UNLOCK_ON_LATCHED, UNLOCK_ON_LEVEL };          /* GLF-02 */
 enum { ZONE_LOST_ERROR, ZONE_LOST_TOLERATED };                        /* GLF-04 */
 enum { START_UP_INHIBIT_UNTIL_RESET, START_UP_INHIBIT_UNTIL_OPENED }; /* GLF-08 */
-enum { CAUSE_OF_LOSS_GUARD_AND_ZONE, CAUSE_OF_LOSS_ZONE };             /* GLF-14 */
+enum { UNLOCK_ENDS_WITH_REQUEST, UNLOCK_ENDS_WHEN_CLOSED };            /* GLF-03 */
+enum { CAUSE_OF_LOSS_WHAT_WAS_LOST, CAUSE_OF_LOSS_GUARD_AND_ZONE, CAUSE_OF_LOSS_ZONE }; /* GLF-14 */
+enum { MESSAGE_OF_LOSS_UNTIL_RESET, MESSAGE_OF_LOSS_UNTIL_SAFE };      /* GLF-06 */
 
 typedef struct {
-    uint8_t UNLOCK_ON, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS;
+    uint8_t UNLOCK_ON, UNLOCK_ENDS, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS, MESSAGE_OF_LOSS;
 } sf_guard_locking_params;
 
 typedef struct {
@@ -31,6 +33,7 @@ typedef struct {
     bool reset_before, request_before; /* the inputs of the call before */
     bool request_pending;              /* it rose while the guard is locked, and stands */
     bool start_up_inhibit;             /* carried from a start-up with a guard that was not locked */
+    bool guard_lost;                   /* and not the zone alone: it must be back before a reset */
 } sf_guard_locking_memory;
 
 void sf_guard_locking_defaults(sf_guard_locking_params *set);

@@ -26,9 +26,11 @@ static const block_row outputs[] = {{.name = "Ready", .flag = &out.Ready},
                                     {0}};
 static const block_row parameters[] = {
     {.name = "UNLOCK_ON", .choice = &set.UNLOCK_ON, .values = {"edge", "latched", "level"}},
+    {.name = "UNLOCK_ENDS", .choice = &set.UNLOCK_ENDS, .values = {"with_request", "when_closed"}},
+    {.name = "MESSAGE_OF_LOSS", .choice = &set.MESSAGE_OF_LOSS, .values = {"until_reset", "until_safe"}},
     {.name = "ZONE_LOST", .choice = &set.ZONE_LOST, .values = {"error", "tolerated"}},
     {.name = "START_UP_INHIBIT", .choice = &set.START_UP_INHIBIT, .values = {"until_reset", "until_opened"}},
-    {.name = "CAUSE_OF_LOSS", .choice = &set.CAUSE_OF_LOSS, .values = {"guard_and_zone", "zone"}},
+    {.name = "CAUSE_OF_LOSS", .choice = &set.CAUSE_OF_LOSS, .values = {"what_was_lost", "guard_and_zone", "zone"}},
     {0}};
 
 static void defaults(void)

@@ -149,7 +149,7 @@ class Property(Entry, frozen=True, kw_only=True):
     environments: Annotated[tuple[LowerName, ...], Meta(min_length=1)]
     antecedent: str
     findings: tuple[RowId, ...] = ()
-    profiles: Annotated[tuple[Literal["letter", "cautious"], ...], Meta(min_length=1)] = (
+    profiles: tuple[Literal["letter", "cautious"], ...] = (
         "letter",
         "cautious",
     )

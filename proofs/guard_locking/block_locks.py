@@ -68,6 +68,29 @@ def the_guard_is_unlocked_no_longer_than_the_zone_is_safe() -> Queries:
     yield JUDGE.too_strong("with tolerated too", anyway, "GuardClosedButUnlocked")
 
 
+def unlocked_only_while_requested(scan: Scanned) -> Obligation:
+    strict = chosen(scan.params, "UNLOCK_ENDS", "with_request")
+    return TRUE, z3.Implies(z3.And(strict, scan.sends.S_UnlockGuard), scan.inputs.UnlockRequest)
+
+
+@theorem(
+    clauses=["GL-IN-UNLOCKREQUEST", "GL-OUT-UNLOCKGUARD", "GL-SEQ-3"],
+    findings=["GLF-03"],
+    properties=["UnlockedOnlyWhileRequested"],
+    slow=True,
+)
+def the_guard_is_unlocked_no_longer_than_it_is_requested() -> Queries:
+    """With UNLOCK_ENDS = with_request, after every call with S_UnlockGuard TRUE that very call found
+    UnlockRequest TRUE.
+    """
+    yield from JUDGE.in_every_scan(unlocked_only_while_requested)
+
+    def anyway(scan: Scanned) -> Obligation:
+        return scan.sends.S_UnlockGuard, scan.inputs.UnlockRequest
+
+    yield JUDGE.too_strong("with when_closed too", anyway, "GuardOpenAndUnlocked")
+
+
 def no_error_locks_safe_zone(scan: Scanned) -> Obligation:
     if not scan.was(*UNLOCKED):
         return None
@@ -248,15 +271,16 @@ def stays_unlocked_while_open(scan: Scanned) -> Obligation:
     if not scan.was(*UNLOCKED):
         return None
     open_and_safe = z3.And(i.Activate, z3.Not(i.S_GuardMonitoring), i.S_SafetyActive)
-    return open_and_safe, scan.sends.S_UnlockGuard
+    spared = z3.Or(chosen(scan.params, "UNLOCK_ENDS", "when_closed"), i.UnlockRequest)
+    return z3.And(open_and_safe, spared), scan.sends.S_UnlockGuard
 
 
 @theorem(
     clauses=["GL-OUT-UNLOCKGUARD", "GL-SEQ-4"], findings=["GLF-03"], properties=["StaysUnlockedWhileOpen"]
 )
 def the_bolt_is_not_thrown_while_the_guard_is_open() -> Queries:
-    """An active call with S_UnlockGuard TRUE before it, the guard open and the zone safe leaves it TRUE, with
-    or without a request.
+    """With UNLOCK_ENDS = when_closed an active call with S_UnlockGuard TRUE before it, the guard open and the
+    zone safe leaves it TRUE, with or without a request.
     """
     yield from JUDGE.in_every_scan(stays_unlocked_while_open)
 

@@ -71,3 +71,24 @@ def a_start_up_inhibit_is_carried_to_the_first_enable() -> Queries:
         return TRUE, z3.Not(scan.after.start_up_inhibit)
 
     yield JUDGE.too_strong("never", never, "Init")
+
+
+def guard_lost(scan: Scanned) -> Obligation:
+    wanted = chosen(scan.params, "CAUSE_OF_LOSS", "what_was_lost")
+    if scan.was(LOCKED) and scan.becomes("SafetyLost"):
+        return TRUE, scan.after.guard_lost == wanted
+    after_loss = TRUE if scan.becomes("SafetyLost", "SafetyReturn", "ResetError2") else FALSE
+    return TRUE, scan.after.guard_lost == z3.And(wanted, after_loss, scan.before.guard_lost)
+
+
+@theorem(clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-14"], slow=True)
+def what_was_lost_is_remembered_until_its_reset() -> Queries:
+    """With CAUSE_OF_LOSS = what_was_lost, after every call the guard counts as lost exactly if an enabled
+    guard was lost and the states after a loss have not been left since.
+    """
+    yield from JUDGE.in_every_scan(guard_lost)
+
+    def never(scan: Scanned) -> Obligation:
+        return TRUE, z3.Not(scan.after.guard_lost)
+
+    yield JUDGE.too_strong("never", never, LOCKED)

@@ -12,7 +12,7 @@ from proofs.explorer.scanned import Scanned, control
 from proofs.guard_locking.block_safety import secure, start_up_inhibited
 from proofs.guard_locking.devices import BLOCK, chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
-from proofs.guard_locking.observer import request_edge, reset_edge
+from proofs.guard_locking.observer import SEEN, request_edge, reset_edge
 from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, claim, theorem
 
@@ -36,18 +36,25 @@ CALLS: Final = {
 """How many quiet calls lead to the enable, when Reset was FALSE and when it was TRUE in the call before."""
 
 
+def guard_must_be_back(scan: Scanned) -> z3.BoolRef:
+    """An edge of Reset after a loss needs the guard closed and locked."""
+    lost = z3.And(chosen(scan.params, "CAUSE_OF_LOSS", "what_was_lost"), SEEN.unguarded)
+    return z3.Or(chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone"), lost)
+
+
 def answers_at_once(scan: Scanned) -> Obligation:
     """A call that stays has not seen what its state waits for."""
     i = scan.inputs
     guard, zone, request, reset = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest, i.Reset
-    guard_too = chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    guard_too = guard_must_be_back(scan)
+    ends = z3.And(chosen(scan.params, "UNLOCK_ENDS", "with_request"), z3.Not(request))
     due = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(scan)))
     waits = {
         "Init": z3.And(secure(scan), z3.Not(i.S_StartReset), z3.Not(reset)),
         LOCKED: z3.And(secure(scan), z3.Not(z3.And(request_edge(scan), zone))),
         "GuardClosedButUnlocked": z3.And(guard, request),
-        "GuardOpenAndUnlocked": z3.And(z3.Not(guard), zone),
-        "WaitForOperator": z3.And(guard, z3.Not(i.S_GuardLock), zone, z3.Not(request)),
+        "GuardOpenAndUnlocked": z3.And(z3.Not(guard), zone, z3.Not(ends)),
+        "WaitForOperator": z3.And(z3.Or(guard, ends), z3.Not(secure(scan)), zone, z3.Not(request)),
         "WaitForReset": z3.And(secure(scan), z3.Not(reset), z3.Not(due)),
         "SafetyReturn": z3.And(zone, z3.Or(z3.Not(reset), z3.And(guard_too, z3.Not(secure(scan))))),
         "SafetyLost": z3.Not(zone),
@@ -91,14 +98,17 @@ def leaves_for_a_cause(scan: Scanned) -> Obligation:
     guard, zone, request = i.S_GuardMonitoring, i.S_SafetyActive, i.UnlockRequest
     opened = z3.Not(guard)
     kept = z3.Or(zone, chosen(scan.params, "ZONE_LOST", "tolerated"))
-    guard_too = chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    guard_too = guard_must_be_back(scan)
+    ends = z3.And(chosen(scan.params, "UNLOCK_ENDS", "with_request"), z3.Not(request))
     alone = z3.And(i.S_AutoReset, z3.Not(start_up_inhibited(scan)))
     locked, unlocked = scan.sends.S_GuardLocked, scan.sends.S_UnlockGuard
     causes = {
         "Init": z3.If(locked, z3.And(secured, z3.Or(i.S_StartReset, edge)), z3.Not(secured)),
         LOCKED: z3.And(secured, request, zone),
-        "GuardClosedButUnlocked": z3.And(kept, z3.If(unlocked, opened, z3.And(guard, z3.Not(request)))),
-        "GuardOpenAndUnlocked": z3.And(guard, kept),
+        "GuardClosedButUnlocked": z3.And(
+            kept, z3.If(unlocked, opened, z3.Or(ends, z3.And(guard, z3.Not(request))))
+        ),
+        "GuardOpenAndUnlocked": z3.And(z3.If(unlocked, guard, ends), z3.Or(zone, z3.And(kept, guard))),
         "WaitForOperator": z3.If(
             unlocked,
             z3.And(zone, z3.Or(request, opened)),

@@ -32,7 +32,7 @@ ROWS: Final = {
     "ResetError3": (True, False, False, True, 0xC003),
     "SafetyLost": (True, False, False, True, 0xC004),
 }
-"""Ready, S_GuardLocked, S_UnlockGuard, Error and DiagCode of each state."""
+"""Ready, S_GuardLocked, S_UnlockGuard, Error and DiagCode of each state; Error of SafetyReturn: GLF-06."""
 
 
 def secure(scan: Scanned) -> z3.BoolRef:
@@ -66,6 +66,10 @@ def row(scan: Scanned, seen: Any) -> z3.BoolRef:
     state = next(name for name in ROWS if scan.becomes(name))
     ready, locked, unlock, error, code = ROWS[state]
     o = scan.sends
+    if state == "SafetyReturn":
+        kept = o.Error == chosen(scan.params, "MESSAGE_OF_LOSS", "until_reset")
+        off = z3.And(o.Ready, z3.Not(o.S_GuardLocked), z3.Not(o.S_UnlockGuard))
+        return z3.And(kept, off, o.DiagCode == code)
     flags = ((o.Ready, ready), (o.S_GuardLocked, locked), (o.S_UnlockGuard, unlock), (o.Error, error))
     return z3.And(*[flag == z3.BoolVal(value) for flag, value in flags], o.DiagCode == code)
 
@@ -77,7 +81,8 @@ def row(scan: Scanned, seen: Any) -> z3.BoolRef:
 )
 def every_state_has_its_row_of_outputs() -> Queries:
     """At power-up and after every call the five outputs are those of the row of the state, and no two states
-    have the same code.
+    have the same code. Error of the state that waits for the reset after a loss is TRUE exactly with
+    MESSAGE_OF_LOSS = until_reset.
     """
     yield from JUDGE.after_every_scan(row)
     codes = [outputs[4] for outputs in ROWS.values()]
@@ -254,7 +259,7 @@ def after_a_loss_nothing_is_enabled_before_an_edge_of_reset() -> Queries:
 
 
 def loss_needs_guard_back(scan: Scanned) -> Obligation:
-    strict = chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")
+    strict = z3.Not(chosen(scan.params, "CAUSE_OF_LOSS", "zone"))
     return TRUE, z3.Implies(z3.And(strict, scan.sends.S_GuardLocked), z3.Not(sees(scan).unguarded))
 
 
@@ -262,8 +267,9 @@ def loss_needs_guard_back(scan: Scanned) -> Obligation:
     clauses=["GL-IN-RESET", "GL-OUT-ERROR"], findings=["GLF-14"], properties=["LossNeedsGuardBack"], slow=True
 )
 def after_a_loss_nothing_is_enabled_before_an_edge_of_reset_behind_the_guard() -> Queries:
-    """With CAUSE_OF_LOSS = guard_and_zone, after a loss S_GuardLocked is FALSE after every call until an edge
-    of Reset has found the guard closed and locked, whatever S_AutoReset says (or Activate has ended).
+    """With CAUSE_OF_LOSS = what_was_lost or guard_and_zone, after the loss of an enabled guard S_GuardLocked
+    is FALSE after every call until an edge of Reset has found the guard closed and locked, whatever
+    S_AutoReset says (or Activate has ended).
     """
     yield from JUDGE.in_every_scan(loss_needs_guard_back)
     yield JUDGE.without(loss_needs_guard_back, "WaitForReset", "GuardComesBack")
@@ -407,15 +413,17 @@ RETURNS: Final = {"ResetError1": "Init", "ResetError2": "SafetyReturn", "ResetEr
 
 
 def error_ends_with_cause(scan: Scanned) -> Obligation:
-    if not scan.was("SafetyLost", *RETURNS):
+    if not scan.was("SafetyLost", "SafetyReturn", *RETURNS):
         return None
     i = scan.inputs
     if scan.was("SafetyLost"):
         ends = z3.And(i.S_SafetyActive, TRUE if scan.becomes("SafetyReturn") else FALSE)
+    elif scan.was("SafetyReturn"):
+        ends = z3.And(i.S_SafetyActive, reset_edge(scan), TRUE if scan.becomes("WaitForOperator") else FALSE)
     else:
         back = any(scan.was(error) and scan.becomes(state) for error, state in RETURNS.items())
         ends = z3.And(z3.Not(i.Reset), TRUE if back else FALSE)
-    gone = z3.And(i.Activate, z3.Not(scan.sends.Error))
+    gone = z3.And(scan.sent.Error, i.Activate, z3.Not(scan.sends.Error))
     return TRUE, z3.Implies(gone, ends)
 
 
@@ -426,8 +434,8 @@ def error_ends_with_cause(scan: Scanned) -> Obligation:
     slow=True,
 )
 def an_error_ends_with_its_cause() -> Queries:
-    """While Activate stays, a loss is shown until the zone is safe, and a reset error until Reset is
-    released; the reset error leads back to the state in which it was found.
+    """While Activate stays, a loss is shown until the zone is safe at least, and then until an edge of Reset
+    where its message stays; a reset error until Reset is released, and it leads back to where it was found.
     """
     yield from JUDGE.in_every_scan(error_ends_with_cause)
 
@@ -437,12 +445,59 @@ def an_error_ends_with_its_cause() -> Queries:
     yield JUDGE.too_strong("it never ends", for_ever, "ResetError2")
 
 
+def message_until_reset(scan: Scanned) -> Obligation:
+    if not scan.was("SafetyLost", "SafetyReturn", "ResetError2"):
+        return None
+    stays = chosen(scan.params, "MESSAGE_OF_LOSS", "until_reset")
+    gone = z3.And(scan.inputs.Activate, z3.Not(scan.sends.Error))
+    by_hand = reset_edge(scan) if scan.was("SafetyReturn") else FALSE
+    return z3.And(stays, scan.sent.Error), z3.Implies(gone, by_hand)
+
+
+@theorem(
+    clauses=["GL-IN-RESET", "GL-OUT-ERROR"],
+    findings=["GLF-06"],
+    properties=["MessageUntilReset"],
+    slow=True,
+)
+def the_message_of_a_loss_stays_until_an_edge_of_reset() -> Queries:
+    """With MESSAGE_OF_LOSS = until_reset, while Activate stays, a loss is shown until an edge of Reset."""
+    yield from JUDGE.in_every_scan(message_until_reset)
+
+    def anyway(scan: Scanned) -> Obligation:
+        return z3.And(scan.sent.Error, scan.inputs.Activate), scan.sends.Error
+
+    yield JUDGE.too_strong("with until_safe too", anyway, "SafetyLost")
+
+
+def loss_of_zone_needs_no_guard(scan: Scanned) -> Obligation:
+    if not scan.was("SafetyReturn"):
+        return None
+    apart = z3.And(z3.Not(chosen(scan.params, "CAUSE_OF_LOSS", "guard_and_zone")), z3.Not(SEEN.unguarded))
+    asked = z3.And(scan.inputs.Activate, scan.inputs.S_SafetyActive, reset_edge(scan))
+    return z3.And(apart, asked), TRUE if scan.becomes("WaitForOperator") else FALSE
+
+
+@theorem(
+    clauses=["GL-IN-RESET", "GL-OUT-ERROR"],
+    findings=["GLF-14"],
+    properties=["LossOfZoneNeedsNoGuard"],
+    slow=True,
+)
+def a_loss_of_the_zone_alone_is_reset_with_the_guard_open() -> Queries:
+    """But for CAUSE_OF_LOSS = guard_and_zone: where no enabled guard was lost, an edge of Reset in an active
+    call with the zone safe ends the error, wherever the guard is.
+    """
+    yield from JUDGE.in_every_scan(loss_of_zone_needs_no_guard)
+    yield JUDGE.without(loss_of_zone_needs_no_guard, "SafetyReturn", "LostGuardIsKnown")
+
+
 TRANSITIONS: Final = {
     "Idle": ("Init",),
     "Init": ("ResetError1", "WaitForOperator", "GuardClosedAndLocked"),
     "GuardClosedAndLocked": ("SafetyLost", "GuardClosedButUnlocked"),
     "GuardClosedButUnlocked": ("SafetyLost", "GuardOpenAndUnlocked", "WaitForOperator"),
-    "GuardOpenAndUnlocked": ("SafetyLost", "GuardClosedButUnlocked"),
+    "GuardOpenAndUnlocked": ("SafetyLost", "GuardClosedButUnlocked", "WaitForOperator"),
     "WaitForOperator": ("SafetyLost", "GuardOpenAndUnlocked", "WaitForReset"),
     "WaitForReset": ("ResetError3", "WaitForOperator", "GuardClosedAndLocked"),
     "SafetyLost": ("SafetyReturn",),

@@ -54,7 +54,13 @@ def _loss_is_waited_out(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
 def _guard_comes_back(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
     if c in AFTER_A_LOSS:
         return TRUE
-    return z3.Implies(chosen(p, "CAUSE_OF_LOSS", "guard_and_zone"), z3.Not(seen.unguarded))
+    return z3.Or(chosen(p, "CAUSE_OF_LOSS", "zone"), z3.Not(seen.unguarded))
+
+
+def _lost_guard_is_known(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    if c not in AFTER_A_LOSS:
+        return z3.Not(s.guard_lost)
+    return s.guard_lost == z3.And(chosen(p, "CAUSE_OF_LOSS", "what_was_lost"), seen.unguarded)
 
 
 INVARIANT: Final = (
@@ -66,7 +72,10 @@ INVARIANT: Final = (
     Conjunct("InhibitIsWanted", "an inhibit is carried only where it is to be", _inhibit_is_wanted),
     Conjunct("NothingStartsWhereEnabled", "the start-up is over", _nothing_starts_where_enabled),
     Conjunct("LossIsWaitedOut", "a loss is acknowledged before anything else", _loss_is_waited_out),
-    Conjunct("GuardComesBack", "it is acknowledged with the guard closed and locked", _guard_comes_back),
+    Conjunct(
+        "GuardComesBack", "a lost guard is closed and locked before it is acknowledged", _guard_comes_back
+    ),
+    Conjunct("LostGuardIsKnown", "whether it was the guard that was lost", _lost_guard_is_known),
 )
 JUDGE: Final = Judge(BLOCK, INVARIANT, SEEN, sees, NOTHING)
 

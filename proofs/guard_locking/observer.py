@@ -22,7 +22,8 @@ class Seen:
     reset, request: Reset and UnlockRequest in the call before · asked: UnlockRequest rose while the guard is
     locked, and is TRUE since · starting: since Activate came nothing was enabled, and no call of a start-up
     without inhibit was seen · lost: the guard, its lock or the zone was lost, and no edge of Reset has
-    acknowledged it · unguarded: and none has come with the guard closed and locked.
+    acknowledged it · unguarded: an enabled guard was lost, and no edge of Reset has come with it closed and
+    locked.
     """
 
     reset: z3.BoolRef
@@ -56,8 +57,9 @@ def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
     """The observer's memory after a call."""
     i, sent, sends = scan.inputs, scan.sent, scan.sends
     free = z3.And(sent.DiagCode == 0x8001, i.S_StartReset)
-    behind = z3.And(i.S_GuardMonitoring, i.S_GuardLock, reset_edge(scan, seen))
     acknowledged = z3.And(sent.DiagCode == 0x8014, i.S_SafetyActive, reset_edge(scan, seen))
+    behind = z3.And(i.S_GuardMonitoring, i.S_GuardLock, acknowledged)
+    gone = z3.And(sent.S_GuardLocked, sends.DiagCode == 0xC004)
     return Seen(
         reset=i.Reset,
         request=i.UnlockRequest,
@@ -68,7 +70,5 @@ def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
             z3.Or(z3.Not(sent.Ready), z3.And(seen.starting, z3.Not(free))),
         ),
         lost=z3.And(sends.Ready, z3.Or(sends.DiagCode == 0xC004, z3.And(seen.lost, z3.Not(acknowledged)))),
-        unguarded=z3.And(
-            sends.Ready, z3.Or(sends.DiagCode == 0xC004, z3.And(seen.unguarded, z3.Not(behind)))
-        ),
+        unguarded=z3.And(sends.Ready, z3.Or(gone, z3.And(seen.unguarded, z3.Not(behind)))),
     )

@@ -4,7 +4,8 @@
 that the call before left behind, and the outputs are the row of the state after it (GL-SEQ-NOTE). The block
 has no timer. States and codes are the family's (GLF-01); the document prints outputs and a diagram.
 
-The parameters choose between readings; the defaults are the safer ones (GLF-02, GLF-04, GLF-08, GLF-14).
+The parameters choose between readings; the defaults are the letter of the page (GLF-02, GLF-03, GLF-04,
+GLF-06, GLF-08, GLF-14).
 """
 
 from __future__ import annotations
@@ -22,8 +23,12 @@ ERROR = "error"
 TOLERATED = "tolerated"
 UNTIL_RESET = "until_reset"
 UNTIL_OPENED = "until_opened"
+WHAT_WAS_LOST = "what_was_lost"
 GUARD_AND_ZONE = "guard_and_zone"
 ZONE = "zone"
+WITH_REQUEST = "with_request"
+WHEN_CLOSED = "when_closed"
+UNTIL_SAFE = "until_safe"
 
 
 class Step(Enum):
@@ -48,23 +53,30 @@ class Params:
     """Readings between which a developer chooses. Raises ParameterError.
 
     UNLOCK_ON: what unlocks a locked guard, the edge of UnlockRequest in that very call, an edge that came
-    while the guard is locked and has stood since, or the level (GLF-02). ZONE_LOST: S_SafetyActive FALSE
+    while the guard is locked and has stood since, or the level (GLF-02). UNLOCK_ENDS: the unlock signal ends
+    with the request, or not before the guard is closed (GLF-03). ZONE_LOST: S_SafetyActive FALSE
     while the guard is closed but unlocked is an error, or tolerated until the guard opens (GLF-04).
     START_UP_INHIBIT: it lasts until an edge of Reset, or a guard that is not locked at start-up ends it
-    (GLF-08). CAUSE_OF_LOSS: after a loss an edge of Reset is taken with the zone safe and the guard closed
-    and locked, or with the zone safe alone (GLF-14).
+    (GLF-08). CAUSE_OF_LOSS: after a loss an edge of Reset is taken once what was lost is back, the zone or
+    the guard with its lock; or only with both; or with the zone safe alone (GLF-14). MESSAGE_OF_LOSS: Error
+    stays TRUE until that edge, or until the zone is safe (GLF-06).
     """
 
-    UNLOCK_ON: str = EDGE
+    UNLOCK_ON: str = LATCHED
+    UNLOCK_ENDS: str = WITH_REQUEST
     ZONE_LOST: str = ERROR
     START_UP_INHIBIT: str = UNTIL_RESET
-    CAUSE_OF_LOSS: str = GUARD_AND_ZONE
+    CAUSE_OF_LOSS: str = WHAT_WAS_LOST
+    MESSAGE_OF_LOSS: str = UNTIL_RESET
 
     def __post_init__(self) -> None:
         check_text("UNLOCK_ON", self.UNLOCK_ON, (EDGE, LATCHED, LEVEL), ParameterError)
+        check_text("UNLOCK_ENDS", self.UNLOCK_ENDS, (WITH_REQUEST, WHEN_CLOSED), ParameterError)
         check_text("ZONE_LOST", self.ZONE_LOST, (ERROR, TOLERATED), ParameterError)
         check_text("START_UP_INHIBIT", self.START_UP_INHIBIT, (UNTIL_RESET, UNTIL_OPENED), ParameterError)
-        check_text("CAUSE_OF_LOSS", self.CAUSE_OF_LOSS, (GUARD_AND_ZONE, ZONE), ParameterError)
+        causes = (WHAT_WAS_LOST, GUARD_AND_ZONE, ZONE)
+        check_text("CAUSE_OF_LOSS", self.CAUSE_OF_LOSS, causes, ParameterError)
+        check_text("MESSAGE_OF_LOSS", self.MESSAGE_OF_LOSS, (UNTIL_RESET, UNTIL_SAFE), ParameterError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +85,8 @@ class State:
 
     ``reset_before`` and ``unlock_request_before`` are the inputs of the call before. ``request_pending``: an
     edge of UnlockRequest came while the guard is locked, and it stands since. ``start_up_inhibit``: the guard
-    was not locked at start-up, and the start-up inhibit has not been removed.
+    was not locked at start-up, and the start-up inhibit has not been removed. ``guard_lost``: what was lost
+    is the guard or its lock, which must be back before an edge of Reset is taken.
     """
 
     params: Params
@@ -82,6 +95,7 @@ class State:
     unlock_request_before: bool
     request_pending: bool
     start_up_inhibit: bool
+    guard_lost: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +140,7 @@ class Outputs:
 
 def power_up(params: Params) -> State:
     """The state before the first call: not active, every input FALSE. GL-SEQ-0, GL-IN-DEFAULT"""
-    return State(params, Step.IDLE, False, False, False, False)
+    return State(params, Step.IDLE, False, False, False, False, False)
 
 
 def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
@@ -139,6 +153,7 @@ def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
         inputs.UnlockRequest,
         _pending_after(state, inputs, went_to),
         _inhibit_after(state, inputs, went_to),
+        _guard_lost_after(state, went_to),
     )
     return after, outputs(after)
 
@@ -148,7 +163,8 @@ def outputs(s: State) -> Outputs:
 
     GL-OUT-READY, GL-OUT-GUARDLOCKED, GL-OUT-UNLOCKGUARD, GL-OUT-ERROR, GL-OUT-DIAGCODE, GL-SEQ-0
 
-    Enabled is one state only; unlocked are the two of an opened or openable guard (GLF-03).
+    Enabled is one state only; unlocked are the two of an opened or openable guard (GLF-03). Where the message
+    of a loss stays, the state that waits for its edge of Reset shows it (GLF-06).
     """
     c = s.state
     if c == Step.IDLE:
@@ -166,7 +182,7 @@ def outputs(s: State) -> Outputs:
     if c == Step.GUARD_CLOSED_BUT_UNLOCKED:
         return Outputs(True, False, True, False, 0x8013)
     if c == Step.SAFETY_RETURN:
-        return Outputs(True, False, False, False, 0x8014)
+        return Outputs(True, False, False, s.params.MESSAGE_OF_LOSS == UNTIL_RESET, 0x8014)
     if c == Step.RESET_ERROR1:
         return Outputs(True, False, False, True, 0xC001)
     if c == Step.RESET_ERROR2:
@@ -191,7 +207,7 @@ def _next_step(s: State, i: Inputs) -> Step:
     if s.state == Step.GUARD_OPEN_AND_UNLOCKED:
         return _guard_open_and_unlocked(s, i)
     if s.state == Step.WAIT_FOR_OPERATOR:
-        return _wait_for_operator(i)
+        return _wait_for_operator(s, i)
     if s.state == Step.WAIT_FOR_RESET:
         return _wait_for_reset(s, i)
     if s.state == Step.SAFETY_LOST:
@@ -251,6 +267,11 @@ def _requested(s: State, i: Inputs) -> bool:
     return rises(i.UnlockRequest, s.unlock_request_before)
 
 
+def _ends(s: State, i: Inputs) -> bool:
+    """The unlock signal ends with the request, open or closed. GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-03"""
+    return s.params.UNLOCK_ENDS == WITH_REQUEST and not i.UnlockRequest
+
+
 def _guard_closed_but_unlocked(s: State, i: Inputs) -> Step:
     """The guard can be opened: the zone must stay safe, and the request must stand.
 
@@ -258,6 +279,8 @@ def _guard_closed_but_unlocked(s: State, i: Inputs) -> Step:
     """
     if not i.S_SafetyActive and s.params.ZONE_LOST == ERROR:
         return Step.SAFETY_LOST  # LoseZoneWhileClosed
+    if _ends(s, i):
+        return Step.WAIT_FOR_OPERATOR  # WithdrawRequest
     if not i.S_GuardMonitoring:
         return Step.GUARD_OPEN_AND_UNLOCKED  # OpenGuard
     if not i.UnlockRequest:
@@ -266,33 +289,35 @@ def _guard_closed_but_unlocked(s: State, i: Inputs) -> Step:
 
 
 def _guard_open_and_unlocked(s: State, i: Inputs) -> Step:
-    """The guard is open and stays unlocked with or without a request (GLF-03); the zone must be safe.
+    """The guard is open: the zone must be safe, and the request must stand, unless UNLOCK_ENDS spares it.
 
-    GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-04, GLF-09
+    GL-OUT-UNLOCKGUARD, GL-IN-UNLOCKREQUEST, GL-SEQ-4, GLF-03, GLF-04, GLF-09
     """
     if not i.S_SafetyActive and s.params.ZONE_LOST == ERROR:
         return Step.SAFETY_LOST  # LoseZoneWhileOpen
+    if not i.S_SafetyActive and not i.S_GuardMonitoring:
+        return Step.SAFETY_LOST  # LoseZoneWhileOpen
+    if _ends(s, i):
+        return Step.WAIT_FOR_OPERATOR  # WithdrawWhileOpen
     if i.S_GuardMonitoring:
         return Step.GUARD_CLOSED_BUT_UNLOCKED  # CloseGuard
-    if not i.S_SafetyActive:
-        return Step.SAFETY_LOST  # LoseZoneWhileOpen
     return Step.GUARD_OPEN_AND_UNLOCKED  # StayOpen
 
 
-def _wait_for_operator(i: Inputs) -> Step:
+def _wait_for_operator(s: State, i: Inputs) -> Step:
     """Not enabled and not unlocked: open, ask again, or close and lock.
 
-    GL-IN-UNLOCKREQUEST, GL-IN-GUARDLOCK, GL-SEQ-5, GLF-10, GLF-11
+    GL-IN-UNLOCKREQUEST, GL-IN-GUARDLOCK, GL-SEQ-5, GLF-03, GLF-10, GLF-11
 
     With the zone not safe a guard that keeps nobody out is an error; a request counts by its level here.
     """
     if not i.S_SafetyActive and not (i.S_GuardMonitoring and i.S_GuardLock):
         return Step.SAFETY_LOST  # FindZoneUnprotected
-    if not i.S_GuardMonitoring:
+    if not i.S_GuardMonitoring and not _ends(s, i):
         return Step.GUARD_OPEN_AND_UNLOCKED  # FollowOpenGuard
     if i.UnlockRequest and i.S_SafetyActive:
         return Step.GUARD_OPEN_AND_UNLOCKED  # UnlockOnRequest
-    if i.S_GuardLock:
+    if i.S_GuardMonitoring and i.S_GuardLock:
         return Step.WAIT_FOR_RESET  # SeeGuardLocked
     return Step.WAIT_FOR_OPERATOR  # AwaitOperator
 
@@ -330,7 +355,8 @@ def _safety_return(s: State, i: Inputs) -> Step:
         return Step.RESET_ERROR2  # FindStaticResetAfterError
     if not i.S_SafetyActive:
         return Step.SAFETY_LOST  # LoseZoneAgain
-    if s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE and not (i.S_GuardMonitoring and i.S_GuardLock):
+    guard_too = s.guard_lost or s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE
+    if guard_too and not (i.S_GuardMonitoring and i.S_GuardLock):
         return Step.SAFETY_RETURN  # AwaitAcknowledgment
     if rises(i.Reset, s.reset_before):
         return Step.WAIT_FOR_OPERATOR  # AcknowledgeError
@@ -372,3 +398,13 @@ def _inhibit_after(s: State, i: Inputs, went_to: Step) -> bool:
     if s.state == Step.INIT and went_to == Step.WAIT_FOR_OPERATOR:
         return s.params.START_UP_INHIBIT == UNTIL_RESET and not i.S_StartReset
     return s.start_up_inhibit
+
+
+def _guard_lost_after(s: State, went_to: Step) -> bool:
+    """With CAUSE_OF_LOSS what_was_lost: the enabled guard was lost, up to its edge of Reset. GLF-14"""
+    if s.params.CAUSE_OF_LOSS != WHAT_WAS_LOST:
+        return False
+    if went_to == Step.SAFETY_LOST and s.state == Step.GUARD_CLOSED_AND_LOCKED:
+        return True
+    after_loss = went_to == Step.SAFETY_LOST or went_to == Step.SAFETY_RETURN or went_to == Step.RESET_ERROR2
+    return s.guard_lost and after_loss

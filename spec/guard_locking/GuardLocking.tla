@@ -10,7 +10,8 @@
 (* The document prints outputs and one diagram, and neither states nor     *)
 (* codes: both are the family's of V1.0 as the project's reference notes   *)
 (* have them (GLF-01), changed where the document's own words ask for it   *)
-(* (UNLOCK_ON, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS).                *)
+(* (UNLOCK_ON, UNLOCK_ENDS, ZONE_LOST, START_UP_INHIBIT, CAUSE_OF_LOSS,    *)
+(* MESSAGE_OF_LOSS).                                                       *)
 (* Leaves out: door, bolt, machine and person (GuardLockingZone), and     *)
 (* time: the block has no timer.                                           *)
 (***************************************************************************)
@@ -19,17 +20,24 @@ EXTENDS CyclicBlock
 CONSTANTS
     \* GLF-02: what unlocks a locked guard: "edge", "latched" or "level" of UnlockRequest
     UNLOCK_ON,
+    \* GLF-03: the unlock signal ends "with_request", or "when_closed": not before the guard is closed
+    UNLOCK_ENDS,
     \* GLF-04: S_SafetyActive FALSE while the guard is closed but unlocked: "error" or "tolerated"
     ZONE_LOST,
     \* GLF-08: lasts "until_reset", or "until_opened": a guard that is not locked at start-up ends it
     START_UP_INHIBIT,
-    \* GLF-14: is gone with "guard_and_zone", the guard being closed and locked too, or with the "zone" alone
-    CAUSE_OF_LOSS
+    \* GLF-14: is gone when "what_was_lost" is back, the guard or the zone; or with "guard_and_zone", whatever
+    \* was lost, or with the "zone" alone
+    CAUSE_OF_LOSS,
+    \* GLF-06: lasts "until_reset", or "until_safe": it goes when the zone is safe
+    MESSAGE_OF_LOSS
 
 ASSUME UNLOCK_ON \in {"edge", "latched", "level"}
 ASSUME ZONE_LOST \in {"error", "tolerated"}
 ASSUME START_UP_INHIBIT \in {"until_reset", "until_opened"}
-ASSUME CAUSE_OF_LOSS \in {"guard_and_zone", "zone"}
+ASSUME UNLOCK_ENDS \in {"with_request", "when_closed"}
+ASSUME CAUSE_OF_LOSS \in {"what_was_lost", "guard_and_zone", "zone"}
+ASSUME MESSAGE_OF_LOSS \in {"until_reset", "until_safe"}
 
 VARIABLES
     \* UnlockRequest as the call before this one read it
@@ -37,22 +45,26 @@ VARIABLES
     \* with UNLOCK_ON = "latched": the edge came while the guard is locked, and the request stands since
     requestPending,
     \* the guard was not locked at start-up, and the start-up inhibit is still to be removed
-    startUpInhibit
+    startUpInhibit,
+    \* with CAUSE_OF_LOSS = "what_was_lost": it was the guard or its lock, and no edge of Reset has come since
+    guardLost
 
-guardLocking == <<state, resetBefore, unlockRequestBefore, requestPending, startUpInhibit>>
+guardLocking == <<state, resetBefore, unlockRequestBefore, requestPending, startUpInhibit, guardLost>>
 
 ResetErrors == {"ResetError1", "ResetError2", "ResetError3"}
 GuardLockingErrors == ResetErrors \cup {"SafetyLost"}
 Unlocked == {"GuardOpenAndUnlocked", "GuardClosedButUnlocked"}
+AfterLoss == {"SafetyLost", "SafetyReturn", "ResetError2"}
 GuardLockingStates ==
     {"Idle", "Init", "GuardClosedAndLocked", "WaitForReset", "WaitForOperator", "SafetyReturn"}
     \cup Unlocked \cup GuardLockingErrors
 
 GuardLockingTypeOK ==
     /\ state \in GuardLockingStates
-    /\ {resetBefore, unlockRequestBefore, requestPending, startUpInhibit} \subseteq BOOLEAN
+    /\ {resetBefore, unlockRequestBefore, requestPending, startUpInhibit, guardLost} \subseteq BOOLEAN
     \* What only one parameter needs is remembered only with it, and only where it counts
     /\ requestPending => UNLOCK_ON = "latched" /\ state = "GuardClosedAndLocked" /\ unlockRequestBefore
+    /\ guardLost => CAUSE_OF_LOSS = "what_was_lost" /\ state \in AfterLoss
     /\ startUpInhibit =>
         /\ START_UP_INHIBIT = "until_reset"
         /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"}
@@ -60,7 +72,7 @@ GuardLockingTypeOK ==
 \* GL-OUT-READY, GL-IN-DEFAULT, GL-SEQ-0: before the first call nothing is active and nothing is remembered
 GuardLockingInit ==
     /\ state = "Idle" /\ resetBefore = FALSE
-    /\ unlockRequestBefore = FALSE /\ requestPending = FALSE /\ startUpInhibit = FALSE
+    /\ unlockRequestBefore = FALSE /\ requestPending = FALSE /\ startUpInhibit = FALSE /\ guardLost = FALSE
 
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
@@ -72,7 +84,8 @@ S_GuardLocked == state = "GuardClosedAndLocked"
 \* GL-OUT-UNLOCKGUARD, GLF-03
 S_UnlockGuard == state \in Unlocked
 \* GL-OUT-ERROR, GLF-06
-Error == state \in GuardLockingErrors
+Error ==
+    state \in GuardLockingErrors \cup (IF MESSAGE_OF_LOSS = "until_reset" THEN {"SafetyReturn"} ELSE {})
 \* GL-OUT-DIAGCODE, GLF-01: codes of the project
 DiagCode ==
     CASE state = "Idle" -> \h0000
@@ -173,14 +186,16 @@ LOCAL ZoneIsLost(i) == ZONE_LOST = "error" /\ ~i.S_SafetyActive
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-04: the guard can be opened, so the zone must stay safe
 LoseZoneWhileClosed(i) ==
     At("GuardClosedButUnlocked", i) /\ ZoneIsLost(i) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileClosed")
+\* GL-IN-UNLOCKREQUEST, GL-SEQ-3, GLF-03: the unlock signal ends in this call
+Ends(i, closed) == ~i.UnlockRequest /\ IF UNLOCK_ENDS = "with_request" THEN TRUE ELSE closed
 \* GL-IN-GUARDMONITORING, GL-SEQ-4
 OpenGuard(i) ==
-    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ ~i.S_GuardMonitoring
+    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ ~Ends(i, FALSE) /\ ~i.S_GuardMonitoring
     /\ GoTo("GuardOpenAndUnlocked")
     /\ Did("OpenGuard")
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-5
 WithdrawRequest(i) ==
-    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ i.S_GuardMonitoring /\ ~i.UnlockRequest
+    /\ At("GuardClosedButUnlocked", i) /\ ~ZoneIsLost(i) /\ Ends(i, i.S_GuardMonitoring)
     /\ GoTo("WaitForOperator")
     /\ Did("WithdrawRequest")
 \* GL-IN-UNLOCKREQUEST, GL-OUT-UNLOCKGUARD, GL-SEQ-3, GL-SEQ-4
@@ -195,14 +210,19 @@ ZoneIsLostInOpen(i) == ~(i.S_SafetyActive \/ (ZONE_LOST = "tolerated" /\ i.S_Gua
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-09
 LoseZoneWhileOpen(i) ==
     At("GuardOpenAndUnlocked", i) /\ ZoneIsLostInOpen(i) /\ GoTo("SafetyLost") /\ Did("LoseZoneWhileOpen")
+\* GL-IN-UNLOCKREQUEST, GL-OUT-UNLOCKGUARD, GLF-03: with the request goes the signal, also while it is open
+WithdrawWhileOpen(i) ==
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ Ends(i, FALSE)
+    /\ GoTo("WaitForOperator")
+    /\ Did("WithdrawWhileOpen")
 \* GL-IN-GUARDMONITORING, GL-SEQ-4
 CloseGuard(i) ==
-    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ i.S_GuardMonitoring
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~Ends(i, FALSE) /\ i.S_GuardMonitoring
     /\ GoTo("GuardClosedButUnlocked")
     /\ Did("CloseGuard")
 \* GL-OUT-UNLOCKGUARD, GL-SEQ-4, GLF-03
 StayOpen(i) ==
-    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring
+    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~Ends(i, FALSE) /\ ~i.S_GuardMonitoring
     /\ GoTo("GuardOpenAndUnlocked")
     /\ Did("StayOpen")
 
@@ -211,8 +231,8 @@ StayOpen(i) ==
 
 \* GLF-10: the zone is not safe, and the guard does not keep anybody out
 ZoneOpenToIt(i) == ~i.S_SafetyActive /\ ~Secured(i)
-\* GLF-03: an open guard is unlocked without a request
-GoesOpen(i) == ~i.S_GuardMonitoring
+\* GLF-03: where the signal does not end with the request, an open guard needs none
+GoesOpen(i) == ~i.S_GuardMonitoring /\ IF UNLOCK_ENDS = "when_closed" THEN TRUE ELSE i.UnlockRequest
 \* GLF-11: nothing is enabled here, so that the request needs no edge
 GoesOnRequest(i) == i.S_GuardMonitoring /\ i.UnlockRequest /\ i.S_SafetyActive
 \* GL-IN-SAFETYACTIVE, GL-OUT-ERROR, GLF-10
@@ -278,7 +298,7 @@ SeeZoneSafe(i) == At("SafetyLost", i) /\ i.S_SafetyActive /\ GoTo("SafetyReturn"
 StaySafetyLost(i) == At("SafetyLost", i) /\ ~i.S_SafetyActive /\ GoTo("SafetyLost") /\ Did("StaySafetyLost")
 
 \* GLF-14: the guard that was lost must be back
-CauseGone(i) == CAUSE_OF_LOSS = "guard_and_zone" => Secured(i)
+CauseGone(i) == CAUSE_OF_LOSS = "guard_and_zone" \/ guardLost => Secured(i)
 \* GL-IN-AUTORESET, GLF-13, GLF-14: an edge of Reset is needed, whatever S_AutoReset says
 Acknowledged(i) == ResetRises(i) /\ CauseGone(i)
 \* GL-IN-RESET, GLF-07
@@ -310,7 +330,7 @@ StayInResetError(i) ==
     state \in ResetErrors /\ i.Activate /\ i.Reset /\ GoTo(state) /\ Did("StayInResetError")
 
 ----------------------------------------------------------------------------
-\* GL-IN-RESET, GL-IN-UNLOCKREQUEST, GLF-02, GLF-08: what the call leaves for the next one
+\* GL-IN-RESET, GL-IN-UNLOCKREQUEST, GLF-02, GLF-08, GLF-14: what the call leaves for the next one
 Remembers(i) ==
     /\ RemembersReset(i)
     /\ unlockRequestBefore' = i.UnlockRequest
@@ -320,6 +340,10 @@ Remembers(i) ==
           [] state = "Init" /\ state' = "WaitForOperator" ->
                 ~i.S_StartReset /\ START_UP_INHIBIT = "until_reset"
           [] OTHER -> startUpInhibit)
+    /\ guardLost' =
+       (CASE state' \notin AfterLoss -> FALSE
+          [] state = "GuardClosedAndLocked" -> CAUSE_OF_LOSS = "what_was_lost"
+          [] OTHER -> guardLost)
 
 \* GL-SEQ-NOTE: one transition a call; grouped by the states in which the steps can fire
 GuardLockingStep(i) ==
@@ -330,7 +354,8 @@ GuardLockingStep(i) ==
     \/ state = "GuardClosedAndLocked" /\ (LoseGuard(i) \/ Unlock(i) \/ StayLocked(i))
     \/ state = "GuardClosedButUnlocked" /\ (\/ LoseZoneWhileClosed(i) \/ OpenGuard(i)
                                             \/ WithdrawRequest(i) \/ StayUnlocked(i))
-    \/ state = "GuardOpenAndUnlocked" /\ (LoseZoneWhileOpen(i) \/ CloseGuard(i) \/ StayOpen(i))
+    \/ state = "GuardOpenAndUnlocked" /\ (\/ LoseZoneWhileOpen(i) \/ WithdrawWhileOpen(i)
+                                          \/ CloseGuard(i) \/ StayOpen(i))
     \/ state = "WaitForOperator" /\ (\/ FindZoneUnprotected(i) \/ FollowOpenGuard(i)
                                      \/ UnlockOnRequest(i) \/ SeeGuardLocked(i) \/ AwaitOperator(i))
     \/ state = "WaitForReset" /\ (\/ FindStaticResetAtRestart(i) \/ LoseGuardAgain(i)
@@ -358,5 +383,5 @@ RowOfDiagCode ==
     /\ Ready = (DiagCode # 0)
     /\ S_GuardLocked = (DiagCode = \h8000)
     /\ S_UnlockGuard = (DiagCode \in {\h8012, \h8013})
-    /\ Error = (DiagCode >= \hC000)
+    /\ Error = (DiagCode >= \hC000 \/ (DiagCode = \h8014 /\ MESSAGE_OF_LOSS = "until_reset"))
 =============================================================================

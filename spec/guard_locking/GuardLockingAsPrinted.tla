@@ -8,22 +8,9 @@
 EXTENDS GuardLocking
 
 ----------------------------------------------------------------------------
-\* GLF-03, GL-OUT-UNLOCKGUARD, GL-IN-UNLOCKREQUEST: the unlock signal ends with the request, also while the
-\* guard is open
-StayOpen_UnlockedOnlyWhileRequested(i) ==
-    /\ At("GuardOpenAndUnlocked", i) /\ ~ZoneIsLostInOpen(i) /\ ~i.S_GuardMonitoring
-    /\ GoTo(IF i.UnlockRequest THEN "GuardOpenAndUnlocked" ELSE "WaitForOperator")
-    /\ Did("StayOpen")
-GoesOpen_UnlockedOnlyWhileRequested(i) == ~i.S_GuardMonitoring /\ i.UnlockRequest
-
-----------------------------------------------------------------------------
 \* GLF-05, GL-OUT-ERROR, GL-OUT-GUARDLOCKED: a locked guard that is lost withdraws the enable, and is no error
 LoseGuard_LossIsNoError(i) ==
     At("GuardClosedAndLocked", i) /\ LockLost(i) /\ GoTo("WaitForOperator") /\ Did("LoseGuard")
-
-----------------------------------------------------------------------------
-\* GLF-06, GL-OUT-ERROR, GL-IN-RESET: the message of a loss stays until the edge of Reset
-Error_ErrorUntilReset == state \in GuardLockingErrors \cup {"SafetyReturn"}
 
 ----------------------------------------------------------------------------
 \* GLF-07, GL-IN-RESET: a Reset that does not move is passed over

@@ -19,7 +19,7 @@ VARIABLES
     asked,         \* UnlockRequest rose while the guard is locked, and is TRUE since
     starting,      \* since Activate nothing was enabled, and no call of a start-up without inhibit was seen
     lost,          \* the guard, its lock or the zone was lost, and no edge of Reset has acknowledged it
-    unguarded      \* and none has come with the guard closed and locked
+    unguarded      \* the guard was lost while enabled, and none has come with the guard closed and locked
 
 observer == <<resetSeen, requestSeen, asked, starting, lost, unguarded>>
 View == guardLocking
@@ -58,7 +58,9 @@ Observe(i) ==
         (Ready' /\ ~S_GuardLocked' /\ (~Ready \/ (starting /\ ~(DiagCode = \h8001 /\ i.S_StartReset))))
     /\ unguarded' =
         (/\ Ready'
-         /\ DiagCode' = \hC004 \/ (unguarded /\ ~(i.S_GuardMonitoring /\ i.S_GuardLock /\ ResetEdge(i))))
+         /\ (S_GuardLocked /\ DiagCode' = \hC004) \/ (unguarded /\ ~(/\ DiagCode = \h8014 /\ i.S_SafetyActive
+                                                                  /\ i.S_GuardMonitoring /\ i.S_GuardLock
+                                                                  /\ ResetEdge(i))))
     /\ lost' =
         (/\ Ready'
          /\ DiagCode' = \hC004 \/ (lost /\ ~(DiagCode = \h8014 /\ i.S_SafetyActive /\ ResetEdge(i))))
@@ -132,6 +134,9 @@ UnlockNeedsSafeZone == [][Unlocks => Scanned.S_SafetyActive \/ ~Scanned.S_GuardM
 
 \* GL-IN-SAFETYACTIVE, GL-OUT-UNLOCKGUARD, GLF-04, GLF-10: and it is unlocked no longer than the zone is safe
 UnlockedOnlyWhileSafe == [][S_UnlockGuard' => Scanned.S_SafetyActive]_beat
+
+\* GL-IN-UNLOCKREQUEST, GL-OUT-UNLOCKGUARD, GL-SEQ-3, GLF-03: and no longer than it is requested
+UnlockedOnlyWhileRequested == [][S_UnlockGuard' => Scanned.UnlockRequest]_beat
 
 \* GL-IN-UNLOCKREQUEST, GL-SEQ-3: a guard that is locked and closed is unlocked only on request
 UnlockNeedsRequest == [][Unlocks => Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring]_beat
@@ -211,16 +216,26 @@ ErrorEndsWithCause ==
     [][Error /\ ~Error' =>
         \/ ~Scanned.Activate
         \/ DiagCode = \hC004 /\ Scanned.S_SafetyActive /\ DiagCode' = \h8014
+        \/ DiagCode = \h8014 /\ Scanned.S_SafetyActive /\ ResetEdge(Scanned) /\ DiagCode' = \h8011
         \/ /\ ~Scanned.Reset
            /\ <<DiagCode, DiagCode'>> \in {<<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}]_beat
 
 \* GL-IN-RESET, GLF-06: where the message of an error goes out only with the edge that ends the error
 MessageUntilReset ==
-    [][Error /\ ~Error' => ~Scanned.Activate \/ ~Scanned.Reset \/ ResetEdge(Scanned)]_beat
+    [][Error /\ ~Error' /\ Scanned.Activate =>
+        CASE DiagCode = \h8014 -> ResetEdge(Scanned)
+          [] DiagCode = \hC004 -> FALSE
+          [] OTHER -> ~Scanned.Reset]_beat
 
-\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss nothing is enabled before an edge of Reset that found the
-\* guard closed and locked
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after the loss of a locked guard nothing is enabled before an edge of
+\* Reset that found it closed and locked
 LossNeedsGuardBack == [][S_GuardLocked' => ~unguarded']_beat
+
+\* GL-IN-RESET, GL-OUT-ERROR, GLF-14: after a loss of the zone alone an edge of Reset needs no guard
+LossOfZoneNeedsNoGuard ==
+    [][/\ DiagCode = \h8014 /\ ~unguarded
+       /\ Scanned.Activate /\ ResetEdge(Scanned) /\ Scanned.S_SafetyActive
+       => DiagCode' = \h8011]_beat
 
 \* GL-OUT-DIAGCODE, GL-IN-GUARDMONITORING, GLF-11: the code of an unlocked guard tells whether it is open
 CodeTellsTheGuard ==
@@ -231,12 +246,15 @@ CodeTellsTheGuard ==
 Transitions == {
     <<\h0000, \h8001>>, <<\h8001, \hC001>>, <<\h8001, \h8011>>, <<\h8001, \h8000>>,
     <<\h8000, \hC004>>, <<\h8000, \h8013>>, <<\h8013, \hC004>>, <<\h8013, \h8012>>,
-    <<\h8013, \h8011>>, <<\h8012, \hC004>>, <<\h8012, \h8013>>, <<\h8011, \hC004>>,
+    <<\h8013, \h8011>>, <<\h8012, \hC004>>, <<\h8012, \h8013>>, <<\h8012, \h8011>>, <<\h8011, \hC004>>,
     <<\h8011, \h8012>>, <<\h8011, \h8003>>, <<\h8003, \hC003>>, <<\h8003, \h8011>>,
     <<\h8003, \h8000>>, <<\hC004, \h8014>>, <<\h8014, \hC002>>, <<\h8014, \hC004>>,
     <<\h8014, \h8011>>, <<\hC001, \h8001>>, <<\hC002, \h8014>>, <<\hC003, \h8003>>}
 OneTransitionACall == [][DiagCode' \in {0, DiagCode} \/ <<DiagCode, DiagCode'>> \in Transitions]_beat
 
+\* GLF-03, GLF-14: what the parameters ask for
+WithRequest == UNLOCK_ENDS = "with_request"
+GuardMustBeBack == CAUSE_OF_LOSS = "guard_and_zone" \/ (CAUSE_OF_LOSS = "what_was_lost" /\ unguarded)
 \* GL-IN-RESET, GL-IN-AUTORESET, GL-IN-STARTRESET, GL-SEQ-2: a call that stays in its state has not seen what
 \* it waits for
 AnswersAtOnce ==
@@ -244,13 +262,13 @@ AnswersAtOnce ==
         CASE DiagCode = \h8001 -> Secure /\ ~Scanned.S_StartReset /\ ~Scanned.Reset
           [] DiagCode = \h8000 -> Secure /\ ~(RequestEdge(Scanned) /\ Scanned.S_SafetyActive)
           [] DiagCode = \h8013 -> Scanned.S_GuardMonitoring /\ Scanned.UnlockRequest
-          [] DiagCode = \h8012 -> ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive
+          [] DiagCode = \h8012 ->
+                ~Scanned.S_GuardMonitoring /\ Scanned.S_SafetyActive /\ (WithRequest => Scanned.UnlockRequest)
           [] DiagCode = \h8011 ->
-                /\ Scanned.S_GuardMonitoring /\ ~Scanned.S_GuardLock
+                /\ (Scanned.S_GuardMonitoring \/ WithRequest) /\ ~Secure
                 /\ Scanned.S_SafetyActive /\ ~Scanned.UnlockRequest
           [] DiagCode = \h8003 -> Secure /\ ~Scanned.Reset /\ (~Scanned.S_AutoReset \/ StartUpInhibited)
-          [] DiagCode = \h8014 ->
-                (~Scanned.Reset \/ (CAUSE_OF_LOSS = "guard_and_zone" /\ ~Secure)) /\ Scanned.S_SafetyActive
+          [] DiagCode = \h8014 -> (~Scanned.Reset \/ (GuardMustBeBack /\ ~Secure)) /\ Scanned.S_SafetyActive
           [] DiagCode = \hC004 -> ~Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> Scanned.Reset]_beat
 
@@ -263,10 +281,13 @@ LeavesForACause ==
           [] DiagCode = \h8000 -> Secure /\ Scanned.UnlockRequest /\ Scanned.S_SafetyActive
           [] DiagCode = \h8013 ->
                 /\ Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated"
-                /\ IF S_UnlockGuard' THEN ~Scanned.S_GuardMonitoring
-                                     ELSE Scanned.S_GuardMonitoring /\ ~Scanned.UnlockRequest
+                /\ IF S_UnlockGuard'
+                    THEN ~Scanned.S_GuardMonitoring
+                    ELSE (Scanned.S_GuardMonitoring \/ WithRequest) /\ ~Scanned.UnlockRequest
           [] DiagCode = \h8012 ->
-                Scanned.S_GuardMonitoring /\ (Scanned.S_SafetyActive \/ ZONE_LOST = "tolerated")
+                /\ IF S_UnlockGuard' THEN Scanned.S_GuardMonitoring
+                                     ELSE WithRequest /\ ~Scanned.UnlockRequest
+                /\ Scanned.S_SafetyActive \/ (ZONE_LOST = "tolerated" /\ Scanned.S_GuardMonitoring)
           [] DiagCode = \h8011 ->
                 IF S_UnlockGuard'
                     THEN Scanned.S_SafetyActive /\ (Scanned.UnlockRequest \/ ~Scanned.S_GuardMonitoring)
@@ -276,7 +297,7 @@ LeavesForACause ==
                     THEN Secure /\ (ResetEdge(Scanned) \/ (Scanned.S_AutoReset /\ ~StartUpInhibited))
                     ELSE ~Secure
           [] DiagCode = \h8014 ->
-                ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (CAUSE_OF_LOSS = "guard_and_zone" => Secure)
+                ResetEdge(Scanned) /\ Scanned.S_SafetyActive /\ (GuardMustBeBack => Secure)
           [] DiagCode = \hC004 -> Scanned.S_SafetyActive
           [] DiagCode \in {\hC001, \hC002, \hC003} -> ~Scanned.Reset
           [] OTHER -> ~Ready]_beat

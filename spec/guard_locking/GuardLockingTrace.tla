@@ -13,6 +13,8 @@ GuardLockingAnywhere ==
     /\ requestPending \in
         IF UNLOCK_ON = "latched" /\ state = "GuardClosedAndLocked" /\ unlockRequestBefore
             THEN BOOLEAN ELSE {FALSE}
+    /\ guardLost \in
+        IF CAUSE_OF_LOSS = "what_was_lost" /\ state \in AfterLoss THEN BOOLEAN ELSE {FALSE}
     /\ startUpInhibit \in
         IF /\ START_UP_INHIBIT = "until_reset"
            /\ state \notin {"Idle", "Init", "ResetError1", "GuardClosedAndLocked"}

@@ -27,7 +27,7 @@ Situation ==
     /\ (Enables /\ ~Scanned.S_SafetyActive => Report("EnabledWithZoneNotSafe"))
     /\ (Enables /\ starting /\ DiagCode = \h8003 => Report("StartUpInhibitRemovedLate"))
        \* GLF-06: the error message lasts one call
-    /\ (DiagCode = \hC004 /\ DiagCode' = \h8014 /\ ~Scanned.S_GuardMonitoring =>
+    /\ (DiagCode = \hC004 /\ DiagCode' = \h8014 /\ ~Error' /\ ~Scanned.S_GuardMonitoring =>
             Report("MessageGoneWithGuardOpen"))
     /\ (S_GuardLocked /\ Scanned.Activate /\ ~Secure /\ Scanned.S_SafetyActive => Report("LossWithZoneSafe"))
        \* GLF-12: the edge of Reset that comes with a loss is lost

@@ -36,10 +36,10 @@ def conform(name: str, package: str, *more: str) -> list[str]:
 @pytest.fixture
 def deaf(monkeypatch: pytest.MonkeyPatch) -> str:
     """A package whose block takes no MonitoringTime but those of the suites: it takes 200 for 170
-    and 470."""
+    and 300."""
 
     def power_up(params: Any) -> Any:
-        time_ms = 200 if params.MonitoringTime_ms in (170, 470) else params.MonitoringTime_ms
+        time_ms = 200 if params.MonitoringTime_ms in (170, 300) else params.MonitoringTime_ms
         return sf_edm.power_up(sf_edm.Params(time_ms, params.AFTER_RESET))
 
     names = ("Params", "Inputs", "Outputs", "step")
@@ -52,7 +52,7 @@ def deaf(monkeypatch: pytest.MonkeyPatch) -> str:
 def test_a_machines_own_parameters_are_judged_in_every_relation(
     name: str, relation: str, deaf: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    own = f"MonitoringTime_ms={170 if relation == 'exact' else 470}"
+    own = f"MonitoringTime_ms={170 if relation == 'exact' else 300}"
     more = ["--relation", relation, "--param", own]
     assert kit_main(conform(name, "refimpl", *more)) == 0
     told = capsys.readouterr().out

@@ -257,7 +257,8 @@ def test_a_coil_passes_on_what_reaches_it(tmp_path: Path) -> None:
 
 def judged(path: Path, target: str) -> Verdict:
     """The verdict on a program."""
-    product = make([path], target, binding=read_binding(ROOT / "examples" / "cautious.toml"))
+    name = "cautious.toml" if target == "sf_edm" else "plcopen/sf_guard_locking.toml"
+    product = make([path], target, binding=read_binding(ROOT / "examples" / name))
     return judge(product, ROOT / "vectors" / target, 120, lambda text: None)
 
 

@@ -96,9 +96,9 @@ GUARD_LOCKING = Trial(
     ),
     [
         {},
-        {"UNLOCK_ON": "latched"},
-        {"UNLOCK_ON": "level", "ZONE_LOST": "tolerated"},
-        {"START_UP_INHIBIT": "until_opened", "CAUSE_OF_LOSS": "zone"},
+        {"UNLOCK_ON": "edge", "UNLOCK_ENDS": "when_closed"},
+        {"UNLOCK_ON": "level", "ZONE_LOST": "tolerated", "CAUSE_OF_LOSS": "guard_and_zone"},
+        {"START_UP_INHIBIT": "until_opened", "CAUSE_OF_LOSS": "zone", "MESSAGE_OF_LOSS": "until_safe"},
     ],
     {
         "NeverEnabledAndUnlocked": [
@@ -123,8 +123,12 @@ GUARD_LOCKING = Trial(
         "UnlockedOnlyWhileSafe": [
             ("return Step.SAFETY_LOST  # LoseZoneWhileClosed", "return Step.GUARD_CLOSED_BUT_UNLOCKED")
         ],
+        "UnlockedOnlyWhileRequested": [
+            ("    if _ends(s, i):\n        return Step.WAIT_FOR_OPERATOR  # WithdrawWhileOpen\n", "")
+        ],
+        "MessageUntilReset": [("s.params.MESSAGE_OF_LOSS == UNTIL_RESET, 0x8014", "False, 0x8014")],
         "NoErrorLocksSafeZone": [
-            ("return Step.WAIT_FOR_OPERATOR  # WithdrawRequest", "return Step.SAFETY_LOST")
+            ("return Step.WAIT_FOR_OPERATOR  # WithdrawWhileOpen", "return Step.SAFETY_LOST")
         ],
         "UnlockNeedsRequest": [("if i.UnlockRequest and i.S_SafetyActive:", "if i.S_SafetyActive:")],
         "LossIsAnError": [("return Step.SAFETY_LOST  # LoseGuard", "return Step.GUARD_CLOSED_AND_LOCKED")],

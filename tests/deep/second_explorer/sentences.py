@@ -212,6 +212,7 @@ def guard_is_closed_and_locked(
     request_was: bool,
     pending: bool,
     inhibit: bool,
+    lost: bool,
     dt: int,
     activate: bool,
     closed: bool,
@@ -234,6 +235,7 @@ def guard_is_closed_and_locked(
         request_was,
         pending,
         inhibit,
+        lost,
     )
     inputs = sf_guard_locking.Inputs(dt, activate, closed, safe, locked, request, start, auto, reset)
     _, sends = sf_guard_locking.step(before, inputs)

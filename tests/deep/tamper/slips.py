@@ -422,11 +422,11 @@ MODELS = (
     Case(
         "a count is pinned by hand",
         RUNS,
-        'distinct = 86\ngenerated = 16513\n\n[[run]]\nid = "MC_SF_EDM_at_once"',
-        'distinct = 85\ngenerated = 16513\n\n[[run]]\nid = "MC_SF_EDM_at_once"',
+        'distinct = 81\ngenerated = 15553\n\n[[run]]\nid = "MC_SF_EDM_cautious"',
+        'distinct = 80\ngenerated = 15553\n\n[[run]]\nid = "MC_SF_EDM_cautious"',
         "check MC_SF_EDM_arbitrary --quiet",
         1,
-        "86",
+        "81",
     ),
     Case(
         "a view that sees less",

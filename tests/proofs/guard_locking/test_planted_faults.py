@@ -93,7 +93,7 @@ FAULTS = [
         JUDGE,
         "SafetyReturn",
         kept(JUDGE),
-        [("s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE and", "s.params.CAUSE_OF_LOSS == ZONE and")],
+        [("s.guard_lost or s.params.CAUSE_OF_LOSS == GUARD_AND_ZONE", "s.params.CAUSE_OF_LOSS == ZONE")],
     ),
     Planted(
         "StaticResetNeverResets",
@@ -157,6 +157,34 @@ FAULTS = [
                 "    if i.S_GuardLock:\n        return Step.SAFETY_LOST\n    if i.S_GuardMonitoring:\n",
             )
         ],
+    ),
+    Planted(
+        "UnlockedOnlyWhileRequested",
+        JUDGE,
+        "GuardOpenAndUnlocked",
+        block_locks.unlocked_only_while_requested,
+        [("    if _ends(s, i):\n        return Step.WAIT_FOR_OPERATOR  # WithdrawWhileOpen\n", "")],
+    ),
+    Planted(
+        "MessageUntilReset",
+        JUDGE,
+        "SafetyLost",
+        block_safety.message_until_reset,
+        [("s.params.MESSAGE_OF_LOSS == UNTIL_RESET, 0x8014", "False, 0x8014")],
+    ),
+    Planted(
+        "LossOfZoneNeedsNoGuard",
+        JUDGE,
+        "SafetyReturn",
+        block_safety.loss_of_zone_needs_no_guard,
+        [("guard_too = s.guard_lost or", "guard_too = s.params.CAUSE_OF_LOSS == WHAT_WAS_LOST or")],
+    ),
+    Planted(
+        "what was lost",
+        JUDGE,
+        LOCKED,
+        block_memory.guard_lost,
+        [("if went_to == Step.SAFETY_LOST and s.state ==", "if went_to == Step.SAFETY_LOST and s.state !=")],
     ),
     Planted(
         "UnlockNeedsRequest",
@@ -315,9 +343,8 @@ def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
     proved = named(block_safety, block_locks, block_memory, block_response, step_paths)
     assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     not_of_the_block = {"NobodyInMovingZone", "NoMotionBehindOpenDoor", "NobodyShutInByAnError"}
-    not_as_decided = {"MessageUntilReset"}
     known = {one.id for one in load_document(root(), "guard_locking").properties}
-    assert known - proved == not_of_the_block | not_as_decided
+    assert known - proved == not_of_the_block
 
 
 def test_the_theorem_of_the_paths_is_true() -> None:

@@ -21,14 +21,23 @@ from refimpl.guard_locking.sf_guard_locking import (
 
 FLAGS = ("Activate", "S_GuardMonitoring", "S_SafetyActive", "S_GuardLock", "UnlockRequest", "S_StartReset")
 PARAMS = Params()
-FAMILY = Params(ZONE_LOST="tolerated", START_UP_INHIBIT="until_opened", CAUSE_OF_LOSS="zone")
+CAUTIOUS = Params(UNLOCK_ON="edge", UNLOCK_ENDS="when_closed")
+FAMILY = replace(
+    CAUTIOUS,
+    ZONE_LOST="tolerated",
+    START_UP_INHIBIT="until_opened",
+    CAUSE_OF_LOSS="zone",
+    MESSAGE_OF_LOSS="until_safe",
+)
 EVERY = tuple(
     Params(*one)
     for one in itertools.product(
         ("edge", "latched", "level"),
+        ("with_request", "when_closed"),
         ("error", "tolerated"),
         ("until_reset", "until_opened"),
-        ("guard_and_zone", "zone"),
+        ("what_was_lost", "guard_and_zone", "zone"),
+        ("until_reset", "until_safe"),
     )
 )
 
@@ -48,7 +57,7 @@ def run(state: State, *calls: Inputs) -> tuple[State, Outputs]:
 
 
 def at(control: Step, params: Params = PARAMS, **memory: bool) -> State:
-    return replace(State(params, control, False, False, False, False), **memory)
+    return replace(State(params, control, False, False, False, False, False), **memory)
 
 
 def enabled(params: Params = PARAMS) -> State:
@@ -60,16 +69,20 @@ def enabled(params: Params = PARAMS) -> State:
 OPEN = {"S_GuardMonitoring": False, "S_GuardLock": False}
 
 
-def test_the_signal_sequence_of_the_document() -> None:
-    state, out = run(power_up(PARAMS), call(Activate=False))  # 0
+@pytest.mark.parametrize("params", [PARAMS, CAUTIOUS])
+def test_the_signal_sequence_of_the_document(params: Params) -> None:
+    state, out = run(power_up(params), call(Activate=False))  # 0
     assert not any((out.Ready, out.S_GuardLocked, out.S_UnlockGuard, out.Error, out.DiagCode))
     state, out = run(state, call(), call())  # 1
     assert out.Ready and not out.S_GuardLocked and not out.S_UnlockGuard and not out.Error
     state, out = run(state, call(Reset=True))  # 2
     assert out.S_GuardLocked and not out.S_UnlockGuard
-    state, out = run(state, call(S_SafetyActive=False), call(S_SafetyActive=False), call())
+    state, out = run(state, call(S_SafetyActive=False), call(S_SafetyActive=False))
     assert out.S_GuardLocked
-    state, out = run(state, call(UnlockRequest=True))  # 3
+    early = [] if params == CAUTIOUS else [call(S_SafetyActive=False, UnlockRequest=True)]
+    state, out = run(state, *early)  # 3: the request, and then the zone that is safe again
+    assert out.S_GuardLocked and not out.S_UnlockGuard
+    state, out = run(state, call(UnlockRequest=True))
     assert out.S_UnlockGuard and not out.S_GuardLocked and not out.Error
     state, out = run(state, call(UnlockRequest=True, **OPEN))  # 4
     assert out.S_UnlockGuard and not out.S_GuardLocked
@@ -140,7 +153,7 @@ def test_a_lost_guard_needs_reset_even_with_s_auto_reset() -> None:
     state, out = run(enabled(), call(S_GuardMonitoring=False, S_AutoReset=True))
     assert out.Error and out.DiagCode == 0xC004
     state, out = run(state, *[call(S_AutoReset=True)] * 5)
-    assert out.DiagCode == 0x8014 and not out.Error
+    assert out.DiagCode == 0x8014 and out.Error, "the message stays until Reset"
     state, out = run(state, call(S_AutoReset=True, Reset=True), *[call(S_AutoReset=True)] * 2)
     assert out.S_GuardLocked
 
@@ -159,6 +172,27 @@ def test_a_loss_is_acknowledged_only_behind_the_guard() -> None:
     assert not out.S_GuardLocked and out.DiagCode == 0x8014
     assert run(state, call(**free, Reset=True), call(**free), call(**free))[1].S_GuardLocked
     assert run(enabled(FAMILY), *way)[1].S_GuardLocked
+
+
+@pytest.mark.parametrize(
+    ("params", "open_is_enough"), [(PARAMS, True), (replace(PARAMS, CAUSE_OF_LOSS="guard_and_zone"), False)]
+)
+def test_a_loss_of_the_zone_is_reset_behind_no_guard(params: Params, open_is_enough: bool) -> None:
+    """A standstill glitch behind the open door, the request held; Reset with the door open."""
+    held = {"UnlockRequest": True, **OPEN}
+    state = at(Step.GUARD_OPEN_AND_UNLOCKED, params, unlock_request_before=True)
+    state, out = run(state, call(S_SafetyActive=False, **held), call(**held))
+    assert out.Error and not out.S_UnlockGuard
+    state, out = run(state, call(Reset=True, **held), call(**held))
+    assert (out.Error, out.S_UnlockGuard) == (not open_is_enough, open_is_enough)
+
+
+def test_the_unlock_signal_ends_with_the_request_by_the_letter() -> None:
+    for control in (Step.GUARD_OPEN_AND_UNLOCKED, Step.GUARD_CLOSED_BUT_UNLOCKED):
+        for params, stays in ((PARAMS, False), (CAUTIOUS, True)):
+            state, out = run(at(control, params, unlock_request_before=True), call(**OPEN))
+            assert out.S_UnlockGuard == stays
+            assert run(state, call(UnlockRequest=True, **OPEN))[1].S_UnlockGuard
 
 
 @pytest.mark.parametrize(
@@ -185,7 +219,7 @@ def test_a_reset_held_while_activate_comes_is_no_edge() -> None:
 def test_every_call_without_activate_ends_idle(params: Params) -> None:
     for control in Step:
         state, out = step(at(control, params, start_up_inhibit=True), call(Activate=False, Reset=True))
-        assert state == State(params, Step.IDLE, True, False, False, False)
+        assert state == State(params, Step.IDLE, True, False, False, False, False)
         assert out == Outputs(False, False, False, False, 0)
 
 
@@ -206,7 +240,7 @@ def test_what_is_no_input_is_refused() -> None:
         replace(call(), dt_ms=-1)
 
 
-@pytest.mark.parametrize("name", ["UNLOCK_ON", "ZONE_LOST", "START_UP_INHIBIT", "CAUSE_OF_LOSS"])
+@pytest.mark.parametrize("name", [one.name for one in fields(Params)])
 def test_what_is_no_parameter_is_refused(name: str) -> None:
     with pytest.raises(ParameterError) as refused:
         Params(**{name: "never"})
