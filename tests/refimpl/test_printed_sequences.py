@@ -9,12 +9,14 @@ from typing import Any
 import pytest
 
 from refimpl.edm import sf_edm
+from refimpl.enable_switch import sf_enable_switch
 from refimpl.guard_locking import sf_guard_locking
+from refimpl.testable_safety_sensor import sf_testable_safety_sensor
 
 Row = tuple[str, Mapping[str, Any], Mapping[str, bool]]
 """What a line of the page says: its number, the inputs that change, the outputs that it names."""
 TIME_MS = 100
-"""MonitoringTime; a call is 10 ms after the one before where a row does not say dt_ms."""
+"""The time of each block; a call is 10 ms after the one before where a row does not say dt_ms."""
 DROPPED, PICKED = {"S_EDM1": True, "S_EDM2": True}, {"S_EDM1": False, "S_EDM2": False}
 OFF = {"S_EDM_Out": False, "Error": False}
 EDM: Sequence[Row] = (
@@ -76,6 +78,39 @@ GUARD: Sequence[Row] = (
     ("message", {}, {"Error": True}),
     ("message", {"Reset": True}, {"Error": False}),
 )
+CHANNELS = ("S_EnableSwitchCh1", "S_EnableSwitchCh2", "S_EnableSwitchCh3")
+STAGE_0, STAGE_1, STAGE_2 = (
+    dict(zip(CHANNELS, (channel == "1" for channel in stage), strict=True)) for stage in ("010", "101", "000")
+)
+FALSE = {"S_EnableSwitchOut": False, "Error": False}
+SWITCH: Sequence[Row] = (
+    ("0", STAGE_0, {"Ready": False, **FALSE}),
+    ("1", {"Activate": True}, {"Ready": True, **FALSE}),
+    ("2", {"S_SafetyActive": True}, FALSE),
+    ("2", {}, FALSE),
+    ("3", {"S_EnableSwitchCh1": True, "S_EnableSwitchCh2": False}, FALSE),
+    ("3", {"dt_ms": TIME_MS}, {"S_EnableSwitchOut": False, "Error": True}),
+    ("4", STAGE_2, {"S_EnableSwitchOut": False, "Error": True}),
+    ("4", STAGE_0, {"S_EnableSwitchOut": False, "Error": True}),
+    ("5", {"Reset": True}, FALSE),
+    ("5", {"Reset": False}, FALSE),
+    ("6", {"S_EnableSwitchCh1": True, "S_EnableSwitchCh2": False}, FALSE),
+    ("6", {"S_EnableSwitchCh3": True, "dt_ms": TIME_MS - 20}, {"S_EnableSwitchOut": True}),
+    ("7", STAGE_2, FALSE),
+    ("8", STAGE_0, FALSE),
+    ("9", STAGE_1, {"S_EnableSwitchOut": True}),
+)
+DARK, LIT = {"S_OSSD_In": False}, {"S_OSSD_In": True}
+SENSOR: Sequence[Row] = (
+    ("0", LIT, {"Ready": False, "S_OSSD_Out": False}),
+    ("0", {"Activate": True}, {"Ready": True, "S_OSSD_Out": False}),
+    ("0", {}, {"S_OSSD_Out": False}),
+    ("0", {"Reset": True}, {"Error": False}),
+    ("0", {"Reset": False}, {"S_OSSD_Out": True, "S_TestOut": True, "TestPossible": True}),
+    ("1", {"StartTest": True}, {"S_TestOut": False, "S_OSSD_Out": True}),
+    ("2", {**DARK, "dt_ms": TIME_MS - 1}, {"S_TestOut": True, "S_OSSD_Out": True}),
+    ("3", {**LIT, "dt_ms": TIME_MS - 1}, {"S_TestOut": True, "S_OSSD_Out": True, "Error": False}),
+)
 PAGES: Mapping[str, tuple[Any, Callable[..., Any], Sequence[Row], Mapping[str, str]]] = {
     "edm": (
         sf_edm,
@@ -88,6 +123,18 @@ PAGES: Mapping[str, tuple[Any, Callable[..., Any], Sequence[Row], Mapping[str, s
         sf_guard_locking.Params,
         GUARD,
         {"UNLOCK_ON": "edge", "UNLOCK_ENDS": "when_closed", "MESSAGE_OF_LOSS": "until_safe"},
+    ),
+    "enable switch": (
+        sf_enable_switch,
+        lambda **given: sf_enable_switch.Params(DiscrepancyTimeCh1_Ch3_ms=TIME_MS, **given),
+        SWITCH,
+        {},
+    ),
+    "sensor": (
+        sf_testable_safety_sensor,
+        lambda **given: sf_testable_safety_sensor.Params(TestTime_ms=TIME_MS, **given),
+        SENSOR,
+        {},
     ),
 }
 """Of each page the block, its parameters, the rows, and of some parameters a value that they cannot have."""
@@ -145,3 +192,15 @@ def test_the_printed_wiring_comes_back_after_a_reset(value: str, comes_back: boo
         on.append(out.S_EDM_Out)
     assert any(on[:40]) and not on[39], "it came on, and the contactors did not follow"
     assert on[-1] == comes_back
+
+
+@pytest.mark.parametrize(
+    ("page", "params", "line"),
+    [
+        ("enable switch", sf_enable_switch.Params(DiscrepancyTimeCh1_Ch3_ms=20), "6"),
+        ("sensor", sf_testable_safety_sensor.Params(TestTime_ms=20), "2"),
+    ],
+)
+def test_with_too_short_a_time_a_printed_line_fails(page: str, params: Any, line: str) -> None:
+    block, _, rows, _ = PAGES[page]
+    assert first_wrong(block, params, rows) == line
