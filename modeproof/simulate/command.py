@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from modeproof.ground.errors import EXIT_AS_EXPECTED
 from modeproof.ground.evidence.files import write_whole
-from modeproof.ground.places import build
+from modeproof.ground.places import build, documents
 from modeproof.ground.places import root as repository_root
+from modeproof.registers.load import load_document
 from modeproof.simulate.build import make
+from modeproof.simulate.recorded import record
 
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction[argparse.ArgumentParser]
@@ -21,10 +24,15 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     parser = subparsers.add_parser(
         "simulate",
         help="a page to play with: the reference implementation runs in the browser, offline",
-        description="Writes one HTML file; a double click opens it. It runs the files of refimpl/ and shows "
-        "recorded counterexamples as far as build/evidence/ and build/walks/ hold them. It proves nothing.",
+        description="Writes one HTML file; a double click opens it. It runs the files of refimpl/ and plays "
+        "the recorded counterexample of each finding (simulate.html#finding=E-52). It proves nothing.",
     )
     parser.add_argument("--out", type=Path, metavar="FILE", help="where to (default: build/simulate.html)")
+    parser.add_argument(
+        "--record",
+        action="store_true",
+        help="first keep the counterexamples of build/evidence/ and build/walks/ in scenes/, for other trees",
+    )
     parser.set_defaults(run=run)
     return parser
 
@@ -32,9 +40,15 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Carry out the command."""
     place = repository_root()
+    if args.record:
+        for name in documents(place):
+            held, changed, missing = record(load_document(place, name))
+            print(f"{name}: {held} counterexamples recorded, {len(changed)} of them not as before")
+            if missing:
+                print(f"  missing: {', '.join(missing)}; modeproof check RUN, then modeproof walks")
     html = make(place).encode("utf-8")
     file = args.out or build(place) / "simulate.html"
     write_whole(file, html)
-    shown = html.count(b'data-recorded="')
-    print(f"{file}: {len(html):,} bytes, {shown} recorded counterexamples; open it with a double click")
+    plays = len(set(re.findall(rb'data-play="([^"]*)"', html)))
+    print(f"{file}: {len(html):,} bytes, {plays} recorded counterexamples; open it with a double click")
     return EXIT_AS_EXPECTED

@@ -9,12 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser
 
-from modeproof.simulate.build import make
 from scenes.mode_selection.scene import Scene
-from tests.report.browser.opened import WAIT_MS, Opened, open_page
-from tests.simulate.conftest import READY, ROOT, SCENE, scenes_of
+from tests.report.browser.opened import WAIT_MS, Opened
+from tests.simulate.conftest import ROOT, SCENE, scenes_of
 from tests.simulate.test_program import STORIES, play, wrong_ends
 
 WORDS = (
@@ -75,7 +73,7 @@ def agree(opened: Opened, root: str, scene: Any, number: int = 0) -> None:
 def cell(opened: Opened) -> Opened:
     """The open page with the cell just switched on."""
     opened.page.click("nav [data-part^=scene]")
-    opened.page.select_option("#choose", "story 0")
+    opened.page.select_option("#choose", "0")
     opened.page.click("#leave")
     return opened
 
@@ -127,7 +125,7 @@ def test_a_story_is_told_to_its_end(
     id: str, opened: Opened, told: dict[str, Any], known: dict[str, Any]
 ) -> None:
     story, page = told[id], opened.page
-    page.select_option("#choose", f"story {STORIES.index(id)}")
+    page.select_option("#choose", str(STORIES.index(id)))
     for _ in story["step"]:
         page.click("#next")
     assert page.locator("#told").inner_text().endswith(story["end"])
@@ -255,7 +253,7 @@ def test_the_page_asks_for_nothing_and_says_nothing(opened: Opened, page_file: P
 
 
 @pytest.mark.sampled
-@pytest.mark.parametrize("part", ["scene-mode_selection", "blocks", "suites"])
+@pytest.mark.parametrize("part", ["scene-mode_selection", "blocks", "findings", "suites"])
 def test_everyone_can_use_the_page_at_800_pixels(part: str, opened: Opened) -> None:
     page = opened.page
     page.click(f"nav [data-part={part}]")
@@ -263,24 +261,3 @@ def test_everyone_can_use_the_page_at_800_pixels(part: str, opened: Opened) -> N
     page.set_viewport_size({"width": 800, "height": 900})
     assert opened.ask("() => document.documentElement.scrollWidth") <= 800
     page.set_viewport_size({"width": 1280, "height": 900})
-
-
-def test_a_recorded_counterexample_is_shown_row_by_row(browser: Browser, recorded_place: Path) -> None:
-    file = recorded_place / "simulate.html"
-    file.write_text(make(recorded_place), encoding="utf-8")
-    with open_page(browser, file) as opened:
-        page = opened.page
-        page.wait_for_function(READY)
-        page.select_option("#choose", f"run {SCENE} 0")
-        assert "E-01" in page.locator("#told").inner_text()
-        page.click("#next")
-        texts, lit = stands(opened, "[data-cell]")
-        assert (texts["MW07"], texts["MW07.says"], texts["active"]) == ("0FF0", "mode 3", "none")
-        assert texts["SelectMSO.says"] == "not recorded"
-        page.click("#next")
-        texts, lit = stands(opened, "[data-cell]")
-        assert texts["active"].startswith("3: ") and {"MSO_3", "C", "LA"} <= {*lit}
-        assert "Here SwitchNeedsMatchingPair fails" in page.locator("#told").inner_text()
-        assert page.get_by_role("button", name="Insert the key of level 1").is_disabled()
-        page.click("#leave")
-        assert page.get_by_role("button", name="Insert the key of level 1").is_enabled()
