@@ -151,16 +151,23 @@ def test_trace_reads_a_log_of_the_cell(tmp_path: Path, known: dict[str, Any]) ->
 
 
 @pytest.mark.deep
-def test_a_log_of_a_block_is_accepted_by_trace(
-    tmp_path: Path, known: dict[str, Any], told: dict[str, Any]
+@pytest.mark.parametrize(
+    ("target", "story", "cell", "true"),
+    [
+        ("sf_edm", "welded_contactor", 0, '"Error":true'),
+        ("key_flows", "stale_confirmation", 1, '"ERROR":true'),
+    ],
+)
+def test_a_played_log_is_accepted_by_trace(
+    target: str, story: str, cell: int, true: str, tmp_path: Path, known: dict[str, Any], told: dict[str, Any]
 ) -> None:
-    scene = scenes_of(told["welded_contactor"], known)[0]
-    play(scene, told["welded_contactor"])
+    scene = scenes_of(told[story], known)[cell]
+    play(scene, told[story])
     log = tmp_path / "played.jsonl"
     log.write_text(scene.log(), encoding="utf-8")
-    assert main(["trace", "sf_edm", str(log)]) == 0
-    log.write_text(scene.log().replace('"Error":true', '"Error":false', 1), encoding="utf-8")
-    assert main(["trace", "sf_edm", str(log)]) == 1
+    assert main(["trace", target, str(log)]) == 0
+    log.write_text(scene.log().replace(true, true.replace("true", "false"), 1), encoding="utf-8")
+    assert main(["trace", target, str(log)]) == 1
 
 
 def test_a_saved_log_plays_to_the_same_end(known: dict[str, Any]) -> None:
