@@ -46,6 +46,7 @@ SCREENS = {
     "waiting": "Please wait",
     "confirm": "Is this right?",
 }
+USABLE_S = 3
 DOCUMENTS = documents(ROOT)
 
 
@@ -160,6 +161,17 @@ def test_nothing_can_be_touched_while_a_record_is_shown(opened: Opened, known: d
     assert key.is_enabled()
 
 
+@pytest.mark.deep
+def test_everyone_can_follow_a_record_at_800_pixels(opened: Opened, known: dict[str, Any]) -> None:
+    opened.page.set_viewport_size({"width": 800, "height": 900})
+    for name, finding, run in ((SCENE, "E-52", "NEG_KeyFlows_no_dwell"), ("edm", "EDMF-04", "")):
+        runs = next(of["runs"] for of in known[name]["findings"] if of["id"] == finding)
+        play(opened, name, known[name], finding, run or runs[0])
+        assert opened.ask("() => document.documentElement.scrollWidth") <= 800
+        assert opened.inaccessible() == []
+        opened.page.click("#leave")
+
+
 @pytest.mark.parametrize(
     ("wanted", "said"),
     [
@@ -174,6 +186,18 @@ def test_an_address_that_plays_nothing_says_why(wanted: str, said: str, opened: 
         "(said) => document.getElementById('told').textContent.includes(said)", arg=said
     )
     assert opened.page.locator("#next").is_disabled()
+
+
+@pytest.mark.deep
+def test_the_page_is_usable_after_little_computing(browser: Browser, page_file: Path) -> None:
+    """What it computes until then, of 3 s at most; how long that takes on a machine, `make bench` says."""
+    with open_page(browser, page_file) as opened:
+        session = opened.page.context.new_cdp_session(opened.page)
+        session.send("Performance.enable", {"timeDomain": "threadTicks"})
+        opened.page.reload()
+        opened.page.wait_for_function(READY)
+        spent = {of["name"]: of["value"] for of in session.send("Performance.getMetrics")["metrics"]}
+        assert 0.05 < spent["TaskDuration"] < USABLE_S
 
 
 def test_the_page_opens_at_a_finding(browser: Browser, page_file: Path) -> None:
