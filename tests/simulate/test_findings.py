@@ -122,6 +122,7 @@ def test_every_finding_plays_what_is_recorded(name: str, opened: Opened, known: 
     opened.page.click("#leave")
 
 
+@pytest.mark.deep
 def test_an_altered_recorded_output_is_noticed(browser: Browser, recorded_place: Path) -> None:
     about = facts_of(recorded_place)
     run = next(run for run in about["recorded"] if run["run"] == RUN)
@@ -216,6 +217,7 @@ def test_the_page_is_usable_after_little_computing(browser: Browser, page_file: 
         assert 0.05 < spent["TaskDuration"] < USABLE_S
 
 
+@pytest.mark.deep
 def test_the_page_opens_at_a_finding(browser: Browser, page_file: Path) -> None:
     with open_page(browser, page_file, "#finding=E-52") as opened:
         opened.page.wait_for_function(READY)
