@@ -101,6 +101,7 @@ const richTables = (() => {
 const reveal = (id) => {
   if (!id) return null;
   let target = document.getElementById(id);
+  for (const one of target?.querySelectorAll(":scope > details.part") ?? []) one.open = true;
   if (!target) { richTables.showAll(); target = document.getElementById(id); }
   if (!target) return null;
   for (let one = target; one; one = one.parentElement) if (one.tagName === "DETAILS") one.open = true;
@@ -123,14 +124,21 @@ const reveal = (id) => {
   if (location.hash) requestAnimationFrame(go);
 })();
 
-// On paper everything is open and every row shows; afterwards all is as it was.
+// On paper every row shows and all that is printed is open; the annex is printed, or the review sheet, when a button asks.
 (() => {
   let restore = [];
   window.addEventListener("beforeprint", () => {
     restore = [richTables.showAll()];
-    for (const one of document.querySelectorAll("details:not([open])")) { one.open = true; restore.push(() => { one.open = false; }); }
+    const wanted = { all: "details", review: "#review details" }[document.body.dataset.print] ?? "details:not(.annex, .annex *)";
+    for (const one of document.querySelectorAll(wanted)) if (!one.open) { one.open = true; restore.push(() => { one.open = false; }); }
   });
-  window.addEventListener("afterprint", () => { for (const undo of restore.splice(0)) undo(); });
+  window.addEventListener("afterprint", () => { for (const undo of restore.splice(0)) undo(); delete document.body.dataset.print; });
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest("button.print");
+    if (!button) return;
+    if (button.dataset.print) document.body.dataset.print = button.dataset.print;
+    window.print();
+  });
 })();
 
 // The part that is being read is marked in the list of parts.
