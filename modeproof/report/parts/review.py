@@ -28,6 +28,8 @@ QUESTIONS = {
     "clause": "The paper in our words: does each sentence say what the paper says?",
 }
 """The groups, the most important first, each with its question."""
+ALONE = ("safety", "assumption")
+"""The groups whose entries stand alone as long as any others can be put together."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +146,7 @@ def _answered(sources: Sources) -> tuple[Row, ...]:
 def rows_of(items: Sequence[Item], most: int = MOST) -> tuple[Row, ...]:
     """At most so many rows, as long as a row a group and document is enough of putting together.
 
-    Groups are put together from the least important on: first by kind, then whole.
+    Groups are put together from the least important on: first by kind, then whole; those of ALONE last.
     """
     keys: tuple[Callable[[Item], str], ...] = (
         lambda item: f"{item.document} {item.id}",
@@ -153,7 +155,14 @@ def rows_of(items: Sequence[Item], most: int = MOST) -> tuple[Row, ...]:
     )
     level = dict.fromkeys(QUESTIONS, 0)
     found: dict[str, list[Item]] = {}
-    for to, group in [(0, "")] + [(to, group) for to in (1, 2) for group in reversed(QUESTIONS)]:
+    steps = [
+        (to, group)
+        for late in (False, True)
+        for to in (1, 2)
+        for group in reversed(QUESTIONS)
+        if (group in ALONE) == late
+    ]
+    for to, group in [(0, ""), *steps]:
         level |= {group: to} if group else {}
         found = {}
         for item in sorted(items, key=lambda item: list(QUESTIONS).index(item.group)):
