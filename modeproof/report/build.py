@@ -212,13 +212,14 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
     payload += _packed_tables()
     status = _status(troubles)
     scripts = [_file(name) for name in SCRIPTS]
+    commit = sources.once("commit", lambda: commit_of(sources.root))
     titles = [document.about.title for document in sources.documents.values()]
     shown[0]["html"] = Markup(shown[0]["html"]) + terms.explained(f"{shown[0]['html']} {parts[0].title}")
     return environment.get_template("report.html.j2").render(
         parts=shown,
         title=titles[0] if len(titles) == 1 else f"{len(titles)} safety procedures",
         day=sources.filing.day or "no date given",
-        commit=sources.once("commit", lambda: commit_of(sources.root)) or "no commit",
+        commit=f"commit {commit}" if commit else "no commit",
         chosen=" ".join(sources.filing.documents),
         state={"word": WORDS[status], "good": (True, False, None)[status]},
         m=macros,

@@ -276,7 +276,7 @@ def test_findings_stand_by_class_the_worst_first(root: Path) -> None:
 
 def test_a_finding_names_the_shortest_ways_and_what_is_missing(root: Path) -> None:
     finding = text_of(make(root).html.partition('id="finding-E-01"')[2].partition("<details")[0])
-    assert "the other reading fails, as predicted in 1 steps ( NEG_Box_eager ) and in 1 steps" in finding
+    assert "the other reading fails, as predicted in 1 step ( NEG_Box_eager ) and in 1 step (" in finding
     assert "1 more run as expected" in finding and "VIOLATED" not in finding
     without(root, "NEG_Box_eager")
     finding = text_of(make(root).html.partition('id="finding-E-01"')[2].partition("<details")[0])

@@ -103,6 +103,7 @@ const reveal = (id) => {
   let target = document.getElementById(id);
   for (const one of target?.querySelectorAll(":scope > details.part") ?? []) one.open = true;
   if (!target) { richTables.showAll(); target = document.getElementById(id); }
+  target ??= document.getElementById({ explore: "explore", trace: "trace-viewer" }[id.split("-")[0]]);
   if (!target) return null;
   for (let one = target; one; one = one.parentElement) if (one.tagName === "DETAILS") one.open = true;
   return target;
@@ -110,7 +111,7 @@ const reveal = (id) => {
 (() => {
   const go = () => {
     const target = reveal(decodeURIComponent(location.hash.slice(1)));
-    if (!target) return;
+    if (!target || !document.getElementById(decodeURIComponent(location.hash.slice(1)))) return;
     target.scrollIntoView();
     if (!target.matches("a, button, input, [tabindex]")) target.setAttribute("tabindex", "-1");
     target.focus({ preventScroll: true });
@@ -121,6 +122,7 @@ const reveal = (id) => {
     const link = event.target.closest('a[href^="#"]');
     if (link && link.hash === location.hash) go();
   });
+  reveal(decodeURIComponent(location.hash.slice(1)));
   if (location.hash) requestAnimationFrame(go);
 })();
 

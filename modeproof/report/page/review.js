@@ -6,7 +6,7 @@
   const rows = new Map([...document.querySelectorAll("#review .row")].map((row) => [row.dataset.row, row]));
   const answers = ["accept", "reject", "remark"];
   const field = (id) => document.getElementById(id);
-  const say = (text, wrong = false) => { said.textContent = wrong ? `Not read: ${text}` : text; said.classList.toggle("refused", wrong); };
+  const say = (text, wrong = false) => { said.textContent = wrong ? `Refused: ${text}` : text; said.classList.toggle("refused", wrong); };
   const chosen = (row) => row.querySelector("input[type=radio]:checked")?.value ?? "";
   const words = (row) => row.querySelector(".said");
   const count = () => {
