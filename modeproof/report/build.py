@@ -30,6 +30,7 @@ from modeproof.report.snapshot import snapshot
 from modeproof.report.sources import HOLE, NOTE, Sources, Trouble, gather
 from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
+from modeproof.report.verdicts import ASIDE
 
 SCHEMA_VERSION = 1
 SCHEMA = Path(__file__).with_name("report.schema.json")
@@ -274,6 +275,7 @@ def _environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.globals["ASIDE"] = ASIDE
     environment.filters["number"] = number
     environment.filters["script_json"] = script_json
     environment.filters["css_string"] = css_string

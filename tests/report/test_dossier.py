@@ -101,12 +101,12 @@ def test_a_conclusion_falls_with_its_evidence(root: Path) -> None:
     found = conclusions(root)
     assert found["required"] == (0, 1, DIFFERS) and found["readings"] == (1, 2, HOLE)
     assert found["faults"] == (0, 0, HOLE), "no campaign is recorded"
-    assert "✗ The procedures, as decided here" in first_page(root)
+    assert "✗ Not so: The procedures, as decided here" in first_page(root)
 
 
 def test_nothing_compared_is_no_agreement(root: Path) -> None:
     assert conclusions(root)["agreement"][:2] == (0, 0)
-    assert "? The model and the program are the same" in first_page(root)
+    assert "? Not shown in full: The model and the program are the same" in first_page(root)
 
 
 def test_troubles_stand_before_the_conclusions(root: Path) -> None:

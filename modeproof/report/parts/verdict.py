@@ -8,6 +8,7 @@ from typing import Any
 from modeproof.registers.rows import Document
 from modeproof.registers.scores import Score, load_scores
 from modeproof.report.campaigns import KINDS, id_of
+from modeproof.report.claims import result_of
 from modeproof.report.part import Part
 from modeproof.report.snapshot import as_it_counts, lines_of, mutants_of
 from modeproof.report.sources import Evidence, Figure, Sources
@@ -61,7 +62,6 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
                 **count(
                     [line.status for line in lines if _counted(line) and line.environment == name], folder
                 ),
-                "aside": sum(1 for line in lines if line.environment == name and line.verdict == ASIDE),
             }
             for name in environments
         ],
@@ -69,6 +69,7 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
             count([status_of(as_it_counts(record)) for record in evidence if of(record)], folder)
             for *_, of in GROUPS
         ],
+        "aside": [run.id for run in document.runs if result_of(sources, document, run).word == ASIDE],
         "mutants": _mutants(sources, document.name),
         "columns": environments,
         "rows": _rows(sources, document, lines, environments, marks),
