@@ -53,7 +53,7 @@ RULES = (
         (
             "modeproof.registers",
             *("modeproof.ground.errors", "modeproof.ground.evidence.files"),
-            *("modeproof.ground.places", "modeproof.ground.reason"),
+            *("modeproof.ground.places", "modeproof.ground.progress", "modeproof.ground.reason"),
         ),
     ),
 )

@@ -12,8 +12,8 @@ import pytest
 from modeproof.cli import main
 from modeproof.report.filing import Filing
 from modeproof.report.parts import review
-from modeproof.report.parts.review import MOST, QUESTIONS, Item, rows_of
-from modeproof.report.review_file import HEADS, tally
+from modeproof.report.parts.review import MOST, rows_of
+from modeproof.report.review_sheet import HEADS, QUESTIONS, Item, tally
 from modeproof.report.sources import gather
 from tests.report.paper import change, make_whole
 

@@ -71,7 +71,10 @@ def entries(steps: Sequence[Step]) -> tuple[Entry, ...]:
 def state_chart(
     boxes: Sequence[Box], steps: Sequence[Step], cites: Mapping[str, Sequence[str]], *, id: str, title: str
 ) -> Markup:
-    """The picture, which begins at the state after power-up. `cites` holds the ids that each step cites; `id` begins the ids within the picture."""
+    """The picture, which begins at the state after power-up.
+
+    `cites` holds the ids that each step cites; `id` begins the ids within the picture.
+    """
     listed = entries(steps)
     hidden = {(arrow.target, name) for arrow in listed for name in arrow.names}
     pairs: dict[tuple[str, str], list[str]] = {}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 from modeproof.registers.rows import Assumption, Clause, Document, Finding, Property
 from modeproof.registers.runs import Run
@@ -12,103 +11,24 @@ from modeproof.report.bearing import OF_THE_MACHINE, falling, hazard_of
 from modeproof.report.claims import result_of, steps_of
 from modeproof.report.part import Part
 from modeproof.report.parts.scope import LEFT_OUT
-from modeproof.report.review_file import ANSWERS, HEADS, NAME, Answer, read_answers, sheet_file, tally
-from modeproof.report.sources import Figure, Sources
+from modeproof.report.review_sheet import (
+    ANSWERS,
+    HEADS,
+    NAME,
+    QUESTIONS,
+    Item,
+    Row,
+    Trace,
+    read_answers,
+    sheet_file,
+    tally,
+)
+from modeproof.report.sources import Sources
 
 MOST = 150
 """So many rows at most: where there would be more, those of the least important groups are put together."""
-QUESTIONS = {
-    "safety": "Safety, and no drawing can settle it: is the decision right for the machine?",
-    "assumption": "What the machine must ensure: does somebody ensure it, and was it checked?",
-    "drawing": "Safety, and a drawing could settle it: does the drawing say what was decided?",
-    "requirement": "Requirements: are these the safety requirements that are meant, and is none missing?",
-    "model": "What the model leaves out or merges: does that hide nothing that matters?",
-    "availability": "What stops the machine or the user: is the decision acceptable?",
-    "wording": "Slips of the text: are they read as they are meant?",
-    "clause": "The paper in our words: does each sentence say what the paper says?",
-}
-"""The groups, the most important first, each with its question."""
 ALONE = ("safety", "assumption")
 """The groups whose entries stand alone as long as any others can be put together."""
-
-
-@dataclass(frozen=True)
-class Trace:
-    """A counterexample that shows what is judged; `steps` is None where it was not recorded."""
-
-    run: str
-    steps: Figure | None
-
-
-@dataclass(frozen=True)
-class Item:
-    """One entry of a register. `kind` is what it is put together by, within its group and document."""
-
-    group: str
-    document: str
-    kind: str
-    id: str
-    anchor: str
-    title: str
-    readings: tuple[str, ...] = ()
-    decision: str = ""
-    consequence: str = ""
-    traces: tuple[Trace, ...] = ()
-
-
-@dataclass(frozen=True)
-class Row:
-    """What a person judges in one answer: an entry, or several entries of one kind.
-
-    `text` is a fingerprint of all that is judged: an answer to another text does not count.
-    """
-
-    id: str
-    text: str
-    items: tuple[Item, ...]
-    answer: Answer | None = None
-
-    @property
-    def question(self) -> str:
-        """The question of its group."""
-        return QUESTIONS[self.items[0].group]
-
-    @property
-    def alone(self) -> Item | None:
-        """The only entry, where it is one."""
-        return self.items[0] if len(self.items) == 1 else None
-
-    @property
-    def what(self) -> str:
-        """What is judged, in one line."""
-        return "; ".join(f"{item.id} {item.title}" for item in self.items)
-
-    @property
-    def readings(self) -> tuple[str, ...]:
-        """How it can be read."""
-        return self.alone.readings if self.alone else ()
-
-    @property
-    def decision(self) -> str:
-        """What was decided."""
-        if self.alone:
-            return self.alone.decision
-        return " ".join(f"{item.id}: {item.decision}" for item in self.items if item.decision)
-
-    @property
-    def consequence(self) -> str:
-        """What follows where it is wrong."""
-        return self.alone.consequence if self.alone else ""
-
-    @property
-    def traces(self) -> tuple[Trace, ...]:
-        """What shows it."""
-        return tuple(trace for item in self.items for trace in item.traces)
-
-    @property
-    def outdated(self) -> bool:
-        """The answer is to another text."""
-        return self.answer is not None and self.answer.text != self.text
 
 
 def part(sources: Sources) -> Part:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from modeproof.report import review_file
+from modeproof.report import review_sheet
 from modeproof.report.bearing import falling, hazard_of, heaviest, worst
 from modeproof.report.deviations import deviations
 from modeproof.report.filing import commit_of
@@ -65,7 +65,7 @@ def part(sources: Sources) -> Part:
                 }
                 for document, row in worst(sources)[:FINDINGS]
             ],
-            "answers": review_file.tally(review.sheet(sources)),
+            "answers": review_sheet.tally(review.sheet(sources)),
         },
     )
 

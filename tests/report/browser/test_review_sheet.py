@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 
-from modeproof.report.review_file import read_answers
+from modeproof.report.review_sheet import read_answers
 from tests.report.browser.opened import Opened, open_page
 
 ROW = "#review .row[data-row='box E-01']"

@@ -1,4 +1,4 @@
-"""The answered review sheet as a file: CSV, for spreadsheets, written by the page, and read back."""
+"""The rows of the review sheet, and the sheet as a file: CSV, written by the page too, and read back."""
 
 from __future__ import annotations
 
@@ -7,12 +7,9 @@ import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from modeproof.ground.errors import Unjudged, suggestion
-
-if TYPE_CHECKING:
-    from modeproof.report.parts.review import Row
+from modeproof.report.sources import Figure
 
 NAME = "review.csv"
 ANSWERS = ("accept", "reject", "remark")
@@ -33,6 +30,98 @@ class Answer:
     words: str = ""
     name: str = ""
     day: str = ""
+
+
+QUESTIONS = {
+    "safety": "Safety, and no drawing can settle it: is the decision right for the machine?",
+    "assumption": "What the machine must ensure: does somebody ensure it, and was it checked?",
+    "drawing": "Safety, and a drawing could settle it: does the drawing say what was decided?",
+    "requirement": "Requirements: are these the safety requirements that are meant, and is none missing?",
+    "model": "What the model leaves out or merges: does that hide nothing that matters?",
+    "availability": "What stops the machine or the user: is the decision acceptable?",
+    "wording": "Slips of the text: are they read as they are meant?",
+    "clause": "The paper in our words: does each sentence say what the paper says?",
+}
+"""The groups, the most important first, each with its question."""
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A counterexample that shows what is judged; `steps` is None where it was not recorded."""
+
+    run: str
+    steps: Figure | None
+
+
+@dataclass(frozen=True)
+class Item:
+    """One entry of a register. `kind` is what it is put together by, within its group and document."""
+
+    group: str
+    document: str
+    kind: str
+    id: str
+    anchor: str
+    title: str
+    readings: tuple[str, ...] = ()
+    decision: str = ""
+    consequence: str = ""
+    traces: tuple[Trace, ...] = ()
+
+
+@dataclass(frozen=True)
+class Row:
+    """What a person judges in one answer: an entry, or several entries of one kind.
+
+    `text` is a fingerprint of all that is judged: an answer to another text does not count.
+    """
+
+    id: str
+    text: str
+    items: tuple[Item, ...]
+    answer: Answer | None = None
+
+    @property
+    def question(self) -> str:
+        """The question of its group."""
+        return QUESTIONS[self.items[0].group]
+
+    @property
+    def alone(self) -> Item | None:
+        """The only entry, where it is one."""
+        return self.items[0] if len(self.items) == 1 else None
+
+    @property
+    def what(self) -> str:
+        """What is judged, in one line."""
+        return "; ".join(f"{item.id} {item.title}" for item in self.items)
+
+    @property
+    def readings(self) -> tuple[str, ...]:
+        """How it can be read."""
+        return self.alone.readings if self.alone else ()
+
+    @property
+    def decision(self) -> str:
+        """What was decided."""
+        if self.alone:
+            return self.alone.decision
+        return " ".join(f"{item.id}: {item.decision}" for item in self.items if item.decision)
+
+    @property
+    def consequence(self) -> str:
+        """What follows where it is wrong."""
+        return self.alone.consequence if self.alone else ""
+
+    @property
+    def traces(self) -> tuple[Trace, ...]:
+        """What shows it."""
+        return tuple(trace for item in self.items for trace in item.traces)
+
+    @property
+    def outdated(self) -> bool:
+        """The answer is to another text."""
+        return self.answer is not None and self.answer.text != self.text
 
 
 def read_answers(path: Path, rows: Iterable[str]) -> Mapping[str, Answer]:
