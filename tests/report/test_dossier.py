@@ -256,6 +256,7 @@ def test_a_function_without_its_evidence_is_not_good(root: Path) -> None:
     assert row["evidence"]["good"] is False and row["evidence"]["searched"] == []
 
 
+@pytest.mark.deep
 def test_every_hazard_function_and_confirmer_of_this_repository_is_named(ours: Sources) -> None:
     documents = functions.part(ours).data["documents"]
     rows = [row for document in documents for row in document["rows"]]

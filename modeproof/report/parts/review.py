@@ -136,7 +136,7 @@ def _assumption(sources: Sources, document: Document, row: Assumption) -> Item:
         row.title,
         (row.text,),
         f"Who ensures it: {row.who}. How to check it: {row.check}.",
-        hazard_of(document, runs) or row.breaks_open,
+        hazard_of(document, runs) or f"no run shows it: {row.breaks_open}",
         _traces(sources, document, runs),
     )
 

@@ -85,6 +85,7 @@ def test_the_first_page_is_one_page(filed: Opened) -> None:
     assert body(second)[0] == "Safety functions"
 
 
+@pytest.mark.deep
 def test_the_annex_is_printed_on_request_alone(filed: Opened) -> None:
     sheets, everything = filed.pdf(), filed.pdf("all")
     assert not any("Traceability matrix" in sheet for sheet in sheets)

@@ -57,8 +57,6 @@ def test_a_remark_without_words_is_not_kept(box: Opened) -> None:
     [
         ("reject", "perhaps", "perhaps is no answer"),
         ("box E-01", "box E-77", "this report has no row box E-77"),
-        ("box E-01", "box E-02", "the row box E-02 stands twice"),
-        ("row,text", "line,text", "it has no column row"),
         ("reject", '"reject', "a quote is not closed"),
         ("reject,", "reject,,", "has not as many cells as the first"),
     ],
