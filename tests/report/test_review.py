@@ -166,7 +166,7 @@ def test_a_broken_sheet_is_refused_in_one_line(
 
 
 @pytest.mark.parametrize("content", [None, b"\xff\xfe\x00", b"", b"PK\x03\x04"])
-def test_a_file_that_is_no_sheet_is_refused_in_one_line(
+def test_a_file_that_is_no_sheet_is_refused(
     root: Path, content: bytes | None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = root / "answers"
