@@ -188,6 +188,22 @@ def test_an_address_that_plays_nothing_says_why(wanted: str, said: str, opened: 
     assert opened.page.locator("#next").is_disabled()
 
 
+def test_a_link_plays_and_plays_once_more(opened: Opened) -> None:
+    told, link = (
+        opened.page.locator("#told"),
+        opened.page.get_by_role("link", name="Play E-52, NEG_KeyFlows_no_dwell"),
+    )
+    for _ in range(2):
+        opened.page.click("nav [data-part=findings]")
+        link.first.click()
+        opened.page.wait_for_function(
+            "() => document.getElementById('told').textContent.startsWith('E-52: ')"
+        )
+        opened.page.click("#next")
+        assert told.inner_text().startswith("1 of ")
+    opened.page.click("#leave")
+
+
 @pytest.mark.deep
 def test_the_page_is_usable_after_little_computing(browser: Browser, page_file: Path) -> None:
     """What it computes until then, of 3 s at most; how long that takes on a machine, `make bench` says."""

@@ -36,8 +36,7 @@ class Page:
             nav.bind("click", lambda event: self.show_part(event.currentTarget.attrs["data-part"]))
         self.show_part(self.parts[0])
         document["choose"].bind("change", lambda event: self.choose(event.target.value))
-        for link in document.select("[data-play]"):
-            link.bind("click", lambda event: self.again(event.currentTarget))
+        document["findings"].bind("click", lambda event: self.again(event.target))
         window.bind("hashchange", lambda event: self.follow())
         document["next"].bind("click", lambda event: self.next())
         document["leave"].bind("click", lambda event: self.leave())
@@ -221,7 +220,7 @@ class Page:
 
     def again(self, link: Any) -> None:
         """A link to what the address names already: it is played once more."""
-        if link.hash == window.location.hash:
+        if link.tagName == "A" and link.hash == window.location.hash:
             self.follow()
 
     def begin_finding(self, name: str, finding: dict[str, Any], wanted: str) -> None:
