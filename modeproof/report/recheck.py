@@ -91,10 +91,9 @@ def recheck(root: Path, file: Path) -> Recheck:
             found.append(Difference("differs", str(page), why, DIFFERS))
         found += _attachments(record, texts[record])
     files = listed[file]
-    found += [
-        *_compare(root, files, results, _documents(file, texts[file])),
-        *_tools(root, "".join(texts.values())),
-    ]
+    documents = _documents(file, texts[file])
+    found += _compare(root, files, results, documents)
+    found += _tools(root, "".join(texts.values()), documents)
     return Recheck(len(files), tuple(dict.fromkeys(found)))
 
 
@@ -174,10 +173,14 @@ def _made_again(path: Path, result: str | None) -> str:
     return ""
 
 
-def _tools(root: Path, text: str) -> Iterator[Difference]:
-    """The tools that made evidence and are not what they were, but for what the report says itself."""
+def _tools(root: Path, text: str, documents: Sequence[str]) -> Iterator[Difference]:
+    """The tools that made evidence of these documents (none: of all) and are not what they were, but for what
+    the report says itself.
+    """
     made: dict[str, list[str]] = {}
     for path in sorted(root.glob("build/evidence/*/*.json")):
+        if documents and path.parent.name not in documents:
+            continue
         with contextlib.suppress(Unjudged):  # a file that is damaged is not as the report has it
             for name in other_tools(read(path)):
                 if f"{path.stem} ({name}" in text:

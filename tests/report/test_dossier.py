@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 from html import unescape
@@ -202,9 +203,14 @@ def test_foreign_text_cannot_leave_its_place_in_the_style(root: Path) -> None:
 def test_a_report_of_one_document_has_its_own_folder(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (root / "spec" / "lid").mkdir()
     (root / "spec/lid/document.toml").write_text("damaged")
+    other = json.loads((root / "build/evidence/box/MC_Box.json").read_text())
+    other["tools"]["modeproof"] = {"version": "0", "sha256": "0" * 64}
+    (root / "build/evidence/lid").mkdir()
+    (root / "build/evidence/lid/MC_Lid.json").write_text(json.dumps(other))
     assert main(["report", "--quiet", "--document", "box", "--date", "2026-11-23"]) == 0
     page = root / "build/report/box/report.html"
-    assert "spec/lid" not in page.read_text() and str(page) in capsys.readouterr().out
+    assert "spec/lid" not in page.read_text() and 'href="../../simulate.html#' in page.read_text()
+    assert str(page) in capsys.readouterr().out
     assert main(["report", "--verify", str(page)]) == 0, "the other document is no news to it"
     assert main(["report", "--verify", str(page.with_suffix(".json"))]) == 0
     assert main(["report", "--document", "bx"]) == 2

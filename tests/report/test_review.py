@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 from collections import Counter
 from pathlib import Path
@@ -128,6 +129,7 @@ def test_the_report_shows_the_answers_and_counts_them(root: Path, capsys: pytest
     assert main(["report", "--quiet", "--review", str(path)]) == 0
     html = (root / "build/report/report.html").read_text()
     assert "0 accepted, 0 rejected, 1 with a remark, 5 open" in html
+    assert f"Answers from answered.csv, SHA-256 <code>{hashlib.sha256(path.read_bytes()).hexdigest()}" in html
     assert 'value="see &lt;b&gt;Figure&lt;/b&gt;"' in html and "A. Reader 2026-11-23" in html
     kept = (root / "build/report/review.csv").read_text("utf-8-sig")
     assert "remark,see <b>Figure</b>,A. Reader,2026-11-23" in kept

@@ -229,4 +229,4 @@ def test_the_page_opens_at_a_finding(browser: Browser, page_file: Path) -> None:
 def test_the_report_links_each_finding_to_its_play() -> None:
     text = (ROOT / "modeproof/report/page/findings.html.j2").read_text(encoding="utf-8")
     entry = text[text.index("<article") : text.index("</article>")]
-    assert 'href="../simulate.html#finding={{ one.id }}"' in entry
+    assert 'href="{{ data.play }}#finding={{ one.id }}"' in entry

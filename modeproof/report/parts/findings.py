@@ -28,7 +28,10 @@ def part(sources: Sources) -> Part:
     """One entry a document: its findings, those of safety that no drawing can settle first."""
     troubles: list[Trouble] = []
     found = [_document(sources, document, troubles) for document in sources.documents.values()]
-    return Part(ID, "Findings", {"classes": CLASSES, "most": MOST, "documents": found}, tuple(troubles))
+    play = "../" * (2 if sources.filing.documents else 1) + "simulate.html"  # a chosen one lies deeper
+    return Part(
+        ID, "Findings", {"classes": CLASSES, "most": MOST, "documents": found, "play": play}, tuple(troubles)
+    )
 
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 
 from modeproof.registers.rows import Assumption, Clause, Document, Finding, Property
 from modeproof.registers.runs import Run
@@ -46,8 +47,14 @@ def part(sources: Sources) -> Part:
         "heads": HEADS,
         "file": NAME,
         "tally": tally(rows),
+        "from": None if (path := sources.filing.answers) is None else {"name": path.name, **_seal(path)},
     }
     return Part("review", "Review sheet", data, attachments={NAME: sheet_file(rows)})
+
+
+def _seal(path: Path) -> dict[str, str]:
+    """By which the file of the answers is known again."""
+    return {"sha256": hashlib.sha256(path.read_bytes()).hexdigest()}
 
 
 def sheet(sources: Sources) -> tuple[Row, ...]:
