@@ -16,9 +16,9 @@ from programs import certificate
 from programs.bind import Binding, read_binding
 from programs.check import check
 from programs.output import Case, junit_of, vector_of, write_record
-from programs.product import Product, shown
+from programs.product import Pair, Product, shown
 from programs.reference import reference
-from programs.replay import Difference
+from programs.replay import Difference, Run
 from programs.sources import read_sources
 from programs.tree import Source, Unit
 from programs.verdict import Verdict, judge
@@ -41,10 +41,12 @@ def run(args: argparse.Namespace) -> int:
 
     found = judge(product, root() / "vectors" / args.target, args.seconds, tell)
     lines = []
+    ways = {} if found.replayed is None else found.replayed.ways(found.product)
     if args.certificate is not None and found.word == "PROVED":
         assert found.replayed is not None
         tell("writing the certificate")
-        unreached = certificate.write(found.product, found.replayed, args.certificate, args.binding)
+        ways = certificate.write(found.product, found.replayed, args.certificate, args.binding)
+        unreached = len(found.product.nodes) - len(ways)
         way = f"; no scans were found to {unreached} of its pairs" if unreached else ""
         lines.append(f"  certificate {args.certificate}{way}; check it with --recheck {args.certificate}")
     if found.difference is not None:
@@ -52,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
     tell("")
     seconds = time.process_time() - started
     print("\n".join([*text_of(found, seconds), *lines]))
-    record = record_of(found, seconds)
+    record = record_of(found, seconds, ways)
     write_record(root(), record, args.json)
     if args.junit is not None:
         said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
@@ -212,10 +214,8 @@ def not_shown(found: Verdict) -> Iterator[str]:
     yield "what the compiler and the PLC make of the source"
 
 
-def states(found: Verdict) -> list[dict[str, Any]]:
-    """Each pair of states, how many relations hold there, and the fewest published scans that lead to it."""
-    product = found.product
-    ways = {} if found.replayed is None else found.replayed.ways(product)
+def states(product: Product, ways: Mapping[Pair, Run]) -> list[dict[str, Any]]:
+    """Each pair of states, how many relations hold there, and the scans that are known to lead to it."""
     start, _ = product.start
     return [
         {
@@ -227,8 +227,8 @@ def states(found: Verdict) -> list[dict[str, Any]]:
     ]
 
 
-def record_of(found: Verdict, seconds: float) -> dict[str, Any]:
-    """The verdict as JSON."""
+def record_of(found: Verdict, seconds: float, ways: Mapping[Pair, Run]) -> dict[str, Any]:
+    """The verdict as JSON. ways: the scans known to lead to each pair."""
     binding = found.product.binding
     record: dict[str, Any] = {
         "command": "prove-program",
@@ -241,7 +241,7 @@ def record_of(found: Verdict, seconds: float) -> dict[str, Any]:
         "tools": certificate.tools(),
         "trusted": list(TRUSTED),
         "not_shown": list(not_shown(found)),
-        "states": states(found),
+        "states": states(found.product, ways),
         "compared": list(binding.compared),
         "left_out": list(binding.left_out),
         "free_parameters": list(binding.free_parameters),

@@ -76,9 +76,7 @@ def through(
     }
     line = _Unrolled(product)
     dead: set[Route] = set()
-    for route in _routes(product, known, longest):
-        if time.process_time() > until:
-            return None
+    for route in _routes(product, known, longest, until):
         while line.pairs != route[: len(line.pairs)]:
             line.back()
         for target in route[len(line.pairs) :]:
@@ -91,18 +89,22 @@ def through(
     return None
 
 
-def _routes(product: Product, known: Mapping[Pair, Route], longest: int) -> Iterator[Route]:
-    """Ways by one pair, then by two, each of them once, after that without its last pair."""
+def _routes(product: Product, known: Mapping[Pair, Route], longest: int, until: float) -> Iterator[Route]:
+    """Ways by one pair, then by two, each once and behind its beginnings; none after `until`."""
     start, _ = product.start
     paths = {pair: _paths(product, pair) for pair in product.nodes}
     heads = {pair: known.get(pair, path) for pair, path in paths[start].items()}
     told: set[Route] = set()
     for head in sorted(heads.values(), key=len):
         for tail in paths[head[-1]].values():
+            if time.process_time() > until:
+                return
             yield from _prefixes((*head, *tail[1:]), longest, told)
     for head in sorted(heads.values(), key=len):
         for middle in paths[head[-1]].values():
             for tail in paths[middle[-1]].values():
+                if time.process_time() > until:
+                    return
                 yield from _prefixes((*head, *middle[1:], *tail[1:]), longest, told)
 
 

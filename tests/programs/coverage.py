@@ -111,7 +111,7 @@ class Collection:
             except RecursionError:
                 found[name] = "nested too deeply"
         for path in sorted(self.folder.rglob("*.xml")):
-            if (there := project(path)) is None:
+            if not path.is_file() or (there := project(path)) is None:
                 continue
             units, causes = there
             for key, what in (units | causes).items():
