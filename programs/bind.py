@@ -184,6 +184,12 @@ class Binding:
         return term
 
     @cached_property
+    def words(self) -> dict[str, Any]:
+        """The sets of modes that the program takes as words, by the names of the document."""
+        known = {**self.reference.input_terms, **self.reference.parameter_terms}
+        return {place: self.term(path) for path, (place, _) in self._given.items() if place not in known}
+
+    @cached_property
     def free_parameters(self) -> tuple[str, ...]:
         """The parameters that the program takes as inputs, so that the verdict is for all their values."""
         places = {place.partition("[")[0] for place, _ in self._given.values()}

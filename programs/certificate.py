@@ -108,10 +108,10 @@ def _obligation(
 # ---------------------------------------------------------------- writing
 
 
-def write(product: Product, replayed: Replayed, folder: Path, binding: Path | None = None) -> int:
+def write(product: Product, replayed: Replayed, folder: Path, binding: Path | None = None) -> dict[Pair, Run]:
     """Write the certificate of a proof into a folder that is new, empty, or an older certificate.
 
-    binding: the binding file. Returns the number of pairs to which no scans were found.
+    binding: the binding file. Returns the scans that lead to each pair, as far as some were found.
 
     Raises Unjudged: the folder holds something else, or cannot be written.
     """
@@ -144,7 +144,7 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
         (folder / NAME).write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", "utf-8")
     except OSError as error:
         raise Unjudged(f"{folder}: cannot be written: {error.strerror or error}") from None
-    return sum(1 for run in ways.values() if run is None)
+    return {pair: run for pair, run in ways.items() if run is not None}
 
 
 def _empty(folder: Path) -> None:

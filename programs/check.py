@@ -32,6 +32,7 @@ from programs.tree import (
     Return,
     Scalar,
     Source,
+    Stop,
     Type,
     Unary,
     Unit,
@@ -323,7 +324,7 @@ class Types:
                     self.body(inner)
                 case Call(instance, inputs, outputs, place):
                     self.call(instance, inputs, outputs, place)
-                case Return():
+                case Return() | Stop():
                     pass
 
     def turns(self, control: Name, low: int, high: int, by: int) -> None:

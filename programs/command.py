@@ -16,16 +16,16 @@ from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
 from programs import certificate
 from programs.bind import Binding, read_binding
 from programs.check import check
-from programs.output import junit_of, vector_of, write_record
-from programs.product import Product
+from programs.output import Case, junit_of, vector_of, write_record
+from programs.product import Pair, Product, shown
 from programs.reference import reference
-from programs.replay import Difference
+from programs.replay import Difference, Run
 from programs.sources import read_sources
 from programs.tree import Source, Unit
 from programs.verdict import Verdict, judge
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
-TRUSTED = "; ".join([*certificate.TRUSTED, "z3"])
+TRUSTED = (*certificate.TRUSTED, "z3")
 
 
 def run(args: argparse.Namespace) -> int:
@@ -42,10 +42,12 @@ def run(args: argparse.Namespace) -> int:
 
     found = judge(product, root() / "vectors" / args.target, args.seconds, tell)
     lines = []
+    ways = {} if found.replayed is None else found.replayed.ways(found.product)
     if args.certificate is not None and found.word == "PROVED":
         assert found.replayed is not None
         tell("writing the certificate")
-        unreached = certificate.write(found.product, found.replayed, args.certificate, args.binding)
+        ways = certificate.write(found.product, found.replayed, args.certificate, args.binding)
+        unreached = len(found.product.nodes) - len(ways)
         way = f"; no scans were found to {unreached} of its pairs" if unreached else ""
         lines.append(f"  certificate {args.certificate}{way}; check it with --recheck {args.certificate}")
     if found.difference is not None:
@@ -53,10 +55,12 @@ def run(args: argparse.Namespace) -> int:
     tell("")
     seconds = time.process_time() - started
     print("\n".join([*text_of(found, seconds), *lines]))
-    record = record_of(found, seconds)
+    record = record_of(found, seconds, ways)
     write_record(root(), record, args.json)
     if args.junit is not None:
-        write_text(args.junit, junit_of(record, "\n".join(text_of(found, seconds))))
+        said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
+        case = Case(record["unit"], found.word, "\n".join(text_of(found, seconds)), said | record["sources"])
+        write_text(args.junit, junit_of(record["target"], [case], record["cpu_seconds"]))
     return EXIT[found.word]
 
 
@@ -131,7 +135,7 @@ def text_of(found: Verdict, seconds: float) -> Iterator[str]:
         cases, scans = found.replayed.cases, found.replayed.scans
         yield f"  vectors     {cases} published cases, {scans:,} scans, no difference"
     if found.word == "PROVED":
-        yield f"  trusted     {TRUSTED}"
+        yield f"  trusted     {'; '.join(TRUSTED)}"
     pairs, queries = len(found.product.nodes), found.product.queries
     yield f"  effort      {pairs} pairs, {queries} questions, {seconds:.1f} s CPU"
 
@@ -202,8 +206,34 @@ def _shown(value: Any) -> str:
     return f"{value} ({value:04X}H)" if isinstance(value, int) and value > 9 else str(value)
 
 
-def record_of(found: Verdict, seconds: float) -> dict[str, Any]:
-    """The verdict as JSON."""
+def not_shown(found: Verdict) -> Iterator[str]:
+    """What the verdict says nothing about, in words."""
+    binding = found.product.binding
+    if found.missing:
+        yield found.missing
+    yield from (f"output {name}: it is not compared" for name in binding.left_out)
+    yield from (f"{name} other than {value}" for name, value in binding.values.items())
+    yield from (f"parameters outside {text}" for text in binding.narrowed())
+    if binding.longest_scan is not None:
+        yield f"a time above {binding.longest_scan:,} ms between two scans"
+    yield "what the compiler and the PLC make of the source"
+
+
+def states(product: Product, ways: Mapping[Pair, Run]) -> list[dict[str, Any]]:
+    """Each pair of states, how many relations hold there, and the scans that are known to lead to it."""
+    start, _ = product.start
+    return [
+        {
+            "pair": shown(pair),
+            "relations": len(product.nodes[pair].relations),
+            "reached_after": 0 if pair == start else len(ways[pair].scans) if pair in ways else None,
+        }
+        for pair in sorted(product.nodes)
+    ]
+
+
+def record_of(found: Verdict, seconds: float, ways: Mapping[Pair, Run]) -> dict[str, Any]:
+    """The verdict as JSON. ways: the scans known to lead to each pair."""
     binding = found.product.binding
     record: dict[str, Any] = {
         "command": "prove-program",
@@ -212,6 +242,11 @@ def record_of(found: Verdict, seconds: float) -> dict[str, Any]:
         "unit": binding.unit.name,
         "sources": dict(binding.source.files),
         "target": binding.reference.device.name,
+        "reference": certificate.reference_files(binding.reference.document),
+        "tools": certificate.tools(),
+        "trusted": list(TRUSTED),
+        "not_shown": list(not_shown(found)),
+        "states": states(found.product, ways),
         "compared": list(binding.compared),
         "left_out": list(binding.left_out),
         "free_parameters": list(binding.free_parameters),

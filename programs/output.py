@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -21,50 +23,52 @@ UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]
 """What XML 1.0 cannot hold."""
 
 
-def record_path(place: Path, target: str, unit: str) -> Path:
-    """Where the record of the last run on a program lies."""
-    return build(place) / "programs" / f"{target}-{unit}.json"
-
-
 def write_record(place: Path, record: Mapping[str, Any], also: Path | None) -> None:
-    """Write the record of a run to its place, and to a file that was asked for. Raises Unjudged."""
-    path = record_path(place, record["target"], record["unit"])
+    """Write the record of a run below `build`, and to a file that was asked for. Raises Unjudged."""
+    path = build(place) / "programs" / f"{record.get('target', 'properties')}-{record['unit']}.json"
     path.parent.mkdir(parents=True, exist_ok=True)
     write_json(path, record)
     if also is not None:
         write_json(also, record)
 
 
-def junit_of(record: Mapping[str, Any], text: str) -> str:
-    """The verdict as JUnit XML: one test case; REFUTED is a failure, UNKNOWN an error."""
-    word = record["verdict"]
+@dataclass(frozen=True)
+class Case:
+    """A test case of JUnit: its name, the word and the lines of its verdict, and what else is said of it."""
+
+    name: str
+    word: str
+    text: str
+    properties: Mapping[str, str]
+
+    @property
+    def element(self) -> str:
+        """What JUnit calls it: REFUTED is a failure, what is neither shown nor refuted an error."""
+        return {"PROVED": "system-out", "REFUTED": "failure"}.get(self.word, "error")
+
+
+def junit_of(suite: str, cases: Sequence[Case], seconds: float) -> str:
+    """Verdicts as JUnit XML. seconds: of CPU, for all of them."""
+    kinds = Counter(case.element for case in cases)
     attributes = {
-        "name": record["target"],
-        "tests": "1",
-        "failures": str(int(word == "REFUTED")),
-        "errors": str(int(word == "UNKNOWN")),
+        "name": _xml(suite),
+        "tests": str(len(cases)),
+        "failures": str(kinds["failure"]),
+        "errors": str(kinds["error"]),
         "skipped": "0",
-        "time": str(record["cpu_seconds"]),
+        "time": str(seconds),
     }
     root = ElementTree.Element("testsuites", name="modeproof prove-program")
-    suite = ElementTree.SubElement(root, "testsuite", attributes)
-    case = ElementTree.SubElement(
-        suite, "testcase", classname=record["target"], name=record["unit"], time=str(record["cpu_seconds"])
-    )
-    properties = ElementTree.SubElement(case, "properties")
-    said = {
-        "verdict": word,
-        "compared": ", ".join(record["compared"]),
-        "left out": ", ".join(record["left_out"]),
-    }
-    for name, value in {**said, **record["sources"]}.items():
-        ElementTree.SubElement(properties, "property", name=_xml(name), value=_xml(value))
-    text = _xml(text)
-    if word == "PROVED":
-        ElementTree.SubElement(case, "system-out").text = text
-    else:
-        kind = "failure" if word == "REFUTED" else "error"
-        ElementTree.SubElement(case, kind, message=text.partition("\n")[0]).text = text
+    of = ElementTree.SubElement(root, "testsuite", attributes)
+    for case in cases:
+        told = {"classname": _xml(suite), "name": _xml(case.name)}
+        row = ElementTree.SubElement(of, "testcase", told)
+        properties = ElementTree.SubElement(row, "properties")
+        for name, value in {"verdict": case.word, **case.properties}.items():
+            ElementTree.SubElement(properties, "property", name=_xml(name), value=_xml(value))
+        text = _xml(case.text)
+        message = {} if case.element == "system-out" else {"message": text.partition("\n")[0]}
+        ElementTree.SubElement(row, case.element, message).text = text
     ElementTree.indent(root)
     return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
 

@@ -19,10 +19,11 @@ from programs.st import read_text
 from programs.tree import Place, Source, Unit
 
 SPACES = ("http://www.plcopen.org/xml/tc6_0201", "http://www.plcopen.org/xml/tc6_0200")
-POUS = {"functionBlock": "FUNCTION_BLOCK", "program": "PROGRAM"}
+POUS = {"functionBlock": "FUNCTION_BLOCK", "program": "PROGRAM", "function": "FUNCTION"}
 SECTIONS = {
     "inputVars": "VAR_INPUT",
     "outputVars": "VAR_OUTPUT",
+    "inOutVars": "VAR_IN_OUT",
     "localVars": "VAR",
     "tempVars": "VAR_TEMP",
 }
@@ -70,6 +71,7 @@ def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
         raise pou.place.refuse(f"{pou.get('name')}: the body begins or ends another unit")
     (unit,) = units
     expected = [variable.get("name") for _, variable in _variables(pou)]
+    expected += [unit.name] * (unit.kind == "function")
     if [variable.name for variable in unit.variables.values()] != expected:
         raise pou.place.refuse(f"{unit.name}: body or values declare other variables than the interface")
     return replace(unit, place=pou.place), _lower(unit, _body(pou), pou.place)
@@ -116,10 +118,15 @@ def _declare(pou: Element, text: _Text) -> None:
         for group in pou.all(name):
             if group.children:
                 raise group.place.refuse(f"<{name}> of a POU are not supported")
-    text.put(pou.place, f"{POUS[kind]} {_identifier(pou, 'name')}")
+    result = [_type(given) for interface in pou.all("interface") for given in interface.all("returnType")]
+    if len(result) != (kind == "function"):
+        raise pou.place.refuse(
+            f"{pou.get('name')}: a function has one <returnType>, and nothing else has one"
+        )
+    text.put(pou.place, " : ".join([f"{POUS[kind]} {_identifier(pou, 'name')}", *result]))
     for interface in pou.all("interface"):
-        only(interface, *SECTIONS)
-        for group in interface.children:
+        only(interface, "returnType", *SECTIONS)
+        for group in (group for group in interface.children if group.name in SECTIONS):
             for child in group.children:
                 if child.name not in ("variable", "documentation", "addData"):
                     raise child.place.refuse(f"<{child.name}> in <{group.name}> is not supported")
@@ -141,11 +148,9 @@ def _declare(pou: Element, text: _Text) -> None:
     if body.name == "ST":
         inner = _text_of(body)
         text.put(inner.place, inner.text, inner.text_line)
-        text.put(
-            inner.place, "\n" + POUS[kind].replace("FUNCTION", "END_FUNCTION").replace("PROG", "END_PROG")
-        )
+        text.put(inner.place, "\n" + f"END_{POUS[kind]}")
         return
-    text.put(pou.place, POUS[kind].replace("FUNCTION", "END_FUNCTION").replace("PROG", "END_PROG"))
+    text.put(pou.place, f"END_{POUS[kind]}")
 
 
 def _body(pou: Element) -> Element:
@@ -234,6 +239,10 @@ def _lower(unit: Unit, body: Element, place: Place) -> Lower:
             if not unit.body:
                 raise body.place.refuse(f"{unit.name}: the body has no statement")
             return replace(unit, place=place)
+        if unit.kind == "function" or unit.of("in_out"):
+            raise body.place.refuse(
+                f"{unit.name}: a function, and a block with VAR_IN_OUT, has a body in ST here"
+            )
         return Diagram(source, unit, body).unit(place)
 
     return lower

@@ -17,7 +17,7 @@ import z3
 from programs.bind import Binding
 from programs.relations import Relation, Vocabulary, like
 from programs.symbolic import Obligation, Scan, Translator
-from programs.terms import Slot, constant, in_range, live, slots, symbol
+from programs.terms import Slot, compared_with, constant, in_range, live, slots, symbol
 
 OUTPUTS = "outputs are equal"
 RANGES = "memory stays within its ranges"
@@ -131,8 +131,14 @@ class Product:
         return {
             **{f"r:{place}": term for place, term in reference.memory_terms.items()},
             **{f"p:{path}": term for path, term in self.memory.items() if path not in self.control},
-            **{f"g:{place}": term for place, term in reference.parameter_terms.items()},
+            **self.parameters,
         }
+
+    @cached_property
+    def parameters(self) -> dict[str, Any]:
+        """The terms of the parameters, also as the program's inputs have them."""
+        terms = {**self.binding.reference.parameter_terms, **self.binding.words}
+        return {f"g:{place}": term for place, term in terms.items()}
 
     @cached_property
     def vocabulary(self) -> Vocabulary:
@@ -146,7 +152,8 @@ class Product:
         }
         sorts = {name: str(term.sort()) for name, term in self.symbols.items()}
         keys = {name for name in sorts if name.startswith("r:") and sorts[name] == "Int"} - times
-        return Vocabulary(sorts, frozenset(keys), sizes)
+        limits = compared_with([*self.translated.after.values(), *self.translated.outputs.values()])
+        return Vocabulary(sorts, frozenset(keys), sizes, sorted(limits))
 
     @cached_property
     def assumed(self) -> z3.BoolRef:
@@ -174,7 +181,7 @@ class Product:
                 {
                     **{f"r:{place}": term for place, term in step.after.items()},
                     **{f"p:{path}": scan.after[path] for path in self.memory if path not in self.control},
-                    **{f"g:{place}": term for place, term in reference.parameter_terms.items()},
+                    **self.parameters,
                 },
                 {
                     place: (step.outputs[place], term)

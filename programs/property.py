@@ -17,7 +17,7 @@ from programs.induction import System, Way, induction, shortest, spacer
 from programs.questions import TYPES
 from programs.relations import like
 from programs.replay import memory_of
-from programs.terms import in_range, parts
+from programs.terms import compared_with, in_range
 
 RUNS, LENGTH = 60, 50
 """Of the random runs from which the candidates of invariants come."""
@@ -167,7 +167,7 @@ class Judgement:
     def lemmas(self) -> list[z3.BoolRef]:
         """Invariants of the part of the program that the properties depend on."""
         system = self.system.cone(*(self.bad(one) for one in self.asked))
-        limits = sorted(_numbers([*system.after.values(), *(self.bad(one) for one in self.asked)]))
+        limits = sorted(compared_with([*system.after.values(), *(self.bad(one) for one in self.asked)]))
         few = {
             path: range(slot.type.low, slot.type.high + 1)
             for path, slot in self.cell.slots.items()
@@ -246,15 +246,3 @@ class Judgement:
             (values["dt_ms"], {path: values[path] for path in self.cell.inputs}) for values in way.scans
         ]
         return retained, scans
-
-
-def _numbers(terms: Sequence[Any]) -> set[int]:
-    """The whole numbers above 1 that times are compared with in these terms."""
-    compared = (z3.is_le, z3.is_ge, z3.is_lt, z3.is_gt)
-    return {
-        abs(side.as_long())
-        for part in parts(terms)
-        if any(kind(part) for kind in compared)
-        for side in part.children()
-        if z3.is_int_value(side)
-    } - {0, 1}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import json
+import hashlib
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,13 +11,22 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import root
+from modeproof.kit.files import write_text
+from programs import certificate
 from programs.cell import Cell
 from programs.command import choose
+from programs.output import Case, junit_of, write_record
 from programs.property import Found, Judgement
 from programs.questions import read_questions
 from programs.sources import read_sources
 
-TRUSTED = "the reader and translator of programs, the model of the timers, the path explorer, z3"
+TRUSTED = (
+    "the reader and translator of programs",
+    "the model of the timers",
+    "the path explorer, which reads the blocks",
+    "z3",
+)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -34,10 +43,18 @@ def run(args: argparse.Namespace) -> int:
     tell("")
     seconds = time.process_time() - started
     print("\n".join(text_of(cell, found, seconds)))
-    if args.json is not None:
-        record = record_of(cell, found, args.property, seconds)
-        args.json.write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", "utf-8")
+    record = record_of(cell, found, args.property, seconds)
+    write_record(root(), record, args.json)
+    if args.junit is not None:
+        cases = [_case(cell, verdict) for verdict in found]
+        write_text(args.junit, junit_of(cell.unit.name, cases, record["cpu_seconds"]))
     return status(found)
+
+
+def _case(cell: Cell, found: Found) -> Case:
+    """A property as a test case of JUnit."""
+    said = {"property": found.asked.text, "how": found.how}
+    return Case(found.asked.id, found.word, "\n".join(_verdict(cell, found)), {**said, **cell.source.files})
 
 
 def judged(
@@ -64,12 +81,10 @@ def text_of(cell: Cell, found: Sequence[Found], seconds: float) -> Iterator[str]
     yield f"{cell.unit.kind} {cell.unit.name} of {', '.join(cell.source.files)}"
     blocks = [f"{name} ({block.reference.document})" for name, block in cell.blocks.items()]
     yield f"  blocks      {', '.join(blocks) or 'none of the documents'}"
-    low, high = cell.scan_time
-    limit = f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
-    yield f"  scans       of {limit}; every input, from power-up, for ever"
+    yield f"  scans       of {_times(cell)}; every input, from power-up, for ever"
     for verdict in found:
         yield from _verdict(cell, verdict)
-    yield f"  trusted     {TRUSTED}"
+    yield f"  trusted     {', '.join(TRUSTED)}"
     yield f"  effort      {seconds:.1f} s CPU"
 
 
@@ -115,13 +130,33 @@ def _row(values: Mapping[str, Any]) -> str:
     )
 
 
+def _not_shown(cell: Cell) -> Iterator[str]:
+    """What the verdicts say nothing about, in words."""
+    yield f"scans outside {_times(cell)}"
+    yield "outputs, variables and pins that no property names"
+    yield "what the compiler and the PLC make of the source"
+
+
+def _times(cell: Cell) -> str:
+    low, high = cell.scan_time
+    return f"{low} to {high:,} ms" if high is not None else f"{low} ms or more"
+
+
 def record_of(cell: Cell, found: Sequence[Found], properties: Path, seconds: float) -> dict[str, Any]:
     """The verdicts as JSON."""
     return {
         "command": "prove-program",
         "unit": cell.unit.name,
         "sources": dict(cell.source.files),
-        "properties": str(properties),
+        "properties": {str(properties): hashlib.sha256(properties.read_bytes()).hexdigest()},
+        "reference": {
+            path: digest
+            for document in sorted({block.reference.document for block in cell.blocks.values()})
+            for path, digest in certificate.reference_files(document).items()
+        },
+        "tools": certificate.tools(),
+        "trusted": list(TRUSTED),
+        "not_shown": list(_not_shown(cell)),
         "blocks": {name: block.reference.device.name for name, block in cell.blocks.items()},
         "scan_time_ms": list(cell.scan_time),
         "wrap": cell.wrap,

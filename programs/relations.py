@@ -21,12 +21,26 @@ Column = tuple[Any, ...]
 
 MOST_KEYS = 24
 """Entries of a table; more say that the one value does not determine the other."""
-KINDS = ("constant", "equal", "unequal", "at most", "at least", "sum", "sum modulo", "least", "table")
+KINDS = (
+    "constant",
+    "equal",
+    "unequal",
+    "at most",
+    "at least",
+    "up to",
+    "sum",
+    "sum modulo",
+    "least",
+    "table",
+)
 
 
 @dataclass(frozen=True)
 class Relation:
-    """One candidate: its kind, the two sides, and a constant, a third name, or the rows of a table."""
+    """One candidate: its kind, the two sides, and a constant, a third name, or the rows of a table.
+
+    A row is a value of the left side, and that of the right one or the name of the parameter that gives it.
+    """
 
     kind: str
     left: str
@@ -47,6 +61,8 @@ class Relation:
                 return bool(left <= right)
             case "at least":
                 return bool(left >= self.value)
+            case "up to":
+                return bool(left <= self.value)
             case "sum":
                 return bool(left + right == values[self.value])
             case "sum modulo":
@@ -55,7 +71,10 @@ class Relation:
             case "least":
                 return bool(left == min(right, values[self.value]))
             case "table":
-                return (left, right) in self.value
+                return any(
+                    left == key and right == (values[to] if isinstance(to, str) else to)
+                    for key, to in self.value
+                )
         raise AssertionError(self.kind)
 
     def formula(self, term: Callable[[str], Any]) -> z3.BoolRef:
@@ -72,6 +91,8 @@ class Relation:
                 return left <= right
             case "at least":
                 return left >= self.value
+            case "up to":
+                return left <= self.value
             case "sum":
                 return left + right == term(self.value)
             case "sum modulo":
@@ -82,7 +103,11 @@ class Relation:
                 return left == z3.If(right <= limit, right, limit)
             case "table":
                 rows = [
-                    z3.And(left == like(left, key), right == like(right, value)) for key, value in self.value
+                    z3.And(
+                        left == like(left, key),
+                        right == (term(to) if isinstance(to, str) else like(right, to)),
+                    )
+                    for key, to in self.value
                 ]
                 return z3.Or(rows)
         raise AssertionError(self.kind)
@@ -90,10 +115,16 @@ class Relation:
     @property
     def names(self) -> tuple[str, ...]:
         """The values that it speaks of."""
-        third = {"sum": self.value, "least": self.value}.get(self.kind)
-        if self.kind == "sum modulo":
-            third = self.value[0]
-        return tuple(name for name in (self.left, self.right, third) if name)
+        match self.kind:
+            case "sum" | "least":
+                others = [self.value]
+            case "sum modulo":
+                others = [self.value[0]]
+            case "table":
+                others = [to for _, to in self.value if isinstance(to, str)]
+            case _:
+                others = []
+        return tuple(name for name in (self.left, self.right, *others) if name)
 
     def __str__(self) -> str:
         match self.kind:
@@ -107,6 +138,8 @@ class Relation:
                 return f"{self.left} <= {self.right}"
             case "at least":
                 return f"{self.left} >= {self.value}"
+            case "up to":
+                return f"{self.left} <= {self.value}"
             case "sum":
                 return f"{self.left} + {self.right} = {self.value}"
             case "sum modulo":
@@ -131,12 +164,14 @@ def plain(term: Any) -> Any:
 class Vocabulary:
     """What relations may speak of. sorts: the sort of each name. keys: names that tables may begin with.
 
-    sizes: of the program's numbers that wrap, how many values each has.
+    sizes: of the program's numbers that wrap, how many values each has. limits: numbers with which the
+    program compares, from the smallest on.
     """
 
     sorts: Mapping[str, str]
     keys: Collection[str] = ()
     sizes: Mapping[str, int] | None = None
+    limits: Sequence[int] = ()
 
     def candidates(self, seen: Sequence[Values]) -> list[Relation]:
         """The relations of all kinds that hold in every sample, without those that follow from others."""
@@ -165,7 +200,7 @@ class Vocabulary:
                 if sort == "Int":
                     numbers[name] = column
         found = [relation for relation in found if not all(map(is_parameter, relation.names))]
-        return [*found, *self._numeric(numbers), *self._tables(stand_for)]
+        return [*found, *self._numeric(numbers), *self._tables(stand_for, moving)]
 
     def _numeric(self, numbers: Mapping[str, Column]) -> list[Relation]:
         found = []
@@ -175,6 +210,9 @@ class Vocabulary:
             low = next((low for low in (1, 0, -1) if low <= least), None)
             if low is not None:
                 found.append(Relation("at least", name, value=low))
+            high = next((limit for limit in self.limits if limit >= max(numbers[name])), None)
+            if high is not None:
+                found.append(Relation("up to", name, value=high))
         for left, right in itertools.permutations(numbers, 2):
             if is_parameter(left) and is_parameter(right):
                 continue
@@ -191,28 +229,52 @@ class Vocabulary:
                     found.append(Relation("sum", left, right, total))
                 elif size and not any(rest % size for rest in apart):
                     found.append(Relation("sum modulo", left, right, (total, size)))
-        ages = [name for name in own if name.endswith(".age")]
         limits = [name for name in numbers if is_parameter(name) or name.endswith(".PT")]
-        for left, age, limit in itertools.product(own, ages, limits):
-            rows = zip(numbers[left], numbers[age], numbers[limit], strict=True)
-            if left != age and all(value == min(since, most) for value, since, most in rows):
-                found.append(Relation("least", left, age, limit))
+        for left, time, limit in itertools.product(own, own, limits):
+            rows = zip(numbers[left], numbers[time], numbers[limit], strict=True)
+            if left != time != limit != left and all(
+                value == min(since, most) for value, since, most in rows
+            ):
+                found.append(Relation("least", left, time, limit))
         return found
 
-    def _tables(self, columns: Mapping[str, Column]) -> list[Relation]:
+    def _tables(self, columns: Mapping[str, Column], moving: Mapping[str, Column]) -> list[Relation]:
         found = []
+        parameters = [name for name in moving if is_parameter(name)]
         for left in columns:
             if left not in self.keys:
                 continue
             for right, column in columns.items():
                 if not right.startswith("p:"):
                     continue
-                table: dict[Any, Any] = {}
-                pairs = zip(columns[left], column, strict=True)
-                told = all(table.setdefault(key, value) == value for key, value in pairs)
-                if told and len(table) <= MOST_KEYS:
-                    found.append(Relation("table", left, right, tuple(sorted(table.items()))))
+                among = {name: moving[name] for name in parameters if self.sorts[name] == self.sorts[right]}
+                table = _table(columns[left], column, among)
+                if table is not None:
+                    found.append(Relation("table", left, right, table))
         return found
+
+
+def _table(
+    keys: Column, values: Column, parameters: Mapping[str, Column]
+) -> tuple[tuple[Any, Any], ...] | None:
+    """What each key goes with: a value, else a parameter that had the value each time; None: neither."""
+    met: dict[Any, list[int]] = {}
+    for number, key in enumerate(keys):
+        met.setdefault(key, []).append(number)
+    if len(met) > MOST_KEYS:
+        return None
+    found = []
+    for key, numbers in sorted(met.items()):
+        value = values[numbers[0]]
+        if any(values[number] != value for number in numbers):
+            value = next(
+                (name for name, column in parameters.items() if all(column[n] == values[n] for n in numbers)),
+                None,
+            )
+            if value is None:
+                return None
+        found.append((key, value))
+    return tuple(found)
 
 
 def is_parameter(name: str) -> bool:

@@ -110,6 +110,19 @@ class Replayed:
                 found[pair] = met
         return {pair: met.run.upto(met.number) for pair, met in found.items()}
 
+    def routes(self, product: Product) -> Mapping[Pair, tuple[Pair, ...]]:
+        """The pairs on the way of the fewest scans to each pair, without those that a scan stays in."""
+        found: dict[Pair, tuple[Pair, ...]] = {}
+        route: tuple[Pair, ...] = ()
+        for met in self.met:
+            if met.number == 1:
+                route = (product.start[0],)
+            pair = met.pair(product)
+            route = route if pair == route[-1] else (*route, pair)
+            if pair not in found or len(route) < len(found[pair]):
+                found[pair] = route
+        return found
+
 
 def replay(binding: Binding, wrap: bool, run: Run, found_by: str) -> Difference | None:
     """Run both from power-up to the first difference; None: there is none."""
@@ -152,6 +165,7 @@ def _parameters(binding: Binding, parameters: Mapping[str, Any]) -> Values:
         value = parameters[name]
         if signal.type == "modes":
             found |= {f"g:{name}[{mode}]": value[mode] for mode in range(5)}
+            found[f"g:{name}"] = sum(1 << mode for mode in range(5) if value[mode])
         else:
             found[f"g:{name}"] = signal.values.index(value) if signal.type == "text" else value
     return found

@@ -34,6 +34,7 @@ from programs.tree import (
     Return,
     Scalar,
     Source,
+    Stop,
     Type,
     Unary,
     Unit,
@@ -190,6 +191,8 @@ class Machine:
                     self.invoke(frame, instance, inputs, outputs)
                 case Return():
                     raise _Returned
+                case Stop(text, place):
+                    raise Overflow(f"{place.file}:{place.line}: not so: {text}")
 
     def clause(self, frame: Frame, clauses: Any, found: int, otherwise: Body) -> Body:
         for ranges, inner in clauses:

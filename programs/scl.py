@@ -12,7 +12,7 @@ from programs.st import read_text
 from programs.tree import Place, Unit
 
 TIMERS = {"TON_TIME": "TON", "TOF_TIME": "TOF", "TP_TIME": "TP"}
-HEADS = ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "ORGANIZATION_BLOCK")
+HEADS = ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "ORGANIZATION_BLOCK", "TYPE", "DATA_BLOCK")
 PREFIXES = {"W#": "WORD#", "DW#": "DWORD#", "B#": "BYTE#"}
 _TOKEN = re.compile(
     r"""
@@ -50,7 +50,7 @@ def structured_text(text: str, file: str) -> str:
         found, kind = match[0], match.lastgroup
         if kind == "word" and found.upper() in HEADS:
             header = True
-        elif kind == "begin" or (kind == "word" and found.upper().startswith("VAR")):
+        elif kind == "begin" or (kind == "word" and found.upper().startswith(("VAR", "STRUCT"))):
             header = False
         elif kind == "about" and not header:
             raise Place(file, line).refuse(f"{found.split()[0]} is understood in the head of a block only")

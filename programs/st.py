@@ -37,6 +37,7 @@ from programs.tree import (
     Return,
     Scalar,
     Statement,
+    Stop,
     Type,
     Unary,
     Unit,
@@ -45,6 +46,8 @@ from programs.tree import (
 
 LONGEST = 1000
 """Elements of an array."""
+MOST_TURNS = 32
+"""Of WHILE and REPEAT: that no more are needed is part of the proof."""
 SECTIONS = {
     "var_input": "input",
     "var_output": "output",
@@ -52,15 +55,18 @@ SECTIONS = {
     "var_temp": "temp",
     "var_in_out": "in_out",
 }
+STRUCTURE = "structures are not supported: declare each member as a variable of its own"
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
 _MEMBER = re.compile(r"\b([A-Za-z_]\w*)#(?=[A-Za-z_])")
+_TIME = re.compile(r"\b(?:L?TIME|L?T)#[\w.]+", re.IGNORECASE)
 _PREFIXES = {*SCALARS, "T", "LTIME", "LT", "DATE", "D", "TOD", "DT"}
 
 
 def read_text(text: str, file: str) -> list[Unit]:
     """The program units of one text. Raises Unjudged with file, line and cause."""
     text = _MEMBER.sub(lambda match: match[0] if match[1].upper() in _PREFIXES else f"{match[1]}.", text)
+    text = _TIME.sub(lambda match: match[0].replace("_", ""), text)
     root = _PARSER.parse(text.encode("utf-8")).root_node
     if root.has_error:
         fault = next(_faults(root))
@@ -68,9 +74,15 @@ def read_text(text: str, file: str) -> list[Unit]:
         raise Place(file, fault.start_point[0] + 1).refuse(
             f"{shown!r} is missing or not Structured Text"
             if fault.is_missing
-            else f"syntax error at {shown!r}"
+            else f"syntax error at {shown!r}{_advice(shown)}"
         )
     return _Reader(file).units(root)
+
+
+def _advice(shown: str) -> str:
+    if shown.upper().startswith("STRUCT"):
+        return f"; {STRUCTURE}"
+    return "; bits (X.0, X.%X0) and addresses are not supported: use AND with a mask" * shown.startswith("%")
 
 
 def _faults(node: Any) -> Iterator[Any]:
@@ -213,7 +225,7 @@ class _Reader:
             return Scalar(
                 name or f"enum at line {node.start_point[0] + 1}", "enum", 0, len(names) - 1, tuple(names)
             )
-        raise self.refuse(node)
+        raise self.refuse(node, STRUCTURE if node.type == "structure_type_inline" else "")
 
     def constant(self, node: Any) -> int:
         value = self.expression(node)
@@ -260,8 +272,24 @@ class _Reader:
     # ------------------------------------------------------------ statements
 
     def body(self, nodes: Iterable[Any]) -> Body:
-        found = [self.statement(node) for node in nodes if node.type != "empty_statement"]
+        found: list[Statement] = []
+        for node in nodes:
+            if node.type in ("while_statement", "repeat_statement"):
+                found += self.loop(node, self.place(node))
+            elif node.type != "empty_statement":
+                found.append(self.statement(node))
         return tuple(found)
+
+    def loop(self, node: Any, place: Place) -> Iterator[Statement]:
+        """WHILE and REPEAT, turn by turn; after the last one nothing may be left to do."""
+        self.read += 1
+        going, inner = self.expression(self.field(node, "condition")), self.body(self.fields(node, "body"))
+        if node.type == "repeat_statement":
+            yield from inner
+            going = Unary("NOT", going, place)
+        yield from (If(((going, inner),), (), place) for _ in range(MOST_TURNS))
+        stop = Stop(f"the loop ends after {MOST_TURNS} turns at most", place)
+        yield If(((going, (stop,)),), (), place)
 
     def statement(self, node: Any) -> Statement:
         self.read += 1

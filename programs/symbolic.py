@@ -56,6 +56,7 @@ from programs.tree import (
     Return,
     Scalar,
     Source,
+    Stop,
     Type,
     Unary,
     Unit,
@@ -179,6 +180,8 @@ class Translator:
                 env[path] = z3.IntVal(low + by * len(turns))
             case Call(instance, inputs, outputs, place):
                 self.invoke(at, instance, inputs, outputs, env, here)
+            case Stop(text, place):
+                self.owe(negated(here), text, place)
             case Return():
                 return TRUE
         return FALSE

@@ -89,6 +89,18 @@ def names_in(terms: Iterable[Any]) -> set[str]:
     }
 
 
+def compared_with(terms: Iterable[Any]) -> set[int]:
+    """The whole numbers above 1 that something is compared with in these terms."""
+    compared = (z3.is_le, z3.is_ge, z3.is_lt, z3.is_gt)
+    return {
+        abs(side.as_long())
+        for part in parts(terms)
+        if any(kind(part) for kind in compared)
+        for side in part.children()
+        if z3.is_int_value(side)
+    } - {0, 1}
+
+
 def live(asked: Iterable[Any], after: Mapping[str, tuple[str, Any]]) -> set[str]:
     """The paths on which the terms that are asked for depend, in this scan or a later one.
 

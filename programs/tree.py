@@ -217,7 +217,15 @@ class Return:
     place: Place
 
 
-Statement = Assign | If | Case | For | Call | Return
+@dataclass(frozen=True)
+class Stop:
+    """What must not be reached: the PLC would stop there. text: what is true where it is not reached."""
+
+    text: str
+    place: Place
+
+
+Statement = Assign | If | Case | For | Call | Return | Stop
 Body = tuple[Statement, ...]
 
 

@@ -12,13 +12,15 @@ from programs.certificate import run_of
 from programs.fixpoint import Search, prune
 from programs.product import OUTPUTS, Owed, Product, shown
 from programs.replay import Difference, Replayed, published, replay
-from programs.search import shortest
+from programs.search import shortest, through
 from programs.shorten import shortened
 from programs.terms import names_in
 
-LONGEST = 20
+LONGEST = 24
 """Scans of a counterexample that is searched for along the pairs."""
-FIRST_S, SEARCH_S = 10.0, 60.0
+SHALLOW = 0.3
+"""Part of the time of a search in which the shortest is looked for."""
+FIRST_S, SEARCH_S = 20.0, 60.0
 """For the search before other control variables are tried, and for the one after that."""
 MOST_SPLIT = 6
 """BOOL variables that are made control variables at once."""
@@ -48,7 +50,7 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: b
     tell(f"{first.cases} published vectors replayed, {first.scans:,} scans")
     try:
         doubts = _doubts(product, first, seconds, tell)
-        if doubts and (found := _refuted(product, doubts, FIRST_S, tell)):
+        if doubts and (found := _refuted(product, doubts, first, FIRST_S, tell)):
             return Verdict("REFUTED", product, first, found)
         if doubts and (flags := _flags(product, doubts)):
             finer = replace(product, split=flags, nodes={})
@@ -58,7 +60,7 @@ def judge(product: Product, vectors: Path, seconds: float, tell: Tell, fewest: b
         return Verdict("UNKNOWN", product, first, missing=str(error))
     if not doubts:
         return Verdict("PROVED", product, first)
-    if found := _refuted(product, doubts, SEARCH_S, tell):
+    if found := _refuted(product, doubts, first, SEARCH_S, tell):
         return Verdict("REFUTED", product, first, found)
     return Verdict("UNKNOWN", product, first, missing="not shown: " + "; ".join(map(_words, doubts[:3])))
 
@@ -114,13 +116,19 @@ def _words(doubt: Owed) -> str:
     return f"{doubt.place + ': ' if doubt.place else ''}{doubt.what} (pair {shown(doubt.pair)})"
 
 
-def _refuted(product: Product, doubts: Sequence[Owed], seconds: float, tell: Tell) -> Difference | None:
+def _refuted(
+    product: Product, doubts: Sequence[Owed], replayed: Replayed, seconds: float, tell: Tell
+) -> Difference | None:
     """Scans along the pairs that differ when they are replayed with plain values; None: not found."""
     tell(f"not shown: {_words(doubts[0])}; looking for scans from power-up")
     try:
-        way = shortest(product, doubts, LONGEST, seconds)
+        way = shortest(product, doubts, LONGEST, SHALLOW * seconds)
+        fewest = way is not None
+        if way is None:
+            way = through(product, doubts, replayed.routes(product), LONGEST, (1 - SHALLOW) * seconds)
     except TimeoutError:
         return None
     if way is None:
         return None
-    return replay(product.binding, product.wrap, run_of(product, way), "search along the pairs")
+    found = replay(product.binding, product.wrap, run_of(product, way), "search along the pairs")
+    return found if found is None or fewest else shortened(product.binding, product.wrap, found)

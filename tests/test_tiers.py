@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -25,6 +26,9 @@ def test_first_alone(n): pass
 def test_second_tier(): pass
 
 def test_plain(): pass
+
+@pytest.mark.parametrize("n", [1, pytest.param(2, marks=pytest.mark.long)])
+def test_long(n): pass
 """
 CONFTEST = """
 import pytest
@@ -54,8 +58,19 @@ def collected(place: Path, *words: str) -> list[str]:
 def test_the_tiers_are_apart_and_together_they_are_all(place: Path) -> None:
     first, second = collected(place, "-m", "not deep"), collected(place, "-m", "deep")
     third = ["test_every_third[0]", "test_every_third[3]", "test_every_third[6]"]
-    assert first == [*third, "test_first_alone[0]", "test_plain"]
-    assert sorted(first + second) == sorted(collected(place)) and len(second) == 7
+    assert first == [*third, "test_first_alone[0]", "test_plain", "test_long[1]"]
+    assert sorted(first + second) == sorted(collected(place)) and len(second) == 8
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("asked", "words"), [({}, "7 passed, 1 skipped"), ({"MODEPROOF_LONG": "1"}, "8 passed")]
+)
+def test_a_long_case_runs_on_request_alone(place: Path, asked: dict[str, str], words: str) -> None:
+    command = [sys.executable, "-m", "pytest", "-m", "deep", "-p", "no:cacheprovider"]
+    environment = {name: value for name, value in os.environ.items() if name != "MODEPROOF_LONG"} | asked
+    done = subprocess.run(command, cwd=place, capture_output=True, text=True, check=False, env=environment)
+    assert words in done.stdout, done.stdout
 
 
 def test_a_mark_without_a_sensible_number_is_refused(place: Path) -> None:

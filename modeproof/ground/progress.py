@@ -7,10 +7,12 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from typing import TextIO
+from collections.abc import Iterator, Sequence
+from typing import TextIO, TypeVar
 
 from modeproof.kit.text import left
 
+T = TypeVar("T")
 QUIET_SECONDS = 10.0
 """Elsewhere than on a terminal a running task says a word this often."""
 
@@ -59,6 +61,17 @@ class Progress:
             self._marks.pop(name, None)
             self._done += 1
             self._wipe()
+
+    def over(self, name: str, items: Sequence[T]) -> Iterator[T]:
+        """The items one by one, as one task that says how many are done and how long the others may take."""
+        self.expect(1)
+        self.begin(name)
+        try:
+            for number, item in enumerate(items):
+                self.update(name, f"{number} of {len(items)}", number / len(items))
+                yield item
+        finally:
+            self.end(name)
 
     def tick(self) -> None:
         """Time goes on: show the seconds."""

@@ -11,6 +11,7 @@ from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unju
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import add_document_option, chosen_documents
 from modeproof.ground.places import root as repository_root
+from modeproof.ground.progress import Progress
 from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.citations import read_sources
 from modeproof.registers.judge import Judgement, judge, judge_tree
@@ -34,6 +35,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--csv", type=Path, metavar="FILE", help="write the matrix of one document as CSV")
     parser.add_argument("--repin", action="store_true", help="pin what properties and theorems say now")
     parser.add_argument("--reason", metavar="TEXT", help="why the pins move; kept beside them")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
 
 
@@ -50,7 +52,8 @@ def run(args: argparse.Namespace) -> int:
             print(
                 "\n".join(repin(document, read_sources(document), reason)) or f"{document.name}: no pin moved"
             )
-    judgements = [judge(load_document(root, name)) for name in chosen]
+    progress = Progress(quiet=args.quiet)
+    judgements = [judge(load_document(root, name)) for name in progress.over("registers", chosen)]
     tree = judge_tree(root)
     for judgement in judgements:
         if args.matrix:

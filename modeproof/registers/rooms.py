@@ -44,6 +44,7 @@ RULES = (
             "modeproof.ground.evidence",
             "modeproof.ground.errors",
             "modeproof.ground.places",
+            "modeproof.ground.progress",
             *("modeproof.ground.proofs", "modeproof.tlc.again", "modeproof.graph.equal"),  # judged again
         ),
     ),
@@ -52,7 +53,7 @@ RULES = (
         (
             "modeproof.registers",
             *("modeproof.ground.errors", "modeproof.ground.evidence.files"),
-            *("modeproof.ground.places", "modeproof.ground.reason"),
+            *("modeproof.ground.places", "modeproof.ground.progress", "modeproof.ground.reason"),
         ),
     ),
 )

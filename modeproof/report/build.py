@@ -6,6 +6,7 @@ import base64
 import gzip
 import hashlib
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -19,21 +20,24 @@ from markupsafe import Markup
 from modeproof.ground.errors import Unjudged
 from modeproof.report.baseline import Baseline
 from modeproof.report.contradictions import contradictions
+from modeproof.report.filing import Filing, commit_of
 from modeproof.report.integrity import BLANK, seal_json, seal_of_json, seal_page
 from modeproof.report.missing import missing, mixed, unexpected
 from modeproof.report.part import Maker, Part, plain
-from modeproof.report.parts import makers
+from modeproof.report.parts import FILED, makers
+from modeproof.report.parts.review import sheet
 from modeproof.report.snapshot import snapshot
 from modeproof.report.sources import HOLE, NOTE, Sources, Trouble, gather
 from modeproof.report.terms import Terms
 from modeproof.report.vendored import SCRIPT, STYLE, tables
+from modeproof.report.verdicts import ASIDE
 
 SCHEMA_VERSION = 1
 SCHEMA = Path(__file__).with_name("report.schema.json")
 """What the JSON is; a test holds it against this."""
-SCRIPTS = ("report.js", "explorer.js", "charts.js", "traces.js")
+SCRIPTS = ("report.js", "review.js", "explorer.js", "charts.js", "traces.js")
 """Files of page/, in the order in which the page has them."""
-FIRST = "verdict"
+FIRST = FILED[0]
 """The part that shows the troubles of all."""
 LAST = "changes"
 """The part that is made after all others, for what it is compared with rests on what they read."""
@@ -68,15 +72,28 @@ def _status(troubles: Sequence[Trouble]) -> int:
     return min((trouble.status for trouble in troubles if trouble.status != NOTE), default=0)
 
 
-def make(root: Path, baseline: Callable[[str], Baseline] = lambda digest: Baseline()) -> Report:
-    """The report on what lies in `root`. Identical registers and evidence give an identical report.
+def make(
+    root: Path,
+    baseline: Callable[[str], Baseline] = lambda digest: Baseline(),
+    filing: Filing | None = None,
+    said: Callable[[str, float], None] = lambda part, share: None,
+) -> Report:
+    """The report on what lies in `root`. Identical registers, evidence and filing give an identical report.
 
-    `baseline` gives, for the digest of all that was read, the earlier report to compare with.
+    `baseline` gives, for the digest of all that was read, the earlier report to compare with. `said` is told
+    which part is made now, and which share of the parts there is already (0 to 1).
     """
-    sources = gather(root)
+    said("evidence", 0)
+    sources = gather(root, filing)
+    if sources.filing.answers is not None:
+        sheet(sources)
     found = [trouble for check in CHECKS for trouble in _checked(check, sources)]
     sources = replace(sources, troubles=(*sources.troubles, *found))
-    made = {id: _made(id, maker, sources) for id, maker in makers() if id != LAST}
+    made: dict[str, Part] = {}
+    parts_to_make = [(id, maker) for id, maker in makers() if id != LAST]
+    for number, (id, maker) in enumerate(parts_to_make):
+        said(id, number / len(parts_to_make))
+        made[id] = _made(id, maker, sources)
     try:
         sources.cache["snapshot"] = snapshot(sources)
     except ODD as error:
@@ -158,6 +175,7 @@ def _as_json(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...])
         "schema_version": SCHEMA_VERSION,
         "sha256": BLANK,
         "digest": sources.digest,
+        "documents": list(sources.filing.documents),
         "status": _status(troubles),
         "troubles": plain(troubles),
         "parts": {part.id: {"title": part.title, **plain(part.data)} for part in parts},
@@ -183,6 +201,7 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
             "title": part.title,
             "troubles": part.troubles,
             "bad": sum(1 for trouble in part.troubles if trouble.status),
+            "filed": part.id in FILED,
             "html": Markup(
                 terms.linked(part.id, sources.cache.get(f"html of {part.id}") or _rendered(part, troubles))
             ),
@@ -194,8 +213,15 @@ def _page(sources: Sources, parts: list[Part], troubles: tuple[Trouble, ...], js
     payload += _packed_tables()
     status = _status(troubles)
     scripts = [_file(name) for name in SCRIPTS]
+    commit = sources.once("commit", lambda: commit_of(sources.root))
+    titles = [document.about.title for document in sources.documents.values()]
+    shown[0]["html"] = Markup(shown[0]["html"]) + terms.explained(f"{shown[0]['html']} {parts[0].title}")
     return environment.get_template("report.html.j2").render(
         parts=shown,
+        title=titles[0] if len(titles) == 1 else f"{len(titles)} safety procedures",
+        day=sources.filing.day or "no date given",
+        commit=f"commit {commit}" if commit else "no commit",
+        chosen=" ".join(sources.filing.documents),
         state={"word": WORDS[status], "good": (True, False, None)[status]},
         m=macros,
         blank=BLANK,
@@ -249,8 +275,10 @@ def _environment() -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.globals["ASIDE"] = ASIDE
     environment.filters["number"] = number
     environment.filters["script_json"] = script_json
+    environment.filters["css_string"] = css_string
     return environment
 
 
@@ -259,6 +287,11 @@ def number(value: Any) -> str:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return str(value)
     return f"{value:,}" if isinstance(value, int) else f"{value:,.1f}"
+
+
+def css_string(text: str) -> Markup:
+    """A text as a string of a style sheet; whatever is not plain stands as its code."""
+    return Markup('"' + re.sub(r"[^\w .,:/()-]", lambda found: f"\\{ord(found.group()):x} ", text) + '"')
 
 
 def script_json(value: Mapping[str, Any]) -> Markup:

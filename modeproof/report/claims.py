@@ -65,7 +65,7 @@ class Result:
     def why(self) -> str:
         """What is wrong with it, in plain words; empty where nothing is."""
         if self.evidence is None:
-            return self.note or "no evidence"
+            return "" if self.aside else self.note or "no evidence"
         if self.evidence.changed:
             return f"the evidence is of another text of {self.evidence.changed[0]}"
         return str(self.evidence.record["reason"])

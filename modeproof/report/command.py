@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.evidence.files import write_whole
-from modeproof.ground.places import build
+from modeproof.ground.places import add_document_option, build, chosen_documents
 from modeproof.ground.places import root as repository_root
+from modeproof.ground.progress import Progress
 from modeproof.report.baseline import NAME, PREVIOUS, Baseline, choose, read_report
 from modeproof.report.build import SHOWN, Report, make
+from modeproof.report.filing import Filing, day_of
 from modeproof.report.part import plain
 from modeproof.report.recheck import PAGE, recheck
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, Trouble
@@ -30,7 +32,20 @@ def add_parser(commands: Any) -> None:
         "build/evidence/. Exit status: 0 complete and as expected, 1 something is not as expected or "
         "contradicts something else, 2 something is missing; the report is made in every case.",
     )
-    parser.add_argument("--out", type=Path, metavar="FOLDER", help=f"where to (default: {BESIDE})")
+    add_document_option(parser)
+    parser.add_argument("--date", metavar="YYYY-MM-DD", help="the day that the report is filed under")
+    parser.add_argument(
+        "--review",
+        type=Path,
+        metavar="FILE",
+        help="an answered review sheet: its answers stand in the report",
+    )
+    parser.add_argument(
+        "--out",
+        type=Path,
+        metavar="FOLDER",
+        help=f"where to (default: {BESIDE}, of chosen documents below it)",
+    )
     parser.add_argument(
         "--previous",
         type=Path,
@@ -47,6 +62,7 @@ def add_parser(commands: Any) -> None:
         "is gone or is new",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the result as JSON")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
 
 
@@ -55,9 +71,13 @@ def run(args: argparse.Namespace) -> int:
     place = repository_root()
     if args.verify is not None:
         return _verify(args, place)
-    folder = args.out or build(place) / "report"
+    chosen = chosen_documents(place, args.document) if args.document else ()
+    filing = Filing("" if args.date is None else day_of(args.date), chosen, args.review)
+    folder = args.out or build(place) / "report" / "-".join(chosen)
     given = None if args.previous is None else read_report(args.previous)[1]
-    report = make(place, lambda digest: choose(folder, digest) if given is None else Baseline(given))
+    report = _made(
+        place, lambda digest: choose(folder, digest) if given is None else Baseline(given), filing, args.quiet
+    )
     write(report, folder)
     for line in trouble_lines(report.troubles):
         print(line)
@@ -66,14 +86,25 @@ def run(args: argparse.Namespace) -> int:
     return report.status
 
 
-def made_by_verify(place: Path) -> list[str]:
+def _made(place: Path, baseline: Callable[[str], Baseline], filing: Filing, quiet: bool) -> Report:
+    """The report; what is being made, and how long it may take, stands on standard error meanwhile."""
+    progress = Progress(quiet=quiet)
+    progress.expect(1)
+    progress.begin("report")
+    try:
+        return make(place, baseline, filing, lambda part, share: progress.update("report", part, share))
+    finally:
+        progress.end("report")
+
+
+def made_by_verify(place: Path, quiet: bool = False) -> list[str]:
     """Make the report where it belongs, at the end of a verification: lines for the terminal.
 
     Its status is its own: what this lane does not make may be of older texts, and is named, not judged here.
     Raises Unjudged when it cannot be made or written.
     """
     folder = build(place) / "report"
-    report = make(place, lambda digest: choose(folder, digest))
+    report = _made(place, lambda digest: choose(folder, digest), Filing(), quiet)
     write(report, folder)
     bad = [trouble for trouble in report.troubles if trouble.status != NOTE]
     line = f"{'report':<12} {BESIDE}/{PAGE}"

@@ -6,7 +6,7 @@ import contextlib
 import hashlib
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -91,7 +91,9 @@ def recheck(root: Path, file: Path) -> Recheck:
             found.append(Difference("differs", str(page), why, DIFFERS))
         found += _attachments(record, texts[record])
     files = listed[file]
-    found += [*_compare(root, files, results), *_tools(root, "".join(texts.values()))]
+    documents = _documents(file, texts[file])
+    found += _compare(root, files, results, documents)
+    found += _tools(root, "".join(texts.values()), documents)
     return Recheck(len(files), tuple(dict.fromkeys(found)))
 
 
@@ -116,6 +118,14 @@ def _hashes(path: Path, text: str, id: str) -> Mapping[str, str]:
         raise Unjudged(f"{path}: damaged: its list of {id} cannot be read ({type(error).__name__})") from None
 
 
+def _documents(path: Path, text: str) -> tuple[str, ...]:
+    """The documents that a report is about; none: all."""
+    if path.suffix == ".json":
+        return tuple(json.loads(text).get("documents", ()))
+    found = re.search(r'<meta name="modeproof-documents" content="([^"]*)">', text)
+    return tuple(found.group(1).split()) if found else ()
+
+
 def _attachments(record: Path, text: str) -> Iterator[Difference]:
     """Files beside the report; one that was not kept is no matter, for the page carries it."""
     listed = json.loads(text).get("attachments", {})
@@ -127,8 +137,10 @@ def _attachments(record: Path, text: str) -> Iterator[Difference]:
             )
 
 
-def _compare(root: Path, files: Mapping[str, str], results: Mapping[str, str]) -> Iterator[Difference]:
-    """The listed files, and registers and evidence that are not listed.
+def _compare(
+    root: Path, files: Mapping[str, str], results: Mapping[str, str], documents: Sequence[str]
+) -> Iterator[Difference]:
+    """The listed files, and registers and evidence of these documents (none: of all) that are not listed.
 
     Evidence whose hash is another but whose result is the same was made again.
     """
@@ -148,7 +160,7 @@ def _compare(root: Path, files: Mapping[str, str], results: Mapping[str, str]) -
     for place in ("build/evidence/*/*.json", "spec/*/*.toml"):
         for one in sorted(root.glob(place)):
             name = one.relative_to(root).as_posix()
-            if name not in files:
+            if name not in files and (not documents or one.parent.name in documents):
                 yield Difference("new", name, "the report does not know it", DIFFERS)
 
 
@@ -161,10 +173,14 @@ def _made_again(path: Path, result: str | None) -> str:
     return ""
 
 
-def _tools(root: Path, text: str) -> Iterator[Difference]:
-    """The tools that made evidence and are not what they were, but for what the report says itself."""
+def _tools(root: Path, text: str, documents: Sequence[str]) -> Iterator[Difference]:
+    """The tools that made evidence of these documents (none: of all) and are not what they were, but for what
+    the report says itself.
+    """
     made: dict[str, list[str]] = {}
     for path in sorted(root.glob("build/evidence/*/*.json")):
+        if documents and path.parent.name not in documents:
+            continue
         with contextlib.suppress(Unjudged):  # a file that is damaged is not as the report has it
             for name in other_tools(read(path)):
                 if f"{path.stem} ({name}" in text:

@@ -18,6 +18,7 @@ from modeproof.ground.places import documents
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 from modeproof.report.again import contradiction
+from modeproof.report.filing import Filing
 
 T = TypeVar("T")
 NOTE, DIFFERS, HOLE = 0, 1, 2
@@ -105,6 +106,8 @@ class Sources:
     troubles: tuple[Trouble, ...] = ()
     yours: Mapping[str, Mapping[str, Evidence]] = field(default_factory=dict)
     """What was found out about a user's programs and logs: shown, and counted for nothing."""
+    filing: Filing = field(default_factory=Filing)
+    """What the caller says about the report."""
     cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
 
@@ -150,13 +153,14 @@ class Sources:
         return hashlib.sha256(lines.encode()).hexdigest()
 
 
-def gather(root: Path) -> Sources:
-    """Read all there is; documents stand in the order of the texts that they are about.
+def gather(root: Path, filing: Filing | None = None) -> Sources:
+    """Read all there is, or what is of the chosen documents, in the order of the texts that they are about.
 
     A register or a piece of evidence that is damaged becomes a trouble; the rest is read.
     Raises Unjudged only when there is no document at all.
     """
-    chosen = documents(root)
+    filing = filing or Filing()
+    chosen = [name for name in documents(root) if name in (filing.documents or (name,))]
     if not chosen:
         raise Unjudged("spec/ holds no document; there is nothing to report")
     troubles: list[Trouble] = []
@@ -205,6 +209,7 @@ def gather(root: Path) -> Sources:
         dict(sorted(files.items())),
         tuple(troubles),
         {document.name: yours[document.name] for document in ordered},
+        filing,
     )
 
 

@@ -6,6 +6,8 @@ import re
 import tomllib
 from dataclasses import dataclass
 
+from markupsafe import Markup, escape
+
 from modeproof.report.sources import HOLE, Sources, Trouble
 
 REGISTER = "docs/glossary.toml"
@@ -83,6 +85,38 @@ class Terms:
         self._terms = {_key(form): one for one in terms_of(sources)[0] for form in (one.word, *one.forms)}
         longest_first = sorted(map(re.escape, self._terms), key=len, reverse=True)
         self._form = re.compile(rf"(?<![\w.-])(?:{'|'.join(longest_first)})(?![\w-]|\.\w)", re.IGNORECASE)
+        self._signals = {
+            signal.name: signal.why
+            for document in sources.documents.values()
+            for device in document.interface.devices.values()
+            for group in (device.inputs, device.outputs, device.memory, device.parameters)
+            for signal in group.values()
+        }
+
+    def explained(self, html: str) -> Markup:
+        """Every term and signal that a text uses, and those that their meanings use, with what each means."""
+        found: dict[str, str] = {}
+        texts = [" ".join(_TAG.split(html)[::2])]
+        while texts:
+            text = texts.pop()
+            known = [(term.word, term.says) for word in self._form.findall(text) if (term := self._of(word))]
+            known += [
+                (name, self._signals[name])
+                for name in re.findall(r"\b[A-Z]\w+", text)
+                if name in self._signals
+            ]
+            for word, says in known:
+                if word not in found:
+                    found[word] = says
+                    texts.append(says)
+        rows = "; ".join(
+            f"<dfn>{escape(word)}</dfn> {escape(says.rstrip('.'))}"
+            for word, says in sorted(found.items(), key=lambda entry: entry[0].lower())
+        )
+        return Markup(f'<p class="words"><b>Words.</b> {rows}.</p>' if rows else "")
+
+    def _of(self, word: str) -> Term | None:
+        return self._terms.get(_key(word)) if self._terms else None
 
     def linked(self, part: str, html: str) -> str:
         """The HTML of a part, as a template made it: tags stay as they are, and all text but terms."""

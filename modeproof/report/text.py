@@ -47,7 +47,8 @@ def pieces(text: str) -> list[dict[str, str]]:
         if match.start() > end:
             found.append({"kind": "text", "text": text[end : match.start()]})
         kind = str(match.lastgroup)
-        found.append({"kind": "text" if kind == "link" else kind, "text": match.group(kind)})
+        text_of = match.group(kind).replace("`", "") if kind == "bold" else match.group(kind)
+        found.append({"kind": "text" if kind == "link" else kind, "text": text_of})
         end = match.end()
     if end < len(text):
         found.append({"kind": "text", "text": text[end:]})

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.places import build
 from modeproof.registers.citations import citations, read_sources
-from modeproof.registers.replay import Traces, has_replay, load_replay
+from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Device, Document, Signal
-from modeproof.report.cells import Cells
-from modeproof.report.story import digest_of
+from modeproof.simulate import recorded
 from modeproof.simulate.steps import labelled
 
 REFERENCE = "refimpl"
@@ -38,6 +34,7 @@ def of_document(document: Document) -> dict[str, Any]:
         devices[device.id] = {**_device(device), "steps": steps}
         copies[device.id] = _copy(document, device)
     traces = load_replay(document.root, document.name) if has_replay(document.root, document.name) else None
+    runs = recorded.shown(document)
     texts = {clause.id: clause.text for clause in document.clauses if clause.id in used}
     texts |= {finding.id: finding.title for finding in document.findings if finding.id in used}
     return {
@@ -45,6 +42,7 @@ def of_document(document: Document) -> dict[str, Any]:
         "module": f"{REFERENCE}.{document.name}.",
         "devices": devices,
         "labelled": copies,
+        "readings": _readings(document),
         "texts": texts,
         "says": {} if traces is None else {name: of.says for of in traces.words for name in of.signals},
         "faults": [
@@ -59,7 +57,8 @@ def of_document(document: Document) -> dict[str, Any]:
             }
             for fault in document.faults
         ],
-        "recorded": _recorded(document, traces),
+        "recorded": runs,
+        "findings": recorded.findings(document, [run["run"] for run in runs]),
     }
 
 
@@ -76,71 +75,44 @@ def _signal(of: Signal) -> dict[str, Any]:
     return row
 
 
-def _copy(document: Document, device: Device) -> str:
-    """The functions that tell the steps. Raises Unjudged where a step is marked nowhere."""
-    path = document.root / REFERENCE / document.name / f"{device.id}.py"
+def _source(document: Document, device: str) -> tuple[Path, str]:
+    path = document.root / REFERENCE / document.name / f"{device}.py"
     try:
-        text, told = labelled(path.read_text(encoding="utf-8"), device.steps)
+        return path, path.read_text(encoding="utf-8")
     except OSError as error:
         raise Unjudged(f"{path}: {error.strerror}; the page runs this file") from None
+
+
+def _copy(document: Document, device: Device, edited: str = "") -> str:
+    """The functions that tell the steps. Raises Unjudged where a step is marked nowhere."""
+    path, source = _source(document, device.id)
+    text, told = labelled(edited or source, device.steps)
     if missing := sorted(set(device.steps) - told):
         raise Unjudged(f"{path}: no line is marked with the step {missing[0]}")
     return text
 
 
-def _recorded(document: Document, traces: Traces | None) -> list[dict[str, Any]]:
-    """The counterexamples whose evidence and walk are there and belong together, by finding."""
-    found = []
-    for run in document.runs:
-        walk = None if traces is None else _walk(document, run.id)
-        if traces is None or walk is None:
-            continue
-        cells = Cells(document.interface, traces, walk["tables"])
-        first = walk["rows"][0]["variables"]
-        variables = {
-            name: cells.state_variable(name, first)
-            for name, device in document.interface.devices.items()
-            if device.memory and cells.state_variable(name, first) in first
-        }
-        found.append(
-            {
-                "run": run.id,
-                "property": run.property,
-                "says": next((p.sentence for p in document.properties if p.tla == run.property), ""),
-                "findings": [
-                    [
-                        f.id,
-                        f.title,
-                        f.telling.story if f.telling and f.telling.run == run.id else f.consequence,
-                    ]
-                    for f in document.findings
-                    if run.id in f.evidence
-                ],
-                "rows": [
-                    {
-                        "step": row["step"],
-                        "who": row["who"] or traces.nobody.get(row["step"], ""),
-                        "wires": row["wires"],
-                        "states": {name: row["variables"][of] for name, of in variables.items()},
-                    }
-                    for row in walk["rows"]
-                ],
-            }
-        )
-    return found
+def _readings(document: Document) -> dict[str, Any]:
+    """Programs of other readings: the shipped text with the edits of scenes/<document>/readings.toml.
 
-
-def _walk(document: Document, run: str) -> dict[str, Any] | None:
-    """The walk of a run, if its evidence is as expected and the walk is of this very trace."""
-    place = document.root
-    try:
-        record = evidence.read(evidence.evidence_path(place, document.name, run))
-        walk = json.loads((build(place) / "walks" / document.name / f"{run}.json").read_bytes())
-    except (Unjudged, OSError, ValueError):
-        return None
-    trace = record["result"].get("trace")
-    same = isinstance(walk, dict) and trace and walk.get("trace_sha256") == digest_of(trace)
-    return walk if same and record["as_expected"] else None
+    Raises Unjudged where no finding tries the reading, or a text to be edited does not stand there just once.
+    """
+    path = document.root / "scenes" / document.name / "readings.toml"
+    if not path.is_file():
+        return {}
+    tried = {name for finding in document.findings for name in finding.tries}
+    made: dict[str, Any] = {}
+    for reading in tomllib.loads(path.read_text(encoding="utf-8"))["reading"]:
+        id, device = reading["id"], document.interface.devices[reading["device"]]
+        if id not in tried:
+            raise Unjudged(f"{path}: {id}: no finding tries this reading")
+        file, source = _source(document, device.id)
+        for edit in reading["edit"]:
+            if source.count(edit["old"]) != 1:
+                raise Unjudged(f"{path}: {id}: {file.name} does not hold just once: {edit['old']!r}")
+            source = source.replace(edit["old"], edit["new"])
+        made[id] = {"device": device.id, "source": source, "labelled": _copy(document, device, source)}
+    return made
 
 
 def stories(place: Path, names: Sequence[str]) -> list[dict[str, Any]]:

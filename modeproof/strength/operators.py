@@ -109,7 +109,7 @@ class _Editor:
         self._variables = frozenset(tree.variables.get(module, ()))
         self._lines: Sequence[str] = tree.texts[module]
         self._next_string = _successors(rule.kinds)
-        self._next_name = _successors(rule.cycles, open_end=True)
+        self._next_name = _successors(rule.cycles)
         self._initial = self._initial_values()
 
     def all(self) -> tuple[Mutant, ...]:
@@ -383,8 +383,8 @@ class _Editor:
         return _Found(operator, node.place, new)
 
 
-def _successors(lists: Sequence[Sequence[str]], open_end: bool = False) -> dict[str, list[str]]:
-    """For each entry the one after it, cyclically; with `open_end` an entry may stand in several lists."""
+def _successors(lists: Sequence[Sequence[str]]) -> dict[str, list[str]]:
+    """For each entry those that come after it, cyclically, in the lists where it stands."""
     after: dict[str, list[str]] = {}
     for names in lists:
         for name, new in zip(names, (*names[1:], names[0]), strict=True):

@@ -19,8 +19,6 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-import msgspec
-
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.made import cfg_text
@@ -79,12 +77,6 @@ def _row(score: Score) -> str:
         lines.append(f"{name} = {json.dumps(getattr(score, name))}")
     files = [f'"{name}" = "{value}"' for name, value in sorted(score.files.items())]
     return "\n".join([*lines, "", "[campaign.files]", *files, ""])
-
-
-def mark_earlier(place: Path, document: str) -> None:
-    """Say of every row that it is of an earlier text."""
-    rows = load_scores(place, document)
-    write_scores(place, document, [msgspec.structs.replace(row, earlier_text=True) for row in rows])
 
 
 def stale(place: Path, document: str) -> list[str]:

@@ -119,16 +119,6 @@ def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) 
     return found
 
 
-def ready_fast_suites(place: Path, document: str, target: str) -> list[Suite]:
-    """The suites of a target that end soon, as `ready_suite` opens them, without those that have no cases."""
-    found = []
-    for name, kind in SUITES.items():
-        if kind.fast:
-            with contextlib.suppress(NoCases):
-                found.append(ready_suite(place, document, target, name))
-    return found
-
-
 def step_citations(
     place: Path, document: str, target: str, on_trouble: Callable[[str], None] = lambda line: None
 ) -> Citations:

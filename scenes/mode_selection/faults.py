@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from refimpl.mode_selection.code_tables import CH, NONE, RE, SE, SW, encode
+from refimpl.mode_selection.code_tables import CH, RE, SE, SW, encode
 
 OUTPUTS = ("A", "B", "C", "D", "STR")
 RANGE_OF = {
@@ -129,9 +129,3 @@ def _straddled(name: str, words: dict[str, int]) -> int:
     after = FLAG_WORDS.index(name) + 1
     following = words[FLAG_WORDS[after]] if after < len(FLAG_WORDS) else 0
     return (words[name] & 0x00FF) << 8 | following >> 8
-
-
-def meaning(name: str, word: int) -> int:
-    """The mode or level that a word means in its place; NONE where it is no code."""
-    codes = RANGE_OF[name]
-    return codes.index(word) if word in codes else NONE

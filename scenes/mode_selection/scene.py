@@ -10,7 +10,7 @@ import json
 from dataclasses import replace
 from typing import Any
 
-from modeproof.simulate.program.device import Device, give, on_wire, take
+from modeproof.simulate.program.device import Device, give, inputs_of, on_wire, take
 from refimpl.mode_selection import eks, hmi, key_flows
 from refimpl.mode_selection.code_tables import MODE_NAMES, NONE, RE, decode, encode
 from scenes.mode_selection.faults import KINDS, OUTPUTS, RANGE_OF, Faults
@@ -25,7 +25,10 @@ LEVELS = range(5)
 
 
 class Scene:
-    """One cell after power-up. `facts` are the words of the registers; `params` are as in a log."""
+    """One cell after power-up. `facts` are the words of the registers; `params` are as in a log.
+
+    `params` may also hold `reading`: the device concerned then runs the program of that reading.
+    """
 
     document = "mode_selection"
 
@@ -37,8 +40,7 @@ class Scene:
     def reset(self) -> None:
         """Power off and on: no key, no fault, an empty log."""
         self.devices = {
-            name: Device(self.facts["module"] + name, self.facts["labelled"][name], self._params(name))
-            for name in key_flows.DEVICES
+            name: Device(self.facts["module"] + name, *self._program(name)) for name in key_flows.DEVICES
         }
         states = [self.devices[name].state for name in key_flows.DEVICES]
         outs = [self.devices[name].out for name in key_flows.DEVICES]
@@ -49,9 +51,15 @@ class Scene:
         self.since = dict.fromkeys(self.rows, 0)
         self.clock = self.scans = 0
         self.last = ""
-        self.misread: dict[str, list[str]] = {}
+        self.misread: dict[str, dict[str, Any]] = {}
         self.level = self.touched = self.confirmed = NONE
         self.differs = ""
+
+    def _program(self, name: str) -> tuple[str, dict[str, Any], str]:
+        """What names the steps of a device, its parameters, and its text where it is not the shipped one."""
+        reading = self.facts["readings"].get(self.params.get("reading", ""), {})
+        own = reading if reading.get("device") == name else {"labelled": self.facts["labelled"][name]}
+        return own["labelled"], self._params(name), own.get("source", "")
 
     def _params(self, name: str) -> dict[str, Any]:
         """The parameters of a device; the panel permits what the F-PLC does. E-47"""
@@ -126,7 +134,8 @@ class Scene:
         }[name](self.system, dt_ms)
         faulty = self.faults.read(name, read, self.words())
         fields = self.rows[name]["inputs"]
-        self.misread[name] = [of for of in fields if getattr(faulty, of) != getattr(read, of)]
+        differing = [of for of in fields if getattr(faulty, of) != getattr(read, of)]
+        self.misread[name] = {of: give(fields[of], getattr(faulty, of)) for of in differing}
         self._step(name, faulty, dt_ms)
 
     def _step(self, name: str, inputs: Any, dt_ms: int) -> None:
@@ -188,7 +197,7 @@ class Scene:
         """One line of a log: the device scans with the inputs that the line shows."""
         name, dt_ms = line["device"], line["dt_ms"]
         rows = self.rows[name]["inputs"]
-        inputs = self.devices[name].code.Inputs(dt_ms, **{n: take(rows[n], line["in"][n]) for n in rows})
+        inputs = inputs_of(self.devices[name].code, rows, dt_ms, line["in"])
         self._step(name, inputs, dt_ms)
         if name == "eks":
             held = decode(RE, inputs.authorization_level) if inputs.inserted else NONE
@@ -213,6 +222,12 @@ class Scene:
             "dwell": f"{self.system.fplc_state.params.T_DWELL_ms} ms",
         }
         shown["misread"] = [name for names in self.misread.values() for name in names]
+        shown["text"] |= {
+            f"{name}.says": f"{shown['text'][f'{name}.says']}, read as {value}: {self.says(name, value)}"
+            for values in self.misread.values()
+            for name, value in values.items()
+            if name in RANGE_OF
+        }
         shown["on"] |= {f"key.{level}": self.level == level for level in LEVELS}
         shown["on"] |= {
             "key": self.system.key is not None or self.level != NONE,
@@ -223,6 +238,10 @@ class Scene:
             for name, device in self.devices.items()
         }
         return shown
+
+    def says(self, name: str, word: str) -> str:
+        """What a word means where it stands."""
+        return meaning(self.facts, name, word)
 
     def user(self) -> str:
         """What the user did with the key that is in."""
@@ -238,6 +257,14 @@ class Scene:
         return f"{key}The user touched mode {self.touched} {confirmed}."
 
 
+def meaning(facts: dict[str, Any], name: str, word: str) -> str:
+    """What a word means where it stands."""
+    mode = decode(RANGE_OF[name], int(word, 16))
+    if word == "0000":
+        return "nothing"
+    return "no code" if mode == NONE else f"{facts['says'][name]} {mode}"
+
+
 def picture(facts: dict[str, Any], signals: dict[str, Any]) -> dict[str, Any]:
     """Signals (wire form) as the drawing shows them; also those of a recorded run."""
     text: dict[str, str] = {}
@@ -246,15 +273,7 @@ def picture(facts: dict[str, Any], signals: dict[str, Any]) -> dict[str, Any]:
         if isinstance(value, bool):
             on[name] = value
         elif name in RANGE_OF:
-            mode = decode(RANGE_OF[name], int(value, 16))
-            says = (
-                "nothing"
-                if value == "0000"
-                else "no code"
-                if mode == NONE
-                else f"{facts['says'][name]} {mode}"
-            )
-            text[name], text[f"{name}.says"] = value, says
+            text[name], text[f"{name}.says"] = value, meaning(facts, name, value)
     active = [mode for mode in LEVELS if signals.get(f"MSO_{mode}")]
     text["active"] = f"{active[0]}: {MODE_NAMES[active[0]]}" if active else "none"
     screen, shown = signals.get("screen", ""), signals.get("shown")
@@ -272,11 +291,10 @@ def picture(facts: dict[str, Any], signals: dict[str, Any]) -> dict[str, Any]:
     return {"text": text, "on": on, "open": can}
 
 
-def recorded(
-    facts: dict[str, Any], wires: dict[str, Any], states: dict[str, str], step: str, who: str
-) -> dict[str, Any]:
-    """A row of a recorded counterexample as the drawing shows it: what the evidence has, and nothing else."""
-    rows = facts["devices"]
+def recorded(facts: dict[str, Any], told: list[dict[str, Any]]) -> dict[str, Any]:
+    """The last of some recorded rows as the drawing shows it: what the evidence has, and nothing else."""
+    last, rows = told[-1], facts["devices"]
+    wires = last["wires"]
     types = {name: of for row in rows.values() for name, of in {**row["inputs"], **row["outputs"]}.items()}
     signals = {
         name: value if types[name]["type"] == "modes" else give(types[name], value)
@@ -287,12 +305,17 @@ def recorded(
     for name in RANGE_OF:
         if name not in signals:
             shown["text"] |= {name: "", f"{name}.says": "not recorded"}
-    shown["text"] |= {"user": "Recorded: what the user did stands above.", "dwell": "not recorded"}
+    hand = [row["step"] for row in told if row["step"] in ("InsertKey", "RemoveKey")]
+    shown["on"]["key"] = wires.get("inserted", hand[-1:] == ["InsertKey"])
+    placed = {*RANGE_OF, *rows["fplc"]["inputs"], *rows["fplc"]["outputs"], *rows["hmi"]["outputs"]}
+    beside = [name for name in signals if name not in placed]
+    said = "; ".join([f"{name} {'none' if signals[name] is None else signals[name]}" for name in beside])
+    shown["text"] |= {"level": "", "user": said or "What the user did stands above.", "dwell": "not recorded"}
     shown["devices"] = {
         name: {
-            "state": states.get(name, "not in this model"),
-            "step": step if name == who else "",
-            "last": name == who,
+            "state": last["states"].get(name, "not in this model"),
+            "step": last["step"] if name == last["who"] else "",
+            "last": name == last["who"],
         }
         for name in rows
     }

@@ -41,3 +41,20 @@ def test_the_time_of_starting_up_does_not_count(monkeypatch: pytest.MonkeyPatch)
         "[0/1] graph 110 s, 20%, about 80 s left",
         "[0/1] graph 130 s, 100%",
     ]
+
+
+def test_items_are_counted_and_a_task_that_fails_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [0.0]
+    monkeypatch.setattr(room.time, "monotonic", lambda: clock[-1])
+    said = io.StringIO()
+    progress = Progress(said)
+    with pytest.raises(ZeroDivisionError):
+        for item in progress.over("registers", [20.0, 40.0, 60.0]):
+            clock.append(item)
+            assert item < 60 or 1 / 0
+    assert said.getvalue().splitlines() == [
+        "[0/1] registers 20 s, 1 of 3",
+        "[0/1] registers 40 s, 2 of 3, about 20 s left",
+    ]
+    progress.tick()
+    assert len(said.getvalue().splitlines()) == 2

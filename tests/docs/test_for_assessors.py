@@ -117,7 +117,7 @@ def test_each_run_repeated_as_the_report_says_is_reproduced(built: Path) -> None
 @pytest.mark.deep
 def test_the_report_has_every_part_of_the_ten_minutes(built: Path) -> None:
     page = (built / "build/report/report.html").read_text(encoding="utf-8")
-    titles = re.findall(r'<h2 id="[\w-]+-title"><a [^>]*>([^<]+)</a>', page)
+    titles = re.findall(r'<h2 id="[\w-]+-title">(?:<a [^>]*>)?([^<]+)', page)
     assert len(PARTS) >= 10 and not [
         part for part in PARTS if not any(title.startswith(part) for title in titles)
     ]

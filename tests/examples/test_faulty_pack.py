@@ -29,10 +29,12 @@ from examples.faulty.run import (
 )
 from modeproof.ground.processes import in_forks
 from modeproof.kit.adapter import Adapter
+from modeproof.kit.diagnosis import unseen
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
 from tests.any_machine import PATIENCE_S
+from tests.examples.test_diagnosis import leads_there
 
 FAULTS = load_faults()
 PACKS = {program.target: program for program in programs()}
@@ -139,6 +141,23 @@ def test_the_program_without_fault_conforms_to_all_its_vectors(
     chosen = list(pack.suites) if target != FPLC.target else list(pack.suites)[1:]  # test_c_program has brief
     for name in chosen:
         assert judge(pack.programs[""], pack.suites[name]).word == "CONFORMS"
+
+
+@pytest.mark.deep
+def test_nine_of_ten_diagnoses_name_what_the_fault_touches(judged: Callable[[str], Judged]) -> None:
+    missed, count = [], 0
+    for target in PACKS:
+        pack = judged(target)
+        for fault in load_faults(PACKS[target].pack):
+            if fault.reason:
+                continue
+            suite, found = pack.suites[fault.suite], pack.verdicts[fault.id].difference
+            count += 1
+            if found is None or not leads_there(suite, fault, found):
+                missed.append(
+                    f"{fault.id}: {found and (found.step, unseen(suite, found), [*found.expected])}"
+                )
+    assert count > 200 and len(missed) * 10 <= count, "\n".join(missed)
 
 
 @pytest.mark.parametrize("program", PACKS.values(), ids=PACKS)

@@ -13,6 +13,8 @@ from pathlib import Path
 from modeproof.ground.errors import Unjudged
 from programs.blocks import with_blocks
 from programs.check import check
+from programs.plcopen import read_plcopen
+from programs.scl import structured_text
 from programs.st import read_text
 from programs.tree import BOOL, Assign, Call, Function, Instance, Name, Source, Statement, Unit, Variable
 from tests.programs.fuzz import difference_of_translator
@@ -34,9 +36,14 @@ class Piece:
     text: str
     file: str
 
+    @property
+    def plain(self) -> str:
+        """Structured Text. Raises Unjudged for SCL that cannot be read so."""
+        return structured_text(self.text, self.file) if self.file.lower().endswith(".scl") else self.text
+
 
 def pieces(path: Path) -> Iterator[Piece]:
-    """The program units of a file: text, TwinCAT's XML, or PLCopen XML with bodies in Structured Text."""
+    """The units of a file of text or of TwinCAT."""
     text = path.read_text("utf-8-sig", "replace")
     if path.suffix.lower() in (".st", ".scl", ".exp", ".txt"):
         for found in _UNIT.finditer(text):
@@ -52,11 +59,31 @@ def pieces(path: Path) -> Iterator[Piece]:
             yield Piece(word[0], f"{declared}\n{more}{end}\n", path.name)
 
 
+def project(path: Path) -> tuple[dict[str, Unit], dict[str, str]] | None:
+    """The units of a file that is PLCopen XML, and why others are refused; None: it is something else."""
+    try:
+        found, refused = read_plcopen(path.read_bytes(), path.name)
+    except Unjudged:
+        return None
+    units = {unit.name.upper(): unit for unit, _ in found}
+    declared = Source(dict(units), {})
+    causes = {name: _cause(error) for name, error in refused.items()}
+    for unit, lower in found:
+        try:
+            units[unit.name.upper()] = lower(declared)
+        except Unjudged as error:
+            causes[unit.name.upper()] = _cause(error)
+            del units[unit.name.upper()]
+    return units, causes
+
+
 @dataclass
 class Collection:
     """A folder. `wrong`: blocks for which interpreter and terms do not agree."""
 
     folder: Path
+    projects: dict[str, Source] = field(default_factory=dict)
+    """For each block of a project of PLCopen XML the blocks of that project; the rest know each other."""
     reasons: Counter[str] = field(default_factory=Counter)
     translated: list[str] = field(default_factory=list)
     wrong: list[str] = field(default_factory=list)
@@ -70,32 +97,44 @@ class Collection:
     @cached_property
     def units(self) -> dict[str, Unit | str]:
         """Each block that was read, or why not, by its name; functions as far as they are supported."""
-        types = "\n".join(piece.text for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
+        types = "\n".join(piece.plain for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
         found: dict[str, Unit | str] = {}
         for piece in self.pieces:
             if piece.kind not in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
                 continue
             name = f"{piece.kind} {_name(piece.text)}"
             try:
-                unit = read_text(f"{types}\n{piece.text}", piece.file)[-1]
+                unit = read_text(f"{types}\n{piece.plain}", piece.file)[-1]
                 found[name] = unit
             except Unjudged as error:
                 found[name] = _cause(error)
             except RecursionError:
                 found[name] = "nested too deeply"
+        for path in sorted(self.folder.rglob("*.xml")):
+            if not path.is_file() or (there := project(path)) is None:
+                continue
+            units, causes = there
+            for key, what in (units | causes).items():
+                name = f"POU {path.relative_to(self.folder)}: {key}"
+                found[name], self.projects[name] = what, Source(units, {})
         return found
 
     def judge(self) -> None:
         """Translate each block with all that were read, and run both sides."""
         source = Source(
-            {unit.name.upper(): unit for unit in self.units.values() if isinstance(unit, Unit)}, {}
+            {
+                unit.name.upper(): unit
+                for name, unit in self.units.items()
+                if isinstance(unit, Unit) and name not in self.projects
+            },
+            {},
         )
         for name, unit in self.units.items():
             if isinstance(unit, str):
                 self.reasons[unit] += 1
                 continue
             try:
-                whole = with_blocks(source)
+                whole = with_blocks(self.projects.get(name, source))
                 unit = caller(unit) if unit.kind == "function" or unit.of("in_out") else unit
                 check(whole, unit)
                 difference = difference_of_translator(whole, unit, 1, SCANS)
@@ -131,7 +170,7 @@ def caller(unit: Unit) -> Unit:
 
 def _reads(piece: Piece) -> bool:
     try:
-        read_text(piece.text, piece.file)
+        read_text(piece.plain, piece.file)
     except Unjudged:
         return False
     return True
@@ -159,7 +198,7 @@ def table(collection: Collection) -> Iterator[str]:
     read = sum(isinstance(unit, Unit) for unit in units.values())
     translated = len(collection.translated)
     yield f"{collection.folder.name}: {len(units)} units, {read} read, {translated} translated"
-    for kind in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
+    for kind in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "POU"):
         of = [name for name in units if name.startswith(f"{kind} ")]
         there = [name for name in collection.translated if name.startswith(f"{kind} ")]
         yield f"  {kind:<16} {len(there)} of {len(of)}"

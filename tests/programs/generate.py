@@ -123,6 +123,12 @@ class Generator:
                 by = " BY -1" if low > high and self._coin() else ""
                 body = f"list[{name}] := {self.of('INT', 2)};" if by or low < high else self._assignment()
                 self.loops -= 1
+                if low < high and self._coin():
+                    turn = f"{body} {name} := {name} + 1;"
+                    if self._coin():
+                        return f"{name} := {low}; WHILE {name} < {high} DO {turn} END_WHILE"
+                    ends = f"{self.of('BOOL', 1)} OR {name} > {high}"
+                    return f"{name} := {low}; REPEAT {turn} UNTIL {ends} END_REPEAT"
                 return f"FOR {name} := {low} TO {high}{by} DO {body} END_FOR"
             case "call":
                 return self._call()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 from typing import Any
 
@@ -417,10 +418,27 @@ def test_the_command_prints_and_writes_the_scans(tmp_path: Path, capsys: pytest.
     assert [row["verdict"] for row in written] == ["PROVED", "REFUTED"] and len(
         written[1]["trace"]["scans"]
     ) == 2
+    assert {"properties", "trusted", "not_shown"} <= set(json.loads(record.read_text("utf-8")))
     both = [*asked, "--target", "sf_edm"]
     for wrong in (both, asked[:2], [*asked, "--binding", "b.toml"], [*asked[:3], str(tmp_path / "no.toml")]):
         assert main(wrong) == 2
         assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_each_property_is_a_case_of_junit(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, properties, junit = (tmp_path / name for name in ("p.st", "p.toml", "out.xml"))
+    head = "PROGRAM P VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR"
+    program.write_text(f"{head}\nq := FALSE; END_PROGRAM\n", "utf-8")
+    rows = [("off", "never = 'q'"), ("on", "always = 'q'"), ("empty", "holds = 'q'\nonly_if = 'a'")]
+    properties.write_text(
+        "".join(f"[[property]]\nid = '{name}'\nsentence = 'x<y'\n{text}\n" for name, text in rows), "utf-8"
+    )
+    assert main(["prove-program", str(program), "--property", str(properties), "--junit", str(junit)]) == 1
+    suite = ElementTree.parse(junit).getroot()[0]
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "1", "1")
+    told = {case.get("name"): [part.tag for part in case if part.tag != "properties"] for case in suite}
+    assert told == {"types": ["system-out"], "off": ["system-out"], "on": ["failure"], "empty": ["error"]}
+    assert "scan 1" in (suite[2].findtext("failure") or "")
 
 
 def test_the_text_names_blocks_and_scan_times() -> None:

@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from programs import certificate
 from programs.command import make
+from programs.recheck import recheck
 from programs.replay import replay
 from programs.verdict import Verdict, judge
 
 ROOT = Path(__file__).parents[2]
 PROGRAMS = ROOT / "examples" / "st"
 FAULTS = {
-    "a deadline one millisecond late": ("left <= T_SEQ - T_ON", "left < T_SEQ - T_ON"),
     "an echo of another mode": ("16#3C3C: MW05 := 16#0F0F;", "16#3C3C: MW05 := 16#0FF0;"),
     "a selection from the wrong word": ("selected := MW03", "selected := MW07"),
-    "a level that permits too much": ("permits[i] := PERMITS_1[i]", "permits[i] := PERMITS_2[i]"),
     "a key that is gone and not noticed": ("ELSIF NOT LA OR word <> level", "ELSIF word <> level"),
 }
 
@@ -36,6 +36,26 @@ def test_the_fplc_is_proved_equal() -> None:
     assert found.word == "PROVED" and len(found.product.nodes) == 18
     relations = {str(relation) for node in found.product.nodes.values() for relation in node.relations}
     assert "r:elapsed_ms + p:LEFT = g:T_DWELL_ms" in relations
+
+
+@pytest.mark.deep
+def test_the_other_encoding_is_proved_and_checked_again(tmp_path: Path) -> None:
+    found = judged(PROGRAMS / "fplc_flags.st", "fplc", wrap=True)
+    assert found.word == "PROVED" and found.replayed is not None
+    made = certificate.write(found.product, found.replayed, tmp_path / "made")
+    assert made.keys() == found.product.nodes.keys()
+    again = recheck(tmp_path / "made")
+    assert again.status == 0 and again.product.wrap and not again.unreached
+
+
+@pytest.mark.deep
+def test_the_fplc_in_statement_list_is_proved_equal() -> None:
+    found = judged(ROOT / "examples" / "awl" / "fplc.awl", "fplc")
+    assert found.word == "PROVED" and len(found.product.nodes) == 17
+    relations = {str(relation) for node in found.product.nodes.values() for relation in node.relations}
+    assert any("g:PERMITS_4" in text for text in relations)
+    assert "r:elapsed_ms = min(p:DB10_D22, g:T_DWELL_ms)" in relations
+    assert "p:DB10_D22 <= 3600000" in relations
 
 
 @pytest.mark.deep

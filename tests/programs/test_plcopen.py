@@ -127,6 +127,18 @@ def test_blocks_of_ones_own_are_called(tmp_path: Path) -> None:
     assert rows(machine(tmp_path, body, "one Own", more=own), "00 01") == "10"
 
 
+def test_a_function_in_text_and_an_in_out_are_read(tmp_path: Path) -> None:
+    html = 'xmlns="http://www.w3.org/1999/xhtml"'
+    twice = pou(f"<p {html}>Twice := z + z;</p>", "", "Twice", "ST", outputVars="", inputVars="z INT")
+    twice = twice.replace('pouType="functionBlock"', 'pouType="function"')
+    twice = twice.replace("<interface>", "<interface><returnType><INT/></returnType>", 1)
+    more = pou(f"<p {html}>n := Twice(n); done := n > 4;</p>", "", "More", "ST", inputVars="",
+        outputVars="done BOOL", inOutVars="n INT")  # fmt: skip
+    body = f"<p {html}>IF a THEN adds(n := k); END_IF q := adds.done;</p>"
+    of = machine(tmp_path, body, "k INT 1, adds More", "ST", twice + more)
+    assert rows(of, "1 1 0 1 1", inputs="a") == "00011"
+
+
 def test_a_block_without_enable_keeps_its_outputs(tmp_path: Path) -> None:
     body = ABC + block(4, "R_TRIG", {"EN": 2, "CLK": 1}, "ENO, Q", 'instanceName="one"')
     of = machine(tmp_path, body + writing(5, "q", "4.Q") + writing(6, "r", "4.ENO"), "one R_TRIG")

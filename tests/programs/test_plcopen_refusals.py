@@ -44,7 +44,10 @@ PROJECTS = {
     "another XML": ("<project/>", "b.xml:1: <project> in 'no namespace' is no PLCopen XML"),
     "another version": (project(pou(GOOD)).replace("0201", "0100"), "b.xml:2: <project> in"),
     "no POU": (project(), "the project has no POU"),
-    "a function": (project(pou(GOOD).replace("functionBlock", "function", 1)), "a POU of type function"),
+    "a function without a result": (
+        project(pou(GOOD).replace("functionBlock", "function", 1)),
+        "B: a function has one <returnType>",
+    ),
     "two POUs of one name": (project(pou(GOOD), pou(GOOD, name="b")), "another unit with the name b"),
     "a POU with the name of a standard block": (
         project(pou(GOOD, name="TON"), pou(GOOD)),
@@ -85,7 +88,7 @@ PROJECTS = {
     "a name that is none": (project(pou(GOOD).replace('name="x"', 'name="x : INT; z"')), "is no name"),
     "an address": (project(pou(GOOD).replace('name="x"', 'name="x" address="%I0.0"')), "AT: variables"),
     "a global": (project(pou(GOOD, externalVars="z BOOL")), "<externalVars> in <interface> is not supported"),
-    "an in-out": (project(pou(GOOD, inOutVars="z BOOL")), "<inOutVars> in <interface> is not supported"),
+    "an in-out": (project(pou(GOOD, inOutVars="z BOOL")), "a block with VAR_IN_OUT, has a body in ST here"),
     "a real number": (project(pou(GOOD, localVars="z REAL")), "type REAL is not supported"),
     "a structure": (
         project(pou(GOOD, "z S"), types='<dataType name="S"><baseType><struct/></baseType></dataType>'),

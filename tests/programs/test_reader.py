@@ -16,7 +16,11 @@ from programs.tree import Place, Source
 HEAD = "FUNCTION_BLOCK B\nVAR_INPUT x : INT; END_VAR VAR_OUTPUT y : INT; END_VAR\n"
 END = "\nEND_FUNCTION_BLOCK\n"
 REFUSED = {
-    "a loop without bounds": ("WHILE x > 0 DO y := 1; END_WHILE", "while statement is not supported"),
+    "a structure": (
+        "VAR s : STRUCT a : INT; END_STRUCT; END_VAR y := s.a;",
+        "declare each member as a variable",
+    ),
+    "a bit of a word": ("VAR w : WORD; END_VAR w.%X3 := TRUE;", "use AND with a mask"),
     "an early end of a loop": ("FOR y := 1 TO 2 DO EXIT; END_FOR", "exit statement is not supported"),
     "a pointer": ("VAR p : POINTER TO INT; END_VAR y := 1;", "is not supported"),
     "a real number": ("VAR r : REAL; END_VAR y := 1;", "type REAL is not supported"),

@@ -248,6 +248,36 @@ def test_a_changed_time_counts_at_once() -> None:
     ]
 
 
+COUNT = "VAR_OUTPUT y : INT; END_VAR VAR i : INT; END_VAR i := 0; y := 0;"
+
+
+def test_while_asks_before_each_turn_and_repeat_after() -> None:
+    count = f"{COUNT} WHILE i < x DO i := i + 1; y := y + i; END_WHILE"
+    assert rows(count, "", [(1, {"x": x}) for x in (0, 1, 4)]) == [0, 1, 10]
+    count = f"{COUNT} REPEAT i := i + 1; y := y + i; UNTIL i >= x END_REPEAT"
+    assert rows(count, "", [(1, {"x": x}) for x in (0, 1, 4)]) == [1, 1, 10]
+
+
+@pytest.mark.parametrize(
+    "loop", ["WHILE i < x DO i := i + 1; END_WHILE", "REPEAT i := i + 1; UNTIL i >= x END_REPEAT"]
+)
+def test_a_loop_must_end_after_32_turns(loop: str) -> None:
+    most = 32 + loop.startswith("REPEAT")
+    assert rows(f"{COUNT} {loop} y := i;", "", [(1, {"x": most})]) == [most]
+    with pytest.raises(Overflow, match="the loop ends after 32 turns at most"):
+        rows(f"{COUNT} {loop} y := i;", "", [(1, {"x": most + 1})])
+
+
+def test_a_loop_in_which_nothing_ends_is_owed() -> None:
+    source = source_of(f"FUNCTION_BLOCK B VAR_INPUT x : INT; END_VAR {COUNT} "
+        "WHILE x > 0 DO y := 1; END_WHILE END_FUNCTION_BLOCK")  # fmt: skip
+    memory = {slot.path: terms.symbol(slot.type, slot.path) for slot in slots(source, source.main())}
+    owed = symbolic.Translator(source, source.main()).scan(memory, z3.Int("dt")).obligations
+    assert [part.text for part in owed] == ["the loop ends after 32 turns at most"]
+    assert z3.is_true(z3.simplify(z3.substitute(owed[0].formula, (memory["X"], z3.IntVal(0)))))
+    assert z3.is_false(z3.simplify(z3.substitute(owed[0].formula, (memory["X"], z3.IntVal(1)))))
+
+
 def test_a_pulse_is_not_started_again_while_it_lasts() -> None:
     given = [(5, True, 20), (5, False, 20), (5, True, 20), (5, True, 20), (5, True, 20)]
     assert [q for q, _ in timed("TP", given)] == [True, True, True, True, False]

@@ -133,8 +133,11 @@ def test_the_command_prints_and_writes_the_difference(
 
 
 def test_a_proof_has_no_difference_in_its_record() -> None:
-    record = record_of(edm(), 1.0)
+    record = record_of(edm(), 1.0, {})
     assert record["verdict"] == "PROVED" and "difference" not in record and record["pairs"] == 24
+    assert len(record["states"]) == 24 and {row["reached_after"] for row in record["states"]} == {0, None}
+    assert "what the compiler and the PLC make of the source" in record["not_shown"]
+    assert "refimpl/edm/sf_edm.py" in record["reference"] and "z3" in record["trusted"]
 
 
 @pytest.mark.deep

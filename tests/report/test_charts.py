@@ -126,3 +126,11 @@ def test_hostile_text_of_the_evidence_is_escaped(root: Path) -> None:
     )
     assert evil in str(device(root)["chart"]["moves"])
     assert "<script>alert(" not in make(root).html
+
+
+def test_a_chart_begins_at_power_up_whatever_comes_first() -> None:
+    boxes = [Box("Middle"), Box("End"), Box("Start", initial=True)]
+    steps = [Step("Start", "Go", "Middle"), Step("Middle", "Back", "Start"), Step("Middle", "Leave", "End")]
+    svg = state_chart(boxes, steps, {}, id="x", title="x")
+    tops = dict(re.findall(r'data-state="(\w+)"[^>]*><rect x="[\d.]+" y="([\d.]+)"', svg))
+    assert float(tops["Start"]) < float(tops["Middle"]) < float(tops["End"])

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.report.build import make
-from modeproof.report.parts import assumptions, faults, findings
+from modeproof.report.parts import assumptions, faults, findings, readings
 from modeproof.report.sources import DIFFERS, HOLE, gather
 from tests.report.paper import change, entry, make_paper, put, without
 
@@ -53,11 +53,11 @@ def test_a_finding_shows_readings_decision_and_evidence_with_verdicts(root: Path
     assert shown["MC_Box_lazy"]["steps"] is None
     html = make(root).html
     assert 'href="#trace-box-NEG_Box_eager"' in html and 'id="finding-E-01"' in html
-    assert "could settle it; this is no error of the document" in html
+    assert "Nothing is in the door, and the box shuts." in html
 
 
 def test_each_restored_reading_has_what_falls_in_how_many_steps(root: Path) -> None:
-    rows = {row["id"]: row for row in entry(findings, root)["alone"]}
+    rows = {row["id"]: row for row in entry(readings, root)["alone"]}
     assert list(rows) == ["MC_Box_lazy", "NEG_Box_eager"]
     assert (rows["NEG_Box_eager"]["readings"], rows["NEG_Box_eager"]["property"]) == (
         ["Eager"],
@@ -69,7 +69,7 @@ def test_each_restored_reading_has_what_falls_in_how_many_steps(root: Path) -> N
 
 def test_a_reading_is_never_called_harmless_without_the_evidence(root: Path) -> None:
     without(root, "MC_Box_lazy")
-    rows = {row["id"]: row for row in entry(findings, root)["alone"]}
+    rows = {row["id"]: row for row in entry(readings, root)["alone"]}
     assert not rows["MC_Box_lazy"]["harmless"] and rows["MC_Box_lazy"]["word"] == "not there"
     assert make(root).status == HOLE
 

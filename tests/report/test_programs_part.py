@@ -40,6 +40,27 @@ REFUTED: dict[str, Any] = {
 }
 
 
+PROPERTIES: dict[str, Any] = {
+    "command": "prove-program",
+    "status": 1,
+    "unit": "Box",
+    "sources": {},
+    "properties": {"spec/box/clauses.toml": ""},
+    "trusted": ["the reader"],
+    "not_shown": ["the PLC"],
+    "verdicts": [
+        {"id": "types", "sentence": "It fits.", "verdict": "PROVED", "how": "induction"},
+        {
+            "id": "shut",
+            "sentence": "It shuts.",
+            "verdict": "REFUTED",
+            "how": "",
+            "trace": {"scans": [{}, {}]},
+        },
+    ],
+}
+
+
 def kept(root: Path, record: Any) -> programs.Part:
     """The part, with this record of a program in its place."""
     path = root / "build" / "programs" / "box-Box.json"
@@ -89,3 +110,45 @@ def test_a_record_that_contradicts_itself_is_told(record: dict[str, Any], said: 
 def test_a_program_that_changed_since_is_noted(root: Path) -> None:
     troubles = kept(root, {**PROVED, "sources": {"box.st": "0" * 64}}).troubles
     assert [(trouble.status, trouble.items) for trouble in troubles] == [(NOTE, ("box.st",))]
+
+
+def test_each_property_is_a_row_with_what_is_not_shown(root: Path) -> None:
+    found = kept(root, PROPERTIES)
+    assert [(row["about"], row["verdict"], row["how"]) for row in found.data["rows"]] == [
+        ("types: It fits.", "PROVED", "induction"),
+        ("shut: It shuts.", "REFUTED", "false after 2 scans"),
+    ]
+    assert [trouble.items for trouble in found.troubles] == [("spec/box/clauses.toml",)]
+    html = make(root).html
+    assert "the PLC" in html and 'id="program-box-Box"' in html
+
+
+def test_pairs_show_the_scans_that_lead_to_them(root: Path) -> None:
+    states = [
+        {"pair": "Off / 1", "relations": 2, "reached_after": 3},
+        {"pair": "On / 2", "relations": 1, "reached_after": None},
+    ]
+    kept(root, {**PROVED, "states": states})
+    html = make(root).html
+    assert "2 pairs of states of reference and program; scans are known to 1 of them" in html
+    assert "none known; a certificate looks for them" in html
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"status": 0}, "PROVED, REFUTED with status 0"),
+        ({"verdicts": []}, "no verdicts on properties: none"),
+        (
+            {"verdicts": [PROPERTIES["verdicts"][0], {**PROPERTIES["verdicts"][0], "verdict": "FINE"}]},
+            "no verdicts on properties",
+        ),
+        (
+            {"verdicts": [PROPERTIES["verdicts"][0], {**PROPERTIES["verdicts"][1], "trace": {}}]},
+            "shut: REFUTED without scans",
+        ),
+    ],
+)
+def test_properties_that_contradict_themselves_are_told(change: Any, said: str, root: Path) -> None:
+    troubles = kept(root, {**PROPERTIES, **change}).troubles
+    assert any(trouble.status == DIFFERS and said in trouble.what for trouble in troubles)

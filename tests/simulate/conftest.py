@@ -75,7 +75,8 @@ def recorded_place(tmp_path: Path) -> Path:
         {"at": n, "step": step, "who": who, "wires": wires[n], "variables": states[n]}
         for n, (step, who) in enumerate(steps)
     ]
-    walk = {"rows": rows, "tables": {}, "trace_sha256": digest_of(trace)}
+    walk = {"rows": rows, "module": "FplcOpen", "decided": {}, "departures": {}, "tables": {}}
+    walk |= {"trace_sha256": digest_of(trace)}
     path = tmp_path / "build/walks" / SCENE / f"{RUN}.json"
     path.parent.mkdir(parents=True)
     path.write_text(json.dumps(walk), encoding="utf-8")

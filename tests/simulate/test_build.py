@@ -13,8 +13,9 @@ import pytest
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.load import load_document
 from modeproof.report.story import digest_of
-from modeproof.simulate import build, bundle, facts
-from tests.simulate.conftest import ROOT, SCENE
+from modeproof.simulate import build, bundle, facts, recorded
+from modeproof.simulate.program.play import of_recorded
+from tests.simulate.conftest import ROOT, RUN, SCENE, WIRES
 
 
 def carried(html: str) -> dict[str, Any]:
@@ -71,12 +72,66 @@ def test_no_text_can_end_its_script() -> None:
     assert json.loads(build._json({"x": "</script>"})) == {"x": "</script>"}
 
 
+def rows(shown: list[dict[str, Any]]) -> int:
+    """How many rows the run of the fixture has."""
+    return len(json.loads(next(run["rows"] for run in shown if run["run"] == RUN)))
+
+
 def test_a_walk_of_another_trace_is_not_shown(tmp_path: Path, recorded_place: Path) -> None:
     document = load_document(recorded_place, SCENE)
     shown = facts.of_document(document)["recorded"]
-    assert [(run["run"], len(run["rows"])) for run in shown] == [("NEG_Fplc_figure7", 2)]
-    assert shown[0]["findings"][0][0] == "E-01"
+    assert rows(shown) == 2
     walk = recorded_place / "build/walks" / SCENE / "NEG_Fplc_figure7.json"
     found = json.loads(walk.read_text())
     walk.write_text(json.dumps({**found, "trace_sha256": digest_of([])}))
-    assert facts.of_document(document)["recorded"] == []
+    assert rows(facts.of_document(document)["recorded"]) == 14, "the one that is kept is shown"
+
+
+def test_recording_keeps_what_the_evidence_holds(recorded_place: Path) -> None:
+    document = load_document(recorded_place, SCENE)
+    (recorded_place / "scenes" / SCENE / "recorded.jsonl").unlink()
+    held, changed, missing = recorded.record(document)
+    assert (held, changed) == (1, [])
+    assert RUN not in missing and len(missing) > 80
+    shutil.rmtree(recorded_place / "build")
+    (shown,) = recorded.shown(document)
+    first, second = json.loads(shown["rows"])
+    assert first["wires"] == WIRES
+    assert second["wires"] == {"MSO_3": True, "MW01": 0, "MW05": 0}
+    assert second["states"] == {"fplc": "Settle"}
+
+
+def test_a_record_of_another_specification_is_told(recorded_place: Path) -> None:
+    shutil.rmtree(recorded_place / "build")
+    document = load_document(recorded_place, SCENE)
+    assert all(run["fresh"] for run in recorded.shown(document))
+    module = recorded_place / "spec" / SCENE / "FplcOpen.tla"
+    module.write_text(module.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+    fresh = {run["run"]: run["fresh"] for run in recorded.shown(document)}
+    assert not fresh[RUN] and fresh["NEG_Hmi_acknowledges_own_selection"]
+    player = of_recorded(
+        {"run": RUN, "fresh": False, "loop": "", "property": "P", "says": ""}, [], FOUND, print
+    )
+    assert "The specification has changed since." in player.intro
+
+
+FOUND = {"id": "E-01", "title": "title", "story": "story"}
+
+
+def test_an_edit_that_fits_nowhere_makes_no_page(recorded_place: Path) -> None:
+    readings = recorded_place / "scenes" / SCENE / "readings.toml"
+    text = readings.read_text(encoding="utf-8")
+    for old, new, said in (
+        ("s.selection, 0)", "nothing, 0)", "does not hold just once"),
+        ('id = "Figure7"', 'id = "Figure8"', "no finding tries this reading"),
+    ):
+        assert old in text
+        readings.write_text(text.replace(old, new), encoding="utf-8")
+        with pytest.raises(Unjudged, match=said):
+            facts.of_document(load_document(recorded_place, SCENE))
+
+
+def test_a_record_that_cannot_be_read_is_refused(recorded_place: Path) -> None:
+    (recorded_place / "scenes" / SCENE / "recorded.jsonl").write_text('{"run": "x"}\n')
+    with pytest.raises(Unjudged, match=r"recorded\.jsonl: cannot be read: .*simulate --record writes it"):
+        recorded.shown(load_document(recorded_place, SCENE))

@@ -14,17 +14,19 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.simulate.program.block import Block, spelt
 from modeproof.simulate.program.device import Device, Disagreement
-from modeproof.simulate.program.play import actions
+from modeproof.simulate.program.play import actions, whole
 from modeproof.simulate.program.suites import judge
 from modeproof.simulate.steps import labelled
 from modeproof.trace.lines import read_lines
 from modeproof.trace.targets import find_target
+from proofs.mode_selection.code_tables import SW_AS_PRINTED_IN_FIGURE_7
+from proofs.mode_selection.figures import figure_7_falling_through
 from refimpl.edm import sf_edm
 from refimpl.mode_selection import eks, fplc, key_flows
-from refimpl.mode_selection.code_tables import RE, encode
+from refimpl.mode_selection.code_tables import RE, SE, SW, encode
 from scenes.mode_selection.faults import KINDS
 from scenes.mode_selection.scene import CHECKSUM, DIP_SWITCHES, ROUND, Scene
-from tests.simulate.conftest import ROOT, SCENE, scenes_of
+from tests.simulate.conftest import ROOT, RUN, SCENE, scenes_of
 
 STORIES = (
     "normal_change", "key_pulled", "stale_confirmation", "figure_7",
@@ -79,6 +81,41 @@ def test_without_dwell_time_both_cells_end_alike(told: dict[str, Any], known: di
     assert not wrong_ends(right, story["ends"][0])
 
 
+def figure_7(known: dict[str, Any], **ticks: int) -> Device:
+    reading = known[SCENE]["readings"]["Figure7"]
+    return Device("refimpl.mode_selection.fplc", reading["labelled"], dict(ticks), reading["source"])
+
+
+def test_figure_7_runs_as_it_is_printed(known: dict[str, Any]) -> None:
+    code = figure_7(known).code
+    for selected in SE:
+        for word in (*SW, 0, 1):
+            expected = figure_7_falling_through(selected, word, SW_AS_PRINTED_IN_FIGURE_7)
+            assert code.matches(selected, word) == expected
+    assert not code.matches(SE[2], SW[2]) and fplc.matches(SE[2], SW[2])
+
+
+def test_figure_7_does_what_the_model_checker_recorded(known: dict[str, Any]) -> None:
+    run = next(run for run in known[SCENE]["recorded"] if run["run"] == RUN)
+    rows = whole(json.loads(run["rows"]))[1:]
+    kinds = known[SCENE]["devices"]["fplc"]
+
+    def outputs(device: Device) -> list[Any]:
+        found = []
+        for row in rows:
+            read = {name: row["wires"][name] for name in kinds["inputs"]}
+            device.scan(device.code.Inputs(row["ticks"], **read))
+            found.append(({name: getattr(device.out, name) for name in kinds["outputs"]}, device.step))
+        return found
+
+    recorded = [({name: row["wires"][name] for name in kinds["outputs"]}, row["step"]) for row in rows]
+    ticks = {"T_ON_ms": 1, "T_SEQ_ms": 1, "T_REM_ms": 2, "T_DWELL_ms": 1}
+    assert outputs(figure_7(known, **ticks)) == recorded
+    assert recorded[-1][0]["MSO_3"]
+    shipped = Device("refimpl.mode_selection.fplc", known[SCENE]["labelled"]["fplc"], dict(ticks))
+    assert outputs(shipped) != recorded
+
+
 def test_a_played_change_is_the_composition_itself(known: dict[str, Any]) -> None:
     scene = Scene(known[SCENE], {})
     params = eks.Params(checksum=lambda data: CHECKSUM, dip_switches=DIP_SWITCHES)
@@ -114,16 +151,23 @@ def test_trace_reads_a_log_of_the_cell(tmp_path: Path, known: dict[str, Any]) ->
 
 
 @pytest.mark.deep
-def test_a_log_of_a_block_is_accepted_by_trace(
-    tmp_path: Path, known: dict[str, Any], told: dict[str, Any]
+@pytest.mark.parametrize(
+    ("target", "story", "cell", "true"),
+    [
+        ("sf_edm", "welded_contactor", 0, '"Error":true'),
+        ("key_flows", "stale_confirmation", 1, '"ERROR":true'),
+    ],
+)
+def test_a_played_log_is_accepted_by_trace(
+    target: str, story: str, cell: int, true: str, tmp_path: Path, known: dict[str, Any], told: dict[str, Any]
 ) -> None:
-    scene = scenes_of(told["welded_contactor"], known)[0]
-    play(scene, told["welded_contactor"])
+    scene = scenes_of(told[story], known)[cell]
+    play(scene, told[story])
     log = tmp_path / "played.jsonl"
     log.write_text(scene.log(), encoding="utf-8")
-    assert main(["trace", "sf_edm", str(log)]) == 0
-    log.write_text(scene.log().replace('"Error":true', '"Error":false', 1), encoding="utf-8")
-    assert main(["trace", "sf_edm", str(log)]) == 1
+    assert main(["trace", target, str(log)]) == 0
+    log.write_text(scene.log().replace(true, true.replace("true", "false"), 1), encoding="utf-8")
+    assert main(["trace", target, str(log)]) == 1
 
 
 def test_a_saved_log_plays_to_the_same_end(known: dict[str, Any]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 from collections.abc import Mapping
 from dataclasses import replace
@@ -136,10 +135,11 @@ NEW = [path for path in PUBLISHED if path.name.split(".")[0] in ("parameters", "
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("path", NEW, ids=lambda path: f"{path.parent.name}_{path.name.split('.')[0]}")
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=[pytest.mark.long] * (path.name.startswith("soak"))) for path in NEW],
+    ids=[f"{path.parent.name}_{path.name.split('.')[0]}" for path in NEW],
+)
 def test_the_reference_conforms_to_every_published_walk(path: Path) -> None:
-    long_ones = path.name.startswith("soak") and path.parent.name not in ("fplc", "sf_edm")
-    if long_ones and "MODEPROOF_LONG" not in os.environ:
-        pytest.skip("a million scans take more than 10 s: MODEPROOF_LONG=1 make test-deep")
     """Expected values come from the specification's graphs; a wrong scale would indict a right program."""
     assert main(["conform", path.parent.name, "--vectors", str(path), "--builtin", "refimpl", "--quiet"]) == 0

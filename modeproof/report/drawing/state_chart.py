@@ -71,14 +71,17 @@ def entries(steps: Sequence[Step]) -> tuple[Entry, ...]:
 def state_chart(
     boxes: Sequence[Box], steps: Sequence[Step], cites: Mapping[str, Sequence[str]], *, id: str, title: str
 ) -> Markup:
-    """The picture. `cites` holds the ids that each step cites; `id` begins the ids within the picture."""
+    """The picture, which begins at the state after power-up.
+
+    `cites` holds the ids that each step cites; `id` begins the ids within the picture.
+    """
     listed = entries(steps)
     hidden = {(arrow.target, name) for arrow in listed for name in arrow.names}
     pairs: dict[tuple[str, str], list[str]] = {}
     for step in steps:
         if step.source != step.target and (step.target, step.name) not in hidden:
             pairs.setdefault((step.source, step.target), []).append(step.name)
-    drawn = [box for box in boxes if box.entered]
+    drawn = sorted((box for box in boxes if box.entered), key=lambda box: not box.initial)
     contents = {
         arrow.name: _content(arrow, steps, [e for e in listed if e.target == arrow.name], cites, drawn)
         for arrow in drawn

@@ -101,7 +101,9 @@ const richTables = (() => {
 const reveal = (id) => {
   if (!id) return null;
   let target = document.getElementById(id);
+  for (const one of target?.querySelectorAll(":scope > details.part") ?? []) one.open = true;
   if (!target) { richTables.showAll(); target = document.getElementById(id); }
+  target ??= document.getElementById({ explore: "explore", trace: "trace-viewer" }[id.split("-")[0]]);
   if (!target) return null;
   for (let one = target; one; one = one.parentElement) if (one.tagName === "DETAILS") one.open = true;
   return target;
@@ -109,7 +111,7 @@ const reveal = (id) => {
 (() => {
   const go = () => {
     const target = reveal(decodeURIComponent(location.hash.slice(1)));
-    if (!target) return;
+    if (!target || !document.getElementById(decodeURIComponent(location.hash.slice(1)))) return;
     target.scrollIntoView();
     if (!target.matches("a, button, input, [tabindex]")) target.setAttribute("tabindex", "-1");
     target.focus({ preventScroll: true });
@@ -120,17 +122,25 @@ const reveal = (id) => {
     const link = event.target.closest('a[href^="#"]');
     if (link && link.hash === location.hash) go();
   });
+  reveal(decodeURIComponent(location.hash.slice(1)));
   if (location.hash) requestAnimationFrame(go);
 })();
 
-// On paper everything is open and every row shows; afterwards all is as it was.
+// On paper every row shows and all that is printed is open; the annex is printed, or the review sheet, when a button asks.
 (() => {
   let restore = [];
   window.addEventListener("beforeprint", () => {
     restore = [richTables.showAll()];
-    for (const one of document.querySelectorAll("details:not([open])")) { one.open = true; restore.push(() => { one.open = false; }); }
+    const wanted = { all: "details", review: "#review details" }[document.body.dataset.print] ?? "details:not(.annex, .annex *)";
+    for (const one of document.querySelectorAll(wanted)) if (!one.open) { one.open = true; restore.push(() => { one.open = false; }); }
   });
-  window.addEventListener("afterprint", () => { for (const undo of restore.splice(0)) undo(); });
+  window.addEventListener("afterprint", () => { for (const undo of restore.splice(0)) undo(); delete document.body.dataset.print; });
+  document.addEventListener("click", (event) => {
+    const button = event.target.closest("button.print");
+    if (!button) return;
+    if (button.dataset.print) document.body.dataset.print = button.dataset.print;
+    window.print();
+  });
 })();
 
 // The part that is being read is marked in the list of parts.

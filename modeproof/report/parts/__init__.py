@@ -9,15 +9,18 @@ from collections.abc import Iterator
 
 from modeproof.report.part import Maker
 
+FILED = ("summary", "functions", "findings", "limits", "reproduce")
+"""What is printed and filed; the first has the troubles of all."""
 ORDER = (
-    "verdict",
+    *FILED,
     "review",
+    "verdict",
     "scope",
     "system",
     "charts",
     "properties",
     "assumptions",
-    "findings",
+    "readings",
     "faults",
     "conformance",
     "programs",
@@ -27,11 +30,10 @@ ORDER = (
     "traces",
     "explorer",
     "confidence",
-    "limits",
     "changes",
-    "reproduce",
     "glossary",
 )
+"""All parts. What is not filed is the annex: it closes on the screen and is printed on request."""
 
 
 def makers() -> Iterator[tuple[str, Maker]]:

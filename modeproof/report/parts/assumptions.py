@@ -7,6 +7,7 @@ from typing import Any
 
 from modeproof.registers.rows import Assumption, Document
 from modeproof.registers.runs import Run
+from modeproof.report.bearing import rests_on
 from modeproof.report.claims import Result, result_of, steps_of
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
@@ -23,7 +24,7 @@ def part(sources: Sources) -> Part:
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
     runs = {run.id: run for run in document.runs}
-    rests = _rests_on(sources, document)
+    rests = rests_on(sources, document)
     shown: list[Result] = []
     rows = []
     for assumption in document.assumptions:
@@ -72,13 +73,3 @@ def _row(
         ],
         "rests": [{"property": name, "environment": environment} for name, environment in claims],
     }
-
-
-def _rests_on(sources: Sources, document: Document) -> Mapping[str, tuple[tuple[str, str], ...]]:
-    """By assumption: the properties of the whole system, by environment, whose theorem rests on it."""
-    found: dict[str, list[tuple[str, str]]] = {}
-    for record in sources.of_kind(document.name, "agreement"):
-        for row in record.result.get("rows", []):
-            for name in row["rests_on"]:
-                found.setdefault(name, []).append((row["id"], row["environment"]))
-    return {name: tuple(pairs) for name, pairs in found.items()}

@@ -1,4 +1,4 @@
-"""Findings: where a document is wrong or silent, what that does, what was decided, what shows it."""
+"""Findings by class: where a document is wrong or silent, what that does, what was decided, the story."""
 
 from __future__ import annotations
 
@@ -8,25 +8,36 @@ from typing import Any
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 from modeproof.report.claims import Result, result_of, steps_of, theorem_result, theorem_rows
-from modeproof.report.deviations import Deviation, deviations
 from modeproof.report.part import Part
 from modeproof.report.sources import HOLE, Sources, Trouble
+from modeproof.report.verdicts import ASIDE
 
 ID = "findings"
+MOST = 2
+"""So many counterexamples of a finding are named on paper."""
+CLASSES = (
+    ("safety", False, "Safety, and no drawing can settle it"),
+    ("safety", True, "Safety, and a drawing could settle it"),
+    ("availability", None, "Availability: the machine or the user is stopped"),
+    ("wording", None, "Wording: no effect once it is noticed"),
+)
+"""Class, whether a drawing could settle it (None: either), and what that is called; the worst first."""
 
 
 def part(sources: Sources) -> Part:
-    """One entry a document: its findings, and what each reading does when it alone is restored."""
+    """One entry a document: its findings, those of safety that no drawing can settle first."""
     troubles: list[Trouble] = []
     found = [_document(sources, document, troubles) for document in sources.documents.values()]
-    return Part(ID, "Findings in the documents", {"documents": found}, tuple(troubles))
+    play = "../" * (2 if sources.filing.documents else 1) + "simulate.html"  # a chosen one lies deeper
+    return Part(
+        ID, "Findings", {"classes": CLASSES, "most": MOST, "documents": found, "play": play}, tuple(troubles)
+    )
 
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
     runs = {run.id: run for run in document.runs}
     sentences = {one.name: one.sentence for _, one in theorem_rows(sources, document)}
     clauses = {clause.id for clause in document.clauses}
-    shown: list[Result] = []
     findings = []
     for finding in document.findings:
         rows = []
@@ -39,21 +50,16 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
                 if name in runs
                 else theorem_result(sources, document, name)
             )
-            shown.append(result)
             rows.append(_evidence(result, runs, sentences))
         findings.append(_finding(document, finding, rows))
         if not finding.evidence and not finding.evidence_open.strip():
             what = f"{document.name}: {finding.id} names no evidence and does not say why"
             troubles.append(Trouble(HOLE, ID, what, "modeproof registers"))
-    every = deviations(sources, document)
-    shown += [row.result for row in every]
     return {
         "id": document.name,
         "title": document.about.title,
         "register": document.source("findings"),
         "findings": findings,
-        "alone": [_deviation(document, row) for row in every if len(row.readings) == 1],
-        "together": [_deviation(document, row) for row in every if len(row.readings) > 1],
     }
 
 
@@ -71,8 +77,24 @@ def _finding(document: Document, finding: Finding, evidence: list[dict[str, Any]
         "parameter": finding.parameter,
         "drawing": finding.drawing_could_settle,
         "evidence": evidence,
+        "shown": _shown([row for row in evidence if row["kind"] != "clause"]),
         "open": finding.evidence_open,
+        "story": "" if finding.telling is None else finding.telling.story,
         "properties": [each.id for each in document.properties if finding.id in each.findings],
+    }
+
+
+def _shown(rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """The shortest ways to the harm, how many runs and theorems more are as expected, and what is not."""
+    good = [row for row in rows if row["good"]]
+    falls = [row for row in good if row.get("steps") is not None]
+    falls.sort(key=lambda row: int(row["steps"].value))
+    return {
+        "falls": falls[:MOST],
+        "runs": sum(row["kind"] == "run" for row in good) - len(falls[:MOST]),
+        "proofs": sum(row["kind"] == "theorem" for row in good),
+        "aside": sum(row["word"] == ASIDE for row in rows),
+        "wrong": [row for row in rows if not row["good"] and row["word"] != ASIDE],
     }
 
 
@@ -88,30 +110,3 @@ def _evidence(result: Result, runs: Mapping[str, Run], sentences: Mapping[str, s
         "strength": run.strength,
         "steps": steps_of(result),
     }
-
-
-def _deviation(document: Document, deviation: Deviation) -> dict[str, Any]:
-    falls = next(
-        (each for each in document.properties if deviation.run.property in (each.tla, each.id)), None
-    )
-    return {
-        **deviation.result.data,
-        "readings": list(deviation.readings),
-        "findings": [{"id": each.id, "title": each.title} for each in deviation.findings],
-        "falls": deviation.run.property,
-        "property": None if falls is None else falls.id,
-        "hazard": "" if falls is None else falls.hazard,
-        "harmless": deviation.harmless,
-        "reached": _reached(deviation.result),
-        "steps": steps_of(deviation.result),
-        "environment": deviation.run.environment,
-        "strength": deviation.run.strength,
-        "seconds": None
-        if deviation.result.evidence is None
-        else deviation.result.evidence.figure("seconds", unit="s"),
-    }
-
-
-def _reached(result: Result) -> list[str]:
-    """What a run of witnesses has reached under the readings."""
-    return [] if result.evidence is None else list(result.evidence.result.get("reached", ()))

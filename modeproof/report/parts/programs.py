@@ -4,39 +4,46 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from modeproof.ground.places import build
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, NOTE, Sources, Trouble
 
-REMEDY = "modeproof prove-program FILE --target T"
+REMEDY = "modeproof prove-program FILE ..."
 
 
 def part(sources: Sources) -> Part:
-    """One row for the last run on each program; a record that contradicts itself is a trouble."""
-    rows, troubles = [], []
+    """The last run on each program: its verdicts, and what they rest on.
+
+    A record that contradicts itself is a trouble.
+    """
+    rows: list[dict[str, Any]] = []
+    programs, troubles = [], []
     folder = build(sources.root) / "programs"
     for path in sorted(folder.glob("*.json")) if folder.is_dir() else ():
         place = str(path.relative_to(sources.root))
         try:
             record = json.loads(sources.content(place) or b"")
             doubt = contradiction(record)
-            rows.append(_row(place, record, doubt))
             changed = list(_changed(sources, record))
+            rows += _rows(record, path.stem, doubt)
+            programs.append(_program(record, path.stem, place, changed))
         except (LookupError, TypeError, ValueError, AttributeError) as error:
             doubt, changed = f"its figures cannot be judged ({type(error).__name__}: {error})", []
         if doubt:
             troubles.append(Trouble(DIFFERS, "programs", f"{place}: {doubt}", REMEDY))
         if changed:
-            what = f"{place}: the program has changed since or is not there"
+            what = f"{place}: what the verdict rests on has changed since or is not there"
             troubles.append(Trouble(NOTE, "programs", what, REMEDY, tuple(changed)))
-    return Part("programs", "Programs of users", {"rows": rows}, tuple(troubles))
+    return Part("programs", "Programs of users", {"rows": rows, "programs": programs}, tuple(troubles))
 
 
 def contradiction(record: Mapping[str, Any]) -> str:
     """What a record says otherwise than its own figures do; empty: nothing."""
+    if "verdicts" in record:
+        return _of_properties(record)
     word, difference = record["verdict"], record.get("difference")
     if record["status"] != {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}[word]:
         return f"{word} with status {record['status']}"
@@ -52,6 +59,21 @@ def contradiction(record: Mapping[str, Any]) -> str:
     return "" if word == "PROVED" or record["missing"] else "UNKNOWN, and nothing is missing"
 
 
+def _of_properties(record: Mapping[str, Any]) -> str:
+    words = [row["verdict"] for row in record["verdicts"]]
+    if not set(words) <= {"PROVED", "REFUTED", "HOLDS", "EMPTY", "UNKNOWN"} or len(words) < 2:
+        return f"no verdicts on properties: {', '.join(map(str, words)) or 'none'}"
+    status = 1 if "REFUTED" in words else 0 if set(words) == {"PROVED"} else 2
+    if record["status"] != status:
+        return f"{', '.join(sorted(set(words)))} with status {record['status']}"
+    for row in record["verdicts"]:
+        if row["verdict"] == "REFUTED" and not row.get("trace", {}).get("scans"):
+            return f"{row['id']}: REFUTED without scans"
+        if row["verdict"] == "HOLDS" and not row["bound_in_scans"]:
+            return f"{row['id']}: HOLDS without a bound"
+    return ""
+
+
 def _no_difference(difference: Mapping[str, Any] | None) -> str:
     if difference is None or not difference["scans"]:
         return "REFUTED without scans"
@@ -65,7 +87,7 @@ def _no_difference(difference: Mapping[str, Any] | None) -> str:
 
 
 def _changed(sources: Sources, record: Mapping[str, Any]) -> Iterator[str]:
-    for name, digest in record["sources"].items():
+    for name, digest in _files(record).items():
         try:
             content = (sources.root / name).read_bytes()
         except OSError:
@@ -75,17 +97,45 @@ def _changed(sources: Sources, record: Mapping[str, Any]) -> Iterator[str]:
             yield name
 
 
-def _row(place: str, record: Mapping[str, Any], doubt: str) -> dict[str, Any]:
+def _files(record: Mapping[str, Any]) -> dict[str, str]:
+    """The SHA-256 of everything that the verdict is about."""
+    return {**record["sources"], **record.get("properties", {}), **record.get("reference", {})}
+
+
+def _rows(record: Mapping[str, Any], key: str, doubt: str) -> Iterator[dict[str, Any]]:
+    """The lines of a record in the table of verdicts."""
+    common = {"unit": record["unit"], "key": key}
+    if "verdicts" in record:
+        for row in record["verdicts"]:
+            scans = len(row["trace"]["scans"]) if row["verdict"] == "REFUTED" and not doubt else 0
+            yield common | {
+                "about": f"{row['id']}: {row['sentence']}",
+                "verdict": "UNJUDGED" if doubt else row["verdict"],
+                "how": f"false after {scans} scans" if scans else row["how"],
+            }
+        return
     scans = len(record["difference"]["scans"]) if record["verdict"] == "REFUTED" and not doubt else 0
-    return {
-        "unit": record["unit"],
-        "sources": list(record["sources"]),
-        "target": record["target"],
+    shown = f"{record['pairs']} pairs" if record["verdict"] == "PROVED" else record["missing"]
+    yield common | {
+        "about": f"equal to {record['target']}: {', '.join(record['compared'])}",
         "verdict": "UNJUDGED" if doubt else record["verdict"],
-        "compared": record["compared"],
-        "left_out": record["left_out"],
-        "pairs": record["pairs"],
-        "scans": scans,
-        "missing": record["missing"],
+        "how": f"differs after {scans} scans" if scans else shown,
+    }
+
+
+def _program(record: Mapping[str, Any], key: str, place: str, changed: Sequence[str]) -> dict[str, Any]:
+    """What the section on one program shows."""
+    files = [
+        {"name": name, "sha256": digest, "changed": name in changed}
+        for name, digest in _files(record).items()
+    ]
+    return {
+        "key": key,
+        "unit": record["unit"],
         "record": place,
+        "files": files,
+        "trusted": record.get("trusted", []),
+        "tools": record.get("tools", {}),
+        "not_shown": record.get("not_shown", []),
+        "states": record.get("states", []),
     }

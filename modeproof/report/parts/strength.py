@@ -38,9 +38,11 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
             "command": command.format(document.name),
         }
         if found is None:
-            what = f"{document.name}: no campaign is recorded: faults in {edited}, judged by {judges}"
-            troubles.append(Trouble(NOTE, ID, what, command.format(document.name)))
-            campaigns.append({**about, "recorded": None, "score": _score(sources, document, kind)})
+            score = _score(sources, document, kind)
+            if score is None:
+                what = f"{document.name}: no campaign is recorded: faults in {edited}, judged by {judges}"
+                troubles.append(Trouble(NOTE, ID, what, command.format(document.name)))
+            campaigns.append({**about, "recorded": None, "score": score})
         else:
             campaigns.append({**about, "recorded": _campaign(document, found)})
     return {"id": document.name, "title": document.about.title, "campaigns": campaigns}

@@ -1,13 +1,14 @@
-"""Verdict at a glance: what must be said first, then all documents on one screen, then each property."""
+"""Verdicts: all documents in one table, then each property by environment."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
 from modeproof.registers.scores import Score, load_scores
 from modeproof.report.campaigns import KINDS, id_of
+from modeproof.report.claims import result_of
 from modeproof.report.part import Part
 from modeproof.report.snapshot import as_it_counts, lines_of, mutants_of
 from modeproof.report.sources import Evidence, Figure, Sources
@@ -31,15 +32,13 @@ def part(sources: Sources) -> Part:
     documents = [_document(sources, document) for document in sources.documents.values()]
     return Part(
         "verdict",
-        "Verdict at a glance",
+        "Verdicts by environment",
         {
             "groups": [
                 {"title": title, "good": good, "column": title not in ASIDE_OF_TABLE}
                 for title, good, _ in GROUPS
             ],
             "documents": documents,
-            "total": _total(documents),
-            "tiles": _tiles(sources),
         },
     )
 
@@ -60,17 +59,17 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
         "environments": [
             {
                 "id": name,
-                **_count(
+                **count(
                     [line.status for line in lines if _counted(line) and line.environment == name], folder
                 ),
-                "aside": sum(1 for line in lines if line.environment == name and line.verdict == ASIDE),
             }
             for name in environments
         ],
         "groups": [
-            _count([status_of(as_it_counts(record)) for record in evidence if of(record)], folder)
+            count([status_of(as_it_counts(record)) for record in evidence if of(record)], folder)
             for *_, of in GROUPS
         ],
+        "aside": [run.id for run in document.runs if result_of(sources, document, run).word == ASIDE],
         "mutants": _mutants(sources, document.name),
         "columns": environments,
         "rows": _rows(sources, document, lines, environments, marks),
@@ -83,12 +82,21 @@ def _counted(line: Line) -> bool:
     return line.verdict != ASIDE
 
 
-def _count(statuses: Sequence[int], folder: str) -> dict[str, Any]:
+def count(statuses: Sequence[int], folder: str) -> dict[str, Any]:
     """How many of how many are as expected, and the worst status of the others."""
     return {
         "good": Figure(sum(1 for status in statuses if not status), folder),
         "of": Figure(len(statuses), folder),
         "status": min((status for status in statuses if status), default=0),
+    }
+
+
+def add(cells: Iterable[dict[str, Any]]) -> dict[str, Any]:
+    """The counts of several documents together."""
+    every = list(cells)
+    return {
+        **{key: Figure(sum(cell[key].value for cell in every), "build/evidence/") for key in ("good", "of")},
+        "status": min((cell["status"] for cell in every if cell["status"]), default=0),
     }
 
 
@@ -108,14 +116,20 @@ def _mutants(sources: Sources, document: str) -> list[dict[str, Any]]:
             rows.append(_killed(judge, killed, different, path))
         elif score := kept.get(kind):
             path = f"spec/{document}/scores.toml"
-            note = f"{score.judged_on}{', of an earlier text' if score.earlier_text else ''}"
-            rows.append(_killed(judge, score.killed, score.different, path, note))
+            row = _killed(judge, score.killed, score.different, path)
+            rows.append({**row, "day": score.judged_on, "earlier": score.earlier_text})
     return rows
 
 
-def _killed(judge: str, killed: int, of: int, path: str, note: str = "") -> dict[str, Any]:
-    """How many of the mutants a judge kills; `note` is the day of a recorded campaign, and its text."""
-    return {"judge": judge, "killed": Figure(killed, path), "of": Figure(of, path), "note": note}
+def _killed(judge: str, killed: int, of: int, path: str) -> dict[str, Any]:
+    """How many of the mutants a judge kills; a campaign that is recorded has its day."""
+    return {
+        "judge": judge,
+        "killed": Figure(killed, path),
+        "of": Figure(of, path),
+        "day": "",
+        "earlier": False,
+    }
 
 
 def _rows(
@@ -160,47 +174,3 @@ def _why(line: Line, source: Evidence | None) -> str:
         return ""
     reason = "" if source is None or source.changed else str(source.record["reason"])
     return f"not as declared: {reason}" if line.verdict == NOT_AS_DECLARED else reason or line.strength
-
-
-def _total(documents: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """All documents together, column by column; a mutant counts once for each judge."""
-    folder = "build/evidence/"
-
-    def add(cells: Sequence[dict[str, Any]]) -> dict[str, Any]:
-        return {
-            "good": Figure(sum(value["good"].value for value in cells), folder),
-            "of": Figure(sum(value["of"].value for value in cells), folder),
-            "status": min((value["status"] for value in cells if value["status"]), default=0),
-        }
-
-    mutants = []
-    for _, judge, _ in KINDS.values():
-        rows = [row for document in documents for row in document["mutants"] if row["judge"] == judge]
-        if rows:
-            old = sum("earlier" in row["note"] for row in rows)
-            note = f"{old} of {len(rows)} campaigns of an earlier text" if old else ""
-            where = "spec/" if any(row["note"] for row in rows) else folder
-            killed, of = (sum(row[key].value for row in rows) for key in ("killed", "of"))
-            mutants.append(_killed(judge, killed, of, where, note))
-    return {
-        "properties": add([cell for document in documents for cell in document["environments"]]),
-        "groups": [
-            add([document["groups"][place] for document in documents]) for place in range(len(GROUPS))
-        ],
-        "mutants": mutants,
-    }
-
-
-def _tiles(sources: Sources) -> list[dict[str, Any]]:
-    """What registers hold, all documents together: how much a person has to judge."""
-    documents = list(sources.documents.values())
-    registers: tuple[tuple[str, str, Callable[[Document], int]], ...] = (
-        ("documents", "scope", lambda one: 1),
-        ("clauses", "review", lambda one: len(one.clauses)),
-        ("findings", "findings", lambda one: len(one.findings)),
-        ("assumptions", "assumptions", lambda one: len(one.assumptions)),
-    )
-    return [
-        {"title": title, "part": part, "count": Figure(sum(map(count, documents)), "spec/")}
-        for title, part, count in registers
-    ]

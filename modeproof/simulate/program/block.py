@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from modeproof.simulate.program.device import Device, inputs_of, on_wire, take
+from modeproof.simulate.program.device import Device, give, inputs_of, on_wire, take
 
 CALL_MS = 20
 
@@ -94,6 +94,29 @@ class Block:
             "open": {},
             "devices": {self.id: {"state": state, "step": self.device.step, "last": self.scans > 0}},
         }
+
+
+def recorded(row: dict[str, Any], id: str, rows: list[dict[str, Any]]) -> dict[str, Any]:
+    """The last of some recorded rows as the card shows it: what the evidence has, and nothing else.
+
+    `row` is that of the block in the interface.
+    """
+    last = rows[-1]
+    on: dict[str, bool] = {}
+    text = {"time": "not recorded", "scans": str(sum([of["who"] == id for of in rows])), "differs": ""}
+    for name, of in row["outputs"].items():
+        if of["type"] == "bool":
+            on[name] = bool(last["wires"].get(name))
+        else:
+            text[name] = str(give(of, last["wires"][name])) if name in last["wires"] else "not recorded"
+    for name in row["inputs"]:
+        on[f"in.{name}"] = bool(last["wires"].get(name))
+    if not set(row["inputs"]) & set(last["wires"]):
+        text["differs"] = "Inputs are not recorded in this model."
+    state = last["states"].get(id, "")
+    text["says"] = spelt(state)
+    step = {"state": state, "step": last["step"] if last["who"] == id else "", "last": True}
+    return {"text": text, "on": on, "open": {}, "devices": {id: step}}
 
 
 def spelt(name: str) -> str:

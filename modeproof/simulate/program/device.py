@@ -7,6 +7,7 @@ compared in every scan.
 
 from __future__ import annotations
 
+import sys
 from typing import Any
 
 TOOK = "_took"
@@ -17,11 +18,30 @@ class Disagreement(Exception):
     """The copy that names the steps did something else than the code itself."""
 
 
-class Device:
-    """A device after power-up with these parameters (Python values); others have their defaults."""
+class _Edited:
+    """The names of an edited text of a module."""
 
-    def __init__(self, module: str, labelled: str, params: dict[str, Any]) -> None:
-        self.code: Any = __import__(module, fromlist=["step"])
+
+def _program(module: str, source: str) -> Any:
+    """An edited text as a program, under a name of its own: Brython keeps globals by the module's name."""
+    name = f"{module}_edited_{len(sys.modules)}"
+    room: dict[str, Any] = {"__name__": name}
+    made: Any = _Edited()
+    sys.modules[name] = made  # dataclasses look for the module of a class
+    exec(source, room)
+    for key, value in room.items():
+        setattr(made, key, value)
+    return made
+
+
+class Device:
+    """A device after power-up with these parameters (Python values); others have their defaults.
+
+    `source` is what runs instead of the module's own text, where a reading of a document is to be seen.
+    """
+
+    def __init__(self, module: str, labelled: str, params: dict[str, Any], source: str = "") -> None:
+        self.code: Any = _program(module, source) if source else __import__(module, fromlist=["step"])
         self.state: Any = self.code.power_up(self.code.Params(**params))
         self.out: Any = self.code.outputs(self.state)
         self.step = ""

@@ -7,7 +7,7 @@ from typing import Any
 from browser import document, window
 from javascript import JSON
 
-from modeproof.simulate.program.block import Block
+from modeproof.simulate.program.block import Block, recorded
 from modeproof.simulate.program.play import Player, of_log, of_recorded, of_story
 from modeproof.simulate.program.suites import judge
 from modeproof.simulate.program.view import View
@@ -36,6 +36,8 @@ class Page:
             nav.bind("click", lambda event: self.show_part(event.currentTarget.attrs["data-part"]))
         self.show_part(self.parts[0])
         document["choose"].bind("change", lambda event: self.choose(event.target.value))
+        document["findings"].bind("click", lambda event: self.again(event.target))
+        window.bind("hashchange", lambda event: self.follow())
         document["next"].bind("click", lambda event: self.next())
         document["leave"].bind("click", lambda event: self.leave())
         document["run"].bind("click", lambda event: self.toggle(event.currentTarget, self.next, 1200))
@@ -199,12 +201,39 @@ class Page:
     def choose(self, value: str) -> None:
         """Begin a story or a recorded run, or leave both."""
         self.leave(keep=True)
-        kind, _, rest = value.partition(" ")
-        if kind == "story":
-            self.begin_story(FACTS["stories"][int(rest)])
-        elif kind == "run":
-            name, _, number = rest.partition(" ")
-            self.begin_recorded(name, FACTS["documents"][name]["recorded"][int(number)])
+        if value:
+            self.begin_story(FACTS["stories"][int(value)])
+
+    def follow(self) -> None:
+        """Play what the address names: #finding=E-52, or one of its runs, #finding=E-52&run=NAME."""
+        hash = window.decodeURIComponent(window.location.hash[1:])
+        wanted = {name: value for name, _, value in [part.partition("=") for part in hash.split("&")]}
+        if "finding" not in wanted:
+            return
+        self.leave()
+        for name, about in FACTS["documents"].items():
+            for finding in about["findings"]:
+                if finding["id"] == wanted["finding"]:
+                    self.begin_finding(name, finding, wanted.get("run", ""))
+                    return
+        self.say(f"There is no finding {wanted['finding']!r} in this page.")
+
+    def again(self, link: Any) -> None:
+        """A link to what the address names already: it is played once more."""
+        if link.tagName == "A" and link.hash == window.location.hash:
+            self.follow()
+
+    def begin_finding(self, name: str, finding: dict[str, Any], wanted: str) -> None:
+        """Play a run of a finding, the first where none is named; say why where there is none."""
+        runs = [id for id in finding["runs"] if wanted in ("", id)]
+        if not runs:
+            self.show_part("findings")
+            why = finding["why"] or f"{wanted} is no run of it that can be played."
+            self.say(f"{finding['id']}: {finding['title']}. {why}")
+            return
+        run = next(run for run in FACTS["documents"][name]["recorded"] if run["run"] == runs[0])
+        self.begin_recorded(name, run, finding)
+        document["next"].focus()
 
     def begin_story(self, story: dict[str, Any]) -> None:
         """Power up what the story needs and tell its beginning."""
@@ -223,22 +252,28 @@ class Page:
         self.told = of
         self.begin(of_story(story, lambda text: self.act(of, text)))
 
-    def begin_recorded(self, name: str, run: dict[str, Any]) -> None:
-        """Show the recorded rows one by one where the scene draws them, else as text."""
-        if name not in FACTS["scenes"]:
-            self.show_part("suites")
-            self.begin(of_recorded(run, lambda row: None))
-            return
-        self.show_part(f"scene-{name}")
-        self.open_cells(name, [{"title": "", "params": {}}])
-        _allow(document[f"scene-{name}"], False)
-        view, code = self.views[name][0], self.code[name]
+    def begin_recorded(self, name: str, run: dict[str, Any], finding: dict[str, Any]) -> None:
+        """Show the recorded rows one by one, in the drawing of the document or on the block's card."""
+        if name in FACTS["scenes"]:
+            self.show_part(f"scene-{name}")
+            self.open_cells(name, [{"title": "", "params": {}}])
+            root, told = document[f"scene-{name}"], name
+        else:
+            self.show_part("blocks")
+            told = next(iter(FACTS["documents"][name]["devices"]))
+            root = self.views[told][0].root
+            root.scrollIntoView()
+        _allow(root, False)
+        view = self.views[told][0]
 
-        def draw(row: dict[str, Any]) -> None:
-            view.draw(code.recorded(view.facts, row["wires"], row["states"], row["step"], row["who"]))
+        def draw(rows: list[dict[str, Any]]) -> None:
+            if name in FACTS["scenes"]:
+                view.draw(self.code[name].recorded(view.facts, rows))
+            else:
+                view.draw(recorded(view.facts["devices"][told], told, rows))
 
-        self.told = name
-        self.begin(of_recorded(run, draw))
+        self.told = told
+        self.begin(of_recorded(run, JSON.parse(run["rows"]), finding, draw))
 
     def begin(self, player: Player) -> None:
         """A player takes over the box of the tour."""
@@ -246,6 +281,14 @@ class Page:
         document["told"].text = player.intro
         for id in ("next", "run", "leave"):
             document[id].disabled = False
+        self.draw_place()
+
+    def draw_place(self) -> None:
+        """How far what is told has come."""
+        player = self.player
+        document["bar"].hidden = player is None
+        if player is not None:
+            document["bar"].max, document["bar"].value = len(player.steps), player.at
 
     def next(self) -> None:
         """The next step of what is told; at its end nothing more."""
@@ -253,6 +296,7 @@ class Page:
         if player is None:
             return
         document["told"].text = player.next()
+        self.draw_place()
         if player.ended:
             document["next"].disabled = document["run"].disabled = True
             self.pause()
@@ -262,7 +306,12 @@ class Page:
         self.pause()
         if self.player is not None and self.told in FACTS["scenes"]:
             self.open_cells(self.told, [{"title": "", "params": {}}])
+        elif self.player is not None and self.told is not None:
+            self.views[self.told][0].scene.reset()
+            _allow(self.views[self.told][0].root, True)
+            self.after(self.told)
         self.player = self.told = None
+        self.draw_place()
         document["told"].text = ""
         for id in ("next", "run", "leave"):
             document[id].disabled = True
@@ -403,3 +452,4 @@ PAGE = Page()
 window.modeproofReady = window.performance.now()
 document["loading"].hidden = True
 document["app"].hidden = False
+PAGE.follow()

@@ -47,21 +47,50 @@ def actions(row: dict[str, Any]) -> list[str]:
     return [text for text in row.get("do", "").split("; ") if text]
 
 
-def of_recorded(run: dict[str, Any], draw: Callable[[dict[str, Any]], None]) -> Player:
-    """A recorded counterexample: nothing runs, every row shows what the evidence has."""
+def of_recorded(
+    run: dict[str, Any],
+    changes: list[dict[str, Any]],
+    finding: dict[str, Any],
+    draw: Callable[[list[dict[str, Any]]], None],
+) -> Player:
+    """A recorded counterexample; nothing runs. Of each row `changes` has what is not as in the row before.
 
-    def step(row: dict[str, Any]) -> Callable[[], str]:
+    `draw` gets all rows up to the one that is to be seen.
+    """
+    rows = whole(changes)
+
+    def step(number: int) -> Callable[[], str]:
         def take() -> str:
-            draw(row)
-            by = f" ({row['who']})" if row["who"] else ""
-            return f"{row['step'] or 'power-up'}{by}."
+            draw(rows[: number + 1])
+            return told(rows[number])
 
         return take
 
-    told = "; ".join([f"{id}, {title}. {text}" for id, title, text in run["findings"][:1]])
-    intro = f"Recorded by the model checker, not run here. {told} Press Next."
-    end = f"Here {run['property']} fails: {run['says']}"
-    return Player(intro, [step(row) for row in run["rows"]], end)
+    old = "" if run["fresh"] else " The specification has changed since."
+    intro = f"{finding['id']}: {finding['title']}. {finding['story']}"
+    source = f"The model checker recorded this in {run['run']}; nothing runs here.{old}"
+    loop = {"": "", "stuttering": " Then nothing happens any more."}.get(run["loop"], f" Then {run['loop']}.")
+    end = f"Here {run['property']} fails: {run['says']}{loop}"
+    return Player(f"{intro} {source} Press Next.", [step(number) for number in range(len(rows))], end)
+
+
+def whole(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Rows that have only what changed, with all that stands."""
+    found: list[dict[str, Any]] = []
+    stands: dict[str, dict[str, Any]] = {"wires": {}, "states": {}, "also": {}}
+    for row in rows:
+        stands = {group: {**of, **row.get(group, {})} for group, of in stands.items()}
+        found.append({"instead": [], "ticks": 0, **row, **stands})
+    return found
+
+
+def told(row: dict[str, Any]) -> str:
+    """One row in words: the step, who takes it and when, what else stands, what was decided instead."""
+    by = f" ({row['by']})" if row["by"] else ""
+    later = f", {row['ticks']} tick{'s' if row['ticks'] > 1 else ''} later" if row["ticks"] else ""
+    also = "; ".join([f"{name} {value}" for name, value in row["also"].items()])
+    sentences = [f"{row['step'] or 'power-up'}{by}{later}", also, *row["instead"]]
+    return " ".join([f"{text}." for text in sentences if text])
 
 
 def of_log(rows: list[dict[str, Any]], play: Callable[[dict[str, Any]], str]) -> Player:

@@ -47,7 +47,6 @@ def judge(code: Any, header: dict[str, Any], cases: Any) -> Iterator[Verdict]:
         params = {name: take(kinds[name], value) for name, value in case["params"].items()}
         state = code.power_up(code.Params(**params))
         given: dict[str, Any] = {}
-        expected: list[tuple[str, Any]] = []
         wanted: dict[str, Any] = {}
         record: Any = None
         for number, scan in enumerate(case["scans"], 1):
@@ -55,17 +54,16 @@ def judge(code: Any, header: dict[str, Any], cases: Any) -> Iterator[Verdict]:
                 verdict.difference = f"{case['id']}: asks for a refusal, which nothing here can give"
                 yield verdict
                 return
-            for name, value in scan["in"].items():
-                given[name] = take(ins[name], value)
-            if scan["out"]:
-                for name, value in scan["out"].items():
-                    wanted[name] = take(outs[name], value)
-                expected = list(wanted.items())
+            for name in scan["in"]:
+                given[name] = take(ins[name], scan["in"][name])
+            for name in scan["out"]:
+                wanted[name] = take(outs[name], scan["out"][name])
             if scan["in"] or record is None or record.dt_ms != scan["dt_ms"]:
                 record = code.Inputs(scan["dt_ms"], **given)
             state, out = code.step(state, record)
             verdict.done_scans += 1
-            for name, value in () if "settling" in scan else expected:
+            for name in () if "settling" in scan else wanted:
+                value = wanted[name]
                 if getattr(out, name) != value:
                     got, value = give(outs[name], getattr(out, name)), give(outs[name], value)
                     verdict.difference = f"{case['id']}, scan {number}: {name} is {got}, expected {value}"

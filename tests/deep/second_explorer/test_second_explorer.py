@@ -6,7 +6,6 @@ its states and inputs are built by hand.
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -67,18 +66,21 @@ LONG = frozenset(
         fplc.Step.ECHO_SELECTION,
         fplc.Step.AWAIT_ACKNOWLEDGMENT,
         fplc.Step.CHECK_ACKNOWLEDGMENT,
+        fplc.Step.MATCH,
+        fplc.Step.SWITCH,
     }
 )
-"""States that take up to 95 s of CPU time: MODEPROOF_LONG=1 asks them too."""
+"""States that take one to two minutes of CPU time each."""
 
 
-@pytest.mark.parametrize("step", fplc.Step, ids=lambda step: str(step.value))
+@pytest.mark.parametrize(
+    "step",
+    [pytest.param(step, marks=[pytest.mark.long] * (step in LONG), id=step.value) for step in fplc.Step],
+)
 def test_a_second_explorer_confirms_the_f_plc_from_every_state(
     step: fplc.Step, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """State by state: all of them in one question take several minutes of the processor."""
-    if step in LONG and "MODEPROOF_LONG" not in os.environ:
-        pytest.skip(f"{step.value} takes up to 95 s: MODEPROOF_LONG=1 make test-deep")
     monkeypatch.setattr(sentences, "chosen", lambda steps, number: steps(step.value))
     assert judged(sentences.fplc_switches_on_the_pair)[0] == "CONFIRMED"
 

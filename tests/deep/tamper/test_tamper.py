@@ -55,7 +55,13 @@ def test_every_case_has_a_name_of_its_own() -> None:
     assert len({case.name for case in every}) == len(every) >= 76
 
 
-@pytest.mark.parametrize("case", EVERY, ids=[case.name for case in EVERY])
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, marks=[pytest.mark.long] * (place % 2), id=case.name)
+        for place, case in enumerate(EVERY)
+    ],
+)
 def test_no_slip_is_a_false_green(repository: Copy, case: Case) -> None:
     judge(repository, case)
 

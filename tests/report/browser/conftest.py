@@ -38,6 +38,7 @@ def any_report(box_report: Path) -> Path:
 def box(browser: Browser, box_report: Path) -> Iterator[Opened]:
     """The page of the box, opened anew."""
     with open_page(browser, box_report) as opened:
+        opened.open_annex()
         yield opened
 
 
@@ -45,6 +46,7 @@ def box(browser: Browser, box_report: Path) -> Iterator[Opened]:
 def anyone(browser: Browser, any_report: Path) -> Iterator[Opened]:
     """Any page, opened once for the tests of a module; they only look at it."""
     with open_page(browser, any_report) as opened:
+        opened.open_annex()
         yield opened
 
 

@@ -27,7 +27,7 @@ window.questions = (() => {
     // Rows of tables that do not show, and what is still closed.
     hidden() {
       return [...document.querySelectorAll("main table tbody tr, main details > :not(summary)")]
-        .filter((one) => !one.closest("[hidden], .explorer, .screen") && !seen(one))
+        .filter((one) => !one.closest("[hidden], .explorer, .screen, #trace-viewer, noscript") && !seen(one))
         .map((one) => `${named(one)}: ${start(one)}`);
     },
     // Links within the page that lead nowhere; those with a path are read by scripts.

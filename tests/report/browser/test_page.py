@@ -37,6 +37,7 @@ def faulty(browser: Browser, box_report: Path) -> Iterator[Opened]:
     html = html.replace("</main>", f'<section id="planted">{"".join(FAULTS)}</section></main>')
     with open_page(browser, write(box_report.with_name("faulty.html"), html)) as opened:
         opened.page.wait_for_load_state("networkidle")
+        opened.open_annex()
         yield opened
 
 
@@ -125,7 +126,6 @@ def test_on_paper_nothing_is_cut_and_every_row_shows(browser: Browser, any_repor
         opened.print_view()
         assert opened.wrong("cut") == []
         assert opened.wrong("hidden") == []
-        assert opened.page.pdf(prefer_css_page_size=True).startswith(b"%PDF")
 
 
 def test_a_row_that_a_filter_hides_is_printed(box: Opened) -> None:
