@@ -199,9 +199,7 @@ def test_foreign_text_cannot_leave_its_place_in_the_style(root: Path) -> None:
     assert css_string('a"\\\n') == r'"a\22 \5c \a "'
 
 
-def test_a_report_of_one_document_has_its_own_folder(
-    root: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_report_of_one_document_has_its_own_folder(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (root / "spec" / "lid").mkdir()
     (root / "spec/lid/document.toml").write_text("damaged")
     assert main(["report", "--quiet", "--document", "box", "--date", "2026-11-23"]) == 0
