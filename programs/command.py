@@ -72,6 +72,8 @@ def _keep(found: Verdict, path: Path | None) -> str:
         return "none: a vector file cannot hold the first values of RETAIN variables"
     name = f"{reference.device.name}-{found.product.binding.unit.name}.jsonl"
     place = path or build(root()) / "programs" / name
+    if path is None:
+        place.parent.mkdir(parents=True, exist_ok=True)
     write_text(place, vector_of(found.difference, found.product.binding))
     return f"{place}; test it with `modeproof conform {reference.device.name} --vectors {place} ...`"
 

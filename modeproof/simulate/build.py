@@ -24,7 +24,7 @@ def make(place: Path) -> str:
     """The page's text. Raises Unjudged where something that it needs is missing, or where it is too large."""
     names = documents(place)
     known = {name: facts.of_document(load_document(place, name)) for name in names}
-    scenes = [name for name in names if (place / "scenes" / name / "cell.html.j2").is_file()]
+    scenes = facts.scenes(place)
     told = facts.stories(place, scenes)
     script, notice = bundle.brython()
     environment = jinja2.Environment(

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import documents
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Device, Document, Signal
@@ -113,6 +114,11 @@ def _readings(document: Document) -> dict[str, Any]:
             source = source.replace(edit["old"], edit["new"])
         made[id] = {"device": device.id, "source": source, "labelled": _copy(document, device, source)}
     return made
+
+
+def scenes(place: Path) -> list[str]:
+    """The documents whose devices are drawn as one cell; the others have a card for each block."""
+    return [name for name in documents(place) if (place / "scenes" / name / "cell.html.j2").is_file()]
 
 
 def stories(place: Path, names: Sequence[str]) -> list[dict[str, Any]]:

@@ -9,6 +9,7 @@ import importlib
 import os
 import shutil
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ SECONDS = 4
 
 def svg(place: Path, id: str) -> str:
     """A story as an animation. Raises Unjudged where there is no such story, or nothing that draws it."""
-    story = _story(place, id)
+    story = _story(facts.stories(place, facts.scenes(place)), id)
     name = story["of"]
     if not (place / "scenes" / name / "story.svg.j2").is_file():
         raise Unjudged(f"scenes/{name}/story.svg.j2 is missing; it draws the stories of {name}")
@@ -67,8 +68,9 @@ def png(place: Path, page: Path, id: str, step: int) -> bytes:
 
     Raises Unjudged where there is no such story or step, no Chromium, or no playwright.
     """
-    told = facts.stories(place, _scenes(place))
-    story = _story(place, id)
+    scenes = facts.scenes(place)
+    told = facts.stories(place, scenes)
+    story = _story(told, id)
     if not 0 <= step <= len(story["step"]):
         raise Unjudged(f"the story {id} has no step {step}; it has {len(story['step'])}")
     chromium = shutil.which(os.environ.get("MODEPROOF_CHROMIUM", "chromium"))
@@ -87,7 +89,7 @@ def png(place: Path, page: Path, id: str, step: int) -> bytes:
             view.select_option("#choose", str(told.index(story)))
             for _ in range(step):
                 view.click("#next")
-            drawn = f".part:not([hidden]) {'.cells' if story['of'] in _scenes(place) else '.cards'}"
+            drawn = f".part:not([hidden]) {'.cells' if story['of'] in scenes else '.cards'}"
             box = view.locator(drawn).bounding_box()
             if box is None:
                 raise Unjudged(f"the page shows nothing of the story {id}")
@@ -102,12 +104,8 @@ def png(place: Path, page: Path, id: str, step: int) -> bytes:
         raise Unjudged(f"Chromium: {str(error).splitlines()[0]}") from None
 
 
-def _scenes(place: Path) -> list[str]:
-    return sorted(path.parent.name for path in (place / "scenes").glob("*/cell.html.j2"))
-
-
-def _story(place: Path, id: str) -> dict[str, Any]:
-    told = {story["id"]: story for story in facts.stories(place, _scenes(place))}
+def _story(stories: Sequence[dict[str, Any]], id: str) -> dict[str, Any]:
+    told = {story["id"]: story for story in stories}
     if id not in told:
         raise Unjudged(f"no story {id!r}; {suggestion(id, list(told))}")
     return told[id]

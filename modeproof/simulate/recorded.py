@@ -21,11 +21,10 @@ from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 from modeproof.report.cells import Cells
 from modeproof.report.story import digest_of, from_walk
+from modeproof.simulate.program.play import GROUPS
 
 SHOWN_OF_HASH = 12
 KEPT = ("run", "trace_sha256", "modules", "loop", "rows")
-GROUPS = ("wires", "states", "also")
-"""What a row has by name: signals, the state of each device, and what else the model remembers."""
 
 
 def shown(document: Document) -> list[dict[str, Any]]:

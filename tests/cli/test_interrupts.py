@@ -203,3 +203,20 @@ print(z3.simplify(z3.substitute(z3.And(x + 3 > 4, x < 9), (x, z3.IntVal(5)))))
 """
     found = subprocess.run([sys.executable, "-c", text], cwd=TREE, capture_output=True, text=True, check=True)
     assert found.stdout == "True\n"
+
+
+def test_a_signal_that_ends_nothing_ends_no_query() -> None:
+    """A timer, say, or the end of a child: whatever has a handler is told to the same pipe."""
+    text = """
+import signal, time
+from modeproof.ground.proofs import proofs_module
+proofs_module("proofs.theorem")
+import z3
+signal.signal(signal.SIGUSR1, lambda *_: None)
+signal.raise_signal(signal.SIGUSR1)
+time.sleep(0.2)
+x = z3.Int("x")
+print(z3.simplify(z3.substitute(z3.And(x + 3 > 4, x < 9), (x, z3.IntVal(5)))))
+"""
+    found = subprocess.run([sys.executable, "-c", text], cwd=TREE, capture_output=True, text=True, check=True)
+    assert found.stdout == "True\n"

@@ -15,8 +15,17 @@ FEW = ("st-fplc-error-holds-the-mode", "st-fplc-level-kept-in-removal")
 """Of the F-PLC, whose faults take half a minute each; `examples/faulty/st.py` judges all."""
 
 
+JUDGED = [name for name, fault in FAULTS.items() if fault.target != "fplc" or name in FEW]
+
+
 @pytest.mark.sampled(16)
-@pytest.mark.parametrize("name", [name for name, of in FAULTS.items() if of.target != "fplc" or name in FEW])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=[pytest.mark.long] * (place % 2 == 1 and name not in FEW))
+        for place, name in enumerate(JUDGED)
+    ],
+)
 def test_a_faulty_program_gets_its_verdict(name: str, tmp_path: Path) -> None:
     fault = FAULTS[name]
     found = judge(fault, tmp_path)

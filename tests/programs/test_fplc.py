@@ -38,7 +38,7 @@ def test_the_fplc_is_proved_equal() -> None:
     assert "r:elapsed_ms + p:LEFT = g:T_DWELL_ms" in relations
 
 
-@pytest.mark.deep
+@pytest.mark.long
 def test_the_other_encoding_is_proved_and_checked_again(tmp_path: Path) -> None:
     found = judged(PROGRAMS / "fplc_flags.st", "fplc", wrap=True)
     assert found.word == "PROVED" and found.replayed is not None

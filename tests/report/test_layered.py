@@ -6,7 +6,7 @@ import re
 from itertools import combinations, pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from modeproof.report.drawing.layered import Chain, Placed, Point, Size, narrowest, place
@@ -43,9 +43,22 @@ def overlap(placed: Placed, sizes: dict[str, Size], one: str, other: str) -> boo
     return abs(a.x - b.x) < (s.width + t.width) / 2 and abs(a.y - b.y) < (s.height + t.height) / 2
 
 
+CROWDED = (
+    {f"b{n}": Size(10, 10 if n else 145) for n in range(8)} | {f"l{n}": Size(10, 10) for n in range(11)},
+    [
+        Chain(f"b{source}", f"b{target}", f"l{n}")
+        for n, (source, target) in enumerate(
+            [(1, 3), (1, 0), (5, 4), (7, 0), (7, 1), (0, 1), (7, 2), (4, 1), (0, 6), (3, 4), (6, 0)]
+        )
+    ],
+)
+"""Two of its boxes were placed over one another."""
+
+
 @pytest.mark.parametrize("aside", [False, True])
 @settings(max_examples=60, deadline=None)
 @given(graph=graphs())
+@example(graph=CROWDED)
 def test_boxes_stand_apart_within_the_picture(aside: bool, graph: Graph) -> None:
     sizes, chains = graph
     placed = place(sizes, chains, aside=aside)

@@ -184,8 +184,13 @@ def _layout(names: Sequence[str], sizes: Mapping[str, Size], links: Sequence[tup
     top = MARGIN
     for layer in sugiyama.layers:
         bottom = top + max(vertex.view.h for vertex in layer)
+        right = float("-inf")
         for vertex in layer:
-            vertex.view.xy = (vertex.view.xy[0], (top + bottom) / 2)
+            middle, half = vertex.view.xy[0], vertex.view.w / 2
+            if middle - half < right:  # grandalf's mean of four places can bring two boxes together
+                middle = right + ACROSS + half
+            vertex.view.xy = (middle, (top + bottom) / 2)
+            right = middle + half
         ends.append((top, bottom))
         top = bottom + DOWN
     views = {name: vertex.view for name, vertex in vertices.items()}

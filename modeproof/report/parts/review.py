@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
 
+from modeproof.ground.evidence import sha256
 from modeproof.registers.rows import Assumption, Clause, Document, Finding, Property
 from modeproof.registers.runs import Run
 from modeproof.report.bearing import OF_THE_MACHINE, falling, hazard_of
@@ -47,14 +47,11 @@ def part(sources: Sources) -> Part:
         "heads": HEADS,
         "file": NAME,
         "tally": tally(rows),
-        "from": None if (path := sources.filing.answers) is None else {"name": path.name, **_seal(path)},
+        "from": None
+        if (path := sources.filing.answers) is None
+        else {"name": path.name, "sha256": sha256(path)},
     }
     return Part("review", "Review sheet", data, attachments={NAME: sheet_file(rows)})
-
-
-def _seal(path: Path) -> dict[str, str]:
-    """By which the file of the answers is known again."""
-    return {"sha256": hashlib.sha256(path.read_bytes()).hexdigest()}
 
 
 def sheet(sources: Sources) -> tuple[Row, ...]:

@@ -29,7 +29,6 @@ class Page:
         self.code: dict[str, Any] = {}
         for name in FACTS["scenes"]:
             self.code[name] = __import__(f"scenes.{name}.scene", fromlist=["Scene"])
-        for name in FACTS["scenes"]:
             self.open_cells(name, [{"title": "", "params": {}}])
         self.parts = [nav.attrs["data-part"] for nav in document.select("nav [data-part]")]
         for nav in document.select("nav [data-part]"):
@@ -53,10 +52,7 @@ class Page:
         for nav in document.select("nav [data-part]"):
             part = nav.attrs["data-part"]
             document[part].hidden = part != id
-            if part == id:
-                nav.attrs["aria-current"] = "page"
-            elif "aria-current" in nav.attrs:
-                del nav.attrs["aria-current"]
+            nav.attrs["aria-current"] = "page" if part == id else "false"
 
     def open_blocks(self) -> None:
         """A view of each card."""
@@ -97,10 +93,7 @@ class Page:
             self.listen(root, name)
             for field in root.select("[data-choose]"):
                 field.bind("change", lambda event: self.aim(root, name, event.currentTarget))
-        if len(cells) > 1:
-            frame.classList.add("two")
-        else:
-            frame.classList.remove("two")
+        frame.classList.toggle("two", len(cells) > 1)
         _allow(root, True)
         self.after(name)
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+GROUPS = ("wires", "states", "also")
+"""What a recorded row has by name: signals, the state of each device, and what else the model remembers."""
+
 
 class Player:
     """Steps to be taken one after the other: each is a function that returns what is to be read."""
@@ -77,7 +80,7 @@ def of_recorded(
 def whole(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Rows that have only what changed, with all that stands."""
     found: list[dict[str, Any]] = []
-    stands: dict[str, dict[str, Any]] = {"wires": {}, "states": {}, "also": {}}
+    stands: dict[str, dict[str, Any]] = {group: {} for group in GROUPS}
     for row in rows:
         stands = {group: {**of, **row.get(group, {})} for group, of in stands.items()}
         found.append({"instead": [], "ticks": 0, **row, **stands})
