@@ -66,10 +66,16 @@ class Block:
         found = {}
         for group in ("inputs", "parameters", "outputs"):
             for name, signal in self.reference.signals(group).items():
-                pin = _pin(name, signal)
-                assert pin is not None
-                found[pin[0].upper()] = (group, name)
+                if (pin := _pin(name, signal)) is not None:
+                    found[pin[0].upper()] = (group, name)
         return found
+
+    @cached_property
+    def fixed(self) -> Mapping[str, Any]:
+        """The parameters that have no pin, with their defaults: sets of modes."""
+        signals = self.reference.signals("parameters")
+        defaults = self.reference.with_defaults({})
+        return {name: defaults[name] for name, signal in signals.items() if _pin(name, signal) is None}
 
     def unit(self) -> Unit:
         """The block with its pins and no body."""
@@ -77,8 +83,8 @@ class Block:
         variables = {}
         for group, section in (("inputs", "input"), ("parameters", "input"), ("outputs", "output")):
             for name, signal in self.reference.signals(group).items():
-                pin = _pin(name, signal)
-                assert pin is not None
+                if (pin := _pin(name, signal)) is None:
+                    continue
                 default = signal.default
                 if signal.type == "text":
                     default = signal.values.index(signal.default)
@@ -90,7 +96,7 @@ class Block:
 
     def start(self, values: Mapping[str, Any]) -> Any:
         """The state at power-up, with the parameters on the pins. Raises ValueError for wrong ones."""
-        return self.reference.start(self._code("parameters", values))
+        return self.reference.start({**self.fixed, **self._code("parameters", values)})
 
     def call(self, frame: Any, now: int) -> None:
         """One call at this time, in ms since power-up."""
@@ -154,6 +160,11 @@ class Block:
             for pin, (group, name) in self.pins.items()
             if group != "outputs"
         ]
+        where += [
+            (symbols[f"{name}[{mode}]"], z3.BoolVal(there))
+            for name, modes in self.fixed.items()
+            for mode, there in enumerate(modes)
+        ]
         where.append((reference.input_terms["dt_ms"], env[f"{path}.{AGE}"]))
         control = env[f"{path}.{CONTROL}"]
         known: dict[str, Any] = {}
@@ -182,7 +193,11 @@ def block(name: str) -> Block | None:
         return None
     of = reference(target)
     groups = (of.signals(group) for group in ("inputs", "outputs", "parameters"))
-    if any(_pin(pin, signal) is None for signals in groups for pin, signal in signals.items()):
+    if any(
+        _pin(pin, signal) is None and (signal.type != "modes" or signal.default is None)
+        for signals in groups
+        for pin, signal in signals.items()
+    ):
         return None
     return Block(of)
 

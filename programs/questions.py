@@ -154,6 +154,19 @@ def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
 
 def expression(text: str, cell: Cell, place: Place) -> Expression:
     """An expression of type BOOL over the program's values. Raises Unjudged with file, line and cause."""
+    found = parsed(text, place)
+    types = Types(cell.source, cell.unit)
+    types.scalar(found, place, ("bool",), BOOL)
+    for name in _names(found):
+        variable = cell.unit.variables.get(name.upper())
+        if variable is not None and variable.section == "temp":
+            raise place.refuse(f"{name} is VAR_TEMP: it has no value after a scan")
+    cell.holds(found)
+    return found
+
+
+def parsed(text: str, place: Place) -> Expression:
+    """An expression in Structured Text; every part of it stands at `place`. Raises Unjudged there."""
     try:
         units = read_text(
             f"FUNCTION_BLOCK q VAR_OUTPUT q : BOOL; END_VAR q := {text}\n; END_FUNCTION_BLOCK", place.file
@@ -165,13 +178,6 @@ def expression(text: str, cell: Cell, place: Place) -> Expression:
     if len(units) != 1 or len(statements) != 1 or not isinstance(statements[0], Assign):
         raise place.refuse(f"{text!r}: one expression is needed")
     found: Expression = _moved(statements[0].value, place)
-    types = Types(cell.source, cell.unit)
-    types.scalar(found, place, ("bool",), BOOL)
-    for name in _names(found):
-        variable = cell.unit.variables.get(name.upper())
-        if variable is not None and variable.section == "temp":
-            raise place.refuse(f"{name} is VAR_TEMP: it has no value after a scan")
-    cell.holds(found)
     return found
 
 

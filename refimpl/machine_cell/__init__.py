@@ -1,0 +1,1 @@
+"""The machine cell: the steps of the other folders, wired by data. Our own design; no paper describes it."""
