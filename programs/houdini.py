@@ -62,6 +62,10 @@ class Houdini:
             if mask | other == everywhere and abs(left) != abs(right)
         )
         self.clauses += itertools.islice(pairs, MOST_CLAUSES)
+        self.thin(until)
+
+    def thin(self, until: float) -> None:
+        """Drop what does not hold at power-up or does not survive a scan. Raises TimeoutError like `find`."""
         self._drop_at_start()
         self._drop_after_a_scan(until)
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +57,8 @@ class Questions:
     rows: tuple[Mapping[str, Any], ...]
     file: str
     text: str
+    tables: Mapping[str, Any] = field(default_factory=dict)
+    """What else the file may have, as it stands there."""
 
     def asked(self, cell: Cell) -> list[Asked]:
         """The properties over this program. Raises Unjudged with file, line and cause."""
@@ -70,8 +72,18 @@ class Questions:
         return Place(self.file, found[0] if found else 1)
 
 
-def read_questions(path: Path) -> Questions:
+@dataclass(frozen=True)
+class Beside:
+    """What a file of properties has besides: keys of a property, tables, scan times that stand elsewhere."""
+
+    keys: Mapping[str, type] = field(default_factory=dict)
+    tables: tuple[str, ...] = ()
+    scan_ms: tuple[int, int] | None = None
+
+
+def read_questions(path: Path, beside: Beside | None = None) -> Questions:
     """The properties of a TOML file. Raises Unjudged with file, line and cause."""
+    beside = beside or Beside()
     try:
         text = path.read_text("utf-8")
         table = tomllib.loads(text)
@@ -79,16 +91,17 @@ def read_questions(path: Path) -> Questions:
         raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise Unjudged(f"{path}: no TOML: {error}") from None
+    allowed = ["property", *beside.tables, *(["scan_time_ms"] if beside.scan_ms is None else [])]
     for key in table:
-        if key not in ("scan_time_ms", "property"):
-            raise Unjudged(f"{path}: unknown key {key!r}; {suggestion(key, ['scan_time_ms', 'property'])}")
+        if key not in allowed:
+            raise Unjudged(f"{path}: unknown key {key!r}; {suggestion(key, allowed)}")
     rows = table.get("property", [])
     if not isinstance(rows, list) or not rows or not all(isinstance(row, dict) for row in rows):
         raise Unjudged(f"{path}: no [[property]] in it")
     seen: set[str] = {TYPES}
     for row in rows:
-        _check_row(row, path, seen)
-    times = table.get("scan_time_ms", [0])
+        _check_row(row, path, seen, beside.keys)
+    times = table.get("scan_time_ms", [0]) if beside.scan_ms is None else list(beside.scan_ms)
     if (
         not isinstance(times, list)
         or len(times) not in (1, 2)
@@ -98,25 +111,30 @@ def read_questions(path: Path) -> Questions:
         raise Unjudged(f"{path}: scan_time_ms = [shortest, longest] in whole ms")
     if len(times) == 1 and any("within_ms" in row for row in rows):
         raise Unjudged(f"{path}: a property with within_ms needs scan_time_ms = [shortest, longest]")
-    return Questions((times[0], times[1] if len(times) == 2 else None), tuple(rows), str(path), text)
+    return Questions((times[0], times[1] if len(times) == 2 else None), tuple(rows), str(path), text, table)
 
 
-def _check_row(row: Mapping[str, Any], path: Path, seen: set[str]) -> None:
+def _check_row(row: Mapping[str, Any], path: Path, seen: set[str], beside: Mapping[str, type]) -> None:
     name = row.get("id")
     if not isinstance(name, str) or not name:
         raise Unjudged(f"{path}: each [[property]] has an id")
     if name in seen:
         raise Unjudged(f"{path}: two properties have the id {name!r}; {TYPES!r} is ours")
     seen.add(name)
+    for key, kind in beside.items():
+        if not isinstance(row.get(key), kind) or not row[key]:
+            raise Unjudged(f"{path}: {name}: {key} is missing, or no {kind.__name__}")
     known = {"id", "sentence"}.union(*FORMS)
     for key, value in row.items():
+        if key in beside:
+            continue
         if key not in known:
             raise Unjudged(f"{path}: {name}: unknown key {key!r}; {suggestion(key, sorted(known))}")
         if type(value) is not (int if key == "within_ms" else str):
             raise Unjudged(f"{path}: {name}: {key} is {'a number' if key == 'within_ms' else 'a text'}")
     if "sentence" not in row:
         raise Unjudged(f'{path}: {name}: say it in a sentence as well: sentence = "..."')
-    if {*row} - {"id", "sentence"} not in FORMS:
+    if {*row} - {"id", "sentence", *beside} not in FORMS:
         raise Unjudged(
             f"{path}: {name}: a property is `never`, `always`, `holds` with `only_if`, or `after` with "
             "`holds` and `within_ms` or `only_once`"

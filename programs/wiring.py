@@ -8,6 +8,7 @@ spec/machine_cell/wiring.toml says what each table means.
 
 from __future__ import annotations
 
+import itertools
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -29,8 +30,8 @@ from programs.tree import Literal as Value
 
 STANDARD = ("R_TRIG", "F_TRIG", "SR", "RS", "TON")
 """The standard blocks that a wiring may have."""
-IN_USE, ANY_MODE, HOLD = "_in_use", "a_mode", "safeguards_hold"
-"""The signals that come from the matrix: the first for each safeguard."""
+IN_USE, ANY_MODE, TWO_MODES, HOLD = "_in_use", "a_mode", "two_modes", "safeguards_hold"
+"""The signals that come from modes and matrix, beside each mode by its name: the first for each safeguard."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {"TRUE", "FALSE", "AND", "OR", "NOT", "XOR", "MOD", *SCALARS, *BLOCKS}
 
@@ -149,13 +150,14 @@ class Wiring:
             mode: " OR ".join(" AND ".join(f"({table.safeguards[name].text})" for name in part) for part in sets)
             for mode, sets in table.matrix.items()
         }
-        modes = {name: f"({mode.text})" for name, mode in table.modes.items()}
-        found = {name: wire.text for name, wire in table.signals.items()}
+        found = {name: wire.text for name, wire in (*table.signals.items(), *table.modes.items())}
         for name in table.safeguards:
-            using = [modes[mode] for mode, sets in table.matrix.items() if any(name in part for part in sets)]
+            using = [mode for mode, sets in table.matrix.items() if any(name in part for part in sets)]
             found[f"{name}{IN_USE}"] = " OR ".join(using) or "FALSE"
-        found[ANY_MODE] = " OR ".join(modes.values())
-        found[HOLD] = " OR ".join(f"{modes[mode]} AND ({needs[mode]})" for mode in table.matrix)
+        found[ANY_MODE] = " OR ".join(table.modes)
+        pairs = [f"{one} AND {other}" for one, other in itertools.combinations(table.modes, 2)]
+        found[TWO_MODES] = " OR ".join(pairs) or "FALSE"
+        found[HOLD] = " OR ".join(f"{mode} AND ({needs[mode]})" for mode in table.matrix)
         return found
 
     @cached_property
@@ -176,6 +178,8 @@ class Wiring:
     def _row(self, signal: str) -> str:
         if signal in self.table.signals:
             return f"signals.{signal}"
+        if signal in self.table.modes:
+            return f"modes.{signal}"
         return f"safeguards.{signal.removesuffix(IN_USE)}" if signal.endswith(IN_USE) else "matrix"
 
     @cached_property
@@ -308,17 +312,16 @@ def _check(wiring: Wiring) -> None:
     _check_matrix(wiring)
     for group in (wiring.signals, wiring.sources, wiring.shown):
         assert group is not None
-    for part in ("modes", "safeguards"):
-        for name, wire in getattr(table, part).items():
-            wiring._read(f"{part}.{name}", wire.text, BOOL)
+    for name, wire in table.safeguards.items():
+        wiring._read(f"safeguards.{name}", wire.text, BOOL)
     if not table.outputs:
         raise wiring.refuse("outputs", "a cell has outputs")
 
 
 def _check_names(wiring: Wiring) -> None:
     table, seen = wiring.table, dict[str, str]()
-    derived = {ANY_MODE, HOLD, *(f"{name}{IN_USE}" for name in table.safeguards)}
-    for group in ("inputs", "block", "signals", "outputs"):
+    derived = {ANY_MODE, TWO_MODES, HOLD, *(f"{name}{IN_USE}" for name in table.safeguards)}
+    for group in ("inputs", "block", "signals", "modes", "outputs"):
         for name in getattr(table, group):
             row = f"{group}.{name}"
             if not NAME.fullmatch(name) or name.upper() in RESERVED:

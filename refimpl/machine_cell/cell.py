@@ -10,6 +10,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -81,18 +82,20 @@ def made_of(table: Mapping[str, Any]) -> Cell:
 def from_matrix(table: Mapping[str, Any]) -> dict[str, str]:
     """The signals that the activation matrix gives, as texts.
 
-    ``a_mode``: one of the modes is active. ``safeguards_hold``: for an active mode, all safeguards of one of
+    Each mode by its name. ``a_mode``: one of them is active. ``two_modes``: more than one. ``safeguards_hold``: for an active mode, all safeguards of one of
     its sets hold. ``NAME_in_use``: a mode is active that has the safeguard in a set.
     """
-    modes = {name: f"({row['is']})" for name, row in table["modes"].items()}
+    modes = {name: row["is"] for name, row in table["modes"].items()}
     guards = {name: f"({row['is']})" for name, row in table["safeguards"].items()}
     hold = []
     for mode, sets in table["matrix"].items():
         for names in sets:
-            hold.append(" AND ".join([modes[mode], *(guards[name] for name in names)]))
-    found = {"a_mode": " OR ".join(modes.values()), "safeguards_hold": " OR ".join(hold)}
+            hold.append(" AND ".join([mode, *(guards[name] for name in names)]))
+    both = [f"{one} AND {other}" for one, other in combinations(modes, 2)]
+    found = {**modes, "a_mode": " OR ".join(modes), "safeguards_hold": " OR ".join(hold)}
+    found["two_modes"] = " OR ".join(both) or "FALSE"
     for name in guards:
-        using = [modes[mode] for mode, sets in table["matrix"].items() if any(name in part for part in sets)]
+        using = [mode for mode, sets in table["matrix"].items() if any(name in part for part in sets)]
         found[f"{name}_in_use"] = " OR ".join(using) or "FALSE"
     return found
 

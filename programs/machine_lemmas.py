@@ -1,0 +1,199 @@
+"""Candidates of invariants of a machine, from runs with plain values: what was never seen otherwise.
+
+Which values are always equal, which control states of a block a latch or a watcher was never seen with, how
+two latches go together, and how far a timer was ahead of a watcher. A solver drops what does not last.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import fields, replace
+from functools import cache
+from typing import Any
+
+import z3
+
+from programs.blocks import CONTROL, Block, instances
+from programs.cell import Cell
+from programs.houdini import Houdini
+from programs.induction import System
+from programs.machine_runs import Runner
+from programs.relations import like
+from programs.terms import compared_with
+from refimpl.machine_cell import cell as reference
+
+Sample = Mapping[str, Any]
+MOST_VALUES = 8
+
+
+def sample_of(
+    cell: Cell, state: reference.State, memory: Mapping[str, tuple[bool, int]]
+) -> dict[str, Any]:
+    """A state of the reference, with what watches the properties, by the names of the terms."""
+    found: dict[str, Any] = {f"{id} waits": waits for id, (waits, _) in memory.items()}
+    found |= {f"{id} since": since for id, (_, since) in memory.items()}
+    for pin, value in state.pins.items():
+        found[pin.upper()] = value
+    for name, kept in state.memory.items():
+        above = name.upper()
+        for part in fields(kept):
+            value = getattr(kept, part.name)
+            if part.name == "state":
+                found[f"{above}.{CONTROL}"] = list(type(value)).index(value)
+            elif part.name != "params":
+                found[f"{above}.{part.name}"] = value
+    return found
+
+
+@cache
+def kinds_of(block: Block) -> tuple[tuple[int, ...], ...]:
+    """The control states of a block: each alone, but those of errors together where they show the same."""
+    module = block.reference.device.module
+    start = block.start({key: variable.initial for key, variable in block.unit().variables.items()})
+    found: dict[Any, list[int]] = {}
+    for number, state in enumerate(module.Step):
+        row = module.outputs(replace(start, state=state))
+        shown = tuple(getattr(row, part.name) for part in fields(row) if part.name != "DiagCode")
+        found.setdefault(shown if getattr(row, "Error", False) else number, []).append(number)
+    return tuple(map(tuple, found.values()))
+
+
+class Candidates:
+    """What is true in all samples, over the values on which the properties depend."""
+
+    def __init__(self, cell: Cell, system: System, samples: Sequence[Sample]) -> None:
+        self.system, self.samples = system, _distinct(system, samples)
+        samples = self.samples
+        self.kinds = {
+            f"{path}.{CONTROL}": kinds_of(block) for path, block in instances(cell.source, cell.unit)
+        }
+        self.everywhere = (1 << len(samples)) - 1
+        known = samples[0] if samples else {}
+        self.bools = [path for path, term in system.state.items() if z3.is_bool(term) and path in known]
+        self.numbers = [path for path, term in system.state.items() if z3.is_int(term) and path in known]
+        self.controls = [path for path in self.numbers if _few(path, samples)]
+        self.facts: list[z3.BoolRef] = []
+        self.clauses: list[tuple[int, int]] = []
+
+    def fact(self, formula: z3.BoolRef, true: Callable[[Sample], bool]) -> tuple[int, int]:
+        """A new fact: its number, and where it is true."""
+        self.facts.append(formula)
+        return len(self.facts), sum(1 << n for n, sample in enumerate(self.samples) if true(sample))
+
+    def always(self, fact: tuple[int, int]) -> bool:
+        """Keep the fact, if it was true in all samples."""
+        if fact[1] == self.everywhere:
+            self.clauses.append((fact[0], fact[0]))
+        return fact[1] == self.everywhere
+
+    def either(self, left: tuple[int, int], right: tuple[int, int]) -> None:
+        """Keep that one of two is true, if it was so in all samples and the first is not true everywhere."""
+        if left[1] | right[1] == self.everywhere and left[1] != self.everywhere:
+            self.clauses.append((left[0], right[0]))
+
+    def denied(self, fact: tuple[int, int]) -> tuple[int, int]:
+        """The opposite of a fact."""
+        return -fact[0], self.everywhere & ~fact[1]
+
+    def find(self) -> None:
+        """All of them."""
+        state = self.system.state
+        flags = {path: self.fact(state[path], lambda sample, path=path: bool(sample[path])) for path in self.bools}
+        for path in self.bools:
+            self.always(flags[path])
+            self.always(self.denied(flags[path]))
+        places = {
+            (path, kind): self.fact(
+                z3.Or([state[path] == value for value in kind]), lambda s, path=path, kind=kind: s[path] in kind
+            )
+            for path in self.controls
+            for kind in self.kinds.get(path) or sorted({(sample[path],) for sample in self.samples})
+        }
+        for path in self.controls:
+            self._only_seen(path)
+        self._equal(flags, places)
+        latches = [path for path in self.bools if _latch(path)]
+        single = list({flags[path][1]: path for path in reversed(self.bools)}.values())
+        for path, (control, kind) in itertools.product(self.bools, places):
+            own = path.rpartition(".")[0] == control.rpartition(".")[0]
+            if path in latches or own:
+                there = self.denied(places[control, kind])
+                self.either(self.denied(flags[path]), there)
+                self.either(flags[path], there)
+        for path, other in itertools.product(latches, single):
+            if path != other and (other not in latches or path < other):
+                for left, right in itertools.product((True, False), repeat=2):
+                    self.either(
+                        flags[path] if left else self.denied(flags[path]),
+                        flags[other] if right else self.denied(flags[other]),
+                    )
+        self._timed(flags)
+
+    def _only_seen(self, path: str) -> None:
+        """A control state that was never seen is not taken."""
+        seen = {sample[path] for sample in self.samples}
+        terms = [self.system.state[path] == like(self.system.state[path], value) for value in sorted(seen)]
+        self.always(self.fact(z3.Or(terms), lambda sample: True))
+
+    def _equal(self, flags: Mapping[str, tuple[int, int]], places: Mapping[Any, tuple[int, int]]) -> None:
+        """Values that were always the same, or always opposite: each with the first of its kind."""
+        first: dict[int, int] = {}
+        for number, mask in (*places.values(), *flags.values()):
+            if mask in (0, self.everywhere):
+                continue
+            for known, alike in ((mask, True), (self.everywhere & ~mask, False)):
+                if known in first:
+                    formula, other = self.facts[number - 1], self.facts[first[known] - 1]
+                    same = formula == (other if alike else z3.Not(other))
+                    self.always(self.fact(same, lambda sample: True))
+                    break
+            else:
+                first[mask] = number
+
+    def _timed(self, flags: Mapping[str, tuple[int, int]]) -> None:
+        """While a watcher waits, its time is no more than that of a timer, and a timer is below a limit."""
+        limits = sorted(compared_with([*self.system.after.values()]))
+        state = self.system.state
+        timers = [path for path in self.numbers if path.endswith("elapsed_ms")]
+        for since in (path for path in self.numbers if path.endswith(" since")):
+            waits = flags.get(since.replace(" since", " waits"))
+            if waits is None:
+                continue
+            for timer in timers:
+                ahead = self.fact(state[since] <= state[timer], lambda s, a=since, b=timer: s[a] <= s[b])
+                self.either(self.denied(waits), ahead)
+        for timer, limit in itertools.product(timers, limits):
+            below = self.fact(state[timer] < limit, lambda s, a=timer, b=limit: s[a] < b)
+            if not self.always(below):
+                for path in (path for path in flags if path.endswith(" waits")):
+                    self.either(self.denied(flags[path]), below)
+
+    def thinned(self, until: float) -> list[z3.BoolRef]:
+        """Those that hold at power-up and survive every scan. Raises TimeoutError."""
+        houdini = Houdini(self.system, facts=self.facts, clauses=list(self.clauses))
+        houdini.thin(until)
+        return houdini.lemmas()
+
+
+def _distinct(system: System, samples: Sequence[Sample]) -> list[Sample]:
+    """The samples that differ in what the system has."""
+    paths = [path for path in system.state if samples and path in samples[0]]
+    return list({tuple(sample[path] for path in paths): sample for sample in samples}.values())
+
+
+def _latch(path: str) -> bool:
+    return path.endswith((".Q1", " waits"))
+
+
+def _few(path: str, samples: Sequence[Sample]) -> bool:
+    """Whether a number is one of few: a control state or a mode, no time."""
+    if path.endswith((" since", "_ms")):
+        return False
+    return path.endswith(f".{CONTROL}") or len({sample[path] for sample in samples}) <= MOST_VALUES
+
+
+def samples_of(cell: Cell, runner: Runner, kept: Sequence[Any]) -> Iterator[dict[str, Any]]:
+    """The samples of runs, and power-up."""
+    for state, memory in kept:
+        yield sample_of(cell, state, memory)

@@ -1,0 +1,277 @@
+"""Runs of a machine with plain values: scans that break a property, and situations that do occur.
+
+The steps are those of refimpl, wired by refimpl/machine_cell; nothing of the terms is used. A file such as
+spec/machine_cell/use.toml says how a cell is used, so that runs get somewhere.
+"""
+
+from __future__ import annotations
+
+import random
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from programs.wired import Watched
+from programs.wiring import Wiring
+from refimpl.errors import ParameterError
+from refimpl.machine_cell import cell as reference
+from refimpl.machine_cell.expression import Signal, Value, signal
+
+Inputs = Mapping[str, Value]
+Scan = tuple[int, Inputs]
+"""The time since the scan before in ms, and the inputs."""
+SCANS = 150
+"""Of a run."""
+
+
+@dataclass(frozen=True)
+class Use:
+    """How a cell is used. Raises Unjudged for a file that is no such thing."""
+
+    rest: Mapping[str, Value] = field(default_factory=dict)
+    follows: Mapping[str, str] = field(default_factory=dict)
+    pattern: Sequence[Mapping[str, Any]] = ()
+    story: Sequence[Mapping[str, Any]] = ()
+
+
+def read_use(path: Path) -> Use:
+    """The file. Raises Unjudged."""
+    try:
+        return Use(**tomllib.loads(path.read_text("utf-8")))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, TypeError) as error:
+        raise Unjudged(f"{path}: says nothing about the use of a cell: {error}") from None
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A property over plain values; the fields are those of `cell.Asked`."""
+
+    id: str
+    holds: Signal
+    triggers: tuple[Signal, ...]
+    within_ms: int | None
+    once: Signal | None
+
+    def start(self) -> tuple[bool, int]:
+        """What it remembers at power-up: whether it waits, and for how long."""
+        return False, 0
+
+    def after(self, memory: tuple[bool, int], values: Mapping[str, Value], dt_ms: int) -> Any:
+        """Whether the property is false after a scan, and what is remembered."""
+        waits, since = memory
+        if self.once is not None:
+            waits = (waits or bool(self.triggers[0](values))) and not self.once(values)
+            return waits and bool(self.holds(values)), (waits, 0)
+        if self.within_ms is None:
+            return not self.holds(values), memory
+        since = since + dt_ms if waits else 0
+        late = waits and since > self.within_ms
+        return late, ((waits or bool(self.triggers[0](values))) and not self.holds(values), since)
+
+
+def rule_of(row: Mapping[str, Any], triggers: Sequence[str], named: Mapping[str, str]) -> Rule:
+    """A row of a file of properties; `triggers` are the texts of what must occur."""
+
+    def made(text: str) -> Signal:
+        return signal(text, named)
+
+    if "never" in row:
+        holds = made(f"NOT ({row['never']})")
+    elif "always" in row:
+        holds = made(row["always"])
+    elif "only_if" in row:
+        holds = made(f"NOT ({row['holds']}) OR ({row['only_if']})")
+    else:
+        holds = made(row["holds"])
+    once = made(row["only_once"]) if "only_once" in row else None
+    return Rule(row["id"], holds, tuple(map(made, triggers)), row.get("within_ms"), once)
+
+
+@dataclass(frozen=True)
+class Runner:
+    """A wiring with observers, as the reference runs it."""
+
+    wiring: Wiring
+    watched: Watched
+    use: Use
+    table: Mapping[str, Any]
+    """The wiring as plain tables, with the observers as blocks that are called last."""
+    cell: reference.Cell
+    named: Mapping[str, str]
+    follows: Mapping[str, Signal]
+
+    @staticmethod
+    def of(wiring: Wiring, watched: Watched, use: Use, table: Mapping[str, Any]) -> Runner:
+        """The runner of a wiring whose file says `table`. Raises Unjudged."""
+        rows = {
+            name: {"of": seen.of, "inputs": seen.inputs} for name, seen in watched.rows.items()
+        }
+        whole = {
+            **table,
+            "block": {**table["block"], **rows},
+            "order": [*table["order"], *rows],
+            "signals": {
+                **table.get("signals", {}),
+                **{name: row for name, row in table["outputs"].items() if name not in table["inputs"]},
+            },
+        }
+        try:
+            cell = reference.made_of(whole)
+            named = {name: row["is"] for name, row in whole["signals"].items()}
+            named |= reference.from_matrix(whole)
+            follows = {
+                name: signal(text, named)
+                for name, text in use.follows.items()
+                if name in cell.inputs and _known(text, named, cell)
+            }
+        except ParameterError as error:
+            raise Unjudged(f"{wiring.file}: {error}") from None
+        return Runner(wiring, watched, use, whole, cell, named, follows)
+
+    def stories(self) -> list[list[dict[str, Value]]]:
+        """What changes in each scan of each story whose inputs this cell has."""
+        found = []
+        for story in self.use.story:
+            rows: list[dict[str, Value]] = []
+            for row in story["row"]:
+                given = {name: value for name, value in row.items() if name != "scans"}
+                rows += [given] + [{}] * (row.get("scans", 1) - 1)
+            if all(name in self.cell.inputs for row in rows for name in row):
+                found.append(rows)
+        return found
+
+    def random_run(self, seed: int, scans: int = SCANS) -> Iterator[tuple[Scan, reference.State, Inputs]]:
+        """A run from power-up: each scan, the state and all values after it."""
+        choose = random.Random(seed)
+        low, high = self.wiring.table.scan_ms
+        times = [low, self.wiring.table.cycle_ms, high]
+        inputs: dict[str, Value] = {name: kind == "WORD" and 0 for name, kind in self.cell.inputs.items()}
+        inputs |= {name: value for name, value in self.use.rest.items() if name in inputs}
+        state, values = reference.power_up(self.cell), dict[str, Value]()
+        stories, told = self.stories(), list[dict[str, Value]]()
+        wild, honest = choose.choice((0.0, 0.01, 0.03, 0.1)), choose.choice((1.0, 0.98, 0.8))
+        usual = choose.choice((low, high))
+        first = True
+        for _ in range(scans):
+            if not told and stories and choose.random() < 0.5:
+                told = list(choose.choice(stories))
+            elif not told and choose.random() < 0.6:
+                told = [{} for _ in range(choose.randrange(1, 6))]
+            for name, source in self.follows.items():
+                if not first and choose.random() < honest:
+                    inputs[name] = source(values)
+            for pattern in self.use.pattern:
+                if choose.random() < 0.06 and all(name in inputs for name in pattern["inputs"]):
+                    inputs |= zip(pattern["inputs"], choose.choice(pattern["rows"]), strict=True)
+            for name, kind in self.cell.inputs.items():
+                if choose.random() < wild:
+                    inputs[name] = not inputs[name] if kind == "BOOL" else choose.choice((0, 1, 0x0FF0))
+            inputs |= told.pop(0) if told else {}
+            dt_ms = choose.choice(times) if choose.random() < 0.2 else usual
+            state, _ = reference.step(self.cell, state, inputs, dt_ms)
+            values = reference.values_after(self.cell, state, inputs)
+            first = False
+            yield (dt_ms, dict(inputs)), state, values
+
+    def broken(self, scans: Sequence[Scan], rule: Rule) -> int | None:
+        """The number of the first scan after which a property is false; None: it is true after all."""
+        state, memory = reference.power_up(self.cell), rule.start()
+        for number, (dt_ms, inputs) in enumerate(scans, 1):
+            state, _ = reference.step(self.cell, state, inputs, dt_ms)
+            values = reference.values_after(self.cell, state, inputs)
+            wrong, memory = rule.after(memory, values, dt_ms)
+            if wrong:
+                return number
+        return None
+
+    def shortened(self, scans: Sequence[Scan], rule: Rule, tries: int) -> list[Scan]:
+        """Fewer scans, and fewer changes of inputs, that break the property too."""
+        kept = list(scans[: self.broken(scans, rule)])
+        size = max(1, len(kept) // 2)
+        while size and tries > 0:
+            at = 0
+            while at < len(kept) and tries > 0:
+                tries -= 1
+                less = [*kept[:at], *kept[at + size :]]
+                if (number := self.broken(less, rule)) is not None:
+                    kept = less[:number]
+                else:
+                    at += size
+            size //= 2
+        return self._calmer(kept, rule, tries)
+
+    def _calmer(self, scans: list[Scan], rule: Rule, tries: int) -> list[Scan]:
+        """The same scans with each input left as it was in the scan before, wherever that breaks it too."""
+        for name in self.cell.inputs:
+            for at in range(1, len(scans)):
+                before = scans[at - 1][1][name]
+                if scans[at][1][name] == before or tries <= 0:
+                    continue
+                tries -= 1
+                end = next(
+                    (n for n in range(at, len(scans)) if scans[n][1][name] == before), len(scans)
+                )
+                trial = [
+                    (dt_ms, {**inputs, name: before} if at <= n < end else inputs)
+                    for n, (dt_ms, inputs) in enumerate(scans)
+                ]
+                if self.broken(trial, rule) is not None:
+                    scans = trial[: self.broken(trial, rule)]
+                    break
+        return scans
+
+
+def _known(text: str, named: Mapping[str, str], cell: reference.Cell) -> bool:
+    """Whether every name in a signal is one of this cell."""
+    state = reference.power_up(cell)
+    values = {**dict.fromkeys(cell.inputs, False), **state.pins}
+    try:
+        signal(text, named)(values)
+    except KeyError:
+        return False
+    return True
+
+
+@dataclass
+class Seen:
+    """What runs gave: the shortest run that breaks each property, and which triggers were true."""
+
+    broken: dict[str, list[Scan]] = field(default_factory=dict)
+    reached: dict[str, list[int | None]] = field(default_factory=dict)
+    """For each trigger of a property the scans of the shortest run in which it was true."""
+    samples: list[tuple[reference.State, Mapping[str, tuple[bool, int]]]] = field(default_factory=list)
+    scans: int = 0
+
+
+def look(
+    runner: Runner,
+    rules: Sequence[Rule],
+    runs: range,
+    enough: Callable[[Seen], bool],
+    keep: int = 0,
+) -> Seen:
+    """Random runs, until it is enough. keep: every so many scans are kept as a sample; 0: none."""
+    seen = Seen(reached={rule.id: [None] * len(rule.triggers) for rule in rules})
+    for seed in runs:
+        memory = {rule.id: rule.start() for rule in rules}
+        scans: list[Scan] = []
+        for scan, state, values in runner.random_run(seed):
+            scans.append(scan)
+            seen.scans += 1
+            for rule in rules:
+                wrong, memory[rule.id] = rule.after(memory[rule.id], values, scan[0])
+                known = seen.broken.get(rule.id)
+                if wrong and (known is None or len(scans) < len(known)):
+                    seen.broken[rule.id] = list(scans)
+                found = seen.reached[rule.id]
+                for number, trigger in enumerate(rule.triggers):
+                    if (found[number] is None or len(scans) < found[number]) and trigger(values):  # type: ignore[operator]
+                        found[number] = len(scans)
+            if keep and seen.scans % keep == 0:
+                seen.samples.append((state, dict(memory)))
+        if enough(seen):
+            break
+    return seen
