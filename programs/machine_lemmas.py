@@ -9,7 +9,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
-from functools import cache
 from typing import Any
 
 import z3
@@ -46,7 +45,6 @@ def sample_of(
     return found
 
 
-@cache
 def kinds_of(block: Block) -> tuple[tuple[int, ...], ...]:
     """The control states of a block: each alone, but those of errors together where they show the same."""
     module = block.reference.device.module
