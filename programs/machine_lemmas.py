@@ -46,14 +46,14 @@ def sample_of(
 
 
 def kinds_of(block: Block) -> tuple[tuple[int, ...], ...]:
-    """The control states of a block: each alone, but those of errors together where they show the same."""
+    """The control states of a block; those that show the same and differ by a number at the end go together."""
     module = block.reference.device.module
     start = block.start({key: variable.initial for key, variable in block.unit().variables.items()})
     found: dict[Any, list[int]] = {}
     for number, state in enumerate(module.Step):
         row = module.outputs(replace(start, state=state))
         shown = tuple(getattr(row, part.name) for part in fields(row) if part.name != "DiagCode")
-        found.setdefault(shown if getattr(row, "Error", False) else number, []).append(number)
+        found.setdefault((state.name.rstrip("0123456789"), shown), []).append(number)
     return tuple(map(tuple, found.values()))
 
 

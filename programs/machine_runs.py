@@ -35,6 +35,7 @@ class Use:
     follows: Mapping[str, str] = field(default_factory=dict)
     pattern: Sequence[Mapping[str, Any]] = ()
     story: Sequence[Mapping[str, Any]] = ()
+    """`then` names stories that like to follow, `first` marks those that like to begin a run."""
 
 
 def read_use(path: Path) -> Use:
@@ -131,16 +132,16 @@ class Runner:
             raise Unjudged(f"{wiring.file}: {error}") from None
         return Runner(wiring, watched, use, whole, cell, named, follows)
 
-    def stories(self) -> list[list[dict[str, Value]]]:
+    def stories(self) -> dict[str, list[dict[str, Value]]]:
         """What changes in each scan of each story whose inputs this cell has."""
-        found = []
+        found = {}
         for story in self.use.story:
             rows: list[dict[str, Value]] = []
             for row in story["row"]:
                 given = {name: value for name, value in row.items() if name != "scans"}
-                rows += [given] + [{}] * (row.get("scans", 1) - 1)
+                rows += [given] * row.get("scans", 1)
             if all(name in self.cell.inputs for row in rows for name in row):
-                found.append(rows)
+                found[story["id"]] = rows
         return found
 
     def random_run(self, seed: int, scans: int = SCANS) -> Iterator[tuple[Scan, reference.State, Inputs]]:
@@ -152,16 +153,20 @@ class Runner:
         inputs |= {name: value for name, value in self.use.rest.items() if name in inputs}
         state, values = reference.power_up(self.cell), dict[str, Value]()
         stories, told = self.stories(), list[dict[str, Value]]()
+        then = {story["id"]: [name for name in story.get("then", ()) if name in stories] for story in self.use.story}
+        following = [story["id"] for story in self.use.story if story.get("first") and story["id"] in stories]
         wild, honest = choose.choice((0.0, 0.01, 0.03, 0.1)), choose.choice((1.0, 0.98, 0.8))
         usual = choose.choice((low, high))
-        first = True
+        stuck: dict[str, int] = {}
         for _ in range(scans):
-            if not told and stories and choose.random() < 0.5:
-                told = list(choose.choice(stories))
+            if not told and stories and choose.random() < (0.8 if following else 0.5):
+                name = choose.choice(following or list(stories))
+                told, following = list(stories[name]), then[name]
             elif not told and choose.random() < 0.6:
                 told = [{} for _ in range(choose.randrange(1, 6))]
+            before = dict(inputs)
             for name, source in self.follows.items():
-                if not first and choose.random() < honest:
+                if values and choose.random() < honest:
                     inputs[name] = source(values)
             for pattern in self.use.pattern:
                 if choose.random() < 0.06 and all(name in inputs for name in pattern["inputs"]):
@@ -170,10 +175,16 @@ class Runner:
                 if choose.random() < wild:
                     inputs[name] = not inputs[name] if kind == "BOOL" else choose.choice((0, 1, 0x0FF0))
             inputs |= told.pop(0) if told else {}
+            if choose.random() < wild:
+                stuck[choose.choice(list(inputs))] = choose.randrange(2, 20)
+            for name in [*stuck]:
+                inputs[name] = before[name]
+                stuck[name] -= 1
+                if not stuck[name]:
+                    del stuck[name]
             dt_ms = choose.choice(times) if choose.random() < 0.2 else usual
             state, _ = reference.step(self.cell, state, inputs, dt_ms)
             values = reference.values_after(self.cell, state, inputs)
-            first = False
             yield (dt_ms, dict(inputs)), state, values
 
     def broken(self, scans: Sequence[Scan], rule: Rule) -> int | None:
