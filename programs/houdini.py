@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -31,9 +31,11 @@ class Houdini:
     values: Mapping[str, Sequence[int]] = field(default_factory=dict)
     """All values of those that have few."""
     facts: list[z3.BoolRef] = field(default_factory=list)
-    clauses: list[tuple[int, int]] = field(default_factory=list)
+    clauses: list[tuple[int, ...]] = field(default_factory=list)
     """Facts by their number, counted from 1; a negative number is that fact denied."""
     rounds: int = 0
+    further: Callable[[z3.ModelRef], Iterable[Sequence[bool]]] | None = None
+    """The facts in states that follow the one before the scan of an answer."""
 
     def lemmas(self) -> list[z3.BoolRef]:
         """What was found."""
@@ -97,6 +99,12 @@ class Houdini:
             if not changed:
                 return
 
+    def _keep(self, value: Sequence[bool]) -> None:
+        """The clauses that are true where the facts are so."""
+        self.clauses = [
+            clause for clause in self.clauses if any(value[n - 1] if n > 0 else not value[-n - 1] for n in clause)
+        ]
+
     def _drop(self, solver: z3.Solver, facts: Sequence[z3.BoolRef]) -> bool:
         """Drop the clauses over `facts` that do not follow; whether there were any."""
         changed = False
@@ -117,11 +125,10 @@ class Houdini:
             model = solver.model()
             value = [z3.is_true(model.eval(fact, model_completion=True)) for fact in facts]
             solver.pop()
-            self.clauses = [
-                clause
-                for clause in self.clauses
-                if any(value[n - 1] if n > 0 else not value[-n - 1] for n in clause)
-            ]
+            self._keep(value)
+            if self.further is not None and facts is not self.facts:
+                for following in self.further(model):
+                    self._keep(following)
             changed = True
         return changed
 

@@ -18,7 +18,7 @@ from programs.cell import Cell
 from programs.houdini import Houdini
 from programs.induction import System
 from programs.machine_runs import Runner
-from programs.relations import like
+from programs.relations import like, plain
 from programs.terms import compared_with
 from refimpl.machine_cell import cell as reference
 
@@ -72,11 +72,13 @@ class Candidates:
         self.numbers = [path for path, term in system.state.items() if z3.is_int(term) and path in known]
         self.controls = [path for path in self.numbers if _few(path, samples)]
         self.facts: list[z3.BoolRef] = []
-        self.clauses: list[tuple[int, int]] = []
+        self.true: list[Callable[[Sample], bool]] = []
+        self.clauses: list[tuple[int, ...]] = []
 
     def fact(self, formula: z3.BoolRef, true: Callable[[Sample], bool]) -> tuple[int, int]:
         """A new fact: its number, and where it is true."""
         self.facts.append(formula)
+        self.true.append(true)
         return len(self.facts), sum(1 << n for n, sample in enumerate(self.samples) if true(sample))
 
     def always(self, fact: tuple[int, int]) -> bool:
@@ -89,6 +91,14 @@ class Candidates:
         """Keep that one of two is true, if it was so in all samples and the first is not true everywhere."""
         if left[1] | right[1] == self.everywhere and left[1] != self.everywhere:
             self.clauses.append((left[0], right[0]))
+
+    def _one_of(self, three: tuple[tuple[int, int], ...]) -> None:
+        """Keep that one of three is true, if it was so in all samples, and of no two of them."""
+        masks = [mask for _, mask in three]
+        if masks[0] | masks[1] | masks[2] == self.everywhere and all(
+            left | right != self.everywhere for left, right in itertools.combinations(masks, 2)
+        ):
+            self.clauses.append(tuple(number for number, _ in three))
 
     def denied(self, fact: tuple[int, int]) -> tuple[int, int]:
         """The opposite of a fact."""
@@ -119,20 +129,24 @@ class Candidates:
                 there = self.denied(places[control, kind])
                 self.either(self.denied(flags[path]), there)
                 self.either(flags[path], there)
-        for path, other in itertools.product(latches, single):
-            if path != other and (other not in latches or path < other):
-                for left, right in itertools.product((True, False), repeat=2):
-                    self.either(
-                        flags[path] if left else self.denied(flags[path]),
-                        flags[other] if right else self.denied(flags[other]),
-                    )
+        both = {path: (flags[path], self.denied(flags[path])) for path in self.bools}
+        remembered = [path for path in self.bools if _latch(path) or path.endswith(".before")]
+        for path, other in itertools.product(remembered, single):
+            if path != other and (other not in remembered or path < other):
+                for left, right in itertools.product(both[path], both[other]):
+                    self.either(left, right)
+        kept = [path for path in latches if path.endswith(".Q1")]
+        for (path, other), third in itertools.product(itertools.combinations(kept, 2), single):
+            if third not in (path, other):
+                for three in itertools.product(both[path], both[other], both[third]):
+                    self._one_of(three)
         self._timed(flags)
 
     def _only_seen(self, path: str) -> None:
         """A control state that was never seen is not taken."""
         seen = {sample[path] for sample in self.samples}
         terms = [self.system.state[path] == like(self.system.state[path], value) for value in sorted(seen)]
-        self.always(self.fact(z3.Or(terms), lambda sample: True))
+        self.always(self.fact(z3.Or(terms), lambda sample: sample[path] in seen))
 
     def _equal(self, flags: Mapping[str, tuple[int, int]], places: Mapping[Any, tuple[int, int]]) -> None:
         """Values that were always the same, or always opposite: each with the first of its kind."""
@@ -144,10 +158,14 @@ class Candidates:
                 if known in first:
                     formula, other = self.facts[number - 1], self.facts[first[known] - 1]
                     same = formula == (other if alike else z3.Not(other))
-                    self.always(self.fact(same, lambda sample: True))
+                    self.always(self.fact(same, self._same(number, first[known], alike)))
                     break
             else:
                 first[mask] = number
+
+    def _same(self, number: int, other: int, alike: bool) -> Callable[[Sample], bool]:
+        left, right = self.true[number - 1], self.true[other - 1]
+        return lambda sample: (bool(left(sample)) == bool(right(sample))) == alike
 
     def _timed(self, flags: Mapping[str, tuple[int, int]]) -> None:
         """While a watcher waits, its time is no more than that of a timer, and a timer is below a limit."""
@@ -167,10 +185,22 @@ class Candidates:
                 for path in (path for path in flags if path.endswith(" waits")):
                     self.either(self.denied(flags[path]), below)
 
-    def thinned(self, until: float) -> list[z3.BoolRef]:
-        """Those that hold at power-up and survive every scan. Raises TimeoutError."""
+    def thinned(self, until: float, on: Callable[[Sample], Iterator[Sample]]) -> list[z3.BoolRef]:
+        """Those that hold at power-up and survive every scan. Raises TimeoutError.
+
+        on: runs on from a sample. The lemmas that last hold in every sample in which all that are left hold,
+        and so in all that follow it: what is false in one of these falls without a question.
+        """
         houdini = Houdini(self.system, facts=self.facts, clauses=list(self.clauses))
+
+        def further(model: z3.ModelRef) -> Iterator[list[bool]]:
+            now = {path: plain(model.eval(term, model_completion=True)) for path, term in self.system.state.items()}
+            for sample in on(now):
+                yield [bool(true(sample)) for true in self.true]
+
+        houdini.further = further
         houdini.thin(until)
+        self.rounds = houdini.rounds
         return houdini.lemmas()
 
 
@@ -191,7 +221,18 @@ def _few(path: str, samples: Sequence[Sample]) -> bool:
     return path.endswith(f".{CONTROL}") or len({sample[path] for sample in samples}) <= MOST_VALUES
 
 
-def samples_of(cell: Cell, runner: Runner, kept: Sequence[Any]) -> Iterator[dict[str, Any]]:
-    """The samples of runs, and power-up."""
-    for state, memory in kept:
-        yield sample_of(cell, state, memory)
+def state_of(cell: Cell, start: reference.State, sample: Sample) -> reference.State:
+    """The state of the reference that a sample says; what it leaves out is as in `start`."""
+    pins = {pin: sample.get(pin.upper(), value) for pin, value in start.pins.items()}
+    memory = {}
+    for name, kept in start.memory.items():
+        above = name.upper()
+        given = {
+            part.name: sample[f"{above}.{part.name}"] for part in fields(kept) if f"{above}.{part.name}" in sample
+        }
+        if f"{above}.Q1" in sample:
+            given["on"] = sample[f"{above}.Q1"]
+        if f"{above}.{CONTROL}" in sample:
+            given["state"] = list(type(kept.state))[sample[f"{above}.{CONTROL}"]]
+        memory[name] = replace(kept, **given)
+    return reference.State(memory, pins)

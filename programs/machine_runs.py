@@ -187,6 +187,22 @@ class Runner:
             values = reference.values_after(self.cell, state, inputs)
             yield (dt_ms, dict(inputs)), state, values
 
+    def on(self, state: reference.State, scans: int, choose: random.Random) -> Iterator[tuple[int, reference.State, Inputs]]:
+        """A run with any inputs from a state on: the time, the state and all values after each scan."""
+        words = sorted({value for rows in self.stories().values() for row in rows for value in row.values() if type(value) is int})
+        inputs = {name: self.use.rest.get(name, kind == "WORD" and 0) for name, kind in self.cell.inputs.items()}
+        likely = choose.choice((0.1, 0.3, 0.5))
+        for _ in range(scans):
+            for pattern in self.use.pattern:
+                if choose.random() < 0.5 and all(name in inputs for name in pattern["inputs"]):
+                    inputs |= zip(pattern["inputs"], choose.choice(pattern["rows"]), strict=True)
+            for name, kind in self.cell.inputs.items():
+                if choose.random() < likely:
+                    inputs[name] = not inputs[name] if kind == "BOOL" else choose.choice(words or [0])
+            dt_ms = choose.choice(self.wiring.table.scan_ms)
+            state, _ = reference.step(self.cell, state, inputs, dt_ms)
+            yield dt_ms, state, reference.values_after(self.cell, state, inputs)
+
     def broken(self, scans: Sequence[Scan], rule: Rule) -> int | None:
         """The number of the first scan after which a property is false; None: it is true after all."""
         state, memory = reference.power_up(self.cell), rule.start()
