@@ -34,6 +34,8 @@ class Houdini:
     clauses: list[tuple[int, ...]] = field(default_factory=list)
     """Facts by their number, counted from 1; a negative number is that fact denied."""
     rounds: int = 0
+    singly: bool = False
+    """Ask about each clause alone: many small questions in the place of few large ones."""
     further: Callable[[z3.ModelRef], Iterable[Sequence[bool]]] | None = None
     """The facts in states that follow the one before the scan of an answer."""
 
@@ -107,30 +109,35 @@ class Houdini:
 
     def _drop(self, solver: z3.Solver, facts: Sequence[z3.BoolRef]) -> bool:
         """Drop the clauses over `facts` that do not follow; whether there were any."""
-        changed = False
-        while self.clauses:
-            self.rounds += 1
-            parts = [
-                z3.And([z3.Not(facts[n - 1]) if n > 0 else facts[-n - 1] for n in clause])
-                for clause in self.clauses
-            ]
-            solver.push()
-            solver.add(z3.Or(parts))
-            answer = solver.check()
-            if answer == z3.unknown:
-                raise TimeoutError(f"a question had no answer: {solver.reason_unknown()}")
-            if answer == z3.unsat:
-                solver.pop()
-                return changed
-            model = solver.model()
-            value = [z3.is_true(model.eval(fact, model_completion=True)) for fact in facts]
-            solver.pop()
-            self._keep(value)
-            if self.further is not None and facts is not self.facts:
-                for following in self.further(model):
-                    self._keep(following)
-            changed = True
-        return changed
+        known = len(self.clauses)
+        if self.singly:
+            asked = list(self.clauses)
+            while asked:
+                if self._drop_some(solver, facts, [asked.pop()]):
+                    left = set(self.clauses)
+                    asked = [clause for clause in asked if clause in left]
+        else:
+            while self.clauses and self._drop_some(solver, facts, self.clauses):
+                pass
+        return len(self.clauses) < known
+
+    def _drop_some(
+        self, solver: z3.Solver, facts: Sequence[z3.BoolRef], asked: Sequence[tuple[int, ...]]
+    ) -> bool:
+        """Ask about clauses, and drop all that are false in the answer; whether there was one."""
+        self.rounds += 1
+        parts = [z3.And([z3.Not(facts[n - 1]) if n > 0 else facts[-n - 1] for n in clause]) for clause in asked]
+        answer = solver.check(z3.Or(parts))
+        if answer == z3.unknown:
+            raise TimeoutError(f"a question had no answer: {solver.reason_unknown()}")
+        if answer == z3.unsat:
+            return False
+        model = solver.model()
+        self._keep([z3.is_true(model.eval(fact, model_completion=True)) for fact in facts])
+        if self.further is not None and facts is not self.facts:
+            for following in self.further(model):
+                self._keep(following)
+        return True
 
 
 def _facts(

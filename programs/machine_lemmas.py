@@ -46,14 +46,15 @@ def sample_of(
 
 
 def kinds_of(block: Block) -> tuple[tuple[int, ...], ...]:
-    """The control states of a block; those that show the same and differ by a number at the end go together."""
+    """The control states of a block; errors that show the same and differ by a number at the end go together."""
     module = block.reference.device.module
     start = block.start({key: variable.initial for key, variable in block.unit().variables.items()})
     found: dict[Any, list[int]] = {}
     for number, state in enumerate(module.Step):
         row = module.outputs(replace(start, state=state))
         shown = tuple(getattr(row, part.name) for part in fields(row) if part.name != "DiagCode")
-        found.setdefault((state.name.rstrip("0123456789"), shown), []).append(number)
+        same = (state.name.rstrip("0123456789"), shown) if getattr(row, "Error", False) else number
+        found.setdefault(same, []).append(number)
     return tuple(map(tuple, found.values()))
 
 
@@ -141,6 +142,17 @@ class Candidates:
                 for three in itertools.product(both[path], both[other], both[third]):
                     self._one_of(three)
         self._timed(flags)
+        self._at_first(places)
+
+    def _at_first(self, places: Mapping[Any, tuple[int, int]]) -> None:
+        """What is as at power-up in one part is so in another."""
+        starts = [
+            there
+            for (path, kind), there in places.items()
+            if self.system.start[path] is not None and plain(self.system.start[path]) in kind
+        ]
+        for there, other in itertools.permutations(starts, 2):
+            self.either(self.denied(there), other)
 
     def _only_seen(self, path: str) -> None:
         """A control state that was never seen is not taken."""
@@ -191,7 +203,7 @@ class Candidates:
         on: runs on from a sample. The lemmas that last hold in every sample in which all that are left hold,
         and so in all that follow it: what is false in one of these falls without a question.
         """
-        houdini = Houdini(self.system, facts=self.facts, clauses=list(self.clauses))
+        houdini = Houdini(self.system, facts=self.facts, clauses=list(self.clauses), singly=True)
 
         def further(model: z3.ModelRef) -> Iterator[list[bool]]:
             now = {path: plain(model.eval(term, model_completion=True)) for path, term in self.system.state.items()}
