@@ -34,7 +34,13 @@ RULES = (
     Rule("scenes", ("scenes", "refimpl", "modeproof.simulate.program"), stdlib_only=True),
     Rule("modeproof/simulate/program", ("modeproof.simulate.program",)),
     Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
-    Rule("programs", ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit")),
+    Rule(
+        "programs",
+        (
+            *("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
+            *("refimpl.machine_cell", "refimpl.errors"),
+        ),
+    ),
     Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
     Rule(
         "modeproof/report",

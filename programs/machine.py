@@ -1,0 +1,241 @@
+"""Judges a machine: what must be true after every scan, of the blocks as a wiring file joins them.
+
+First runs with plain values, which look for scans that break a property. For the rest an invariant is found
+from the same runs, over the composed program as terms; z3 then shows that it holds at power-up, survives
+every scan, and leaves no scan that breaks the property. So PROVED is for every input, for ever.
+"""
+
+from __future__ import annotations
+
+import random
+import time
+import tomllib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import z3
+
+from modeproof.ground.errors import Unjudged
+from modeproof.registers.typed import typed
+from programs.cell import Asked, Cell
+from programs.induction import System, is_inductive
+from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
+from programs.machine_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
+from programs.property import Judgement
+from programs.questions import Beside, Questions, read_questions
+from programs.wired import Observer, Watched, cell_of
+from programs.wiring import Wiring, rows_of, wiring_of
+from refimpl.errors import ParameterError
+from refimpl.machine_cell import cell as reference
+
+BESIDE = {"hazard": str, "cites": list}
+"""What a property of a machine has besides."""
+RUNS = 160
+TRIES = 250
+"""Runs that may be made to shorten one counterexample."""
+LIMIT_MS = 30_000
+"""For one question."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What came out for one property.
+
+    PROVED for every input, for ever; REFUTED by `scans`; UNKNOWN. reached: scans after which each trigger was
+    true in a run. mended: the rows of the project's own wiring with which the same scans break nothing.
+    """
+
+    asked: Asked
+    row: Mapping[str, Any]
+    word: str
+    how: str
+    reached: Sequence[int | None] = ()
+    scans: Sequence[Scan] = ()
+    mended: Sequence[str] = ()
+
+
+@dataclass
+class Machine:
+    """A wiring with the properties that are asked of it and the file that says how it is used."""
+
+    text: str
+    file: str
+    properties: Path
+    use: Path
+    tell: Callable[[str], None] = field(default=lambda text: None)
+    runs: int = RUNS
+
+    @cached_property
+    def wiring(self) -> Wiring:
+        """The wiring, looked through. Raises Unjudged."""
+        return wiring_of(self.text, self.file)
+
+    @cached_property
+    def table(self) -> Mapping[str, Any]:
+        """The same as plain tables."""
+        return tomllib.loads(self.text)
+
+    @cached_property
+    def questions(self) -> Questions:
+        """The file of properties. Raises Unjudged."""
+        return read_questions(self.properties, Beside(BESIDE, ("observer",), self.wiring.table.scan_ms))
+
+    @cached_property
+    def watched(self) -> Watched:
+        """Its observers. Raises Unjudged."""
+        lines = {row: number for number, row in rows_of(self.questions.text)}
+        rows = self.questions.tables.get("observer", {})
+        if not isinstance(rows, dict):
+            raise Unjudged(f"{self.properties}: [observer] is a table")
+        made = {name: typed(Observer, row, f"{self.properties}: {name}") for name, row in rows.items()}
+        return Watched(str(self.properties), made, lines)
+
+    @cached_property
+    def cell(self) -> Cell:
+        """The composed program. Raises Unjudged: a name in a property, or a block, that does not exist."""
+        return cell_of(self.wiring, self.watched)
+
+    @cached_property
+    def asked(self) -> list[Asked]:
+        """The properties over it. Raises Unjudged."""
+        return self.questions.asked(self.cell)
+
+    @cached_property
+    def runner(self) -> Runner:
+        """What runs it with plain values. Raises Unjudged."""
+        return Runner.of(self.wiring, self.watched, read_use(self.use), self.table)
+
+    @cached_property
+    def rules(self) -> list[Rule]:
+        """The properties over plain values."""
+        return [
+            rule_of(row, [text for text, _ in asked.trigger], self.runner.named)
+            for row, asked in zip(self.questions.rows, self.asked, strict=True)
+        ]
+
+    def look(self, enough: Callable[[Seen], bool] = lambda seen: False) -> Seen:
+        """Runs with plain values."""
+        return look(self.runner, self.rules, range(self.runs), enough, keep=1)
+
+    @cached_property
+    def seen(self) -> Seen:
+        """All of them."""
+        self.tell("runs")
+        return self.look()
+
+    # ------------------------------------------------------------ terms
+
+    @cached_property
+    def judgement(self) -> Judgement:
+        """The composed program with the watchers of the properties, as terms."""
+        self.tell("terms")
+        return Judgement(self.cell, self.asked, LIMIT_MS / 1000, self.tell)
+
+    @cached_property
+    def bad(self) -> dict[str, z3.BoolRef]:
+        """For each property the scans after which it is false."""
+        return {asked.id: self.judgement.bad(asked) for asked in self.asked}
+
+    @cached_property
+    def system(self) -> System:
+        """One scan, without what no property depends on."""
+        return self.judgement.system.cone(*self.bad.values())
+
+    def lemmas(self, seconds: float) -> list[z3.BoolRef]:
+        """Invariants, found from the runs. seconds: of CPU; then there are none."""
+        first = sample_of(self.cell, reference.power_up(self.runner.cell), {r.id: r.start() for r in self.rules})
+        seen = [sample_of(self.cell, state, memory) for state, memory in self.seen.samples]
+        found = Candidates(self.cell, self.system, [first, *seen])
+        found.find()
+        self.tell(f"{len(found.clauses)} candidates of invariants")
+        try:
+            return found.thinned(time.process_time() + seconds, self._on(random.Random(1)))
+        except TimeoutError:
+            return []
+
+    def _on(self, choose: random.Random) -> Callable[[Sample], Iterator[Sample]]:
+        start = reference.power_up(self.runner.cell)
+
+        def on(sample: Sample) -> Iterator[Sample]:
+            memory = {
+                rule.id: (bool(sample.get(f"{rule.id} waits", False)), int(sample.get(f"{rule.id} since", 0)))
+                for rule in self.rules
+            }
+            for dt_ms, state, values in self.runner.on(state_of(self.cell, start, sample), 8, choose):
+                for rule in self.rules:
+                    _, memory[rule.id] = rule.after(memory[rule.id], values, dt_ms)
+                yield sample_of(self.cell, state, memory)
+
+        return on
+
+    def shown(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> dict[str, bool]:
+        """Which properties follow from invariants; these are asked anew, in a solver of their own."""
+        try:
+            if not is_inductive(self.system, lemmas):
+                return {one.id: False for one in asked}
+        except TimeoutError:
+            return {one.id: False for one in asked}
+        solver = z3.Solver()
+        solver.set("timeout", LIMIT_MS)
+        solver.add(self.system.within, self.system.assumed, self.system.inside, *lemmas)
+        return {one.id: solver.check(self.bad[one.id]) == z3.unsat for one in asked}
+
+    # ------------------------------------------------------------ verdicts
+
+    def all(self, seconds: float, own: Mapping[str, Any] | None = None) -> list[Verdict]:
+        """The verdict on each. seconds: limit of the search for invariants. own: the project's wiring."""
+        assert self.asked is not None  # a refusal comes before any work
+        left = [asked for asked in self.asked if asked.id not in self.seen.broken]
+        holds = self.shown(self.lemmas(seconds), left) if left else {}
+        found = []
+        for asked, row, rule in zip(self.asked, self.questions.rows, self.rules, strict=True):
+            reached = self.seen.reached[asked.id]
+            if asked.id in self.seen.broken:
+                self.tell(f"scans that break {asked.id}")
+                scans = self.runner.shortened(self.seen.broken[asked.id], rule, TRIES)
+                mended = list(self.mended(scans, rule, own)) if own is not None else []
+                how = f"{len(scans)} scans, the shortest that were found"
+                found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
+            elif not holds[asked.id]:
+                how = f"no invariant was found, and nothing breaks it in {self.seen.scans:,} scans with plain values"
+                found.append(Verdict(asked, row, "UNKNOWN", how, reached))
+            elif None in reached:
+                text = asked.trigger[list(reached).index(None)][0]
+                how = f"it follows, but `{text}` was never true in {self.seen.scans:,} scans"
+                found.append(Verdict(asked, row, "UNKNOWN", how, reached))
+            else:
+                found.append(Verdict(asked, row, "PROVED", "an invariant of the composed program", reached))
+        return found
+
+    def mended(self, scans: Sequence[Scan], rule: Rule, own: Mapping[str, Any]) -> Iterator[str]:
+        """The rows that are not as in `own`, and with whose text there the scans break nothing."""
+        for path, there in differences(self.table, own):
+            table = with_row(self.table, path, there)
+            try:
+                runner = Runner.of(self.wiring, self.watched, self.runner.use, table)
+                if runner.broken(scans, rule) is None:
+                    here = self.wiring.place(path).line
+                    yield f"{self.file}:{here}: {path}; with {there!r}, as in the project's own, these scans break nothing"
+            except (Unjudged, ParameterError, KeyError):
+                continue
+
+
+def differences(table: Mapping[str, Any], own: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """The rows of `table` that stand otherwise in `own`, with their value there."""
+    for key, value in table.items():
+        path = f"{above}{key}"
+        if key not in own or key in ("why", "title", "from", "to"):
+            continue
+        if isinstance(value, dict) and isinstance(own[key], dict):
+            yield from differences(value, own[key], f"{path}.")
+        elif value != own[key]:
+            yield path, own[key]
+
+
+def with_row(table: Mapping[str, Any], path: str, value: Any) -> dict[str, Any]:
+    """The tables with another value in one row."""
+    head, _, rest = path.partition(".")
+    return {**table, head: with_row(table[head], rest, value) if rest else value}
