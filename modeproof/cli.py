@@ -26,6 +26,7 @@ GROUPS = {
         "verify": "modeproof.lane.verify",
         "conform": "modeproof.suites.command",
         "prove-program": "modeproof.lane.prove_program",
+        "machine": "modeproof.lane.machine",
         "trace": "modeproof.trace.command",
         "simulate": "modeproof.simulate.command",
         "report": "modeproof.report.command",

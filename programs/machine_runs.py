@@ -203,6 +203,13 @@ class Runner:
             state, _ = reference.step(self.cell, state, inputs, dt_ms)
             yield dt_ms, state, reference.values_after(self.cell, state, inputs)
 
+    def replayed(self, scans: Sequence[Scan]) -> Iterator[Inputs]:
+        """All values after each of these scans from power-up."""
+        state = reference.power_up(self.cell)
+        for dt_ms, inputs in scans:
+            state, _ = reference.step(self.cell, state, inputs, dt_ms)
+            yield reference.values_after(self.cell, state, inputs)
+
     def broken(self, scans: Sequence[Scan], rule: Rule) -> int | None:
         """The number of the first scan after which a property is false; None: it is true after all."""
         state, memory = reference.power_up(self.cell), rule.start()

@@ -1,0 +1,286 @@
+"""The wiring on trial: one edit of a wiring file at a time, and what becomes of the properties.
+
+KILLED: scans with plain values break a property. REFUSED: the reader of wirings refuses the file. HARMLESS:
+all properties are PROVED of the edited machine too. SURVIVED: neither.
+"""
+
+from __future__ import annotations
+
+import itertools
+import json
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import z3
+
+from modeproof.ground.errors import Unjudged
+from programs.houdini import Houdini
+from programs.machine import Machine
+from programs.machine_runs import Seen
+from programs.questions import parsed, shown
+from programs.terms import names_in
+from programs.tree import BOOL, Binary, Expression, Literal, Unary
+from programs.wiring import Wiring
+
+FEW_RUNS = 40
+"""Before a proof is tried."""
+TRIES = 60
+"""Runs that may be made to shorten what breaks a property."""
+SECONDS = 90
+"""Of CPU, for the invariants of one edited machine."""
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One edit: its kind, the row, and the text in the place of the one that is there."""
+
+    kind: str
+    row: str
+    text: str
+    after: str
+    """The whole file."""
+
+    @property
+    def id(self) -> str:
+        """Its name."""
+        return f"{self.row} = {self.text}"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of an edit. by: the properties that were seen to fall, or why it is harmless."""
+
+    edit: Edit
+    word: str
+    by: Sequence[str]
+    scans: int = 0
+    """Of the shortest scans that were found."""
+
+
+def edits(text: str, wiring: Wiring) -> Iterator[Edit]:
+    """All edits of a file, each once."""
+    seen = {text}
+    for edit in _edits(text, wiring):
+        if edit.after not in seen:
+            seen.add(edit.after)
+            yield edit
+
+
+def _edits(text: str, wiring: Wiring) -> Iterator[Edit]:
+    def at(kind: str, row: str, new: str) -> Edit:
+        return Edit(kind, row, new, _with_value(text, wiring, row, new))
+
+    table = wiring.table
+    for name, block in table.block.items():
+        pins = list(block.inputs)
+        for pin, source in block.inputs.items():
+            row = f"block.{name}.inputs.{pin}"
+            if wiring.kinds[name].inputs[pin] is BOOL:
+                yield at("left out", row, "TRUE" if source == "FALSE" else "FALSE")
+                yield at("bridged", row, "FALSE" if source == "TRUE" else "TRUE")
+            for new in _weaker(source, wiring, row):
+                yield at("part left out", row, new)
+        for pin, other in itertools.pairwise(pins):
+            if wiring.kinds[name].inputs[pin] == wiring.kinds[name].inputs[other]:
+                rows = [f"block.{name}.inputs.{part}" for part in (pin, other)]
+                once = _with_value(text, wiring, rows[0], block.inputs[other])
+                crossed = f"{block.inputs[other]}, and {other} = {block.inputs[pin]}"
+                yield Edit("crossed", rows[0], crossed, _with_value(once, wiring, rows[1], block.inputs[pin]))
+    for name, wire in table.signals.items():
+        for new in _weaker(wire.text, wiring, f"signals.{name}"):
+            yield at("part left out", f"signals.{name}", new)
+    for name, wire in table.outputs.items():
+        for new in _weaker(wire.text, wiring, f"outputs.{name}"):
+            yield at("part left out", f"outputs.{name}", new)
+    yield from _of_matrix(text, wiring)
+    for (name, mode), (other, there) in itertools.permutations(table.modes.items(), 2):
+        yield at("modes not exclusive", f"modes.{name}", f"{mode.text} OR {there.text}")
+        if name < other:
+            once = _with_value(text, wiring, f"modes.{name}", there.text)
+            twice = _with_value(once, wiring, f"modes.{other}", mode.text)
+            yield Edit("crossed", f"modes.{name}", f"{there.text}, and {other} = {mode.text}", twice)
+    yield from _by_kind(text, wiring)
+    for number, other_number in itertools.combinations(range(len(table.order)), 2):
+        order = list(table.order)
+        order[number], order[other_number] = order[other_number], order[number]
+        yield _ordered(text, f"{order[other_number]} and {order[number]} changed over", order)
+    for name in table.order:
+        rest = [block for block in table.order if block != name]
+        yield _ordered(text, f"{name} last", [*rest, name])
+
+
+def _by_kind(text: str, wiring: Wiring) -> Iterator[Edit]:
+    """Mistakes of the trade: shared resets, Activate from a mode, a status for a request."""
+    table = wiring.table
+    resets = sorted({row.inputs["Reset"] for row in table.block.values() if "Reset" in row.inputs})
+    uses = [f"{name}_in_use" for name in table.safeguards]
+    for name, block in table.block.items():
+        given: dict[str, Sequence[str]] = {
+            "Reset": [*resets, *(name for name in table.inputs if name == "Start")],
+            "Activate": ["a_mode", *uses],
+            "S_SafetyActive": ["a_mode", *uses],
+            "S_OutControl": ["safeguards_hold", *(wire.text for wire in table.safeguards.values()), "Start"],
+        }
+        for pin, others in given.items():
+            for other in others:
+                if block.inputs.get(pin, other) != other:
+                    row = f"block.{name}.inputs.{pin}"
+                    yield Edit("another source", row, other, _with_value(text, wiring, row, other))
+
+
+def _of_matrix(text: str, wiring: Wiring) -> Iterator[Edit]:
+    def row(mode: str, sets: Any) -> Edit:
+        return Edit("matrix", f"matrix.{mode}", json.dumps(sets), _with_list(text, wiring, f"matrix.{mode}", sets))
+
+    for mode, given in wiring.table.matrix.items():
+        sets = [list(part) for part in given]
+        for number, part in enumerate(sets):
+            if len(sets) > 1:
+                yield row(mode, [*sets[:number], *sets[number + 1 :]])
+            for name in part:
+                if less := [other for other in part if other != name]:
+                    yield row(mode, [*sets[:number], less, *sets[number + 1 :]])
+        for name in wiring.table.safeguards:
+            if [name] not in sets:
+                yield row(mode, [*sets, [name]])
+
+
+def _weaker(text: str, wiring: Wiring, row: str) -> Iterator[str]:
+    """A signal with one operand less, or one NOT less."""
+    tree = parsed(text, wiring.place(row))
+    if not isinstance(tree, Literal):
+        for other in _less(tree):
+            yield shown(other).removeprefix("(").removesuffix(")") if isinstance(other, Binary) else shown(other)
+
+
+def _less(tree: Expression) -> Iterator[Expression]:
+    match tree:
+        case Binary(operator, left, right, place):
+            yield left
+            yield right
+            for part in _less(left):
+                yield Binary(operator, part, right, place)
+            for part in _less(right):
+                yield Binary(operator, left, part, place)
+        case Unary("NOT", operand, _):
+            yield operand
+
+
+def _with_value(text: str, wiring: Wiring, row: str, new: str) -> str:
+    """The file with another text in a row: the first one in quotes."""
+    lines = text.splitlines(keepends=True)
+    number = wiring.lines[row] - 1
+    lines[number] = re.sub(r'"[^"]*"', lambda _: json.dumps(new), lines[number], count=1)
+    return "".join(lines)
+
+
+def _with_list(text: str, wiring: Wiring, row: str, new: Any) -> str:
+    lines = text.splitlines(keepends=True)
+    number = wiring.lines[row] - 1
+    lines[number] = f"{lines[number].partition('=')[0]}= {json.dumps(new)}\n"
+    return "".join(lines)
+
+
+def _ordered(text: str, name: str, order: Sequence[str]) -> Edit:
+    new = f"order = {json.dumps(order)}"
+    return Edit("order", "order", name, re.sub(r"^order = \[[^\]]*\]", lambda _: new, text, count=1, flags=re.M))
+
+
+@dataclass
+class Trial:
+    """Judges edits of one machine."""
+
+    machine: Machine
+
+    @cached_property
+    def lemmas(self) -> list[z3.BoolRef]:
+        """Of the machine as it is."""
+        return self.machine.lemmas(SECONDS)
+
+    @cached_property
+    def terms(self) -> dict[str, str]:
+        """The composed program as it is."""
+        return {path: term.sexpr() for path, term in self.machine.system.after.items()}
+
+    def of(self, edit: Edit) -> Outcome:
+        """What becomes of an edit."""
+        base = self.machine
+        try:
+            edited = Machine(edit.after, base.file, base.properties, base.use, runs=FEW_RUNS)
+            assert edited.asked and edited.rules
+        except Unjudged as error:
+            return Outcome(edit, "REFUSED", [str(error)])
+        if (found := self._killed(edit, edited)) is not None:
+            return found
+        if {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms:
+            return Outcome(edit, "HARMLESS", ["the same program"])
+        if self._proved(edited, self._kept(edited)):
+            return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
+        edited.runs = base.runs
+        if (found := self._killed(edit, edited)) is not None:
+            return found
+        if self._proved(edited, edited.lemmas(SECONDS)):
+            return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
+        return Outcome(edit, "SURVIVED", [])
+
+    def _killed(self, edit: Edit, edited: Machine) -> Outcome | None:
+        def enough(seen: Seen) -> bool:
+            return bool(seen.broken)
+
+        broken = edited.look(enough).broken
+        if not broken:
+            return None
+        rules = {rule.id: rule for rule in edited.rules}
+        name = min(broken, key=lambda id: len(broken[id]))
+        scans = edited.runner.shortened(broken[name], rules[name], TRIES)
+        fallen = [name, *(id for id, rule in rules.items() if id != name and id in broken)]
+        return Outcome(edit, "KILLED", fallen, len(scans))
+
+    def _kept(self, edited: Machine) -> list[z3.BoolRef]:
+        """Those invariants of the machine as it is that are so of the edited one."""
+        facts = [lemma for lemma in self.lemmas if _names(lemma) <= set(map(str, edited.system.state.values()))]
+        clauses = [(number, number) for number in range(1, len(facts) + 1)]
+        houdini = Houdini(edited.system, facts=facts, clauses=clauses, singly=True)
+        try:
+            houdini.thin(float("inf"))
+        except TimeoutError:
+            return []
+        return houdini.lemmas()
+
+    @staticmethod
+    def _proved(edited: Machine, lemmas: Sequence[z3.BoolRef]) -> bool:
+        return bool(lemmas) and all(edited.shown(lemmas, edited.asked).values())
+
+
+def _names(term: z3.BoolRef) -> set[str]:
+    return set(names_in([term]))
+
+
+def as_toml(outcomes: Sequence[Outcome]) -> str:
+    """The outcomes as data."""
+    lines = [
+        "# The wiring on trial: what became of one edit of wiring.toml at a time. Made by `modeproof machine --trial --record`.",
+        "# Our own design: nothing here is a claim about a paper. scans: the shortest scans from power-up that were found.",
+        "",
+    ]
+    for outcome in outcomes:
+        lines += [
+            "[[edit]]",
+            f"kind = {json.dumps(outcome.edit.kind)}",
+            f"row = {json.dumps(outcome.edit.row)}",
+            f"text = {json.dumps(outcome.edit.text)}",
+            f"verdict = {json.dumps(outcome.word)}",
+            f"by = {json.dumps(list(outcome.by))}",
+            *([f"scans = {outcome.scans}"] if outcome.scans else []),
+            "",
+        ]
+    return "\n".join(lines)
+
+
+def read_record(text: str) -> Mapping[str, Mapping[str, Any]]:
+    """The recorded outcomes by the names of the edits."""
+    return {f"{row['row']} = {row['text']}": row for row in tomllib.loads(text).get("edit", [])}
