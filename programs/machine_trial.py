@@ -1,7 +1,8 @@
 """The wiring on trial: one edit of a wiring file at a time, and what becomes of the properties.
 
-KILLED: scans with plain values break a property. REFUSED: the reader of wirings refuses the file. HARMLESS:
-all properties are PROVED of the edited machine too. SURVIVED: neither.
+KILLED: scans with plain values break a property, or runs no longer reach what a property is about (a witness).
+REFUSED: the reader of wirings refuses the file. HARMLESS: all properties are PROVED of the edited machine too.
+SURVIVED: neither.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ from programs.terms import names_in
 from programs.tree import BOOL, Binary, Expression, Literal, Unary
 from programs.wiring import Wiring
 
-FEW_RUNS = 40
-"""Before a proof is tried."""
+FEW_RUNS, MORE_RUNS = 25, 240
+"""Before a proof is tried, and before a witness is given up."""
 TRIES = 60
 """Runs that may be made to shorten what breaks a property."""
 SECONDS = 90
@@ -214,31 +215,46 @@ class Trial:
             assert edited.asked and edited.rules
         except Unjudged as error:
             return Outcome(edit, "REFUSED", [str(error)])
-        if (found := self._killed(edit, edited)) is not None:
-            return found
-        if {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms:
+        if edit.kind == "order" and self._same(edited):
             return Outcome(edit, "HARMLESS", ["the same program"])
-        if self._proved(edited, self._kept(edited)):
-            return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
-        edited.runs = base.runs
         if (found := self._killed(edit, edited)) is not None:
             return found
-        if self._proved(edited, edited.lemmas(SECONDS)):
-            return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
-        return Outcome(edit, "SURVIVED", [])
+        if self._same(edited):
+            return Outcome(edit, "HARMLESS", ["the same program"])
+        if not self._proved(edited, self._kept(edited)):
+            edited.runs = self.machine.runs
+            if (found := self._killed(edit, edited)) is not None:
+                return found
+            if not self._proved(edited, edited.lemmas(SECONDS)):
+                return Outcome(edit, "SURVIVED", [])
+        if idle := self._idle(edited):
+            return Outcome(edit, "KILLED", idle)
+        return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
+
+    def _same(self, edited: Machine) -> bool:
+        """Whether the edited program is the same."""
+        return {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms
 
     def _killed(self, edit: Edit, edited: Machine) -> Outcome | None:
-        def enough(seen: Seen) -> bool:
-            return bool(seen.broken)
-
-        broken = edited.look(enough).broken
+        broken = edited.look(lambda seen: bool(seen.broken)).broken
         if not broken:
             return None
         rules = {rule.id: rule for rule in edited.rules}
         name = min(broken, key=lambda id: len(broken[id]))
         scans = edited.runner.shortened(broken[name], rules[name], TRIES)
-        fallen = [name, *(id for id, rule in rules.items() if id != name and id in broken)]
+        fallen = [name, *(id for id in rules if id != name and id in broken)]
         return Outcome(edit, "KILLED", fallen, len(scans))
+
+    @staticmethod
+    def _idle(edited: Machine) -> list[str]:
+        """The properties of which some trigger was not reached in the runs."""
+
+        def enough(seen: Seen) -> bool:
+            return all(None not in reached for reached in seen.reached.values())
+
+        edited.runs = MORE_RUNS
+        reached = edited.look(enough).reached
+        return [f"the witness of {id}" for id, scans in reached.items() if None in scans]
 
     def _kept(self, edited: Machine) -> list[z3.BoolRef]:
         """Those invariants of the machine as it is that are so of the edited one."""
