@@ -43,7 +43,7 @@ class Houdini:
         """What was found."""
         return [self._formula(clause) for clause in self.clauses]
 
-    def _formula(self, clause: tuple[int, int]) -> z3.BoolRef:
+    def _formula(self, clause: tuple[int, ...]) -> z3.BoolRef:
         parts = [
             self.facts[abs(number) - 1] if number > 0 else z3.Not(self.facts[abs(number) - 1])
             for number in clause
@@ -104,7 +104,9 @@ class Houdini:
     def _keep(self, value: Sequence[bool]) -> None:
         """The clauses that are true where the facts are so."""
         self.clauses = [
-            clause for clause in self.clauses if any(value[n - 1] if n > 0 else not value[-n - 1] for n in clause)
+            clause
+            for clause in self.clauses
+            if any(value[n - 1] if n > 0 else not value[-n - 1] for n in clause)
         ]
 
     def _drop(self, solver: z3.Solver, facts: Sequence[z3.BoolRef]) -> bool:
@@ -126,7 +128,9 @@ class Houdini:
     ) -> bool:
         """Ask about clauses, and drop all that are false in the answer; whether there was one."""
         self.rounds += 1
-        parts = [z3.And([z3.Not(facts[n - 1]) if n > 0 else facts[-n - 1] for n in clause]) for clause in asked]
+        parts = [
+            z3.And([z3.Not(facts[n - 1]) if n > 0 else facts[-n - 1] for n in clause]) for clause in asked
+        ]
         answer = solver.check(z3.Or(parts))
         if answer == z3.unknown:
             raise TimeoutError(f"a question had no answer: {solver.reason_unknown()}")

@@ -146,7 +146,9 @@ class Machine:
 
     def lemmas(self, seconds: float) -> list[z3.BoolRef]:
         """Invariants, found from the runs. seconds: of CPU; then there are none."""
-        first = sample_of(self.cell, reference.power_up(self.runner.cell), {r.id: r.start() for r in self.rules})
+        first = sample_of(
+            self.cell, reference.power_up(self.runner.cell), {r.id: r.start() for r in self.rules}
+        )
         seen = [sample_of(self.cell, state, memory) for state, memory in self.seen.samples]
         found = Candidates(self.cell, self.system, [first, *seen])
         found.find()
@@ -200,7 +202,7 @@ class Machine:
                 how = f"{len(scans)} scans, the shortest that were found"
                 found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
             elif not holds[asked.id]:
-                how = f"no invariant was found, and nothing breaks it in {self.seen.scans:,} scans with plain values"
+                how = f"no invariant was found, and nothing breaks it in {self.seen.scans:,} scans of runs"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             elif None in reached:
                 text = asked.trigger[list(reached).index(None)][0]
@@ -217,13 +219,15 @@ class Machine:
             try:
                 runner = Runner.of(self.wiring, self.watched, self.runner.use, table)
                 if runner.broken(scans, rule) is None:
-                    here = self.wiring.place(path).line
-                    yield f"{self.file}:{here}: {path}; with {there!r}, as in the project's own, these scans break nothing"
+                    here = f"{self.file}:{self.wiring.place(path).line}: {path}"
+                    yield f"{here}; with {there!r}, as in the project's own, these scans break nothing"
             except (Unjudged, ParameterError, KeyError):
                 continue
 
 
-def differences(table: Mapping[str, Any], own: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+def differences(
+    table: Mapping[str, Any], own: Mapping[str, Any], above: str = ""
+) -> Iterator[tuple[str, Any]]:
     """The rows of `table` that stand otherwise in `own`, with their value there."""
     for key, value in table.items():
         path = f"{above}{key}"

@@ -75,7 +75,7 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     yield f"  wiring      {machine.file}"
     yield f"  properties  {machine.properties} ({OWN})"
     low, high = table.scan_ms
-    yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; every input, from power-up, for ever"
+    yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
     for verdict in found:
         yield f"{verdict.word}: {verdict.asked.id}: {verdict.asked.sentence}"
         if verdict.word == "PROVED":

@@ -7,7 +7,7 @@ two latches go together, and how far a timer was ahead of a watcher. A solver dr
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any
 
@@ -17,7 +17,6 @@ from programs.blocks import CONTROL, Block, instances
 from programs.cell import Cell
 from programs.houdini import Houdini
 from programs.induction import System
-from programs.machine_runs import Runner
 from programs.relations import like, plain
 from programs.terms import compared_with
 from refimpl.machine_cell import cell as reference
@@ -26,9 +25,7 @@ Sample = Mapping[str, Any]
 MOST_VALUES = 8
 
 
-def sample_of(
-    cell: Cell, state: reference.State, memory: Mapping[str, tuple[bool, int]]
-) -> dict[str, Any]:
+def sample_of(cell: Cell, state: reference.State, memory: Mapping[str, tuple[bool, int]]) -> dict[str, Any]:
     """A state of the reference, with what watches the properties, by the names of the terms."""
     found: dict[str, Any] = {f"{id} waits": waits for id, (waits, _) in memory.items()}
     found |= {f"{id} since": since for id, (_, since) in memory.items()}
@@ -39,14 +36,14 @@ def sample_of(
         for part in fields(kept):
             value = getattr(kept, part.name)
             if part.name == "state":
-                found[f"{above}.{CONTROL}"] = list(type(value)).index(value)
+                found[f"{above}.{CONTROL}"] = _members(value).index(value)
             elif part.name != "params":
                 found[f"{above}.{part.name}"] = value
     return found
 
 
 def kinds_of(block: Block) -> tuple[tuple[int, ...], ...]:
-    """The control states of a block; errors that show the same and differ by a number at the end go together."""
+    """The control states of a block; errors that show the same and differ by a number go together."""
     module = block.reference.device.module
     start = block.start({key: variable.initial for key, variable in block.unit().variables.items()})
     found: dict[Any, list[int]] = {}
@@ -108,14 +105,12 @@ class Candidates:
     def find(self) -> None:
         """All of them."""
         state = self.system.state
-        flags = {path: self.fact(state[path], lambda sample, path=path: bool(sample[path])) for path in self.bools}
+        flags = {path: self.fact(state[path], _true(path)) for path in self.bools}
         for path in self.bools:
             self.always(flags[path])
             self.always(self.denied(flags[path]))
         places = {
-            (path, kind): self.fact(
-                z3.Or([state[path] == value for value in kind]), lambda s, path=path, kind=kind: s[path] in kind
-            )
+            (path, kind): self.fact(z3.Or([state[path] == value for value in kind]), _among(path, kind))
             for path in self.controls
             for kind in self.kinds.get(path) or sorted({(sample[path],) for sample in self.samples})
         }
@@ -158,7 +153,7 @@ class Candidates:
         """A control state that was never seen is not taken."""
         seen = {sample[path] for sample in self.samples}
         terms = [self.system.state[path] == like(self.system.state[path], value) for value in sorted(seen)]
-        self.always(self.fact(z3.Or(terms), lambda sample: sample[path] in seen))
+        self.always(self.fact(z3.Or(terms), _among(path, seen)))
 
     def _equal(self, flags: Mapping[str, tuple[int, int]], places: Mapping[Any, tuple[int, int]]) -> None:
         """Values that were always the same, or always opposite: each with the first of its kind."""
@@ -189,10 +184,10 @@ class Candidates:
             if waits is None:
                 continue
             for timer in timers:
-                ahead = self.fact(state[since] <= state[timer], lambda s, a=since, b=timer: s[a] <= s[b])
+                ahead = self.fact(state[since] <= state[timer], _ordered(since, timer))
                 self.either(self.denied(waits), ahead)
         for timer, limit in itertools.product(timers, limits):
-            below = self.fact(state[timer] < limit, lambda s, a=timer, b=limit: s[a] < b)
+            below = self.fact(state[timer] < limit, _below(timer, limit))
             if not self.always(below):
                 for path in (path for path in flags if path.endswith(" waits")):
                     self.either(self.denied(flags[path]), below)
@@ -206,7 +201,10 @@ class Candidates:
         houdini = Houdini(self.system, facts=self.facts, clauses=list(self.clauses), singly=True)
 
         def further(model: z3.ModelRef) -> Iterator[list[bool]]:
-            now = {path: plain(model.eval(term, model_completion=True)) for path, term in self.system.state.items()}
+            now = {
+                path: plain(model.eval(term, model_completion=True))
+                for path, term in self.system.state.items()
+            }
             for sample in on(now):
                 yield [bool(true(sample)) for true in self.true]
 
@@ -214,6 +212,28 @@ class Candidates:
         houdini.thin(until)
         self.rounds = houdini.rounds
         return houdini.lemmas()
+
+
+def _members(value: Any) -> list[Any]:
+    """All values of the enumeration that a value is of."""
+    kind: Any = type(value)
+    return [*kind]
+
+
+def _true(path: str) -> Callable[[Sample], bool]:
+    return lambda sample: bool(sample[path])
+
+
+def _among(path: str, values: Collection[int]) -> Callable[[Sample], bool]:
+    return lambda sample: sample[path] in values
+
+
+def _ordered(path: str, other: str) -> Callable[[Sample], bool]:
+    return lambda sample: bool(sample[path] <= sample[other])
+
+
+def _below(path: str, limit: int) -> Callable[[Sample], bool]:
+    return lambda sample: bool(sample[path] < limit)
 
 
 def _distinct(system: System, samples: Sequence[Sample]) -> list[Sample]:
@@ -240,11 +260,13 @@ def state_of(cell: Cell, start: reference.State, sample: Sample) -> reference.St
     for name, kept in start.memory.items():
         above = name.upper()
         given = {
-            part.name: sample[f"{above}.{part.name}"] for part in fields(kept) if f"{above}.{part.name}" in sample
+            part.name: sample[f"{above}.{part.name}"]
+            for part in fields(kept)
+            if f"{above}.{part.name}" in sample
         }
         if f"{above}.Q1" in sample:
             given["on"] = sample[f"{above}.Q1"]
         if f"{above}.{CONTROL}" in sample:
-            given["state"] = list(type(kept.state))[sample[f"{above}.{CONTROL}"]]
+            given["state"] = _members(kept.state)[sample[f"{above}.{CONTROL}"]]
         memory[name] = replace(kept, **given)
     return reference.State(memory, pins)

@@ -107,9 +107,7 @@ class Runner:
     @staticmethod
     def of(wiring: Wiring, watched: Watched, use: Use, table: Mapping[str, Any]) -> Runner:
         """The runner of a wiring whose file says `table`. Raises Unjudged."""
-        rows = {
-            name: {"of": seen.of, "inputs": seen.inputs} for name, seen in watched.rows.items()
-        }
+        rows = {name: {"of": seen.of, "inputs": seen.inputs} for name, seen in watched.rows.items()}
         whole = {
             **table,
             "block": {**table["block"], **rows},
@@ -153,7 +151,10 @@ class Runner:
         inputs |= {name: value for name, value in self.use.rest.items() if name in inputs}
         state, values = reference.power_up(self.cell), dict[str, Value]()
         stories, told = self.stories(), list[dict[str, Value]]()
-        then = {story["id"]: [name for name in story.get("then", ()) if name in stories] for story in self.use.story}
+        then = {
+            story["id"]: [name for name in story.get("then", ()) if name in stories]
+            for story in self.use.story
+        }
         following = [story["id"] for story in self.use.story if story.get("first") and story["id"] in stories]
         wild, honest = choose.choice((0.0, 0.01, 0.03, 0.1)), choose.choice((1.0, 0.98, 0.8))
         usual = choose.choice((low, high))
@@ -187,10 +188,22 @@ class Runner:
             values = reference.values_after(self.cell, state, inputs)
             yield (dt_ms, dict(inputs)), state, values
 
-    def on(self, state: reference.State, scans: int, choose: random.Random) -> Iterator[tuple[int, reference.State, Inputs]]:
+    def on(
+        self, state: reference.State, scans: int, choose: random.Random
+    ) -> Iterator[tuple[int, reference.State, Inputs]]:
         """A run with any inputs from a state on: the time, the state and all values after each scan."""
-        words = sorted({value for rows in self.stories().values() for row in rows for value in row.values() if type(value) is int})
-        inputs = {name: self.use.rest.get(name, kind == "WORD" and 0) for name, kind in self.cell.inputs.items()}
+        words = sorted(
+            {
+                value
+                for rows in self.stories().values()
+                for row in rows
+                for value in row.values()
+                if type(value) is int
+            }
+        )
+        inputs = {
+            name: self.use.rest.get(name, kind == "WORD" and 0) for name, kind in self.cell.inputs.items()
+        }
         likely = choose.choice((0.1, 0.3, 0.5))
         for _ in range(scans):
             for pattern in self.use.pattern:
@@ -245,9 +258,7 @@ class Runner:
                 if scans[at][1][name] == before or tries <= 0:
                     continue
                 tries -= 1
-                end = next(
-                    (n for n in range(at, len(scans)) if scans[n][1][name] == before), len(scans)
-                )
+                end = next((n for n in range(at, len(scans)) if scans[n][1][name] == before), len(scans))
                 trial = [
                     (dt_ms, {**inputs, name: before} if at <= n < end else inputs)
                     for n, (dt_ms, inputs) in enumerate(scans)

@@ -1,7 +1,7 @@
 """The wiring on trial: one edit of a wiring file at a time, and what becomes of the properties.
 
-KILLED: scans with plain values break a property, or runs no longer reach what a property is about (a witness).
-REFUSED: the reader of wirings refuses the file. HARMLESS: all properties are PROVED of the edited machine too.
+KILLED: scans with plain values break a property, or no run reaches what a property is about (its witness).
+REFUSED: the reader of wirings refuses the file. HARMLESS: all properties are PROVED of that machine too.
 SURVIVED: neither.
 """
 
@@ -94,8 +94,8 @@ def _edits(text: str, wiring: Wiring) -> Iterator[Edit]:
     for name, wire in table.signals.items():
         for new in _weaker(wire.text, wiring, f"signals.{name}"):
             yield at("part left out", f"signals.{name}", new)
-    for name, wire in table.outputs.items():
-        for new in _weaker(wire.text, wiring, f"outputs.{name}"):
+    for name, output in table.outputs.items():
+        for new in _weaker(output.text, wiring, f"outputs.{name}"):
             yield at("part left out", f"outputs.{name}", new)
     yield from _of_matrix(text, wiring)
     for (name, mode), (other, there) in itertools.permutations(table.modes.items(), 2):
@@ -135,7 +135,9 @@ def _by_kind(text: str, wiring: Wiring) -> Iterator[Edit]:
 
 def _of_matrix(text: str, wiring: Wiring) -> Iterator[Edit]:
     def row(mode: str, sets: Any) -> Edit:
-        return Edit("matrix", f"matrix.{mode}", json.dumps(sets), _with_list(text, wiring, f"matrix.{mode}", sets))
+        return Edit(
+            "matrix", f"matrix.{mode}", json.dumps(sets), _with_list(text, wiring, f"matrix.{mode}", sets)
+        )
 
     for mode, given in wiring.table.matrix.items():
         sets = [list(part) for part in given]
@@ -155,7 +157,11 @@ def _weaker(text: str, wiring: Wiring, row: str) -> Iterator[str]:
     tree = parsed(text, wiring.place(row))
     if not isinstance(tree, Literal):
         for other in _less(tree):
-            yield shown(other).removeprefix("(").removesuffix(")") if isinstance(other, Binary) else shown(other)
+            yield (
+                shown(other).removeprefix("(").removesuffix(")")
+                if isinstance(other, Binary)
+                else shown(other)
+            )
 
 
 def _less(tree: Expression) -> Iterator[Expression]:
@@ -188,7 +194,9 @@ def _with_list(text: str, wiring: Wiring, row: str, new: Any) -> str:
 
 def _ordered(text: str, name: str, order: Sequence[str]) -> Edit:
     new = f"order = {json.dumps(order)}"
-    return Edit("order", "order", name, re.sub(r"^order = \[[^\]]*\]", lambda _: new, text, count=1, flags=re.M))
+    return Edit(
+        "order", "order", name, re.sub(r"^order = \[[^\]]*\]", lambda _: new, text, count=1, flags=re.M)
+    )
 
 
 @dataclass
@@ -258,8 +266,10 @@ class Trial:
 
     def _kept(self, edited: Machine) -> list[z3.BoolRef]:
         """Those invariants of the machine as it is that are so of the edited one."""
-        facts = [lemma for lemma in self.lemmas if _names(lemma) <= set(map(str, edited.system.state.values()))]
-        clauses = [(number, number) for number in range(1, len(facts) + 1)]
+        facts = [
+            lemma for lemma in self.lemmas if _names(lemma) <= set(map(str, edited.system.state.values()))
+        ]
+        clauses: list[tuple[int, ...]] = [(number, number) for number in range(1, len(facts) + 1)]
         houdini = Houdini(edited.system, facts=facts, clauses=clauses, singly=True)
         try:
             houdini.thin(float("inf"))
@@ -279,8 +289,9 @@ def _names(term: z3.BoolRef) -> set[str]:
 def as_toml(outcomes: Sequence[Outcome]) -> str:
     """The outcomes as data."""
     lines = [
-        "# The wiring on trial: what became of one edit of wiring.toml at a time. Made by `modeproof machine --trial --record`.",
-        "# Our own design: nothing here is a claim about a paper. scans: the shortest scans from power-up that were found.",
+        "# The wiring on trial: what became of one edit of wiring.toml at a time.",
+        "# Made by `modeproof machine --trial --record`. Our own design: no claim about a paper.",
+        "# scans: of the shortest way from power-up that was found",
         "",
     ]
     for outcome in outcomes:

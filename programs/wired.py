@@ -23,7 +23,6 @@ from programs.tree import (
     Expression,
     Instance,
     Literal,
-    Member,
     Name,
     Place,
     Scalar,
@@ -35,7 +34,7 @@ from programs.tree import (
 from programs.wiring import Wiring, names
 
 
-class Observer(Entry):
+class Observer(Entry, frozen=True, kw_only=True):
     """A standard block that a property needs; it reads the cell after each scan and feeds nothing in it."""
 
     of: Text
@@ -142,8 +141,8 @@ def _observed(watched: Watched) -> Iterator[Statement]:
 def text_of(made: Unit, comment: str = "") -> str:
     """The program as Structured Text; `prove-program` can read it again."""
     lines = [f"(* {comment} *)"] if comment else []
-    for name, kind in _enumerations(made.body).items():
-        lines.append(f"TYPE {name} : ({', '.join(kind.names)}); END_TYPE")
+    for name, listed in _enumerations(made.body).items():
+        lines.append(f"TYPE {name} : ({', '.join(listed.names)}); END_TYPE")
     lines.append(f"PROGRAM {made.name}")
     for section, word in (("input", "VAR_INPUT"), ("output", "VAR_OUTPUT"), ("var", "VAR")):
         lines.append(word)

@@ -24,6 +24,7 @@ from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.typed import Count, Entry, Text, typed
 from programs import blocks
 from programs.questions import parsed
+from programs.reference import targets
 from programs.standard import BLOCKS
 from programs.tree import BOOL, SCALARS, TIME, Binary, Expression, Member, Name, Place, Scalar, Unary, Unit
 from programs.tree import Literal as Value
@@ -36,7 +37,7 @@ NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {"TRUE", "FALSE", "AND", "OR", "NOT", "XOR", "MOD", *SCALARS, *BLOCKS}
 
 
-class Input(Entry):
+class Input(Entry, frozen=True, kw_only=True):
     """What the cell reads. BOOL or WORD; `source` names who sends it."""
 
     type: Literal["BOOL", "WORD"]
@@ -44,14 +45,14 @@ class Input(Entry):
     why: Text
 
 
-class Wire(Entry):
+class Wire(Entry, frozen=True, kw_only=True):
     """A signal with a name."""
 
     text: Text = msgspec.field(name="is")
     why: Text
 
 
-class Output(Entry):
+class Output(Entry, frozen=True, kw_only=True):
     """What the cell writes; `target` names who reads it."""
 
     text: Text = msgspec.field(name="is")
@@ -59,13 +60,13 @@ class Output(Entry):
     why: Text
 
 
-class Row(Entry):
+class Row(Entry, frozen=True, kw_only=True):
     """An instance of a block: the source of each input pin, the parameters that are not at their default."""
 
     of: Text
     why: Text
     inputs: dict[str, Text]
-    parameters: dict[str, int | bool | str] = {}
+    parameters: dict[str, int | bool | str] = msgspec.field(default_factory=dict)
 
 
 Sets = Annotated[
@@ -73,7 +74,7 @@ Sets = Annotated[
 ]
 
 
-class Table(Entry):
+class Table(Entry, frozen=True, kw_only=True):
     """The file."""
 
     title: Text
@@ -86,7 +87,7 @@ class Table(Entry):
     safeguards: dict[str, Wire]
     matrix: dict[str, Sets]
     outputs: dict[str, Output]
-    signals: dict[str, Wire] = {}
+    signals: dict[str, Wire] = msgspec.field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ class Wiring:
             return Pins({pin: kind for pin, kind in ins.items() if kind is not TIME}, fixed, outs, None)
         found = blocks.block(row.of)
         if found is None:
-            known = [*STANDARD, *(target for target in blocks.targets() if blocks.block(target))]
+            known = [*STANDARD, *(target for target in targets() if blocks.block(target))]
             raise self.refuse(f"block.{name}", f"no block {row.of!r}; {suggestion(row.of, known)}")
         unit = found.unit()
         sides: dict[str, dict[str, Scalar]] = {"inputs": {}, "parameters": {}, "outputs": {}}
@@ -147,7 +148,9 @@ class Wiring:
         """Each signal with a name as it is written, those that come from the matrix last."""
         table = self.table
         needs = {
-            mode: " OR ".join(" AND ".join(f"({table.safeguards[name].text})" for name in part) for part in sets)
+            mode: " OR ".join(
+                " AND ".join(f"({table.safeguards[name].text})" for name in part) for part in sets
+            )
             for mode, sets in table.matrix.items()
         }
         found = {name: wire.text for name, wire in (*table.signals.items(), *table.modes.items())}

@@ -16,7 +16,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser: argparse.ArgumentParser = commands.add_parser(
         "machine",
         help="judge how the documents' blocks are wired to a machine",
-        description="PROVED (0): every property is true after every scan, for every input. REFUTED (1): scans "
+        description="PROVED (0): each property is true after every scan, for every input. REFUTED (1): scans "
         "from power-up that break one. UNKNOWN (2): neither, or the file was refused. See "
         "docs/wire-your-machine.md.",
     )
@@ -25,12 +25,22 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     )
     parser.add_argument("--properties", type=Path, metavar="TOML", help="in the place of safety.toml there")
     parser.add_argument("--use", type=Path, metavar="TOML", help="in the place of use.toml there")
-    parser.add_argument("--seconds", type=float, default=120, metavar="S", help="limit of the proof, of CPU (120)")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts there as well")
-    parser.add_argument("--program", type=Path, metavar="FILE", help="write the machine as Structured Text there")
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as SVG or Mermaid")
     parser.add_argument(
-        "--trial", nargs="?", const="", metavar="PART", help="judge edits of the wiring whose name has PART in it"
+        "--seconds", type=float, default=120, metavar="S", help="limit of the proof, of CPU (120)"
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts there as well")
+    parser.add_argument(
+        "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
+    )
+    parser.add_argument(
+        "--picture", type=Path, metavar="FILE", help="draw the wiring there, as SVG or Mermaid"
+    )
+    parser.add_argument(
+        "--trial",
+        nargs="?",
+        const="",
+        metavar="PART",
+        help="judge edits of the wiring whose name has PART in it",
     )
     parser.add_argument("--record", action="store_true", help="with --trial: write trial.toml")
     parser.set_defaults(run=run)

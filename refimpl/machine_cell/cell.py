@@ -47,7 +47,7 @@ class Block:
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A wiring: the type of each input (BOOL or WORD), the blocks in the order of their calls, the outputs."""
+    """A wiring: the type of each input (BOOL or WORD), the blocks in the order of calls, the outputs."""
 
     inputs: Mapping[str, str]
     blocks: Mapping[str, Block]
@@ -82,8 +82,9 @@ def made_of(table: Mapping[str, Any]) -> Cell:
 def from_matrix(table: Mapping[str, Any]) -> dict[str, str]:
     """The signals that the activation matrix gives, as texts.
 
-    Each mode by its name. ``a_mode``: one of them is active. ``two_modes``: more than one. ``safeguards_hold``: for an active mode, all safeguards of one of
-    its sets hold. ``NAME_in_use``: a mode is active that has the safeguard in a set.
+    Each mode by its name. ``a_mode``: one of them is active. ``two_modes``: more than one.
+    ``safeguards_hold``: for an active mode, all safeguards of one of its sets hold. ``NAME_in_use``: a mode is
+    active that has the safeguard in a set.
     """
     modes = {name: row["is"] for name, row in table["modes"].items()}
     guards = {name: f"({row['is']})" for name, row in table["safeguards"].items()}
@@ -102,7 +103,9 @@ def from_matrix(table: Mapping[str, Any]) -> dict[str, str]:
 
 def power_up(cell: Cell) -> State:
     """The state before the first scan: no block was called, every output pin is FALSE or 0."""
-    pins = {f"{name}.{pin}": value for name, block in cell.blocks.items() for pin, value in block.writes.items()}
+    pins = {
+        f"{name}.{pin}": value for name, block in cell.blocks.items() for pin, value in block.writes.items()
+    }
     return State({name: block.start for name, block in cell.blocks.items()}, pins)
 
 

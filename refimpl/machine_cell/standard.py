@@ -14,8 +14,10 @@ Pins = Mapping[str, bool | int]
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """``before``: the input whose edges count, in the call before. ``on``: the latch. ``elapsed_ms``: since IN
-    rose."""
+    """``before``: the input whose edges count, in the call before. ``on``: the latch.
+
+    ``elapsed_ms``: since IN rose.
+    """
 
     before: bool = False
     on: bool = False
