@@ -67,6 +67,8 @@ class Machine:
     use: Path
     tell: Callable[[str], None] = field(default=lambda text: None)
     runs: int = RUNS
+    triggers: Sequence[Sequence[str]] | None = None
+    """The texts of what must occur for each property, where they are known; they come from the terms."""
 
     @cached_property
     def wiring(self) -> Wiring:
@@ -111,10 +113,11 @@ class Machine:
     @cached_property
     def rules(self) -> list[Rule]:
         """The properties over plain values."""
-        return [
-            rule_of(row, [text for text, _ in asked.trigger], self.runner.named)
-            for row, asked in zip(self.questions.rows, self.asked, strict=True)
-        ]
+        texts = self.triggers
+        if texts is None:
+            texts = [[text for text, _ in asked.trigger] for asked in self.asked]
+        rows = zip(self.questions.rows, texts, strict=True)
+        return [rule_of(row, triggers, self.runner.named) for row, triggers in rows]
 
     def look(self, enough: Callable[[Seen], bool] = lambda seen: False) -> Seen:
         """Runs with plain values."""

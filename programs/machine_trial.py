@@ -217,21 +217,19 @@ class Trial:
 
     def of(self, edit: Edit) -> Outcome:
         """What becomes of an edit."""
-        base = self.machine
         try:
-            edited = Machine(edit.after, base.file, base.properties, base.use, runs=FEW_RUNS)
-            assert edited.asked and edited.rules
+            edited = self.edited(edit)
         except Unjudged as error:
-            return Outcome(edit, "REFUSED", [str(error)])
+            return Outcome(edit, "REFUSED", [error.message])
         if edit.kind == "order" and self._same(edited):
             return Outcome(edit, "HARMLESS", ["the same program"])
-        if (found := self._killed(edit, edited)) is not None:
+        if (found := self.killed(edit, edited)) is not None:
             return found
         if self._same(edited):
             return Outcome(edit, "HARMLESS", ["the same program"])
         if not self._proved(edited, self._kept(edited)):
             edited.runs = self.machine.runs
-            if (found := self._killed(edit, edited)) is not None:
+            if (found := self.killed(edit, edited)) is not None:
                 return found
             if not self._proved(edited, edited.lemmas(SECONDS)):
                 return Outcome(edit, "SURVIVED", [])
@@ -239,11 +237,20 @@ class Trial:
             return Outcome(edit, "KILLED", idle)
         return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
 
+    def edited(self, edit: Edit) -> Machine:
+        """The machine with the edit. Raises Unjudged."""
+        base = self.machine
+        triggers = [[text for text, _ in asked.trigger] for asked in base.asked]
+        found = Machine(edit.after, base.file, base.properties, base.use, runs=FEW_RUNS, triggers=triggers)
+        assert found.rules
+        return found
+
     def _same(self, edited: Machine) -> bool:
         """Whether the edited program is the same."""
         return {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms
 
-    def _killed(self, edit: Edit, edited: Machine) -> Outcome | None:
+    def killed(self, edit: Edit, edited: Machine) -> Outcome | None:
+        """The outcome, if runs break a property."""
         broken = edited.look(lambda seen: bool(seen.broken)).broken
         if not broken:
             return None

@@ -313,10 +313,10 @@ def _check(wiring: Wiring) -> None:
         _check_block(wiring, name, row)
     _check_order(wiring)
     _check_matrix(wiring)
-    for group in (wiring.signals, wiring.sources, wiring.shown):
-        assert group is not None
     for name, wire in table.safeguards.items():
         wiring._read(f"safeguards.{name}", wire.text, BOOL)
+    for group in (wiring.signals, wiring.sources, wiring.shown):
+        assert group is not None
     if not table.outputs:
         raise wiring.refuse("outputs", "a cell has outputs")
 
@@ -369,8 +369,6 @@ def _check_order(wiring: Wiring) -> None:
     for name in order:
         if name not in known:
             raise wiring.refuse("order", f"no block {name!r}; {suggestion(name, known)}")
-        if order.count(name) > 1:
-            raise wiring.refuse("order", f"{name} stands there twice; a block is called once a scan")
     for name in known:
         if name not in order:
             raise wiring.refuse(f"block.{name}", "is not called: it stands in no place of `order`")

@@ -83,8 +83,8 @@ def from_matrix(table: Mapping[str, Any]) -> dict[str, str]:
     """The signals that the activation matrix gives, as texts.
 
     Each mode by its name. ``a_mode``: one of them is active. ``two_modes``: more than one.
-    ``safeguards_hold``: for an active mode, all safeguards of one of its sets hold. ``NAME_in_use``: a mode is
-    active that has the safeguard in a set.
+    ``safeguards_hold``: for an active mode, all safeguards of one of its sets hold. ``NAME_in_use``: a mode
+    is active that has the safeguard in a set.
     """
     modes = {name: row["is"] for name, row in table["modes"].items()}
     guards = {name: f"({row['is']})" for name, row in table["safeguards"].items()}
