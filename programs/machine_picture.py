@@ -4,59 +4,69 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from programs.tree import Expression
-from programs.wiring import Wiring, names
+from programs.tree import Binary, Expression, Member, Name, Unary
+from programs.wiring import Wiring
+
+START = "start"
+"""The box of the standard blocks, the named signals and the matrix."""
 
 
 def picture(wiring: Wiring) -> str:
-    """Inputs by their senders, the documents' blocks, the start circuit, and outputs by their readers."""
+    """Senders, the documents' blocks, the start circuit, and readers, with each wire between them."""
     table = wiring.table
-    lines = ["flowchart LR"]
-    lines += [f'    in_{_key(source)}(["{source}"])' for source in _senders(wiring)]
     documents = [name for name in table.order if wiring.kinds[name].unit is not None]
-    lines += [f'    {name}["{name}<br>{table.block[name].of}"]' for name in documents]
-    lines.append('    start["start circuit<br>edges, latches and the activation matrix"]')
-    lines += [f'    out_{_key(output.target)}(["{output.target}"])' for output in table.outputs.values()]
+    boxes = [f'    from_{_key(row.source)}(["{row.source}"])' for row in table.inputs.values()]
+    boxes += [f'    {name}["{name}<br>{table.block[name].of}"]' for name in documents]
+    boxes.append(f'    {START}["start circuit<br>edges, latches, activation matrix"]')
+    boxes += [f'    to_{_key(row.target)}(["{row.target}"])' for row in table.outputs.values()]
     arrows: dict[tuple[str, str], list[str]] = {}
-
-    def arrow(source: str, target: str, text: str) -> None:
+    for source, target, text in _wires(wiring, documents):
         known = arrows.setdefault((source, target), [])
         if source != target and text not in known:
             known.append(text)
-
-    for name in table.order:
-        target = name if name in documents else "start"
-        for pin, tree in wiring.sources[name].items():
-            for source, text in _sources(wiring, tree, documents):
-                arrow(source, target, pin if target == name and source == "start" else text)
-    for name, tree in wiring.shown.items():
-        for source, _ in _sources(wiring, tree, documents):
-            arrow(source, f"out_{_key(table.outputs[name].target)}", name)
+    lines = ["flowchart LR", *dict.fromkeys(boxes)]
     for (source, target), texts in arrows.items():
-        if texts:
-            rows = [", ".join(texts[at : at + 3]) for at in range(0, len(texts), 3)]
+        rows = [", ".join(texts[at : at + 3]) for at in range(0, len(texts), 3)]
+        if rows:
             lines.append(f'    {source} -- "{"<br>".join(rows)}" --> {target}')
-    return "\n".join(dict.fromkeys(lines)) + "\n"
+    return "\n".join(lines) + "\n"
 
 
-def _sources(wiring: Wiring, tree: Expression, documents: list[str]) -> Iterator[tuple[str, str]]:
-    """The boxes that an expression reads, and the name of what it reads there."""
+def _wires(wiring: Wiring, documents: list[str]) -> Iterator[tuple[str, str, str]]:
+    """Each wire: its two boxes and its name."""
     table = wiring.table
-    for name in names(tree):
-        if name in table.inputs:
-            yield f"in_{_key(table.inputs[name].source)}", name
-        elif name in documents:
-            yield name, name
-        elif name in table.block or name in wiring.signals:
-            if name in wiring.signals:
-                for source, text in _sources(wiring, wiring.signals[name], documents):
-                    if source not in documents or name in table.modes:
-                        yield source, text
-            yield "start", name
+
+    def box(leaf: Name | Member) -> tuple[str, str]:
+        if isinstance(leaf, Member) and isinstance(leaf.of, Name):
+            return (leaf.of.name if leaf.of.name in documents else START), leaf.name
+        assert isinstance(leaf, Name)
+        if leaf.name in table.inputs:
+            return f"from_{_key(table.inputs[leaf.name].source)}", leaf.name
+        return START, leaf.name
+
+    for name, pins in wiring.sources.items():
+        target = name if name in documents else START
+        for pin, tree in pins.items():
+            for source, text in map(box, _leaves(tree)):
+                yield source, target, pin if source == START else text
+    for name, tree in wiring.signals.items():
+        if name in table.signals or not name.endswith("_in_use"):
+            for source, text in map(box, _leaves(tree)):
+                yield source, START, text
+    for name, tree in wiring.shown.items():
+        for source, _ in map(box, _leaves(tree)):
+            yield source, f"to_{_key(table.outputs[name].target)}", name
 
 
-def _senders(wiring: Wiring) -> list[str]:
-    return list(dict.fromkeys(row.source for row in wiring.table.inputs.values()))
+def _leaves(tree: Expression) -> Iterator[Name | Member]:
+    match tree:
+        case Name() | Member():
+            yield tree
+        case Unary(_, operand, _):
+            yield from _leaves(operand)
+        case Binary(_, left, right, _):
+            yield from _leaves(left)
+            yield from _leaves(right)
 
 
 def _key(text: str) -> str:
