@@ -114,9 +114,11 @@ def _values(machine: Machine, verdict: Verdict) -> Iterator[tuple[int, Mapping[s
 
 
 def _changed(before: Mapping[str, Any], values: Mapping[str, Any]) -> str:
-    """What is not as before; at first, what is not FALSE or 0."""
+    """What is not as before; at first, what is not FALSE or 0. Words are hexadecimal."""
     return ", ".join(
-        f"{name}={int(value)}" for name, value in values.items() if int(before.get(name, 0)) != int(value)
+        f"{name}={int(value)}" if isinstance(value, bool) else f"{name}={value:04X}"
+        for name, value in values.items()
+        if int(before.get(name, 0)) != int(value)
     )
 
 
@@ -169,5 +171,5 @@ def _trial(machine: Machine, part: str, record: Path | None) -> int:
     words = [outcome.word for outcome in found]
     print(", ".join(f"{words.count(word)} {word}" for word in sorted({*words})))
     if record is not None:
-        write_text(record, as_toml(found))
+        write_text(record, as_toml(found, len(chosen)))
     return 1 if "SURVIVED" in words else 0

@@ -32,6 +32,18 @@ def picture(wiring: Wiring) -> str:
     return "\n".join(lines) + "\n"
 
 
+def matrix(wiring: Wiring) -> str:
+    """The activation matrix as a table: a number for each set of safeguards, one of which must hold."""
+    table = wiring.table
+    lines = [f"| mode | {' | '.join(table.safeguards)} | why |", "|---" * (len(table.safeguards) + 2) + "|"]
+    for mode, sets in table.matrix.items():
+        cells = [
+            ", ".join(str(at) for at, part in enumerate(sets, 1) if name in part) for name in table.safeguards
+        ]
+        lines.append(f"| {mode} | {' | '.join(cells)} | {table.modes[mode].why} |")
+    return "\n".join(lines) + "\n"
+
+
 def _wires(wiring: Wiring, documents: list[str]) -> Iterator[tuple[str, str, str]]:
     """Each wire: its two boxes and its name."""
     table = wiring.table

@@ -87,6 +87,8 @@ def rule_of(row: Mapping[str, Any], triggers: Sequence[str], named: Mapping[str,
         holds = made(f"NOT ({row['holds']}) OR ({row['only_if']})")
     else:
         holds = made(row["holds"])
+    if "after" in row and not triggers:
+        triggers = [row["after"]]
     once = made(row["only_once"]) if "only_once" in row else None
     return Rule(row["id"], holds, tuple(map(made, triggers)), row.get("within_ms"), once)
 

@@ -24,7 +24,7 @@ from programs.machine import Machine
 from programs.machine_runs import Seen
 from programs.questions import parsed, shown
 from programs.terms import names_in
-from programs.tree import BOOL, Binary, Expression, Literal, Unary
+from programs.tree import BOOL, TIME, Binary, Expression, Literal, Unary
 from programs.wiring import Wiring
 
 FEW_RUNS, MORE_RUNS = 25, 240
@@ -104,12 +104,16 @@ def _edits(text: str, wiring: Wiring) -> Iterator[Edit]:
             once = _with_value(text, wiring, f"modes.{name}", there.text)
             twice = _with_value(once, wiring, f"modes.{other}", mode.text)
             yield Edit("crossed", f"modes.{name}", f"{there.text}, and {other} = {mode.text}", twice)
+    for name, block in table.block.items():
+        for pin, value in block.parameters.items():
+            if wiring.kinds[name].parameters[pin] is TIME:
+                yield _timed(text, wiring, f"block.{name}.parameters.{pin}", 10 * int(value))
     yield from _by_kind(text, wiring)
     for number, other_number in itertools.combinations(range(len(table.order)), 2):
         order = list(table.order)
         order[number], order[other_number] = order[other_number], order[number]
         yield _ordered(text, f"{order[other_number]} and {order[number]} changed over", order)
-    for name in table.order:
+    for name in table.order[:-1]:
         rest = [block for block in table.order if block != name]
         yield _ordered(text, f"{name} last", [*rest, name])
 
@@ -190,6 +194,13 @@ def _with_list(text: str, wiring: Wiring, row: str, new: Any) -> str:
     number = wiring.lines[row] - 1
     lines[number] = f"{lines[number].partition('=')[0]}= {json.dumps(new)}\n"
     return "".join(lines)
+
+
+def _timed(text: str, wiring: Wiring, row: str, new: int) -> Edit:
+    lines = text.splitlines(keepends=True)
+    number = wiring.lines[row] - 1
+    lines[number] = re.sub(r"= \d+", f"= {new}", lines[number], count=1)
+    return Edit("time", row, str(new), "".join(lines))
 
 
 def _ordered(text: str, name: str, order: Sequence[str]) -> Edit:
@@ -293,12 +304,13 @@ def _names(term: z3.BoolRef) -> set[str]:
     return set(names_in([term]))
 
 
-def as_toml(outcomes: Sequence[Outcome]) -> str:
-    """The outcomes as data."""
+def as_toml(outcomes: Sequence[Outcome], count: int) -> str:
+    """The outcomes as data. count: of all edits that there are."""
     lines = [
         "# The wiring on trial: what became of one edit of wiring.toml at a time.",
         "# Made by `modeproof machine --trial --record`. Our own design: no claim about a paper.",
         "# scans: of the shortest way from power-up that was found",
+        f"# {len(outcomes)} of {count} edits were judged; of the others nothing is said.",
         "",
     ]
     for outcome in outcomes:

@@ -32,9 +32,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
     )
-    parser.add_argument(
-        "--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid"
-    )
+    parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
     parser.add_argument(
         "--trial",
         nargs="?",
