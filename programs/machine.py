@@ -21,11 +21,13 @@ import z3
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import typed
 from programs.cell import Asked, Cell
-from programs.induction import System, is_inductive
+from programs.certificate import Obligation
+from programs.induction import System, is_inductive, named
 from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
 from programs.machine_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
 from programs.property import Judgement
 from programs.questions import Beside, Questions, read_questions
+from programs.recheck import SOLVERS
 from programs.wired import Observer, Watched, cell_of
 from programs.wiring import Wiring, rows_of, wiring_of
 from refimpl.errors import ParameterError
@@ -188,13 +190,44 @@ class Machine:
         solver.add(self.system.within, self.system.assumed, self.system.inside, *lemmas)
         return {one.id: solver.check(self.bad[one.id]) == z3.unsat for one in asked}
 
+    def questions_again(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> list[Obligation]:
+        """The proof as SMT-LIB for another solver; every answer is `unsat`. The search is not in it."""
+        system = self.system
+        then = {path: named(term, "after") for path, term in system.state.items()}
+        where = [(term, then[path]) for path, term in system.state.items()]
+        scan = [system.within, system.assumed, system.inside, *lemmas]
+        moves = [new == system.after[path] for path, new in then.items()]
+        survive = [z3.substitute(lemma, *where) for lemma in (system.within, *lemmas)]
+        return [
+            _owed("start.smt2", [system.first], lemmas),
+            _owed("scan.smt2", [*scan, *moves], survive),
+            _owed("properties.smt2", scan, [z3.Not(self.bad[one.id]) for one in asked]),
+        ]
+
     # ------------------------------------------------------------ verdicts
 
-    def all(self, seconds: float, own: Mapping[str, Any] | None = None) -> list[Verdict]:
-        """The verdict on each. seconds: limit of the search for invariants. own: the project's wiring."""
+    def again(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> str:
+        """What z3 and cvc5 say against the proof, each on its text; nothing if all answers are unsat."""
+        for owed in self.questions_again(lemmas, asked):
+            for name, solver in SOLVERS.items():
+                self.tell(f"{name} on {owed.file}")
+                if (said := solver(owed)) != "unsat":
+                    return f"{name} on {owed.file}: {said}"
+        return ""
+
+    def all(
+        self, seconds: float, own: Mapping[str, Any] | None = None, recheck: bool = False
+    ) -> list[Verdict]:
+        """The verdict on each. seconds: limit of the search for invariants. own: the project's wiring.
+
+        recheck: z3 and cvc5 judge the proof again, from its text alone.
+        """
         assert self.asked is not None  # a refusal comes before any work
         left = [asked for asked in self.asked if asked.id not in self.seen.broken]
-        holds = self.shown(self.lemmas(seconds), left) if left else {}
+        lemmas = self.lemmas(seconds) if left else []
+        holds = self.shown(lemmas, left) if left else {}
+        against = self.again(lemmas, [one for one in left if holds[one.id]]) if recheck and left else ""
+        proof = f"an invariant of {len(lemmas)} clauses{', judged again by z3 and cvc5' * recheck}"
         found = []
         for asked, row, rule in zip(self.asked, self.questions.rows, self.rules, strict=True):
             reached = self.seen.reached[asked.id]
@@ -207,12 +240,15 @@ class Machine:
             elif not holds[asked.id]:
                 how = f"no invariant was found, and nothing breaks it in {self.seen.scans:,} scans of runs"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
+            elif against:
+                how = f"the proof is not confirmed: {against}"
+                found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             elif None in reached:
                 text = asked.trigger[list(reached).index(None)][0]
                 how = f"it follows, but `{text}` was never true in {self.seen.scans:,} scans"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             else:
-                found.append(Verdict(asked, row, "PROVED", "an invariant of the composed program", reached))
+                found.append(Verdict(asked, row, "PROVED", proof, reached))
         return found
 
     def mended(self, scans: Sequence[Scan], rule: Rule, own: Mapping[str, Any]) -> Iterator[str]:
@@ -226,6 +262,20 @@ class Machine:
                     yield f"{here}; with {there!r}, as in the project's own, these scans break nothing"
             except (Unjudged, ParameterError, KeyError):
                 continue
+
+
+def _owed(file: str, known: Sequence[z3.BoolRef], follow: Sequence[z3.BoolRef]) -> Obligation:
+    """What follows from what is known, one question for each."""
+    solver = z3.Solver()
+    solver.add(known)
+    solver.push()
+    solver.add(z3.Or([z3.BoolVal(False), *follow]))  # so that each symbol is declared
+    text = solver.to_smt2().splitlines(keepends=True)
+    declared = "".join(line for line in text if line.startswith("(declare"))
+    lines = ["(set-logic ALL)\n", declared, *(f"(assert {part.sexpr()})\n" for part in known)]
+    for part in follow:
+        lines.append(f"(push 1)\n(assert (not {part.sexpr()}))\n(check-sat)\n(pop 1)\n")
+    return Obligation(file, "".join(lines), len(follow))
 
 
 def differences(

@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     started = time.process_time()
     shipped = folder / "wiring.toml"
     own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() else None
-    found = machine.all(args.seconds, own)
+    found = machine.all(args.seconds, own, args.recheck)
     _tell("")
     seconds = time.process_time() - started
     print("\n".join(lines_of(machine, found, seconds)))
@@ -88,6 +88,8 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
             yield f"  wire        {row}"
     counts = [f"{sum(one.word == word for one in found)} {word}" for word in ("PROVED", "REFUTED", "UNKNOWN")]
     yield f"  verdicts    {', '.join(counts)}"
+    if proved := [one.how for one in found if one.word == "PROVED"]:
+        yield f"  by          {proved[0]}"
     yield f"  trusted     the reader of wirings, {', '.join(TRUSTED)}"
     yield f"  effort      {seconds:.1f} s CPU"
 

@@ -83,8 +83,7 @@ def recheck(folder: Path) -> Rechecked:
     kept.compare({part.file: part.text for part in owed})
     answers: dict[str, dict[str, str]] = {}
     seconds: dict[str, float] = {}
-    solvers: dict[str, Callable[[Obligation], str]] = {"z3": _z3, "cvc5": _cvc5}
-    for name, solver in solvers.items():
+    for name, solver in SOLVERS.items():
         started = time.process_time()
         said = {part.file: solver(part) for part in owed}
         answers[name] = {file: answer for file, answer in said.items() if answer != "unsat"}
@@ -125,3 +124,7 @@ def _joint(said: str, owed: Obligation) -> str:
     if len(answers) == owed.count and set(answers) <= {"sat", "unsat"}:
         return "sat"
     return f"no answer: {' '.join(answers)[:200]}"
+
+
+SOLVERS: dict[str, Callable[[Obligation], str]] = {"z3": _z3, "cvc5": _cvc5}
+"""Each judges the text of an obligation: `unsat`, or what else was said."""

@@ -28,6 +28,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--seconds", type=float, default=120, metavar="S", help="limit of the proof, of CPU (120)"
     )
+    parser.add_argument("--recheck", action="store_true", help="z3 and cvc5 judge the proof again")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts there as well")
     parser.add_argument(
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"

@@ -13,6 +13,7 @@ from modeproof.ground.errors import Unjudged
 from programs import machine_picture
 from programs.machine import Machine
 from programs.machine_trial import edits, read_record
+from programs.recheck import SOLVERS
 from programs.wiring import wiring_of
 
 ROOT = Path(__file__).parents[2]
@@ -118,6 +119,20 @@ def test_a_wrong_wire_is_named_with_the_scans(tmp_path: Path, capsys: pytest.Cap
     assert "REFUTED: at-rest" in said
     assert "wrong scan" in said
     assert "block.guard.inputs.UnlockRequest; with 'UnlockButton'" in said
+
+
+@pytest.mark.deep
+def test_a_wrong_invariant_is_refused_by_both_solvers(tmp_path: Path) -> None:
+    machine = Machine(TEXT, "my.toml", unlocking(tmp_path), FOLDER / "use.toml", runs=40)
+    lemmas = machine.lemmas(60)
+    assert not machine.again(lemmas, machine.asked)
+    assert all(machine.shown(lemmas, machine.asked).values())
+    control = machine.system.state["GUARD.control"]
+    wrong = [*lemmas, control == 0]
+    assert machine.again(wrong, machine.asked) == "z3 on scan.smt2: sat"
+    assert not any(machine.shown(wrong, machine.asked).values())
+    scan = machine.questions_again(wrong, machine.asked)[1]
+    assert [solver(scan) for solver in SOLVERS.values()] == ["sat", "sat"]
 
 
 @pytest.mark.deep
