@@ -99,7 +99,7 @@ def unlocking(tmp_path: Path) -> Path:
     path.write_text(
         """[[property]]
 id = "at-rest"
-sentence = "The bolt is withdrawn only while the door is locked by nobody."
+sentence = "The bolt is withdrawn only while the button is held."
 hazard = "As in safety.toml."
 cites = ["GL-IN-SAFETYACTIVE"]
 holds = "S_UnlockGuard"
@@ -137,7 +137,10 @@ def test_a_wrong_invariant_is_refused_by_both_solvers(tmp_path: Path) -> None:
 
 @pytest.mark.deep
 def test_what_has_no_invariant_is_unknown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["machine", "--properties", str(unlocking(tmp_path)), "--seconds", "0"]) == 2
+    path = unlocking(tmp_path)
+    text = path.read_text("utf-8").replace('"S_UnlockGuard"', '"running.Q1"')
+    path.write_text(text.replace('"UnlockButton"', '"S_DriveEnable OR edm.Error"'), "utf-8")
+    assert main(["machine", "--properties", str(path), "--seconds", "0"]) == 2
     assert "UNKNOWN: at-rest" in capsys.readouterr().out
 
 
