@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from pathlib import Path
 
@@ -163,12 +164,20 @@ def test_each_edit_of_the_wiring_changes_the_file_once() -> None:
     assert all(tomllib.loads(edit.after) != whole for edit in found)
 
 
-def test_the_recorded_edits_are_edits_and_none_survives() -> None:
+def test_the_recorded_edits_are_edits_of_the_wiring() -> None:
     known = {edit.id for edit in edits(TEXT, wiring_of(TEXT, "wiring.toml"))}
     recorded = read_record((FOLDER / "trial.toml").read_text("utf-8"))
     assert recorded
     assert set(recorded) <= known
-    assert {row["verdict"] for row in recorded.values()} <= {"KILLED", "HARMLESS", "REFUSED"}
+    words = {row["verdict"] for row in recorded.values()}
+    assert "KILLED" in words
+    assert words <= {"KILLED", "HARMLESS", "REFUSED", "SURVIVED"}
+    page = (ROOT / "docs/wire-your-machine.md").read_text("utf-8")
+    assert f"{len(known)} edits {len(recorded)} were judged" in page
+    told = re.findall(r"^\| `(.*?)` \| .* \| `(.*?)` \| (\d+) \|$", page, re.MULTILINE)
+    assert len(told) > 12
+    for id, falls, scans in told:
+        assert (recorded[id]["by"][0], str(recorded[id]["scans"])) == (falls, scans)
 
 
 @pytest.mark.parametrize(
