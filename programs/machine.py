@@ -234,7 +234,7 @@ class Machine:
             if asked.id in self.seen.broken:
                 self.tell(f"scans that break {asked.id}")
                 scans = self.runner.shortened(self.seen.broken[asked.id], rule, TRIES)
-                mended = list(self.mended(scans, rule, own)) if own is not None else []
+                mended = list(self.mended(scans, row, own)) if own is not None else []
                 how = f"{len(scans)} scans, the shortest that were found"
                 found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
             elif not holds[asked.id]:
@@ -251,13 +251,13 @@ class Machine:
                 found.append(Verdict(asked, row, "PROVED", proof, reached))
         return found
 
-    def mended(self, scans: Sequence[Scan], rule: Rule, own: Mapping[str, Any]) -> Iterator[str]:
+    def mended(self, scans: Sequence[Scan], row: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[str]:
         """The rows that are not as in `own`, and with whose text there the scans break nothing."""
         for path, there in differences(self.table, own):
             table = with_row(self.table, path, there)
             try:
                 runner = Runner.of(self.wiring, self.watched, self.runner.use, table)
-                if runner.broken(scans, rule) is None:
+                if runner.broken(scans, rule_of(row, [], runner.named)) is None:
                     here = f"{self.file}:{self.wiring.place(path).line}: {path}"
                     yield f"{here}; with {there!r}, as in the project's own, these scans break nothing"
             except (Unjudged, ParameterError, KeyError):
