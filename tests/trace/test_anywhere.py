@@ -31,7 +31,7 @@ _CHECKS = re.compile(
         ("eks", "OPEN_Eks6", "EksOpen, EksTrace", " /\\ in = 0 /\\ beat = FALSE /\\ lasted = 0"),
         (
             "sf_guard_locking",
-            "OPEN_SF_GuardLocking_latched",
+            "OPEN_SF_GuardLocking",
             "GuardLockingOpen, GuardLockingTrace",
             NOTHING_SEEN,
         ),
