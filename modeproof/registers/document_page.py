@@ -10,13 +10,14 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from modeproof.registers.citations import Sources
-from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.files import markdown, read_text, read_toml
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
+from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
@@ -48,15 +49,6 @@ def tellings(document: Document) -> tuple[tuple[Finding, Telling], ...]:
     """The counterexamples that findings.toml marks as telling: safety first, then in its order."""
     ranked = sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
     return tuple((finding, finding.telling) for finding in ranked if finding.telling)
-
-
-def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table that ends with a line end."""
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    lines += [
-        "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in row) + " |" for row in rows
-    ]
-    return "\n".join(lines) + "\n"
 
 
 # ------------------------------------------------------------------------------------------- the check
@@ -112,6 +104,7 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
         _head(document),
         _shown(document, sources),
         *_profiles(document),
+        *section(document, sources),
         _limits(document),
         *_counterexamples(document, tables),
         _findings(document),
