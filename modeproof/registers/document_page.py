@@ -25,6 +25,7 @@ from modeproof.registers.scores import WHAT, Score, load_scores
 REMEDY = "run modeproof render"
 CLASSES = {
     "safety": "Safety: the other reading starts the machine, or hides a fault",
+    "hazard": "Hazard: the text has one reading, which leaves something to the machine",
     "availability": "Availability: the other reading stops the machine or its user",
     "wording": "Wording: no effect once it is noticed",
 }

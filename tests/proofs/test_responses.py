@@ -14,7 +14,7 @@ from proofs.theorem import Theorem, TheoremError, theorems_of
 from tests.proofs.block import wrong_answers
 
 STATED = [
-    pytest.param(theorem, row, id=row.id)
+    pytest.param(theorem, row, id=row.id, marks=[pytest.mark.long] if row.device == "fplc" else [])
     for document in documents(root())
     if load_responses(root(), document).rows
     for theorem in theorems_of(document)
