@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -147,7 +148,15 @@ def _shown(document: Document, sources: Sources) -> str:
     graphs = [run for run in document.runs if run.graph is not None]
     theorems = sum(len(module.theorems) for module in sources.proofs)
     verify = f"`modeproof verify --document {name}`"
+    kinds = Counter(clause.kind for clause in document.clauses)
     rows = [
+        [
+            "statements of the text: what a program does, what must be true of it, what is assumed, and "
+            "what is left out with a reason",
+            f"{len(document.clauses)}: {kinds['behaviour']}, {kinds['property']}, {kinds['assumption']}, "
+            f"{kinds['not modelled']}",
+            f"`modeproof registers --matrix --document {name}`",
+        ],
         [
             "properties that hold in every state and step, within the bounds of each run",
             f"{len(document.properties)} in {len(holding)} runs",

@@ -173,8 +173,9 @@ EXPLAINED = (
     "They follow from the steps of the devices. C is the longest time from the beginning of one call of a "
     "device to that of the next. A call reads its inputs when it begins, and its outputs stand when it ends, "
     "before the next. So an answer in one call takes two cycles: one until a call sees what happened, and "
-    "one until it ends. t is the longest transfer from one device to the next, with input filters. Each "
-    "bound is typed once, in the register: the theorem takes it from there, and refuses any other."
+    "one until it ends. t is the longest transfer from one device to the next, with input filters; what "
+    "lies before the first device comes on top. Each bound is typed once, in the register: the theorem takes "
+    "it from there, and refuses any other."
 )
 """How the table is to be read."""
 
@@ -185,6 +186,7 @@ def section(document: Document, sources: Sources) -> Iterator[str]:
         return
     rows = [
         [
+            row.id,
             f"{row.start} **to** {row.end}",
             row.formula,
             row.example,
@@ -198,5 +200,5 @@ def section(document: Document, sources: Sources) -> Iterator[str]:
         + markdown(["id", "from, to", "longest time", "example", "theorem"], rows)
     )
     if chains := chain_bounds(document):
-        sums = [[row.start, row.formula, row.example, ", ".join(row.shown)] for row in chains]
-        yield markdown(["chain", "longest time", "example", "sum of"], sums)
+        sums = [[row.id, row.start, row.formula, row.example, ", ".join(row.shown)] for row in chains]
+        yield markdown(["id", "chain", "longest time", "example", "sum of"], sums)

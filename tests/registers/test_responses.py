@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from modeproof.registers import Unjudged, judge, load_document, read_sources
-from modeproof.registers.responses import bounds, chain_bounds
+from modeproof.registers.responses import bounds, chain_bounds, section
 
 FILE = "spec/door/response.toml"
 PROOF = "proofs/door/bolt.py"
@@ -70,6 +70,21 @@ def test_the_sums_are_those_of_the_rows(timed: Any) -> None:
     (chain,) = chain_bounds(document)
     assert chain.formula == "2 T_HOLD + 4 C(latch) + 4 C(latch) + t + the lamp"
     assert chain.example == "492 ms"
+
+
+def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
+    document = load_document(timed.root, "door")
+    text = "".join(section(document, read_sources(document)))
+    for table in text.split("\n\n"):
+        cells = {line.count("|") for line in table.splitlines() if line.startswith("|")}
+        assert len(cells) <= 1, table
+    for expected in (
+        "| DRR-1 | the door opens **to**",
+        "`the_bolt_moves`",
+        "| DRC-1 | door to lamp |",
+        "t = 5 ms",
+    ):
+        assert expected in text
 
 
 @pytest.mark.parametrize(
