@@ -13,7 +13,7 @@ import z3
 
 from modeproof.registers import Response
 from proofs.explorer.device import LOGIC
-from proofs.explorer.ends import TRUE
+from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.records import terms
 from proofs.explorer.scanned import Property, Scanned, Scans, control
 from proofs.sentences import Judge
@@ -111,6 +111,36 @@ def within_time(
         early.append(z3.And(*given.values(), clock(judge.seen) >= 0, waits))
     yield control_query("control: it gets late", {"it is late": z3.Or(*due)}, LOGIC)
     yield control_query("control: a millisecond earlier it may wait", {"it waits": z3.Or(*early)}, LOGIC)
+
+
+def waits_without_end(judge: Judge, row: Response, asks: Property, answered: Property) -> Queries:
+    """A call that asks, is not answered and changes no memory does so again and again, whatever time passes.
+
+    The claim is made for each control state that `asks` speaks of, and its twin shows that there is such a
+    call. Neither property may look at what an observer has seen.
+    """
+    if row.calls is not None or row.times:
+        raise TheoremError(
+            f"{row.id}: the theorem shows that there is no bound; give neither calls nor times"
+        )
+    later, some_time = z3.Int("a later call comes after"), []
+    for scans in judge.scans():
+        passed = scans.scan.inputs.dt_ms.term
+        waits = scans.some(lambda scan: z3.And(asks(scan), z3.Not(answered(scan)), _stands_still(scan)))
+        some_time.append(z3.And(*judge.premises(scans).values(), scans.some(answered)))
+        if z3.is_false(z3.simplify(waits)):
+            continue
+        given = {**judge.premises(scans), "it waits": z3.And(passed >= 1, waits), "time passes": later >= 1}
+        yield from claim(f"for ever in {scans.control}", given, z3.substitute(waits, (passed, later)), LOGIC)
+    yield control_query("control: it can be answered", {"it is": z3.Or(*some_time)}, LOGIC)
+
+
+def _stands_still(scan: Scanned) -> z3.BoolRef:
+    """The memory after the scan is that before it, the control state too."""
+    if not scan.becomes(control(scan.device, scan.before)):
+        return FALSE
+    pairs = zip(terms(scan.before), terms(scan.after), strict=True)
+    return z3.And(*(was == now for (_, was), (_, now) in pairs if isinstance(was, z3.ExprRef)))
 
 
 def needs_all(judge: Judge, row: Response, calls_left: Callable[..., z3.ArithRef]) -> Query:

@@ -65,13 +65,11 @@ def _faults(document: Document, sources: Sources) -> Iterator[tuple[str, str]]:
         if row.calls is not None and (example is None or row.device not in example.cycle):
             yield row.id, f"[example] gives no cycle for {row.device}"
         proofs = theorems_of(sources, row)
-        if row.calls is not None and len(proofs) != 1:
+        if len(proofs) != 1:
             what = (
                 f"{len(proofs)} theorems name it ({', '.join(proofs)})" if proofs else "no theorem names it"
             )
             yield row.id, f"{what}; exactly one must, with responses=[{row.id!r}]"
-        if row.calls is None and proofs:
-            yield row.id, f"{proofs[0]} names it, but it has no `calls`"
     for chain in found.chains:
         try:
             steps = _steps(document, chain)
@@ -175,7 +173,8 @@ EXPLAINED = (
     "before the next. So an answer in one call takes two cycles: one until a call sees what happened, and "
     "one until it ends. t is the longest transfer from one device to the next, with input filters; what "
     "lies before the first device comes on top. Each bound is typed once, in the register: the theorem takes "
-    "it from there, and refuses any other."
+    "it from there, and refuses any other. Where there is none, the theorem shows calls that go on like that "
+    "for ever, whatever time passes."
 )
 """How the table is to be read."""
 

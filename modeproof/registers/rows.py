@@ -233,8 +233,8 @@ class Response(Entry, frozen=True, kw_only=True):
 
     `calls` counts calls of the device, the one that sees it first included; `times` are parameters of the
     device, and how often each is waited for besides, up to the first call that finds it over. The theorem
-    that names the row proves just this number and these times. A row without `calls` has no bound, and
-    `unbounded` says why.
+    that names the row proves just this number and these times. A row without `calls` has no bound:
+    `unbounded` says why, and the theorem shows it.
     """
 
     id: RowId

@@ -9,7 +9,7 @@ from proofs.edm.block_safety import both_are
 from proofs.edm.invariant import JUDGE
 from proofs.edm.observer import SEEN
 from proofs.explorer.scanned import Scanned
-from proofs.responses import within_calls, within_time
+from proofs.responses import waits_without_end, within_calls, within_time
 from proofs.theorem import Queries, theorem
 
 
@@ -69,3 +69,17 @@ def a_start_request_is_answered_in_the_calls_of_its_row(row: Response) -> Querie
         return z3.And(wanted, both_are(scan, True))
 
     yield from within_calls(JUDGE, row, asks, lambda scan: scan.sends.S_EDM_Out)
+
+
+@theorem(clauses=["EDM-OUT-REQUEST"], findings=[], responses=["EDMR-06"], slow=True)
+def a_reset_is_waited_for_without_end(row: Response) -> Queries:
+    """EDMR-06 has no bound: while nobody presses Reset, a call that shows ResetRequest can be followed by as
+    many like it as one likes, whatever time passes.
+    """
+
+    yield from waits_without_end(
+        JUDGE,
+        row,
+        lambda scan: z3.And(scan.sent.ResetRequest, z3.Not(scan.inputs.Reset)),
+        lambda scan: z3.Not(scan.sends.ResetRequest),
+    )

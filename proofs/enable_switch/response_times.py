@@ -9,7 +9,7 @@ from proofs.enable_switch.invariants import JUDGE
 from proofs.enable_switch.observer import sees
 from proofs.enable_switch.vocabulary import NONE, STAGE_0, STAGE_1, STAGE_2, in_the_mode, shows
 from proofs.explorer.scanned import Scanned
-from proofs.responses import within_calls, within_time
+from proofs.responses import waits_without_end, within_calls, within_time
 from proofs.theorem import Queries, theorem
 
 
@@ -65,3 +65,17 @@ def stage_1_out_of_stage_0_is_answered_in_the_calls_of_its_row(row: Response) ->
         return z3.And(scan.sent.DiagCode == 0x8802, in_the_mode(scan), shows(scan.inputs, STAGE_1))
 
     yield from within_calls(JUDGE, row, asks, lambda scan: scan.sends.S_EnableSwitchOut)
+
+
+@theorem(clauses=["ES-SEQ-5"], findings=[], responses=["ESR-06"], slow=True)
+def a_reset_is_waited_for_without_end(row: Response) -> Queries:
+    """ESR-06 has no bound: at stage 0, without S_AutoReset and while nobody presses Reset, a call that shows
+    ResetRequest can be followed by as many like it as one likes, whatever time passes.
+    """
+
+    def asks(scan: Scanned) -> z3.BoolRef:
+        i = scan.inputs
+        nobody = z3.Not(z3.Or(i.Reset, i.S_AutoReset))
+        return z3.And(scan.sent.ResetRequest, shows(i, STAGE_0), nobody)
+
+    yield from waits_without_end(JUDGE, row, asks, lambda scan: z3.Not(scan.sends.ResetRequest))

@@ -5,12 +5,13 @@ from __future__ import annotations
 import z3
 
 from modeproof.registers import Response
+from proofs.explorer.ends import FALSE
 from proofs.explorer.scanned import Scanned
 from proofs.guard_locking.block_safety import secure
 from proofs.guard_locking.devices import chosen
 from proofs.guard_locking.invariant import JUDGE
 from proofs.guard_locking.observer import request_edge
-from proofs.responses import within_calls
+from proofs.responses import waits_without_end, within_calls
 from proofs.theorem import Queries, theorem
 
 
@@ -83,4 +84,32 @@ def a_zone_that_is_lost_is_answered_in_the_calls_of_its_row(row: Response) -> Qu
 
     yield from within_calls(
         JUDGE, row, asks, lambda scan: z3.And(scan.sends.Error, z3.Not(scan.sends.S_UnlockGuard))
+    )
+
+
+@theorem(clauses=["GL-IN-SAFETYACTIVE", "GL-SEQ-3"], findings=[], responses=["GLR-07"], slow=True)
+def a_safe_zone_is_waited_for_without_end(row: Response) -> Queries:
+    """GLR-07 has no bound: while the zone is not safe, a call that finds a request at an enabled guard can be
+    followed by as many like it as one likes, whatever time passes.
+    """
+
+    def asks(scan: Scanned) -> z3.BoolRef:
+        return z3.And(scan.sent.S_GuardLocked, scan.inputs.UnlockRequest, z3.Not(scan.inputs.S_SafetyActive))
+
+    yield from waits_without_end(JUDGE, row, asks, lambda scan: scan.sends.S_UnlockGuard)
+
+
+@theorem(clauses=["GL-SEQ-5", "GL-IN-RESET"], findings=[], responses=["GLR-08"], slow=True)
+def a_bolt_is_waited_for_without_end(row: Response) -> Queries:
+    """GLR-08 has no bound: where S_UnlockGuard went, or a loss was reset, a call that finds the guard not
+    locked can be followed by as many like it as one likes, whatever time passes, without enable and without
+    error.
+    """
+
+    def asks(scan: Scanned) -> z3.BoolRef:
+        waits = scan.was("WaitForOperator", "SafetyReturn")
+        return z3.And(scan.inputs.Activate, z3.Not(scan.inputs.S_GuardLock)) if waits else FALSE
+
+    yield from waits_without_end(
+        JUDGE, row, asks, lambda scan: z3.Or(scan.sends.S_GuardLocked, scan.sends.Error)
     )

@@ -12,8 +12,8 @@ from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_response import quiet
 from proofs.mode_selection.fplc_safety import two_outputs_lead_to_error
 from proofs.mode_selection.observer import REMOVAL
-from proofs.mode_selection.vocabulary import NONE, mode
-from proofs.responses import within_calls, within_time
+from proofs.mode_selection.vocabulary import NONE, mode, none_set
+from proofs.responses import waits_without_end, within_calls, within_time
 from proofs.theorem import Queries, theorem
 
 
@@ -93,3 +93,44 @@ def a_removal_that_does_not_end_is_an_error_in_the_time_of_its_row(row: Response
         lambda seen: seen.waited,
         lambda scan: scan.sends.ERROR,
     )
+
+
+@theorem(clauses=["EKS-2-14", "EKS-2-22"], findings=[], responses=["R-08"])
+def a_touch_is_waited_for_without_end(row: Response) -> Queries:
+    """R-08 has no bound: while nobody touches it, a scan of the panel that offers modes, or asks for a
+    confirmation, can be followed by as many like it as one likes, and neither of its words changes.
+    """
+
+    def asks(scan: Scanned) -> z3.BoolRef:
+        return panel_safety.touched(scan, "") if scan.was("Select", "Confirm") else FALSE
+
+    def answered(scan: Scanned) -> z3.BoolRef:
+        sent, sends = scan.sent, scan.sends
+        return z3.Or(sends.SelectMSO != sent.SelectMSO, sends.SwitchMSO != sent.SwitchMSO)
+
+    yield from waits_without_end(panel_safety.JUDGE, row, asks, answered)
+
+
+@theorem(clauses=["EKS-SD-7", "EKS-8-8"], findings=["E-75"], responses=["R-09"], slow=True)
+def the_mode_output_stays_on_without_end_when_the_key_is_out(row: Response) -> Queries:
+    """R-09 has no bound: a scan of the idle F-PLC that finds everything zero, with a mode output on, can be
+    followed by as many like it as one likes, and the output stays on.
+    """
+    yield from waits_without_end(
+        JUDGE,
+        row,
+        lambda scan: z3.And(quiet(scan), scan.before.mode != NONE) if scan.was("Idle") else FALSE,
+        lambda scan: none_set(tuple(getattr(scan.sends, f"MSO_{number}") for number in range(5))),
+    )
+
+
+@theorem(clauses=["EKS-8-11", "EKS-GP-5"], findings=["E-15"], responses=["R-10"], slow=True)
+def a_word_that_stays_is_waited_for_without_end(row: Response) -> Queries:
+    """R-10 has no bound: a scan in Settle that finds MW03 or MW07 not zero can be followed by as many like it
+    as one likes, whatever time passes, without ERROR.
+    """
+
+    def asks(scan: Scanned) -> z3.BoolRef:
+        return z3.Or(scan.inputs.MW03 != 0, scan.inputs.MW07 != 0) if scan.was("Settle") else FALSE
+
+    yield from waits_without_end(JUDGE, row, asks, lambda scan: scan.sends.ERROR)

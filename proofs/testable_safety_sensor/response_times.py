@@ -7,7 +7,7 @@ import z3
 from modeproof.registers import Response
 from proofs.explorer.ends import FALSE
 from proofs.explorer.scanned import Scanned
-from proofs.responses import within_calls, within_time
+from proofs.responses import waits_without_end, within_calls, within_time
 from proofs.testable_safety_sensor.invariants import TESTING
 from proofs.testable_safety_sensor.sensor_safety import JUDGE
 from proofs.theorem import Queries, theorem
@@ -67,4 +67,31 @@ def a_sensor_that_ignores_the_test_is_an_error_in_the_time_of_its_row(row: Respo
 
     yield from within_time(
         JUDGE, row, asks, lambda seen: seen.phase, lambda scan: z3.And(scan.sends.Error, _off(scan))
+    )
+
+
+@theorem(clauses=["TSS-REL-1", "TSS-8002"], findings=[], responses=["TSSR-06"], slow=True)
+def a_reset_or_a_manual_test_is_waited_for_without_end(row: Response) -> Queries:
+    """TSSR-06 has no bound: while nobody presses Reset, a call that shows ResetRequest, or one in the manual
+    test, can be followed by as many like it as one likes, whatever time passes, without S_OSSD_Out.
+    """
+    manual = ("ExternalFunctionTest", "ESPEInterruptedExternalTest", "EndExternalTest")
+
+    def asks(scan: Scanned) -> z3.BoolRef:
+        waits = z3.BoolVal(True) if scan.was(*manual) else scan.sent.ResetRequest
+        return z3.And(scan.inputs.Activate, z3.Not(scan.inputs.Reset), waits)
+
+    yield from waits_without_end(JUDGE, row, asks, lambda scan: scan.sends.S_OSSD_Out)
+
+
+@theorem(clauses=["TSS-FN-9", "TSS-NOTE-2"], findings=[], responses=["TSSR-07"], slow=True)
+def the_next_test_is_waited_for_without_end(row: Response) -> Queries:
+    """TSSR-07 has no bound: without StartTest, a call after a test that was passed can be followed by as many
+    like it as one likes, whatever time passes, and no test begins.
+    """
+    yield from waits_without_end(
+        JUDGE,
+        row,
+        lambda scan: z3.And(scan.sent.TestExecuted, z3.Not(scan.inputs.StartTest)),
+        lambda scan: z3.Not(scan.sends.S_TestOut),
     )

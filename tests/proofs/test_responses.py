@@ -6,10 +6,15 @@ from dataclasses import replace
 
 import msgspec
 import pytest
+import z3
 
 from modeproof.ground.places import documents, root
 from modeproof.registers import Response, load_responses
 from proofs.edm import response_times
+from proofs.edm.block_safety import both_are
+from proofs.edm.invariant import JUDGE
+from proofs.explorer.scanned import Scanned
+from proofs.responses import waits_without_end
 from proofs.theorem import Theorem, TheoremError, theorems_of
 from tests.proofs.block import wrong_answers
 
@@ -23,8 +28,9 @@ STATED = [
 
 
 def wrong(row: Response) -> list[Response]:
-    """The row with a call more, a call less, and each time more often or not at all."""
-    assert row.calls is not None
+    """The row with a call more, a call less, and each time more often or not at all; or with a bound."""
+    if row.calls is None:
+        return [msgspec.structs.replace(row, calls=1, unbounded="")]
     found = [msgspec.structs.replace(row, calls=row.calls + n) for n in (1, -1)]
     for name, often in row.times.items():
         other = {key: value for key, value in row.times.items() if key != name}
@@ -49,11 +55,22 @@ def test_a_theorem_refuses_every_bound_but_its_own(theorem: Theorem, row: Respon
         assert refuses(theorem, other), (other.calls, other.times)
 
 
+def test_what_is_answered_in_time_is_not_shown_to_wait_without_end() -> None:
+    (row,) = [row for row in load_responses(root(), "edm").rows if row.id == "EDMR-06"]
+
+    def demanded(scan: Scanned) -> z3.BoolRef:
+        stuck = z3.And(scan.inputs.Activate, z3.Not(both_are(scan, True)))
+        return z3.And(scan.sent.SafetyDemand, stuck)
+
+    assert wrong_answers(waits_without_end(JUDGE, row, demanded, lambda scan: scan.sends.Error))
+    assert not wrong_answers(waits_without_end(JUDGE, row, demanded, lambda scan: scan.sends.S_EDM_Out))
+
+
 def test_every_document_states_its_response_times() -> None:
     assert {document for document in documents(root()) if load_responses(root(), document).rows} == set(
         documents(root())
     )
-    assert len(STATED) >= 25
+    assert len(STATED) >= 34
 
 
 def test_a_theorem_without_its_row_says_so() -> None:

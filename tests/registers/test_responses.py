@@ -53,7 +53,7 @@ def problems(tree: Any) -> list[str]:
 def timed(tree: Any) -> Any:
     """The door with response times, and a theorem that names the one that has a bound."""
     tree.write(FILE, ROWS)
-    tree.edit(PROOF, 'findings=["E-01"])', 'findings=["E-01"], responses=["DRR-1"])')
+    tree.edit(PROOF, 'findings=["E-01"])', 'findings=["E-01"], responses=["DRR-1", "DRR-2"])')
     return tree
 
 
@@ -90,9 +90,9 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
 @pytest.mark.parametrize(
     ("file", "old", "new", "expected"),
     [
-        (PROOF, ', responses=["DRR-1"]', "", "DRR-1: no theorem names it; exactly one must"),
-        (PROOF, '["DRR-1"]', '["DRR-1", "DRR-2"]', "DRR-2: the_bolt_moves names it, but it has no `calls`"),
-        (PROOF, '["DRR-1"]', '["DRR-1", "DRR-9"]', "the_bolt_moves: proves the unknown response 'DRR-9'"),
+        (PROOF, '"DRR-1", ', "", "DRR-1: no theorem names it; exactly one must"),
+        (PROOF, ', "DRR-2"', "", "DRR-2: no theorem names it; exactly one must"),
+        (PROOF, '"DRR-2"', '"DRR-2", "DRR-9"', "the_bolt_moves: proves the unknown response 'DRR-9'"),
         (FILE, 'device = "latch"', 'device = "lach"', "DRR-1: unknown device 'lach'; did you mean 'latch'?"),
         (FILE, "{ T_HOLD_ms = 1 }", "{ CODE = 1 }", "times: 'CODE' is no time among the parameters"),
         (FILE, "times = { T_HOLD_ms = 200 }", "", "DRR-1: [example] gives no ms for T_HOLD_ms"),
