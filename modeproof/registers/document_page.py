@@ -10,13 +10,15 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from modeproof.registers.citations import Sources
-from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.files import markdown, read_text, read_toml
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
+from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
@@ -24,6 +26,7 @@ from modeproof.registers.scores import WHAT, Score, load_scores
 REMEDY = "run modeproof render"
 CLASSES = {
     "safety": "Safety: the other reading starts the machine, or hides a fault",
+    "hazard": "Hazard: the text has one reading, which leaves something to the machine",
     "availability": "Availability: the other reading stops the machine or its user",
     "wording": "Wording: no effect once it is noticed",
 }
@@ -48,15 +51,6 @@ def tellings(document: Document) -> tuple[tuple[Finding, Telling], ...]:
     """The counterexamples that findings.toml marks as telling: safety first, then in its order."""
     ranked = sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
     return tuple((finding, finding.telling) for finding in ranked if finding.telling)
-
-
-def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table that ends with a line end."""
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    lines += [
-        "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in row) + " |" for row in rows
-    ]
-    return "\n".join(lines) + "\n"
 
 
 # ------------------------------------------------------------------------------------------- the check
@@ -112,6 +106,7 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
         _head(document),
         _shown(document, sources),
         *_profiles(document),
+        *section(document, sources),
         _limits(document),
         *_counterexamples(document, tables),
         _findings(document),
@@ -153,7 +148,15 @@ def _shown(document: Document, sources: Sources) -> str:
     graphs = [run for run in document.runs if run.graph is not None]
     theorems = sum(len(module.theorems) for module in sources.proofs)
     verify = f"`modeproof verify --document {name}`"
+    kinds = Counter(clause.kind for clause in document.clauses)
     rows = [
+        [
+            "statements of the text: what a program does, what must be true of it, what is assumed, and "
+            "what is left out with a reason",
+            f"{len(document.clauses)}: {kinds['behaviour']}, {kinds['property']}, {kinds['assumption']}, "
+            f"{kinds['not modelled']}",
+            f"`modeproof registers --matrix --document {name}`",
+        ],
         [
             "properties that hold in every state and step, within the bounds of each run",
             f"{len(document.properties)} in {len(holding)} runs",

@@ -14,6 +14,7 @@ from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.pins import check_pins
 from modeproof.registers.readings import check_readings, check_tops
+from modeproof.registers.responses import check_responses
 from modeproof.registers.rooms import check_imports, check_no_document_known, check_order
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.tables import check_pages
@@ -46,7 +47,8 @@ def judge(document: Document) -> Judgement:
         *cross_check(document, sources),
         *check_readings(document, sources.modules),
         *check_tops(document, sources.modules),
-        *check_document_page(document, sources),
+        *(faults := check_responses(document, sources)),
+        *(() if faults else check_document_page(document, sources)),
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),

@@ -187,7 +187,7 @@ def no_output_without_la(s: System) -> z3.BoolRef:
 
 
 def nothing_kept_without_a_key(s: System) -> z3.BoolRef:
-    """EKS-8-6, E-17, E-35"""
+    """EKS-8-6, E-17"""
     f = s.fplc
     keyless = f.at(*UNKEYED, "PulseOnes", "PulseZeros", "OneOutput")
     nobody = z3.And(f.accepted == -1, f.authority == -1)

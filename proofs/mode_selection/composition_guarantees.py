@@ -144,7 +144,7 @@ def _mode_stays(s: FplcScan) -> z3.BoolRef:
 
 
 def _forgets_without_a_key(s: FplcScan) -> z3.BoolRef:
-    """EKS-8-6, EKS-3-4-FPLC, E-17, E-22, E-35"""
+    """EKS-8-6, EKS-3-4-FPLC, E-17, E-22"""
     keyless = (*UNKEYED, "PulseOnes", "PulseZeros", "OneOutput")
     chosen = ("EchoSelection", *ECHOING)
     nobody = z3.And(s.after.accepted == -1, s.after.authority == -1)

@@ -61,7 +61,7 @@ def level_is_published(scan: Scanned) -> Obligation:
     return signalled(scan), z3.If(no_word(scan), shown, scan.sends.ERROR)
 
 
-@theorem(clauses=["EKS-2-12"], findings=["E-05", "E-54"], slow=True)
+@theorem(clauses=["EKS-2-12"], findings=["E-06b", "E-54"], slow=True)
 def the_fplc_publishes_the_level_or_refuses_an_early_word() -> Queries:
     """In Authorize, while the key is signalled, MW01 gets the word of its level in that scan; but a word in
     MW03 or MW07, which cannot be an answer yet, leads to the error mode.

@@ -258,7 +258,7 @@ def permitted(MW01: int, MW03: int) -> bool:
         return False
     if MW01 == RE[4]:  # EKS-5-1
         return True
-    if MW03 == SE[4]:  # EKS-5-2, constant as in Table 2: E-04
+    if MW03 == SE[4]:  # EKS-5-2, constant as in Table 2: E-01
         return False
     if MW01 == RE[3]:  # EKS-5-3
         return True
@@ -268,7 +268,7 @@ def permitted(MW01: int, MW03: int) -> bool:
         return True
     if MW03 == SE[2]:  # EKS-5-6
         return False
-    if MW01 == RE[1]:  # EKS-5-7, constant as in Table 2: E-04
+    if MW01 == RE[1]:  # EKS-5-7, constant as in Table 2: E-01
         return True
     if MW03 == SE[1]:  # EKS-5-8
         return False
@@ -300,7 +300,7 @@ def echo(MW03: int) -> int:
     """Figure 6: the word for MW05 that means the selection in MW03; zero when MW03 is no code.
 
     A word of the range CH is row EKS-6-11 (no error), zero is row EKS-6-12 (error). Constants of Table 2:
-    E-04
+    E-01
     """
     if MW03 == SE[4]:  # EKS-6-1
         return CH[4]  # EKS-6-2
@@ -369,7 +369,7 @@ def _enter(s: State, to: Step) -> State:
 
 
 def _enter_idle(s: State) -> State:
-    """Ready for the next key; nothing of the last insertion is left. E-17, E-35, EKS-GP-5"""
+    """Ready for the next key; nothing of the last insertion is left. E-17, EKS-GP-5"""
     return State(s.params, IDLE, NONE, NONE, NONE, s.mode, 0)
 
 
@@ -553,7 +553,7 @@ def _one_output(s: State, output: int, elapsed: int) -> State:
 
 
 def _authorize(s: State, i: Inputs) -> State:
-    """Step 12: publish the authorization level of the accepted output in MW01. EKS-2-12, E-05
+    """Step 12: publish the authorization level of the accepted output in MW01. EKS-2-12, E-06b
 
     Nothing has been offered yet, so a word from the panel cannot be an answer: it is refused.
     """

@@ -102,7 +102,7 @@ def outputs(s: State) -> Outputs:
 
 
 def _copy_read_authorization(s: State, i: Inputs) -> State:
-    """ReadAuthorization := MW01, unchanged; it is the authorization level, not the access code (E-05).
+    """ReadAuthorization := MW01, unchanged; it is the authorization level, not the access code (E-06b).
 
     EKS-2-13, EKS-8-7
 

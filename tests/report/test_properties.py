@@ -29,7 +29,7 @@ def shown(root: Path) -> dict[str, Any]:
 def test_a_property_has_meaning_sources_witness_and_each_engines_verdict(root: Path) -> None:
     one = shown(root)
     assert (one["sentence"], one["hazard"]) == ("It shuts only over the door.", "It shuts on a hand.")
-    assert one["clauses"] == ["BX-1-2"]
+    assert one["clauses"] == ["BX-1-2", "BX-1-1"]
     assert one["formal"]["text"].startswith("ShutsOverDoor == [][boxState' # boxState => door']")
     assert one["witness"]["run"] == "WIT_Box" and one["witness"]["verdict"].value == "REACHED"
     row = one["environments"][0]

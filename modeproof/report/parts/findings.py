@@ -18,6 +18,7 @@ MOST = 2
 CLASSES = (
     ("safety", False, "Safety, and no drawing can settle it"),
     ("safety", True, "Safety, and a drawing could settle it"),
+    ("hazard", None, "Hazard: the text has one reading, and leaves something to the machine"),
     ("availability", None, "Availability: the machine or the user is stopped"),
     ("wording", None, "Wording: no effect once it is noticed"),
 )
