@@ -118,8 +118,8 @@ def ways_to_fall(document: Document, sources: Sources) -> dict[str, Falls]:
 
 
 def _is_killer(document: Document, modules: Mapping[str, Module], run: Run, prop: Property) -> bool:
-    """Whether a negative breaks this property by one replaced operator of a device, and by nothing else."""
-    if run.kind != "NEG" or run.property != prop.tla or not run.readings or run.constants:
+    """Whether a negative of lane full breaks this property by one replaced operator of a device alone."""
+    if run.kind != "NEG" or run.property != prop.tla or run.constants or "full" not in run.lanes:
         return False
     try:
         replaced = [replacement.replaced for replacement in replaced_by(modules, run)]
