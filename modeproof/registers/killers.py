@@ -3,7 +3,7 @@
 A property that no device could break says nothing. So each has a fault of a device's specification that makes
 it fall: a negative whose reading replaces one operator of a device, or one edit (`[[killer]]`). Where neither
 can be, a row says why (`[[by_construction]]`). `modeproof mutate spec --killers` judges the edits and stamps
-each into pins.toml; a stamp is of the edit, the text that it edits, and the text of the property.
+each; a stamp is a hash of the edit, the text that it edits, and the text of the property.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import cfg_text, replaced_by
-from modeproof.registers.pins import checked_texts, digest, load_pins
+from modeproof.registers.pins import Digest, checked_texts, digest
 from modeproof.registers.rows import Document, Problem, Property
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import Definition, Module, closure
@@ -33,7 +33,8 @@ class Killer(Entry, frozen=True, kw_only=True):
     """One edit of a device's specification, and the property that falls with it.
 
     `run` gives the model and its bounds, where no entry of `[bounds]` has this name; in `module` the text
-    `old`, which stands there once, becomes `new`. `slip` says what the programmer did wrong.
+    `old`, which stands there once, becomes `new`. `slip` says what the programmer did wrong. `stamp` is
+    written by the run in which the property fell; none: it has not been judged.
     """
 
     property: Name
@@ -42,6 +43,7 @@ class Killer(Entry, frozen=True, kw_only=True):
     old: Text
     new: str
     slip: str = ""
+    stamp: Digest | None = None
 
 
 class Bounds(Entry, frozen=True, kw_only=True):
@@ -157,17 +159,13 @@ def check_killers(document: Document, sources: Sources) -> list[Problem]:
         if row.property not in known:
             text = f"by construction: unknown property; {suggestion(row.property, known)}"
             problems.append(Problem(file, row.property, text))
-    stamps = load_pins(document).killers
     for name, now in stamps_of(document, sources, killers).items():
+        known_stamp = killers.edits[name].stamp
         if isinstance(now, Unjudged):
             problems.append(Problem(file, name, now.message))
-        elif stamps.get(name) != now:
-            what = "was judged on another text" if name in stamps else "has not been judged"
+        elif known_stamp != now:
+            what = "was judged on another text" if known_stamp else "has not been judged"
             problems.append(Problem(file, name, f"{what}; {REMEDY.format(document.name)}"))
-    for name in stamps:
-        if name not in killers.edits:
-            text = f"nothing of this name is left; {REMEDY.format(document.name)}"
-            problems.append(Problem(document.source("pins"), f"killers.{name}", text))
     return problems
 
 
@@ -254,8 +252,14 @@ def stamps_of(document: Document, sources: Sources, killers: Killers) -> dict[st
 
 
 def write_stamps(document: Document, stamps: Mapping[str, str]) -> None:
-    """Pin what was judged, in the order of killers.toml. Raises Unjudged when the file cannot be written."""
-    path = document.root / document.source("pins")
-    pins = tomlkit.parse(read_text(document.root, path))
-    pins["killers"] = dict(stamps)
-    write_whole(path, tomlkit.dumps(pins).encode("utf-8"))
+    """Write the stamp of each edit beside it, and take away that of any other.
+
+    Raises Unjudged when the file cannot be written.
+    """
+    path = document.root / document.source("killers")
+    rows = tomlkit.parse(read_text(document.root, path))
+    for name, row in zip(load_killers(document.root, document.name).edits, rows["killer"], strict=True):
+        row.pop("stamp", None)
+        if name in stamps:
+            row["stamp"] = stamps[name]
+    write_whole(path, tomlkit.dumps(rows).encode("utf-8"))

@@ -52,11 +52,9 @@ class Pins(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
     document: str
     checked: dict[str, Digest] = {}
     theorems: dict[str, Digest] = {}
-    killers: dict[str, Digest] = {}
-    """Stamps of the edits that make properties fall (modeproof/registers/killers.py)."""
 
     def of(self, table: str) -> dict[str, str]:
-        """One of the first two tables."""
+        """One of the two tables."""
         return self.checked if table == "checked" else self.theorems
 
 

@@ -67,7 +67,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--killers",
         action="store_true",
-        help="judge instead the edits of killers.toml that no stamp of pins.toml fits (--complete: all)",
+        help="judge instead the edits of killers.toml whose stamps are of another text (--complete: all)",
     )
     parser.add_argument(
         "--judge",

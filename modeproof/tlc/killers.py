@@ -15,7 +15,6 @@ from modeproof.registers.citations import Sources, read_sources
 from modeproof.registers.killers import Killer, edited, load_killers, run_of, stamps_of, write_stamps
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, root_module
-from modeproof.registers.pins import load_pins
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.tlc import children
@@ -68,7 +67,8 @@ def judge_killers(
     one cannot be judged; what was judged before it is stamped all the same.
     """
     document = load_document(place, name)
-    sources, killers, old = read_sources(document), load_killers(place, name), load_pins(document).killers
+    sources, killers = read_sources(document), load_killers(place, name)
+    old = {edit: killer.stamp for edit, killer in killers.edits.items() if killer.stamp}
     new: dict[str, str] = {}
     lost: list[str] = []
     judged = 0
@@ -85,8 +85,7 @@ def judge_killers(
                     continue
             new[edit] = now
     finally:
-        kept = {edit: stamp for edit, stamp in old.items() if edit not in lost}
-        stamps = {edit: {**kept, **new}[edit] for edit in killers.edits if edit in {**kept, **new}}
+        stamps = {**{edit: stamp for edit, stamp in old.items() if edit not in lost}, **new}
         if stamps != old:
             write_stamps(document, stamps)
     say(f"{name}: {len(killers.edits)} edits, {judged} judged now, {len(lost)} break nothing")

@@ -17,7 +17,7 @@ from modeproof.ground.places import documents, root
 from modeproof.registers.citations import Sources, read_sources
 from modeproof.registers.killers import check_killers, load_killers, run_of, stamps_of, ways_to_fall
 from modeproof.registers.load import load_document
-from modeproof.registers.pins import check_pins, load_pins, repin
+from modeproof.registers.pins import check_pins, repin
 from modeproof.registers.tla import Definition, closure
 from modeproof.tlc.killers import judge_killer, judge_killers, run_with
 from modeproof.tlc.toolchain import find_toolchain
@@ -116,8 +116,9 @@ def test_a_property_rewritten_to_true_is_named(document: str) -> None:
         killers = KILLERS[document]
         ids = {prop.id for prop in DOCUMENTS[document].properties if prop.tla in names}
         stamps = stamps_of(DOCUMENTS[document], changed, killers)
-        pinned = load_pins(DOCUMENTS[document]).killers
-        kept = {killers.edits[name].property for name, now in stamps.items() if pinned.get(name) == now}
+        kept = {
+            killers.edits[name].property for name, now in stamps.items() if killers.edits[name].stamp == now
+        }
         assert not kept & ids
 
 
