@@ -111,14 +111,18 @@ def _killers(place: Path, kind: str, args: argparse.Namespace) -> int:
     """Judge the edit of each property that is to make it fall."""
     if kind != "spec":
         raise Unjudged("--killers speaks of the specification: modeproof mutate spec --killers")
+    chosen = chosen_documents(place, [args.document] if args.document else None)
+    status = 0
     with only_one(place):
         tools = find_toolchain()
-        lost = [
-            name
-            for document in chosen_documents(place, [args.document] if args.document else None)
-            for name in judge_killers(place, document, tools, args.complete, print)
-        ]
-    return EXIT_NOT_AS_EXPECTED if lost else 0
+        for document in chosen:
+            try:
+                if judge_killers(place, document, tools, args.complete, print):
+                    status = max(status, EXIT_NOT_AS_EXPECTED)
+            except Unjudged as error:  # the other documents are judged all the same
+                print(error.message, file=sys.stderr)
+                status = EXIT_UNJUDGED
+    return status
 
 
 def _documents(place: Path, kind: str, named: str | None) -> list[str]:

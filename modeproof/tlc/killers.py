@@ -64,29 +64,39 @@ def judge_killers(
     """Judge the edits of a document whose stamps are not of the present text, or `everything`; stamp them.
 
     The names of those with which their property does not fall, which are not stamped. Raises Unjudged when
-    one cannot be judged; what was judged before it is stamped all the same.
+    some cannot be judged: the others have been judged and stamped by then.
     """
     document = load_document(place, name)
     sources, killers = read_sources(document), load_killers(place, name)
     old = {edit: killer.stamp for edit, killer in killers.edits.items() if killer.stamp}
     new: dict[str, str] = {}
     lost: list[str] = []
+    unjudged: list[str] = []
     judged = 0
     try:
         for edit, now in stamps_of(document, sources, killers).items():
-            if isinstance(now, Unjudged):
-                raise Unjudged(f"spec/{name}/killers.toml: {edit}: {now.message}")
-            if everything or old.get(edit) != now:
+            if not isinstance(now, Unjudged) and old.get(edit) == now and not everything:
+                new[edit] = now
+                continue
+            try:
+                if isinstance(now, Unjudged):
+                    raise now
                 found = judge_killer(document, sources, killers.edits[edit], tools)
-                judged += 1
-                say(f"{name}: {edit}: {'falls' if found.verdict == VIOLATED else 'does not fall'}")
-                if found.verdict != VIOLATED:
-                    lost.append(edit)
-                    continue
-            new[edit] = now
+            except Unjudged as error:
+                unjudged.append(edit)
+                say(f"{name}: {edit}: cannot be judged: {error.message}")
+                continue
+            judged += 1
+            say(f"{name}: {edit}: {'falls' if found.verdict == VIOLATED else 'does not fall'}")
+            if found.verdict == VIOLATED:
+                new[edit] = now
+            else:
+                lost.append(edit)
     finally:
         stamps = {**{edit: stamp for edit, stamp in old.items() if edit not in lost}, **new}
         if stamps != old:
             write_stamps(document, stamps)
     say(f"{name}: {len(killers.edits)} edits, {judged} judged now, {len(lost)} break nothing")
+    if unjudged:
+        raise Unjudged(f"spec/{name}/killers.toml: not judged: {', '.join(unjudged)}")
     return lost

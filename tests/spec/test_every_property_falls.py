@@ -216,10 +216,16 @@ def test_a_negative_of_more_than_one_change_is_no_killer(row: str, tree: Path) -
     ]
 
 
-def test_an_edit_that_does_not_parse_shows_nothing(tree: Path) -> None:
-    change(tree, "spec/edm/killers.toml", "new = 'state = \"Idle\" -> 1'", "new = 'state = ('")
-    with pytest.raises(Unjudged, match="IdleShowsNothing"):
-        judge_killers(tree, "edm", find_toolchain(), False, lambda line: None)
+def test_an_edit_that_cannot_be_judged_hides_no_other(tree: Path) -> None:
+    file = "spec/edm/killers.toml"
+    change(tree, file, "new = 'state = \"Idle\" -> 1'", "new = 'state = ('")
+    change(tree, file, "-> \\hC051", "-> \\hC052")
+    change(tree, file, "CountsAfterReset(i) == ~i.S_OutControl", "Counts(i) == ~i.S_OutControl")
+    said: list[str] = []
+    with pytest.raises(Unjudged, match="not judged: IdleShowsNothing, ResetNeverStarts"):
+        judge_killers(tree, "edm", find_toolchain(), False, said.append)
+    assert "edm: CodeTellsTheRow: falls" in said
+    assert [line for line in problems(tree) if "CodeTellsTheRow" in line] == []
 
 
 @pytest.mark.parametrize(
