@@ -66,6 +66,7 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
             "clauses": len(judgement.rows),
             "citations": judgement.citations,
             "unresolved": judgement.unresolved,
+            "properties_fall_with": dict(judgement.falls),
         }
         if problems:
             verdict = "DIFFERS"

@@ -113,6 +113,8 @@ def value_fault(signal: Signal, value: object) -> str:
 def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("properties")
     witnesses = [name for run in document.runs for name in run.witnesses]
+    decided = [run for run in document.runs if "full" in run.lanes and not run.readings]
+    judged = {name for run in decided for name in run.witnesses}
     for prop in document.properties:
         runs = [run for run in document.runs if prop.tla in run.properties and run.kind != "NEG"]
         if not runs:
@@ -131,6 +133,11 @@ def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
                 prop.id,
                 f"no run has the witness {prop.antecedent!r}; {suggestion(prop.antecedent, witnesses)}",
             )
+        elif prop.antecedent and prop.antecedent not in judged:
+            text = f"the witness {prop.antecedent!r} is reached by no run of what was decided in lane full"
+            yield Problem(file, prop.id, text)
+        if prop.antecedent and prop.reason:
+            yield Problem(file, prop.id, "names an antecedent, and `reason` says why it needs none")
         if not prop.antecedent and not prop.reason.strip():
             yield Problem(file, prop.id, "names no antecedent, and `reason` does not say why it needs none")
         modules = closure(sources.modules, prop.module)

@@ -17,6 +17,7 @@ from typing import Any
 
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import markdown, read_text, read_toml
+from modeproof.registers.killers import ways_to_fall
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
 from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
@@ -168,6 +169,7 @@ def _shown(document: Document, sources: Sources) -> str:
             str(len(negatives)),
             f"`modeproof check --document {name} 'NEG_*'`",
         ],
+        _fallen(document, sources),
         [
             "situations that do occur, so the properties are not vacuous",
             str(len(witnesses)),
@@ -194,6 +196,15 @@ def _shown(document: Document, sources: Sources) -> str:
         "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
         "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
     )
+
+
+def _fallen(document: Document, sources: Sources) -> list[str]:
+    kinds = Counter(falls.kind for falls in ways_to_fall(document, sources).values())
+    much = f"{kinds['negative']} with a counterexample above, {kinds['edit']} with an edit of their own"
+    if rest := kinds["by construction"]:
+        much += f", {rest} by construction (`killers.toml` says why)"
+    command = f"`modeproof mutate spec --killers --complete --document {document.name}`"
+    return ["properties that fall when one operator of a device is changed", much, command]
 
 
 def _profiles(document: Document) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from modeproof.ground.places import documents
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.document_page import check_document_page
+from modeproof.registers.killers import check_killers, ways_to_fall
 from modeproof.registers.load import load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
@@ -30,6 +32,8 @@ class Judgement:
     problems: tuple[Problem, ...]
     citations: int
     unresolved: int
+    falls: Counter[str]
+    """How many properties fall with a negative, with an edit, or are true by construction."""
 
     @property
     def as_expected(self) -> bool:
@@ -53,9 +57,11 @@ def judge(document: Document) -> Judgement:
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),
         *check_pins(document, sources),
+        *check_killers(document, sources),
     ]
     count = sum(len(citation.clauses) + len(citation.findings) for citation in cited)
-    return Judgement(document.name, rows, tuple(problems), count, len(lost))
+    falls = Counter(found.kind for found in ways_to_fall(document, sources).values())
+    return Judgement(document.name, rows, tuple(problems), count, len(lost), falls)
 
 
 def judge_tree(root: Path) -> list[Problem]:

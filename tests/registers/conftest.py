@@ -88,6 +88,11 @@ kind = "invariant"
 environments = ["honest"]
 antecedent = "open_seen"
 """,
+    "spec/door/killers.toml": """
+[[by_construction]]
+property = "OpenIsUnlocked"
+reason = "no run of this door can be started"
+""",
     "spec/door/findings.toml": """
 [[finding]]
 id = "E-01"

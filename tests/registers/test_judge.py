@@ -110,6 +110,18 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
         (SPEC + "properties.toml", '"open_seen"', '"opn_seen"', "no run has the witness 'opn_seen'; did you"),
         (SPEC + "properties.toml", '"open_seen"', '""', "names no antecedent, and `reason` does not say why"),
         (
+            SPEC + "runs.toml",
+            'lanes = ["full"]\nenvironment = "honest"\nproperties = []',
+            'lanes = ["exhaustive"]\nenvironment = "honest"\nproperties = []',
+            "the witness 'open_seen' is reached by no run of what was decided in lane full",
+        ),
+        (
+            SPEC + "properties.toml",
+            'antecedent = "open_seen"',
+            'antecedent = "open_seen"\nreason = "none"',
+            "names an antecedent, and `reason` says why it needs none",
+        ),
+        (
             SPEC + "properties.toml",
             'tla = "Open',
             'tla = "Opn',

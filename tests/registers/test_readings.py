@@ -42,6 +42,7 @@ def tried(tree: Any) -> Any:
     tree.edit(SPEC + "runs.toml", '["TypeOK", "Open', '["Open')
     tree.edit(SPEC + "runs.toml", 'properties = ["Open', 'distinct = 9\ngenerated = 20\nproperties = ["Open')
     tree.write(SPEC + "runs.toml", (tree.root / SPEC / "runs.toml").read_text(encoding="utf-8") + RUNS)
+    tree.write(SPEC + "killers.toml", 'document = "door"\n')  # NEG_Latch_slam breaks the property
     tree.edit(SPEC + "findings.toml", "tries = []", 'tries = ["Slam", "Slow"]')
     tree.edit(SPEC + "findings.toml", '"NEG_Latch"', '"NEG_Latch", "NEG_Latch_slam", "MC_Latch_slow"')
     return tree

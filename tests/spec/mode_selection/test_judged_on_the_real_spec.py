@@ -22,9 +22,9 @@ from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run as DeclaredRun
 from modeproof.tlc.check import register_problems
 from modeproof.tlc.judge import Judgement, judge
-from tests.spec.mode_selection.faults import KEY_FLOWS
 from tests.spec.mode_selection.planted import (
     DOCUMENT,
+    KEY_FLOWS,
     RUNS,
     SPEC,
     Base,
