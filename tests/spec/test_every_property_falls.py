@@ -14,6 +14,8 @@ import pytest
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents, root
+from modeproof.ground.progress import Progress
+from modeproof.lane.verify import check_registers
 from modeproof.registers.citations import Sources, read_sources
 from modeproof.registers.killers import check_killers, load_killers, run_of, stamps_of, ways_to_fall
 from modeproof.registers.load import load_document
@@ -45,7 +47,9 @@ def test_the_property_falls_with_its_edit(document: str, edit: str) -> None:
 @pytest.mark.parametrize(("document", "bounds"), SMALLER)
 def test_within_smaller_bounds_the_properties_hold(document: str, bounds: str) -> None:
     killers = KILLERS[document]
-    runs = [run_of(DOCUMENTS[document], killers, one) for one in killers.edits.values() if one.run == bounds]
+    runs = [
+        run_of(DOCUMENTS[document], killers, edit) for edit in killers.edits.values() if edit.run == bounds
+    ]
     every = msgspec.structs.replace(runs[0], properties=tuple({run.properties[0]: 0 for run in runs}))
     assert run_with(DOCUMENTS[document], every, {}, find_toolchain()).verdict == "HOLDS"
 
@@ -70,7 +74,7 @@ def test_each_definition_of_a_property_falls(document: str) -> None:
     loaded, modules = DOCUMENTS[document], SOURCES[document].modules
     names = {prop.id: prop.tla for prop in loaded.properties}
     falls = ways_to_fall(loaded, SOURCES[document])
-    runs = [run for run in loaded.runs if any(run.id in one.negatives for one in falls.values())]
+    runs = [run for run in loaded.runs if any(run.id in fall.negatives for fall in falls.values())]
     seen = {(run.property, module.name) for run in runs for module in closure(modules, run.module)}
     for killer in KILLERS[document].edits.values():
         run = run_of(loaded, KILLERS[document], killer)
@@ -156,6 +160,20 @@ def test_weakened_and_pinned_again_it_is_still_refused(tree: Path) -> None:
         f"edm: {len(KILLERS['edm'].edits)} edits, 1 judged now, 1 break nothing",
     ]
     assert "IdleShowsNothing: has not been judged" in problems(tree)[0]
+
+
+def test_verify_names_a_property_that_became_true(tree: Path) -> None:
+    def told() -> tuple[str, list[str]]:
+        (record,), _ = check_registers(tree, ["edm"], "full", Progress(quiet=True))
+        places = [line.split(": ")[0] for line in record["result"]["problems"] if "IdleShows" in line]
+        return record["verdict"], places
+
+    assert told() == ("EQUAL", [])
+    change(tree, "spec/edm/EDM.tla", "IdleShowsNothing == ~Ready", "IdleShowsNothing == TRUE \\/ ~Ready")
+    assert told() == ("DIFFERS", ["spec/edm/pins.toml", "spec/edm/killers.toml"])
+    document = load_document(tree, "edm")
+    repin(document, read_sources(document), "planted")
+    assert told() == ("DIFFERS", ["spec/edm/killers.toml"])
 
 
 ROW = re.compile(r'\n\[\[killer\]\]\nproperty = "IdleShowsNothing"\n(?:.+\n)+')
