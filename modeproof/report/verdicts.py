@@ -55,11 +55,13 @@ def property_lines(
 
     `declared` gives for each run id the pairs (property, environment) that any lane checks: a pair that no
     run of any lane checks is UNJUDGED; one that only another lane checks is shown and not counted. Runs stand
-    in the order of runs.toml, the strongest first.
+    in the order of runs.toml, the strongest first. A run with a reading says nothing of what was
+    decided.
     """
     order = {run: place for place, run in enumerate(declared)}
     anywhere = set().union(*declared.values()) if declared else set()
-    positive = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in POSITIVE]
+    checked = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in POSITIVE]
+    positive = [r for r in checked if not r["result"].get("readings")]
     lines = []
     for row in properties:
         for environment in row.environments:

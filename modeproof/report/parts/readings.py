@@ -41,6 +41,8 @@ def _deviation(document: Document, deviation: Deviation) -> dict[str, Any]:
         "property": None if falls is None else falls.id,
         "hazard": "" if falls is None else falls.hazard,
         "harmless": deviation.harmless,
+        "holding": deviation.holding,
+        "also": [one.data for one in deviation.also],
         "reached": _reached(deviation.result),
         "steps": steps_of(deviation.result),
         "environment": deviation.run.environment,
