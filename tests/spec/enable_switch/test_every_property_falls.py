@@ -34,8 +34,8 @@ FAULTS = {
         'To("Stage0", i) /\\ Did("LoseSafetyActive")',
     ),
     "ErrorNeedsResetInTheMode": (
-        "~(ResetStatic(i) /\\ ~i.S_AutoReset) /\\ Resets(i)",
-        "~(ResetStatic(i) /\\ ~i.S_AutoReset)",
+        "~(ResetStatic(i) /\\ ~AutoReset(i)) /\\ Resets(i)",
+        "~(ResetStatic(i) /\\ ~AutoReset(i))",
     ),
     "ResetEndsTheError": ('~Resets(i) /\\ Stay(i) /\\ Did("AwaitReset")', 'Stay(i) /\\ Did("AwaitReset")'),
     "EndOfModeEndsErrors": ("i.Activate /\\ (MODE_ENDS_ERROR => i.S_SafetyActive)", "i.Activate"),
