@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 Record = Mapping[str, Any]
 
@@ -13,6 +14,8 @@ NOT_AS_DECLARED = "HOLDS?"
 """It held, but the run is not the one that was declared: a count or a name differs."""
 POSITIVE = ("MC", "LIVE", "OPEN")
 """Kinds of runs in which every property must hold."""
+PROFILE: Final = re.compile(r"profile (\w+); ")
+"""How the strength of a run begins where its document has two profiles."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +95,16 @@ def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere:
         verdict = NOT_AS_DECLARED
     seconds = sum(float(r["seconds"]) for r in runs)
     distinct = worst["result"].get("distinct")
-    return Line(row.id, verdict, environment, worst["strength"], distinct, seconds, status, str(worst["id"]))
+    strength = str(worst["strength"]) + ("" if status else _besides(worst, runs))
+    return Line(row.id, verdict, environment, strength, distinct, seconds, status, str(worst["id"]))
+
+
+def _besides(shown: Record, runs: Sequence[Record]) -> str:
+    """The other profiles in which a property holds, after the strength of the run that is shown."""
+    found = dict.fromkeys(match[1] for run in runs if (match := PROFILE.match(run["strength"])))
+    here = PROFILE.match(shown["strength"])
+    others = [name for name in found if name != "neither" and (here is None or name != here[1])]
+    return f"; and in the profile {' and '.join(others)}" if others else ""
 
 
 def never_needed(records: Sequence[Record]) -> list[str]:
