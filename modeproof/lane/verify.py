@@ -129,7 +129,7 @@ def declared_pairs(place: Path, document: str) -> dict[str, set[tuple[str, str]]
     return {
         run.id: {(name, run.environment) for name in run.properties}
         for run in load_runs(place, document)
-        if run.kind in POSITIVE
+        if run.kind in POSITIVE and not run.readings
     }
 
 

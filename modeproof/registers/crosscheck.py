@@ -116,7 +116,11 @@ def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
     decided = [run for run in document.runs if "full" in run.lanes and not run.readings]
     judged = {name for run in decided for name in run.witnesses}
     for prop in document.properties:
-        runs = [run for run in document.runs if prop.tla in run.properties and run.kind != "NEG"]
+        runs = [
+            run
+            for run in document.runs
+            if prop.tla in run.properties and run.kind != "NEG" and not run.readings
+        ]
         if not runs:
             yield Problem(file, prop.id, f"no run checks {prop.tla}")
         for environment in prop.environments:

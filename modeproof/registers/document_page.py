@@ -226,7 +226,7 @@ def _profiles(document: Document) -> Iterator[str]:
     of = [profile_of(document.root, run, document.interface) for run in document.runs]
     counts = ", ".join(f"{of.count(profile)} of the profile {profile}" for profile in PROFILES)
     only = ", ".join(
-        f"`{row.id}` ({' and '.join(row.profiles)})"
+        f"`{row.id}` ({' and '.join(row.profiles) or 'neither: with another value alone'})"
         for row in document.properties
         if row.profiles != PROFILES
     )
@@ -237,7 +237,11 @@ def _profiles(document: Document) -> Iterator[str]:
         "Models, vectors and the kit\n(`--profile`) name the profile that they speak of; a theorem holds for "
         "every value, unless its sentence\nnames one.\n\n"
         f"Runs: {counts}. "
-        + (f"Properties of one profile alone: {only}.\n\n" if only else "Every property holds in both.\n\n")
+        + (
+            f"Properties that do not hold in both: {only}.\n\n"
+            if only
+            else "Every property holds in both.\n\n"
+        )
         + markdown(["choice", "letter", "cautious", "why", "what happens otherwise"], rows)
     )
 

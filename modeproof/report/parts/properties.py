@@ -6,6 +6,7 @@ import textwrap
 from typing import Any
 
 from modeproof.registers.killers import load_killers, ways_to_fall
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
@@ -51,7 +52,7 @@ def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
         **one.data,
         "kind": run.kind,
         "environment": run.environment,
-        "strength": run.strength,
+        "strength": strength_of(document.root, run),
         "violates": run.property,
         "expected": "" if record is None else record.record["expected"],
         "traced": record is not None and bool(record.result.get("trace")),

@@ -15,7 +15,6 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
         "RequestWaits",
         "ResetSeenOnlyWhileActive",
-        "StaticResetIgnored",
     ]
 
 

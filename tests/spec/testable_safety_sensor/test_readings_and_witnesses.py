@@ -20,7 +20,6 @@ def test_every_reading_is_a_negative_or_is_told_harmless() -> None:
     readings, tried = BLOCK.readings(), BLOCK.tried()
     assert len(readings) == 20 and set(tried) == readings
     assert sorted(name for name, kind in tried.items() if kind != "NEG") == [
-        "ResetSeenOnlyWhileActive",
         "StaticResetBeforeTestTime",
         "WaitForResetNeedsEdge",
     ]
