@@ -692,6 +692,14 @@ FAULTS = (
         "turn = this /\\ turn' = next",
         "turn = this /\\ turn' = this",
     ),
+    falls(
+        "LevelGoesFirst",
+        PLC,
+        "the check is not made",
+        "Plc.tla",
+        "IF ANY_ORDER THEN TRUE ELSE StillSame(i)",
+        "IF ANY_ORDER THEN TRUE ELSE TRUE",
+    ),
     # ------------------------------------------------------------------ with faults from outside
     falls(
         "NothingButTheTouch",
