@@ -69,11 +69,12 @@ GoalNext ==
 \* For a reader of a trace: any step of the two questions
 AnyNext == GoalNext \/ (Next /\ Same)
 
-\* Each of the four copies is made again and again
+\* Each of the four copies is made again and again; where the PLC decides by a word, whatever is due
 Copied(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history>> /\ Same
 FairPlc ==
     /\ WF_plc(Copied(CopyReadAuthorization(PlcInput))) /\ WF_plc(Copied(CopyMW03(PlcInput)))
     /\ WF_plc(Copied(CopyCheckMSO(PlcInput))) /\ WF_plc(Copied(CopyMW07(PlcInput)))
+    /\ ANY_ORDER \/ WF_plc(Copied(PlcScan(PlcInput)))
 
 GoalSpec ==
     /\ LiveInit /\ [][GoalNext]_<<liveVars, step, took>> /\ FairPlc

@@ -214,6 +214,20 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         [("State(s.params, Step.COPY_MW07,", "State(s.params, Step.COPY_READ_AUTHORIZATION,")],
     ),
     (
+        "LevelGoesFirst",
+        PLC,
+        "CopyCheckMSO",
+        plc_safety.level_goes_first,
+        [(" or state.ReadAuthorization != inputs.MW01", "")],
+    ),
+    (
+        "every copy within four scans",
+        PLC,
+        "CopyReadAuthorization",
+        plc_safety.every_copy_comes_closer,
+        [("State(s.params, Step.COPY_MW03, i.MW01", "State(s.params, Step.COPY_READ_AUTHORIZATION, i.MW01")],
+    ),
+    (
         "OneOutputOutsideThePulse",
         EKS,
         "TestZeros",
