@@ -5,6 +5,7 @@ reading is, modeproof/registers/made.py says.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from modeproof.ground.errors import Unjudged, suggestion
@@ -15,6 +16,9 @@ from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.runs import ASKING, Run
 from modeproof.registers.tla import Module, closure
+
+HARMLESS = re.compile(r"\b(?:is|are|as) harmless\b|breaks no property", re.IGNORECASE)
+"""How a finding says that a reading does no harm."""
 
 
 def readings_of(document: Document, modules: Mapping[str, Module]) -> tuple[str, ...]:
@@ -127,10 +131,16 @@ def askers(document: Document, modules: Mapping[str, Module], run: Run) -> list[
 
 
 def _findings(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
-    """A finding names readings that there are, and among its evidence a run that has each."""
+    """A finding names readings that there are, and among its evidence a run that has each; who says harmless
+    shows an MC run with a reading, which is asked every property.
+    """
     file = document.source("findings")
     for finding in document.findings:
         evidence = [run for run in document.runs if run.id in finding.evidence]
+        judged = any(run.kind == "MC" and run.readings for run in evidence)
+        said = " ".join((*finding.readings, finding.consequence, finding.decision))
+        if HARMLESS.search(said) and not judged:
+            yield Problem(file, finding.id, "says harmless, and no MC run with a reading is its evidence")
         for name in finding.tries:
             if name not in readings:
                 text = f"tries {name!r}, which no module of readings has; {suggestion(name, readings)}"

@@ -60,7 +60,7 @@ class Params:
     """
 
     TestTime_ms: int = 10
-    AUTO_RESET_ERRORS: bool = False
+    AUTO_RESET_ERRORS: bool = True
 
     def __post_init__(self) -> None:
         check_int("TestTime_ms", self.TestTime_ms, TIME_MIN_MS, TIME_MAX_MS, ParameterError)

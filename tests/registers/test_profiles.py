@@ -119,3 +119,16 @@ def test_a_run_with_a_reading_speaks_for_no_profile(two: Any) -> None:
     two.edit(SPEC + "runs.toml", row, new)
     found = problems(two)
     assert any("OpenIsUnlocked: no run checks it in the profile cautious" in line for line in found), found
+
+
+def test_a_harmless_reading_is_asked_in_both_profiles(two: Any) -> None:
+    two.write(
+        SPEC + "LatchAsPrinted.tla", "---- MODULE LatchAsPrinted ----\nEXTENDS Latch\nCODE_Slow == 1\n====\n"
+    )
+    row = '\n[[run]]\nid = "MC_Latch_slow"\nbase = "MC_Latch"\nreading = "Slow"\n'
+    runs = (two.root / f"{SPEC}runs.toml").read_text(encoding="utf-8") + row
+    two.write(SPEC + "runs.toml", runs)
+    expected = "without asking OpenIsUnlocked; name MC_Latch_cautious in its `also`"
+    assert any(expected in line for line in problems(two)), problems(two)
+    two.write(SPEC + "runs.toml", f"{runs}[run.also]\nMC_Latch_cautious = []\n")
+    assert not any("harmless" in line for line in problems(two)), problems(two)

@@ -103,6 +103,14 @@ def test_each_planted_fault_is_found(tried: Any, file: str, old: str, new: str, 
     assert any(expected in one for one in found), found
 
 
+def test_a_finding_that_says_harmless_shows_the_run(tried: Any) -> None:
+    tried.edit(SPEC + "findings.toml", 'consequence = "', 'consequence = "Slow is harmless. ')
+    assert problems(tried) == []
+    tried.edit(SPEC + "findings.toml", ', "MC_Latch_slow"', "")
+    expected = "E-01: says harmless, and no MC run with a reading is its evidence"
+    assert any(expected in line for line in problems(tried)), problems(tried)
+
+
 def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
     old = 'generated = 20\nproperties = ["'
     tried.edit(SPEC + "runs.toml", f"{old}Open", f'{old}TypeOK", "Open')

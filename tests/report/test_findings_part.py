@@ -74,7 +74,7 @@ def test_a_reading_is_never_called_harmless_without_the_evidence(root: Path) -> 
     assert make(root).status == HOLE
 
 
-def test_a_reading_is_harmless_only_if_each_of_its_runs_holds(root: Path) -> None:
+def test_harmless_means_that_each_of_its_runs_holds(root: Path) -> None:
     runs = root / "spec" / "box" / "runs.toml"
     second(root)
     change(runs, 'reading = "Lazy"\n', 'reading = "Lazy"\nalso = { MC_Box_second = [5, 11] }\n')

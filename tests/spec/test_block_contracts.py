@@ -144,7 +144,7 @@ SENSOR = Trial(
     ),
     [
         {"TestTime_ms": 20},
-        {"TestTime_ms": 20, "AUTO_RESET_ERRORS": True},
+        {"TestTime_ms": 20, "AUTO_RESET_ERRORS": False},
         {"TestTime_ms": 0},
         {"TestTime_ms": 151},
     ],
@@ -199,7 +199,10 @@ SENSOR = Trial(
             ("s.params.TestTime_ms <= TEST_TIME_MAX_MS", "s.params.TestTime_ms <= TEST_TIME_MAX_MS + 1")
         ],
     },
-    {"ParameterErrorStays": {"TestTime_ms": 151}},
+    {
+        "ParameterErrorStays": {"TestTime_ms": 151},
+        "FailedTestNeedsReset": {"TestTime_ms": 20, "AUTO_RESET_ERRORS": False},
+    },
 )
 TRIALS = {one.block.document: one for one in (EDM, ENABLE_SWITCH, GUARD_LOCKING, SENSOR)}
 

@@ -58,7 +58,7 @@ def test_missing_pins_are_added_and_nothing_else_changes(tmp_path: Path) -> None
     )
 
 
-def test_counts_of_a_further_run_go_into_the_row_that_makes_it(tmp_path: Path) -> None:
+def test_counts_of_a_further_run_go_into_its_row(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_toy")
     (root / "spec/toy/ToyAsPrinted.tla").write_text(
         "---- MODULE ToyAsPrinted ----\nEXTENDS Toy\nUp_Slow == FALSE\n====\n"
