@@ -38,8 +38,6 @@ INTENT_ANYWAY: Final = "the mode is what was touched, seen and confirmed, with o
 HISTORY: Final = "what is echoed was touched, seen, confirmed"
 SIGNALLED: Final = "the one output is that of the key"
 ASKED: Final = "nothing is confirmed while it is asked"
-MODE: Final = "the mode is one of five, or none"
-DISPLAYED: Final = "the mode is displayed, or was just switched"
 INTENT: Final = "the mode is what was touched, seen and confirmed"
 WITHIN_LEVEL: Final = "the mode is permitted by the output seen"
 WITHIN_KEY: Final = "the mode is permitted by the key"
@@ -60,7 +58,7 @@ BROKEN: Final = "one wire is broken"
 CLEARED: Final = "a key goes in when all is cleared"
 SCANNED_LOW: Final = "the F-PLC scanned while LA was low"
 COPIES: Final = "the PLC copies or keeps"
-WIRED, OUTPUTS_WIRED, DISPLAY_WIRED = "words are wired", "outputs are wired", "the display is wired"
+WIRED, OUTPUTS_WIRED = "words are wired", "outputs are wired"
 ARRIVE, HELD, ORDERED = (
     "words arrive within the dwell time",
     "the error mode holds the mode",
@@ -317,24 +315,6 @@ ARGUMENT: Final = Argument(
             "the_mode_changes_only_by_a_switchover_with_la",
         ),
         Invariant(
-            MODE,
-            formulas.mode_is_a_mode,
-            (LEVEL, F_SWITCH, F_MODE),
-            "the_panel_displays_the_active_mode_while_a_key_is_awaited",
-        ),
-        Invariant(
-            DISPLAYED,
-            formulas.displays_or_switched,
-            (FPLC_ROW, LEVEL, MODE, WORDS, F_SWITCH, F_MODE, HELD, H_ROW, WIRED, DISPLAY_WIRED),
-            "the_panel_displays_the_active_mode_while_a_key_is_awaited",
-        ),
-        Invariant(
-            "the panel displays the mode",
-            formulas.displays_the_mode,
-            (DISPLAYED, ZEROS),
-            "the_panel_displays_the_active_mode_while_a_key_is_awaited",
-        ),
-        Invariant(
             ASKED,
             formulas.asked_before_confirmed,
             (H_SELECT, H_ASK),
@@ -537,18 +517,6 @@ def the_mode_changes_only_by_a_switchover_with_la() -> Queries:
     ON_ERROR = hold), whatever words and outputs the F-PLC sees.
     """
     yield from _proofs_of("the_mode_changes_only_by_a_switchover_with_la")
-
-
-@theorem(
-    clauses=["EKS-8-8", "EKS-8-16", "EKS-SD-7"],
-    findings=["E-25"],
-    properties=["DisplayIsTheMode"],
-)
-def the_panel_displays_the_active_mode_while_a_key_is_awaited() -> Queries:
-    """While the machine waits for a key, the mode that the panel displays as active is the active mode
-    (with ON_ERROR = hold).
-    """
-    yield from _proofs_of("the_panel_displays_the_active_mode_while_a_key_is_awaited")
 
 
 @theorem(

@@ -233,12 +233,6 @@ def _words_are_wired(step: Step) -> z3.BoolRef:
     return z3.And(level, read.CheckMSO == now.plc.CheckMSO)
 
 
-def _display_is_wired(step: Step) -> z3.BoolRef:
-    """E-25: the mode to display is the one whose output is set; none set, none displayed."""
-    active, modes = step.hmi.ActiveMSO, step.before.fplc.MSO
-    return z3.And(active >= -1, active <= 4, *[modes[mode] == (active == mode) for mode in views.LEVELS])
-
-
 def _outputs_are_wired(step: Step) -> z3.BoolRef:
     """A-20: LA and the five outputs, none crossed, none broken."""
     seen, sent = step.fplc, step.before.eks
@@ -300,7 +294,6 @@ def _same_permissions(step: Step) -> z3.BoolRef:
 
 ASSUMPTIONS: Final = (
     Assumption("words are wired", ("A-01", "A-21", "A-25"), _words_are_wired, ("fplc", "plc", "hmi")),
-    Assumption("the display is wired", ("E-25",), _display_is_wired, ("hmi",)),
     Assumption("outputs are wired", ("A-20",), _outputs_are_wired, ("fplc",)),
     Assumption("words arrive within the dwell time", ("A-06",), _words_arrive, ("fplc",)),
     Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la, ("insert",)),

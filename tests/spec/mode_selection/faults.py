@@ -33,6 +33,8 @@ PLC = Base("OPEN_Plc", SILENT)
 CONTRACT = Base("MC_ModeSelection")
 CONTRACT_ANYWHERE = Base("MC_ModeSelection_anywhere")
 EARNEST = Base("MC_KeyFlows_earnest")
+ANY_TOUCH = Base("MC_KeyFlows_any_touch", (("LEVELS = {0, 1, 2, 3, 4}", "LEVELS = {2}"),))
+DISPLAY = Base("MC_KeyFlows_display")
 LEAST = (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
 GOAL = Base("LIVE_KeyFlows_goal", LEAST)
 REMOVAL = Base("LIVE_KeyFlows_removal", LEAST)
@@ -175,16 +177,24 @@ FAULTS = (
     ),
     falls(
         "DisplayIsTheMode",
-        KEY_FLOWS,
+        DISPLAY,
         "the panel displays the mode that was touched",
-        "KeyFlows.tla",
-        "Displayed == ActiveMSO",
-        "Displayed == touched",
+        "KeyFlowsDisplay.tla",
+        "Displays == carried",
+        "Displays == touched",
     ),
     falls(
         "NoErrorWithoutFault",
         EARNEST,
         "a selection that is taken back is an error",
+        "Fplc.tla",
+        '    /\\ EnterSettle\n    /\\ Did("WithdrawSelection")',
+        '    /\\ EnterError\n    /\\ Did("WithdrawSelection")',
+    ),
+    falls(
+        "NoErrorWithoutFault",
+        ANY_TOUCH,
+        "a selection that is taken back is an error, wherever the user touches",
         "Fplc.tla",
         '    /\\ EnterSettle\n    /\\ Did("WithdrawSelection")',
         '    /\\ EnterError\n    /\\ Did("WithdrawSelection")',
