@@ -42,6 +42,7 @@ FORMULA: Final[Mapping[str, str]] = {
     "InhibitedSendsZeros": "inhibited sends zeros",
     "EchoIsTheTouch": "the echo is the touch",
     "IdleMeansZeros": ZEROS,
+    "DisplayIsTheMode": "the panel displays the mode",
     "SwitchNeedsMatchingPair": "the pair",
     "AuthorizationRespected": WITHIN_KEY,
     "NeverBeyondTheKey": WITHIN_KEY,
@@ -85,8 +86,6 @@ BELOW_DISTANCE: Final = (
     "with any words it is false; TLC tries one word that turns into no code, which a proof has yet to follow"
 )
 NOT_PROVED: Final[Mapping[str, str]] = {
-    "DisplayIsTheMode": "it speaks of the display wire (A-33), which is no device; proved of it is that the"
-    " panel displays in every scan what the wire brings",
     "GoalReached": LIVENESS,
     "GoalReachedAfterFault": LIVENESS,
     "RemovalLeadsToIdle": LIVENESS,

@@ -58,7 +58,7 @@ BROKEN: Final = "one wire is broken"
 CLEARED: Final = "a key goes in when all is cleared"
 SCANNED_LOW: Final = "the F-PLC scanned while LA was low"
 COPIES: Final = "the PLC copies or keeps"
-WIRED, OUTPUTS_WIRED = "words are wired", "outputs are wired"
+WIRED, OUTPUTS_WIRED, DISPLAY_WIRED = "words are wired", "outputs are wired", "the display is wired"
 ARRIVE, HELD, ORDERED = (
     "words arrive within the dwell time",
     "the error mode holds the mode",
@@ -315,6 +315,12 @@ ARGUMENT: Final = Argument(
             "the_mode_changes_only_by_a_switchover_with_la",
         ),
         Invariant(
+            "the panel displays the mode",
+            formulas.displays_what_has_come,
+            (H_ROW, DISPLAY_WIRED),
+            "the_panel_displays_the_active_mode_that_the_display_wire_has_carried",
+        ),
+        Invariant(
             ASKED,
             formulas.asked_before_confirmed,
             (H_SELECT, H_ASK),
@@ -517,6 +523,20 @@ def the_mode_changes_only_by_a_switchover_with_la() -> Queries:
     ON_ERROR = hold), whatever words and outputs the F-PLC sees.
     """
     yield from _proofs_of("the_mode_changes_only_by_a_switchover_with_la")
+
+
+@theorem(
+    clauses=["EKS-8-8", "EKS-8-16", "EKS-SD-7"],
+    findings=["E-25"],
+    properties=["DisplayIsTheMode"],
+)
+def the_panel_displays_the_active_mode_that_the_display_wire_has_carried() -> Queries:
+    """Once the display wire has carried the mode outputs and the panel has scanned, the mode that the panel
+    displays as active is the active mode, whatever the F-PLC does.
+
+    A-33 says of the wire that it carries the mode outputs and nothing else, at any time.
+    """
+    yield from _proofs_of("the_panel_displays_the_active_mode_that_the_display_wire_has_carried")
 
 
 @theorem(

@@ -156,6 +156,13 @@ def asked_before_confirmed(s: System) -> z3.BoolRef:
     )
 
 
+def displays_what_has_come(s: System) -> z3.BoolRef:
+    """EKS-8-8, E-25: what the mode outputs have reached holds out, or displays, the active mode"""
+    wire, mode = s.history, s.fplc.mode
+    carried = z3.Implies(wire.come >= 1, wire.carried == mode)
+    return z3.And(wire.come >= 0, wire.come <= 2, carried, z3.Implies(wire.come == 2, s.hmi.active == mode))
+
+
 def signals_the_key(s: System) -> z3.BoolRef:
     """EKS-2-7, EKS-KS-5: with LA, one output alone is that of the level on the key that was read"""
     pairs = [(signals(s.eks.outputs, level), s.eks.level == code("RE", level)) for level in LEVELS]

@@ -518,7 +518,6 @@ def test_tlc_and_the_theorems_agree_property_by_property() -> None:
 def test_exactly_these_properties_are_listed_as_not_proved() -> None:
     missing = {(row.id, row.environment) for row in agreement.rows() if not row.theorem}
     assert missing == {
-        ("DisplayIsTheMode", "honest"),
         ("GoalReached", "honest"),
         ("NeverBeyondTheKey", "faulty_eks"),
         ("NoErrorWithoutFault", "honest"),
