@@ -58,10 +58,6 @@ def idle_means_zeros(s: System) -> z3.BoolRef:
     return z3.Implies(s.fplc.at(*QUIET), zeros)
 
 
-def mode_is_a_mode(s: System) -> z3.BoolRef:
-    return z3.And(s.fplc.mode >= -1, s.fplc.mode <= 4)
-
-
 def screen_has_the_level(s: System) -> z3.BoolRef:
     """EKS-2-13, EKS-2-14, EKS-8-7, E-46, E-55"""
     f, read = s.fplc, s.plc.ReadAuthorization
@@ -160,13 +156,11 @@ def asked_before_confirmed(s: System) -> z3.BoolRef:
     )
 
 
-def displays_or_switched(s: System) -> z3.BoolRef:
-    """EKS-8-8, E-25"""
-    return z3.Or(s.hmi.active == s.fplc.mode, s.hmi.at("AwaitSwitch"))
-
-
-def displays_the_mode(s: System) -> z3.BoolRef:
-    return z3.Implies(s.fplc.at("Idle"), s.hmi.active == s.fplc.mode)
+def displays_what_has_come(s: System) -> z3.BoolRef:
+    """EKS-8-8, E-25: what the mode outputs have reached holds out, or displays, the active mode"""
+    wire, mode = s.history, s.fplc.mode
+    carried = z3.Implies(wire.come >= 1, wire.carried == mode)
+    return z3.And(wire.come >= 0, wire.come <= 2, carried, z3.Implies(wire.come == 2, s.hmi.active == mode))
 
 
 def signals_the_key(s: System) -> z3.BoolRef:

@@ -153,6 +153,13 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, NONE, NONE)")],
     ),
     (
+        "the display",
+        PANEL,
+        "AwaitSwitch",
+        panel_safety.displays_what_it_reads,
+        [("return after, outputs(after, inputs.ActiveMSO)", "return after, outputs(after, state.selection)")],
+    ),
+    (
         "ScreenIsTrue",
         PANEL,
         "AwaitEcho",
