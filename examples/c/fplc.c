@@ -235,8 +235,12 @@ static bool check_passes(fplc_memory *m, const fplc_inputs *in, uint8_t vector, 
 /* Steps 20 and 27 to 29, while the latched selection stands in MW03 */
 static void transaction(fplc_memory *m, const fplc_inputs *in)
 {
-    if (in->MW03 != SE[m->selection]) { /* E-16, E-61: taken back or changed, in any of the five states */
-        enter_settle(m);
+    if (in->MW03 != SE[m->selection]) { /* in any of the five states */
+        if (in->MW03 != 0 && mode_of(SE, in->MW03) == FPLC_NONE) { /* EKS-2-19, E-61: no code */
+            enter_error(m);
+        } else { /* E-16, E-21: taken back or changed */
+            enter_settle(m);
+        }
         return;
     }
     switch (m->state) {

@@ -184,6 +184,20 @@ static void zeros_box(fplc_memory *m, const fplc_inputs *in, int8_t count, fplc_
 
 enum { FIGURE_6 = 9 }; /* the first box of Figure 6 within the step */
 
+/* MW03 shows another word than the one that is judged or was latched */
+static void another_word(fplc_memory *m, const fplc_inputs *in)
+{
+    bool code = in->MW03 == 0;
+    for (int8_t i = 0; i < FPLC_MODES; i++) {
+        code = code || in->MW03 == SE[i];
+    }
+    if (code) { /* E-16, E-21: taken back or changed */
+        settle(m);
+    } else { /* EKS-2-19, E-61 */
+        fault(m);
+    }
+}
+
 static void check_selection_box(fplc_memory *m, const fplc_inputs *in)
 {
     if (in->MW07 != 0) { /* E-65 */
@@ -193,8 +207,8 @@ static void check_selection_box(fplc_memory *m, const fplc_inputs *in)
     if (m->box == 0) {
         m->word = in->MW03;
     }
-    if (in->MW03 == 0 || in->MW03 != m->word) { /* E-16, E-21: taken back or changed while it is judged */
-        settle(m);
+    if (in->MW03 == 0 || in->MW03 != m->word) { /* while it is judged */
+        another_word(m, in);
         return;
     }
     if (m->box < FIGURE_6) {
@@ -229,8 +243,8 @@ static void check_selection_box(fplc_memory *m, const fplc_inputs *in)
 
 static void transaction_box(fplc_memory *m, const fplc_inputs *in)
 {
-    if (in->MW03 != SE[m->selection]) { /* E-16, E-61 */
-        settle(m);
+    if (in->MW03 != SE[m->selection]) {
+        another_word(m, in);
         return;
     }
     if (m->state == EchoSelection) { /* EKS-2-20 */

@@ -460,7 +460,7 @@ def _insert_step(s: State, i: Inputs, elapsed: int) -> State:
         return _settle(s, i, elapsed)
 
     if i.MW03 != encode(SE, s.selection):
-        return _enter_settle(s)  # WithdrawSelection: taken back or changed before step 29 (E-16, E-21)
+        return _another_word(s, i)
     if c == ECHO_SELECTION:
         return _echo_selection(s, i)
     if c == AWAIT_ACKNOWLEDGMENT:
@@ -596,6 +596,16 @@ def _echo_selection(s: State, i: Inputs) -> State:
     if i.MW07 != ZERO:
         return _enter_error(s)  # UnexpectedAcknowledgment: E-15
     return _enter(s, AWAIT_ACKNOWLEDGMENT)  # PublishEcho
+
+
+def _another_word(s: State, i: Inputs) -> State:
+    """Before step 29 MW03 no longer shows the latched selection. EKS-2-19, EKS-2-25, E-16, E-21, E-61
+
+    Zero and another selection take the first one back; a word that is neither is a fault.
+    """
+    if i.MW03 != ZERO and decode(SE, i.MW03) == NONE:
+        return _enter_error(s)  # RefuseSelection
+    return _enter_settle(s)  # WithdrawSelection
 
 
 def _await_acknowledgment(s: State, i: Inputs) -> State:

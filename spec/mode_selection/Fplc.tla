@@ -235,6 +235,8 @@ UnexpectedAcknowledgment(i) ==
 
 \* EKS-2-12, EKS-2-18, EKS-5-1, E-12, E-18: range and authority, by the level in private memory
 MayBeSelected(i) == Permitted(authority, ModeOf(SE, i.MW03))
+\* EKS-2-19, E-61: neither zero, which takes the selection back, nor one of the five words
+IsNoCode(i) == i.MW03 # 0 /\ ModeOf(SE, i.MW03) = None
 \* EKS-2-18, EKS-2-19, EKS-5-1 to the end of Figure 5, EKS-5-9, EKS-6-1, EKS-6-3, EKS-6-5, EKS-6-7, EKS-6-9,
 \* EKS-6-11, EKS-5-3, EKS-5-5, EKS-5-7, E-12, E-14, E-16, E-47: range and authority in one scan, then the
 \* selection is latched.  E-71: also that of the mode that is active
@@ -245,18 +247,20 @@ AcceptSelection(i) ==
     /\ KeepKey /\ UNCHANGED mode
     /\ Did("AcceptSelection")
 \* EKS-2-18, EKS-2-19, EKS-5-2, EKS-5-4, EKS-5-6, EKS-5-8, EKS-5-10, EKS-6-12, E-12, E-14
+\* E-61: from there until the switchover a word that is no code is refused as well, whatever MW07 shows
 RefuseSelection(i) ==
-    /\ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 # 0 /\ ~MayBeSelected(i)
+    /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 # 0 /\ ~MayBeSelected(i)
+       \/ fplcState \in Transaction /\ IsNoCode(i)
     /\ EnterError
     /\ Did("RefuseSelection")
 
 ----------------------------------------------------------------------------
 (* Echo, acknowledgment, switchover.                                       *)
 
-\* EKS-2-25, E-16, E-21, E-61: the panel took the selection back or changed it
+\* EKS-2-25, E-16, E-21, E-61: the panel took the selection back, or changed it to another one
 WithdrawSelection(i) ==
     /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 = 0
-       \/ fplcState \in Transaction /\ ~SelectionStands(i)
+       \/ fplcState \in Transaction /\ ~SelectionStands(i) /\ ~IsNoCode(i)
     /\ EnterSettle
     /\ Did("WithdrawSelection")
 
@@ -355,15 +359,19 @@ FplcStep(i) ==
       [] fplcState = "AwaitSelection" -> AwaitMW03(i) \/ SeeSelection(i) \/ UnexpectedAcknowledgment(i)
       [] fplcState = "CheckSelection" ->
             AcceptSelection(i) \/ RefuseSelection(i) \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i)
-      [] fplcState = "EchoSelection" -> PublishEcho(i) \/ UnexpectedAcknowledgment(i) \/ WithdrawSelection(i)
-      [] fplcState = "AwaitAcknowledgment" -> AwaitMW07(i) \/ SeeAcknowledgment(i) \/ WithdrawSelection(i)
+      [] fplcState = "EchoSelection" ->
+            PublishEcho(i) \/ UnexpectedAcknowledgment(i) \/ WithdrawSelection(i) \/ RefuseSelection(i)
+      [] fplcState = "AwaitAcknowledgment" ->
+            AwaitMW07(i) \/ SeeAcknowledgment(i) \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "CheckAcknowledgment" ->
             \/ AcceptAcknowledgment(i) \/ RefuseAcknowledgment(i) \/ WithdrawAcknowledgment(i)
-            \/ WithdrawSelection(i)
+            \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "Match" ->
-            MatchWords(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i) \/ WithdrawSelection(i)
+            \/ MatchWords(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i)
+            \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "Switch" ->
-            SwitchMode(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i) \/ WithdrawSelection(i)
+            \/ SwitchMode(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i)
+            \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "Settle" -> AwaitSettled(i) \/ LeaveSettle(i)
       [] fplcState = "Clear" -> ClearWords(i)
       [] fplcState = "AwaitZeros" -> AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i)

@@ -129,12 +129,9 @@ AcceptSelection_ActiveModeSkipped(i) ==
 ----------------------------------------------------------------------------
 (* Echo, acknowledgment, switchover.                                       *)
 
-\* EKS-2-19, E-61: a word that is no code is an error also after the selection was accepted
-WithdrawSelection_LaterNoCodeIsError(i) ==
-    /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 = 0
-       \/ fplcState \in Transaction /\ ~SelectionStands(i)
-    /\ IF i.MW03 # 0 /\ ModeOf(SE, i.MW03) = None THEN EnterError /\ Did("RefuseSelection")
-       ELSE EnterSettle /\ Did("WithdrawSelection")
+\* EKS-2-19, EKS-2-28, E-61: step 19 is over once the selection was accepted; what MW03 shows later takes it
+\* back, be it a code or not
+IsNoCode_CodeCheckedOnce(i) == FALSE
 
 \* EKS-2-20, E-14: the step that echoes reads MW03 once more, and takes any word of the range
 SelectionStands_SplitCheck(i) ==

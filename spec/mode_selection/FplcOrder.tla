@@ -42,9 +42,15 @@ AcknowledgmentNeedsEcho ==
         (fplcState \in {"AwaitSelection", "CheckSelection"} \/ (fplcState = "EchoSelection" /\ Kept)
             => ERROR')]_beat
 
-\* EKS-2-25, E-16, E-21, E-61: a selection that does not stand any more is taken back, whatever MW07 shows
+NoCode == Scanned.MW03 # 0 /\ ModeOf(SE, Scanned.MW03) = None
+\* EKS-2-25, E-16, E-21: a selection that was taken back or changed to another one is withdrawn, whatever MW07
+\* shows
 ChangedSelectionIsWithdrawn ==
-    [][Signalled /\ fplcState \in Transaction /\ ~Kept => fplcState' = "Settle" /\ mode' = mode]_beat
+    [][Signalled /\ fplcState \in Transaction /\ ~Kept /\ ~NoCode => fplcState' = "Settle" /\ mode' = mode]_beat
+\* EKS-2-19, E-61: from the check of the selection until the switchover a word in MW03 that is no code is an
+\* error, whatever MW07 shows
+NoCodeIsReported ==
+    [][Signalled /\ fplcState \in {"CheckSelection"} \cup Transaction /\ NoCode => ERROR']_beat
 
 WordIsJudged ==
     CASE Scanned.MW07 = 0 -> fplcState' = "Settle" /\ mode' = mode

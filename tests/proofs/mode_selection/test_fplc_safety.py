@@ -259,7 +259,23 @@ FAULTS = [
         "ChangedSelectionIsWithdrawn",
         "Match",
         fplc_order.changed_selection_is_withdrawn,
-        [("return _enter_settle(s)  # WithdrawSelection: taken", "return _enter_error(s)  # taken")],
+        [
+            (
+                "return _enter_settle(s)  # WithdrawSelection\n",
+                "return _enter_error(s) if i.MW03 == ZERO else _enter_settle(s)\n",
+            )
+        ],
+    ),
+    (
+        "NoCodeIsReported",
+        "Match",
+        fplc_order.no_code_is_reported,
+        [
+            (
+                "return _enter_error(s)  # RefuseSelection\n    return _enter_settle",
+                "return s\n    return _enter_settle",
+            )
+        ],
     ),
     (
         "AcknowledgmentIsJudged",

@@ -112,8 +112,9 @@ ROWS = [
     *[
         ("WithdrawSelection", at(s), inputs(MW03=w, MW07=SW[2]), Step.SETTLE)
         for s in WITH_SELECTION
-        for w in (0, SE[1], 1)
+        for w in (0, SE[1])
     ],
+    *[("RefuseSelection", at(s), inputs(MW03=NOT_A_CODE, MW07=SW[2]), Step.ERROR) for s in WITH_SELECTION],
     *[("WithdrawAcknowledgment", at(s), inputs(MW03=SE[2]), Step.SETTLE) for s in WITH_ACKNOWLEDGMENT],
     ("UnexpectedAcknowledgment", at(Step.AWAIT_SELECTION), inputs(MW03=SE[2], MW07=SW[2]), Step.ERROR),
     ("UnexpectedAcknowledgment", at(Step.CHECK_SELECTION), inputs(MW03=0, MW07=SW[2]), Step.ERROR),

@@ -873,6 +873,14 @@ FAULTS = (
         '{"AwaitSelection", "CheckSelection", "EchoSelection"}\n',
     ),
     falls(
+        "NoCodeIsReported",
+        ORDER,
+        "a word that is no code takes the selection back in the scan that would switch",
+        "Fplc.tla",
+        "~SelectionStands(i) /\\ ~IsNoCode(i)\n",
+        '~SelectionStands(i) /\\ (~IsNoCode(i) \\/ fplcState = "Switch")\n',
+    ),
+    falls(
         "AcknowledgmentIsJudged",
         ORDER,
         "an acknowledgment that is no code passes step 27",
