@@ -197,10 +197,11 @@ static bool is_late(const fplc_memory *m, uint32_t now)
     case PulseZeros:
     case OneOutput:
         return now >= m->set.T_SEQ_ms;
+    case Settle: /* E-15 */
     case Clear:
     case AwaitZeros:
         return now >= m->set.T_REM_ms;
-    default: /* nobody can be made to touch a screen (E-25b); Start, Settle and Error wait for zeros */
+    default: /* nobody can be made to touch a screen (E-25b); Start and Error wait for zeros */
         return false;
     }
 }
@@ -356,7 +357,7 @@ static void take_step(fplc_memory *m, const fplc_inputs *in, uint8_t vector, uin
     case Switch:
         transaction(m, in);
         break;
-    case Settle: /* EKS-GP-5, E-15, E-52: no deadline, the key ends it */
+    case Settle: /* EKS-GP-5, E-15, E-52 */
         if (no_words(in) && now >= m->set.T_DWELL_ms) {
             go(m, AwaitSelection);
         } else {

@@ -116,6 +116,7 @@ static bool is_late(const fplc_memory *m) /* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11
     case PulseZeros:
     case OneOutput:
         return m->elapsed_ms >= m->set.T_SEQ_ms;
+    case Settle: /* E-15 */
     case Clear:
     case AwaitZeros:
         return m->elapsed_ms >= m->set.T_REM_ms;

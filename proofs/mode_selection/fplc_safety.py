@@ -16,7 +16,7 @@ from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.invariants import HOLDING, ON_ERROR_NONE
-from proofs.mode_selection.observer import FROM_ONES, INSERTION, REMOVAL, SEEN, Seen
+from proofs.mode_selection.observer import FROM_ONES, INSERTION, REMOVAL, SEEN, SETTLING, Seen
 from proofs.mode_selection.vocabulary import (
     LEVELS,
     NONE,
@@ -33,7 +33,7 @@ from proofs.mode_selection.vocabulary import (
 from proofs.sentences import Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
-TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL))
+TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL), *SETTLING)
 
 # ---------------------------------------------------------------- what sentences have in common
 
@@ -70,7 +70,7 @@ def deadline(c: str, params: Any) -> z3.ArithRef:
     """The deadline of a state that has one."""
     if c == "PulseOnes":
         return params.T_ON_ms
-    return params.T_REM_ms if c in REMOVAL else params.T_SEQ_ms
+    return params.T_REM_ms if c in REMOVAL | SETTLING else params.T_SEQ_ms
 
 
 # ---------------------------------------------------------------- outputs and memory
@@ -470,7 +470,7 @@ def no_wait_of_the_fplc_outlasts_its_deadline() -> Queries:
 def expiry_ends_the_wait(scan: Scanned) -> Obligation:
     for c in TIMED:
         if scan.was(c):
-            ends = scan.becomes("Error") or (c in INSERTION and scan.becomes("Clear"))
+            ends = scan.becomes("Error") or (c not in REMOVAL and scan.becomes("Clear"))
             return now(scan) >= deadline(c, scan.params), TRUE if ends else z3.BoolVal(False)
     return None
 
@@ -483,7 +483,7 @@ def expiry_ends_the_wait(scan: Scanned) -> Obligation:
 )
 def every_wait_with_a_deadline_ends_in_the_scan_that_reaches_it() -> Queries:
     """A scan that finds the deadline reached ends the wait, whatever else it finds: in the error mode, or, of
-    an insertion, in the removal.
+    an insertion and of Settle, in the removal.
     """
     yield from JUDGE.in_every_scan(expiry_ends_the_wait)
 
@@ -517,6 +517,17 @@ def all_waits_of_the_fplc_together_stay_within_their_deadline() -> Queries:
     yield from JUDGE.after_every_scan(shared_deadline_holds)
     for start in ("PulseZeros", "Clear"):
         yield JUDGE.without(JUDGE.after_a_scan(shared_deadline_holds), start, "TimerIsTheTimeWaited")
+
+
+def stuck_word_is_reported(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    return seen.waited < scan.params.T_REM_ms if scan.becomes(*SETTLING) else TRUE
+
+
+@theorem(clauses=["EKS-8-11"], findings=["E-15"], properties=["StuckWordIsReported"], slow=True)
+def the_fplc_reports_a_word_that_does_not_go_back_to_zero() -> Queries:
+    """After every scan in Settle the time since Settle began is below T_REM."""
+    yield from JUDGE.after_every_scan(stuck_word_is_reported)
+    yield JUDGE.without(JUDGE.after_a_scan(stuck_word_is_reported), "Settle", "TimerIsTheTimeWaited")
 
 
 def removal_timer_goes_on(scan: Scanned) -> Obligation:

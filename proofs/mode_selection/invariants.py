@@ -23,7 +23,7 @@ import z3
 from proofs.explorer.ends import TRUE
 from proofs.explorer.invariant import Conjunct
 from proofs.mode_selection.devices import KEY_ID_MAX
-from proofs.mode_selection.observer import INSERTION, REMOVAL, Seen
+from proofs.mode_selection.observer import INSERTION, REMOVAL, SETTLING, Seen
 from proofs.mode_selection.ranges import codes
 from proofs.mode_selection.vocabulary import NONE, is_mode, permits
 from proofs.words import one_of
@@ -34,7 +34,7 @@ TRANSACTION: Final = frozenset(
 AUTHORIZED: Final = TRANSACTION | {"AwaitSelection", "CheckSelection"}
 HOLDING: Final = AUTHORIZED | {"Authorize", "Settle"}
 """The states in which one output is accepted."""
-CLOCKED: Final = INSERTION | REMOVAL | {"Start", "Settle", "Error"}
+CLOCKED: Final = INSERTION | REMOVAL | SETTLING | {"Start", "Error"}
 """The states in which time is counted."""
 ON_ERROR_NONE: Final = 1
 """The value "none" of ON_ERROR in terms: its place in interface.toml."""
@@ -94,7 +94,7 @@ def _echo_was_seen(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
 
 
 def _timer_is_the_time_waited(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
-    timed = ("PulseOnes", "PulseZeros", "OneOutput", "Clear", "AwaitZeros")
+    timed = INSERTION | REMOVAL | SETTLING
     return seen.waited == s.elapsed_ms if c in timed else TRUE
 
 
@@ -151,7 +151,7 @@ FPLC_INVARIANT: Final = (
     Conjunct("EchoWasSeen", "From CheckAcknowledgment on MW05 has shown it.", _echo_was_seen),
     Conjunct(
         "TimerIsTheTimeWaited",
-        "In the insertion and in the removal the timer is the time since it began.",
+        "In the insertion, in the removal and in Settle the timer is the time since it began.",
         _timer_is_the_time_waited,
     ),
     Conjunct(

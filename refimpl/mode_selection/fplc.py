@@ -84,9 +84,10 @@ class Params:
 
     T_ON_ms: deadline from LA to all outputs set (EKS-2-6). T_SEQ_ms: deadline of the sequence up to the one
     output (EKS-4-2). T_SEQ_FROM: it counts from "LA", and is then at least T_ON_ms, or anew from all "ones"
-    (E-38). T_REM_ms: deadline of the removal (EKS-8-3). T_DWELL_ms: least time before zeros count as returned
-    (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24). PERMITS_0 to PERMITS_4: the
-    modes that a level permits, itself and none above it (E-47). Raises ParameterError.
+    (E-38). T_REM_ms: deadline of the removal (EKS-8-3) and of Settle (E-15). T_DWELL_ms: least time
+    before zeros count as returned (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24).
+    PERMITS_0 to PERMITS_4: the modes that a level permits, itself and none above it (E-47). Raises
+    ParameterError.
     """
 
     T_ON_ms: int = 1000
@@ -403,7 +404,7 @@ def _wait(s: State, elapsed: int) -> State:
 
 
 def _wait_dwelling(s: State, elapsed: int) -> State:
-    """Stay, and let the timer run up to T_DWELL_ms; more says nothing new in Start, Settle and Error. E-52"""
+    """Stay, and let the timer run up to T_DWELL_ms; more says nothing new in Start and Error. E-52"""
     if elapsed >= s.params.T_DWELL_ms:
         return _wait(s, s.params.T_DWELL_ms)
     return _wait(s, elapsed)
@@ -645,10 +646,12 @@ def _switch(s: State, i: Inputs) -> State:
 
 
 def _settle(s: State, i: Inputs, elapsed: int) -> State:
-    """Between two selections: wait without deadline until both words are zero again. E-15, E-52, EKS-GP-5"""
+    """Between two selections: wait, at most T_REM_ms, for zeros in both words. E-15, E-52, EKS-GP-5"""
+    if elapsed >= s.params.T_REM_ms:
+        return _enter_error(s)  # DeadlineExpired: E-15
     if _zeros_returned(s, i, elapsed):
         return _enter(s, AWAIT_SELECTION)  # LeaveSettle
-    return _wait_dwelling(s, elapsed)  # AwaitSettled
+    return _wait(s, elapsed)  # AwaitSettled
 
 
 def _clear(s: State, elapsed: int) -> State:

@@ -20,7 +20,7 @@ CONSTANTS
     T_ON,       \* ticks from LA to all outputs set (EKS-2-6)
     T_SEQ,      \* ticks of the sequence of outputs (EKS-4-2)
     T_SEQ_FROM, \* "LA" or "ones": what T_SEQ counts from (E-38)
-    T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11)
+    T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11), and for Settle (E-15)
     T_DWELL,    \* least ticks before returned zeros count (E-52)
     ON_ERROR    \* "hold" or "none": what Error does to the active mode (E-24)
 
@@ -48,8 +48,9 @@ Inserting == Pulse \cup {"OneOutput"}
 WithKey == Inserting \cup Holding                     \* LA is expected
 Removing == {"Clear", "AwaitZeros"}
 OwnRules == {"Start", "Idle", "Error"}                \* left alone by the check before every step
-Timed == Inserting \cup Removing                      \* with a deadline
-Clocked == Timed \cup {"Start", "Settle", "Error"}    \* time is counted
+Returning == Removing \cup {"Settle"}                 \* the words go back to zero, within T_REM
+Timed == Inserting \cup Returning                     \* with a deadline
+Clocked == Timed \cup {"Start", "Error"}              \* time is counted
 FplcStates == OwnRules \cup WithKey \cup Removing
 
 FplcTypeOK ==
@@ -97,7 +98,7 @@ Dwelt(i) == Now(i) >= T_DWELL
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-52: in one scan, not before the dwell time is over
 ZerosReturned(i) == NoSignal(i) /\ NoWords(i) /\ Dwelt(i)
 
-Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Removing -> T_REM [] OTHER -> T_SEQ
+Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Returning -> T_REM [] OTHER -> T_SEQ
 
 \* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority (E-63)
 IsGone(i) == ~i.LA /\ fplcState \in WithKey
@@ -145,7 +146,7 @@ VectorChanged(i) ==
     /\ EnterClear
     /\ Did("VectorChanged")
 
-\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-06, E-25d, E-30, E-32, E-64: expiry is tested before
+\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-06, E-15, E-25d, E-30, E-32, E-64: expiry is tested before
 \* success
 DeadlineExpired(i) ==
     /\ IsExpired(i) /\ ~IsGone(i) /\ ~IsMany(i)
@@ -318,7 +319,7 @@ SwitchMode(i) ==
 \* EKS-GP-5, E-15: before the next selection both words must have been zero
 AwaitSettled(i) ==
     /\ fplcState = "Settle" /\ ~(NoWords(i) /\ Dwelt(i))
-    /\ Wait(i, T_DWELL)
+    /\ Wait(i, T_REM)
     /\ Did("AwaitSettled")
 \* EKS-GP-5, E-15, E-52
 LeaveSettle(i) ==

@@ -45,10 +45,13 @@ CheckPasses_NoLAAtSwitch(i) ==
     /\ fplcState # "Switch" => ~IsGone(i) /\ ~IsChanged(i)
 
 \* EKS-8-3, EKS-8-11, E-06, E-30: the timer of the removal is watched by the panel alone
-IsExpired_NoRemovalTimer(i) == Now(i) >= Deadline /\ fplcState \in Inserting
+IsExpired_NoRemovalTimer(i) == Now(i) >= Deadline /\ fplcState \in Timed \ Removing
+
+\* EKS-8-3, EKS-8-11, E-15: the note has no time for the return to zero between two selections
+IsExpired_NoSettleDeadline(i) == Now(i) >= Deadline /\ fplcState \in Timed \ {"Settle"}
 
 \* EKS-2-8, E-25d: the F-PLC has no reaction of its own to the expiry of step 8
-IsExpired_NoInsertionTimer(i) == Now(i) >= Deadline /\ fplcState \in Removing
+IsExpired_NoInsertionTimer(i) == Now(i) >= Deadline /\ fplcState \in Returning
 
 \* EKS-4-4, E-64: what the state waits for is tested before its timer, as the rows of Figure 4 stand
 LOCAL Awaited(i) ==
@@ -56,6 +59,7 @@ LOCAL Awaited(i) ==
       [] fplcState = "PulseZeros" -> i.vec = {}
       [] fplcState = "OneOutput" -> i.vec # {}
       [] fplcState = "AwaitZeros" -> ZerosReturned(i)
+      [] fplcState = "Settle" -> NoWords(i) /\ Dwelt(i)
       [] OTHER -> FALSE
 IsExpired_SuccessBeforeExpiry(i) == Now(i) >= Deadline /\ fplcState \in Timed /\ ~Awaited(i)
 

@@ -13,8 +13,8 @@ FplcRead(w) == [LA |-> w.LA, vec |-> LoggedVector(w), MW03 |-> w.MW03, MW07 |-> 
 \* The times that a scan can find on the clock of each state (EKS-2-6, EKS-4-2, EKS-8-3, E-38, E-52)
 LOCAL Clock == CASE fplcState = "PulseOnes" -> 0..T_ON - 1
                  [] fplcState \in {"PulseZeros", "OneOutput"} -> 0..T_SEQ - 1
-                 [] fplcState = "AwaitZeros" -> 0..T_REM - 1
-                 [] fplcState \in {"Start", "Settle", "Error"} -> 0..T_DWELL
+                 [] fplcState \in {"AwaitZeros", "Settle"} -> 0..T_REM - 1
+                 [] fplcState \in {"Start", "Error"} -> 0..T_DWELL
                  [] OTHER -> {0}
 LOCAL Selections == IF fplcState \in Transaction THEN {m \in MSO : Permitted(authority, m)} ELSE {None}
 \* E-25c, EKS-2-12, EKS-2-29, E-24: which memory goes with which state

@@ -13,6 +13,8 @@ Report(name) ==
 Mark ==
     \* E-61
     /\ (Signalled /\ fplcState \in Transaction /\ NoCode => Report("NoCodeInATransaction"))
+    \* E-15
+    /\ (fplcState = "Settle" /\ step' = "DeadlineExpired" => Report("SettleExpired"))
 
 ASSUME TLCSet(1, {})
 =============================================================================

@@ -526,6 +526,7 @@ def test_exactly_these_properties_are_listed_as_not_proved() -> None:
         ("RecoversFully", "corrupting"),
         ("RecoversFully", "faulty_eks"),
         ("RemovalLeadsToIdle", "honest"),
+        ("SettleEnds", "honest"),
         ("UserIntent", "corrupting"),
     }
 

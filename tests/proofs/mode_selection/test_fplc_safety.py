@@ -177,7 +177,14 @@ FAULTS = [
             ("OneOutput", "    if elapsed >= s.params.T_SEQ_ms:\n"),
             ("Clear", "    if elapsed >= s.params.T_REM_ms:\n"),
             ("AwaitZeros", "    if elapsed >= s.params.T_REM_ms:\n"),
+            ("Settle", "    if elapsed >= s.params.T_REM_ms:\n"),
         )
+    ),
+    (
+        "StuckWordIsReported",
+        "Settle",
+        _state(fplc_safety.stuck_word_is_reported),
+        [("return _enter_error(s)  # DeadlineExpired: E-15", "return _wait(s, elapsed)")],
     ),
     ("SharedDeadlineHolds", "OneOutput", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
     (

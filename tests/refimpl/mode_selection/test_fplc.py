@@ -154,6 +154,7 @@ ROWS = [
     ("DeadlineExpired", at(Step.PULSE_ONES, 790), inputs(True, ALL), Step.ERROR),
     ("DeadlineExpired", at(Step.PULSE_ZEROS, 890), inputs(True, ""), Step.ERROR),
     ("DeadlineExpired", at(Step.ONE_OUTPUT, 890), inputs(True, "D"), Step.ERROR),
+    ("DeadlineExpired", at(Step.SETTLE, 690), inputs(), Step.ERROR),
     ("DeadlineExpired", at(Step.CLEAR, 690), inputs(False, ""), Step.ERROR),
     ("DeadlineExpired", at(Step.AWAIT_ZEROS, 690), inputs(False, ""), Step.ERROR),
 ]
@@ -278,7 +279,7 @@ def test_the_removal_timer_runs_from_clear_through_await_zeros() -> None:
     assert after(clear, inputs(False, "", dt_ms=77)).elapsed_ms == 77
 
 
-@pytest.mark.parametrize("step", [Step.START, Step.SETTLE, Step.ERROR])
+@pytest.mark.parametrize("step", [Step.START, Step.ERROR])
 def test_a_timer_without_a_deadline_stops_at_the_dwell(step: Step) -> None:
     assert after(at(step, 100), inputs(MW03=1, dt_ms=100)).elapsed_ms == 200
     assert after(at(step, 100), inputs(MW03=1, dt_ms=10**9)).elapsed_ms == 400
@@ -435,7 +436,7 @@ def test_timers_restart_in_new_states_or_stop_where_not_needed(
     elapsed = 0
     if name in ("SeeOnes", "SeePulseZeros", "ClearWords") or (to == before.state and to in TIMED):
         elapsed = before.elapsed_ms + i.dt_ms
-    if to in (Step.START, Step.SETTLE, Step.ERROR):
+    if to in (Step.START, Step.ERROR):
         elapsed = min(elapsed, 400)
     assert after(before, i).elapsed_ms == elapsed
 
@@ -463,9 +464,10 @@ def test_the_parameter_drops_the_mode_in_error_not_in_removal() -> None:
 
 def test_a_mode_that_is_selected_again_needs_a_new_acknowledgment() -> None:
     state = after(at(Step.SWITCH), inputs(MW03=SE[2], MW07=SW[2]))
-    for _ in range(100):
+    for _ in range(6):
         state = after(state, inputs(MW03=SE[2], MW07=SW[2], dt_ms=100))
         assert state.state == Step.SETTLE
+    assert after(state, inputs(MW03=SE[2], MW07=SW[2], dt_ms=100)).state == Step.ERROR
 
 
 # ---------------------------------------------------------------- bad input

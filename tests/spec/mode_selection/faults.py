@@ -36,6 +36,7 @@ EARNEST = Base("MC_KeyFlows_earnest")
 LEAST = (("BAD_KEY = TRUE", "BAD_KEY = FALSE"), ("LEVELS = {1}", "LEVELS = {0}"))
 GOAL = Base("LIVE_KeyFlows_goal", LEAST)
 REMOVAL = Base("LIVE_KeyFlows_removal", LEAST)
+SETTLE = Base("LIVE_KeyFlows_settle", (("LEVELS = {1}", "LEVELS = {0}"),))
 RECOVERY = Base("LIVE_KeyFlows_recovery")
 AFTER_FAULT = Base("LIVE_KeyFlows_after_fault")
 CORRUPTING = Base(
@@ -206,12 +207,20 @@ FAULTS = (
         'fplcState = "Error" /\\ ~i.LA',
     ),
     falls(
+        "StuckWordIsReported",
+        FPLC,
+        "each scan that waits for the zeros of Settle starts the timer anew",
+        "Fplc.tla",
+        '    /\\ Wait(i, T_REM)\n    /\\ Did("AwaitSettled")',
+        '    /\\ Proceed("Settle")\n    /\\ Did("AwaitSettled")',
+    ),
+    falls(
         "RemovalTimerGoesOn",
         FPLC,
         "each scan that waits for the zeros starts the timer anew",
         "Fplc.tla",
-        "    /\\ Wait(i, T_REM)\n",
-        '    /\\ Proceed("AwaitZeros")\n',
+        '    /\\ Wait(i, T_REM)\n    /\\ Did("AwaitReturnedZeros")',
+        '    /\\ Proceed("AwaitZeros")\n    /\\ Did("AwaitReturnedZeros")',
     ),
     # ------------------------------------------------------------------ F-PLC
     falls(
@@ -462,6 +471,14 @@ FAULTS = (
         "Fplc.tla",
         'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = {}',
         'SeePulseZeros(i) == fplcState = "PulseZeros" /\\ i.vec = MSO',
+    ),
+    falls(
+        "SettleEnds",
+        SETTLE,
+        "the level stays on MW01 in Settle, and the panel offers the modes",
+        "Fplc.tla",
+        "MW01 == IF fplcState \\in Authorized THEN",
+        'MW01 == IF fplcState \\in Authorized \\cup {"Settle"} THEN',
     ),
     falls(
         "RemovalLeadsToIdle",
