@@ -292,7 +292,11 @@ static void transaction_box(fplc_memory *m, const fplc_inputs *in)
             fault(m);
         } else {
             m->mode = m->selection;
-            settle(m);
+            if (m->set.SELECTIONS_once) { /* E-15 */
+                timed(m, Complete);
+            } else {
+                settle(m);
+            }
         }
         break;
     }
@@ -359,6 +363,8 @@ static void take_box(fplc_memory *m, const fplc_inputs *in, int8_t count, int8_t
     case Switch:
         transaction_box(m, in);
         break;
+    case Complete: /* EKS-GP-5, E-15 */
+        break;
     case Settle: /* EKS-GP-5, E-15 */
         zeros_box(m, in, count, AwaitSelection, false);
         break;
@@ -382,8 +388,8 @@ void fplc_scan(const fplc_inputs *in, fplc_memory *m, fplc_outputs *out)
         take_box(m, in, count, level);
     }
 
-    out->MW01 = m->state >= AwaitSelection && m->state <= Switch ? RE[m->authority] : 0;
-    out->MW05 = m->state >= AwaitAcknowledgment && m->state <= Switch ? CH[m->selection] : 0;
+    out->MW01 = m->state >= AwaitSelection && m->state <= Complete ? RE[m->authority] : 0;
+    out->MW05 = m->state >= AwaitAcknowledgment && m->state <= Complete ? CH[m->selection] : 0;
     for (int8_t i = 0; i < FPLC_MODES; i++) {
         out->MSO[i] = m->mode == i;
     }

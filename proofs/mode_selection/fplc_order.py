@@ -25,7 +25,7 @@ from proofs.theorem import Queries, theorem
 
 WAITING: Final = (
     *("Start", "Idle", "PulseOnes", "PulseZeros", "OneOutput", "AwaitSelection"),
-    *("AwaitAcknowledgment", "Settle", "AwaitZeros", "Error"),
+    *("AwaitAcknowledgment", "Complete", "Settle", "AwaitZeros", "Error"),
 )
 IN_ORDER: Final = frozenset(
     {
@@ -33,6 +33,7 @@ IN_ORDER: Final = frozenset(
         *pairwise(("AwaitSelection", "CheckSelection", "EchoSelection", "AwaitAcknowledgment")),
         *pairwise(("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch", "Settle")),
         ("Settle", "AwaitSelection"),
+        ("Switch", "Complete"),
         *pairwise(("Clear", "AwaitZeros", "Idle")),
         ("Start", "Idle"),
         ("Error", "Idle"),

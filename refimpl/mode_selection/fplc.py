@@ -53,6 +53,7 @@ class Step(Enum):
     CHECK_ACKNOWLEDGMENT = "CheckAcknowledgment"
     MATCH = "Match"
     SWITCH = "Switch"
+    COMPLETE = "Complete"
     SETTLE = "Settle"
     CLEAR = "Clear"
     AWAIT_ZEROS = "AwaitZeros"
@@ -72,6 +73,7 @@ AWAIT_ACKNOWLEDGMENT = Step.AWAIT_ACKNOWLEDGMENT
 CHECK_ACKNOWLEDGMENT = Step.CHECK_ACKNOWLEDGMENT
 MATCH = Step.MATCH
 SWITCH = Step.SWITCH
+COMPLETE = Step.COMPLETE
 SETTLE = Step.SETTLE
 CLEAR = Step.CLEAR
 AWAIT_ZEROS = Step.AWAIT_ZEROS
@@ -86,6 +88,7 @@ class Params:
     output (EKS-4-2). T_SEQ_FROM: it counts from "LA", and is then at least T_ON_ms, or anew from all "ones"
     (E-38). T_REM_ms: deadline of the removal (EKS-8-3) and of Settle (E-15). T_DWELL_ms: least time
     before zeros count as returned (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24).
+    SELECTIONS: after a switchover "again" another one with the same key, or "once" for each insertion (E-15).
     PERMITS_0 to PERMITS_4: the modes that a level permits, itself and none above it (E-47). Raises
     ParameterError.
     """
@@ -96,6 +99,7 @@ class Params:
     T_REM_ms: int = 1000
     T_DWELL_ms: int = 500
     ON_ERROR: str = "hold"
+    SELECTIONS: str = "again"
     PERMITS_0: tuple[bool, bool, bool, bool, bool] = UP_TO_0
     PERMITS_1: tuple[bool, bool, bool, bool, bool] = UP_TO_1
     PERMITS_2: tuple[bool, bool, bool, bool, bool] = UP_TO_2
@@ -109,6 +113,7 @@ class Params:
         check_int("T_REM_ms", self.T_REM_ms, 1, T_MAX_MS, ParameterError)
         check_int("T_DWELL_ms", self.T_DWELL_ms, 0, T_MAX_MS, ParameterError)
         check_text("ON_ERROR", self.ON_ERROR, ("hold", "none"), ParameterError)
+        check_text("SELECTIONS", self.SELECTIONS, ("again", "once"), ParameterError)
         check_permits("PERMITS_0", self.PERMITS_0, 0)
         check_permits("PERMITS_1", self.PERMITS_1, 1)
         check_permits("PERMITS_2", self.PERMITS_2, 2)
@@ -201,13 +206,14 @@ def outputs(s: State) -> Outputs:
     (EKS-2-12, EKS-8-6); zero is the word of no key (EKS-KS-8). It is zero in Settle too, so that the panel
     closes and a quick next touch cannot overtake the return to zero (E-59).
     MW05 carries the echo from step 20 until the switchover (Figure 6, from the latched selection), and is
-    zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). The mode outputs are one of five, none before
+    zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). With one selection for each insertion both
+    stay as they are after the switchover (E-15). The mode outputs are one of five, none before
     the first switchover; removal does not touch them (EKS-2-29, EKS-8-8). ERROR is the one error mode (E-22).
     """
     c = s.state
     MW01 = ZERO
     MW05 = ZERO
-    if c == AWAIT_ACKNOWLEDGMENT or c == CHECK_ACKNOWLEDGMENT or c == MATCH or c == SWITCH:
+    if c == AWAIT_ACKNOWLEDGMENT or c == CHECK_ACKNOWLEDGMENT or c == MATCH or c == SWITCH or c == COMPLETE:
         MW01 = encode(RE, s.authority)
         MW05 = echo(encode(SE, s.selection))
     elif c == AWAIT_SELECTION or c == CHECK_SELECTION or c == ECHO_SELECTION:
@@ -459,6 +465,8 @@ def _insert_step(s: State, i: Inputs, elapsed: int) -> State:
         return _check_selection(s, i)
     if c == SETTLE:
         return _settle(s, i, elapsed)
+    if c == COMPLETE:
+        return s  # AwaitRemoval: EKS-2-29, EKS-GP-5, E-15
 
     if i.MW03 != encode(SE, s.selection):
         return _another_word(s, i)
@@ -638,10 +646,13 @@ def _switch(s: State, i: Inputs) -> State:
 
     EKS-2-29, EKS-SD-2, E-16, E-42
 
-    The mode that becomes active is the latched selection (E-01).
+    The mode that becomes active is the latched selection (E-01). By parameter another selection may
+    follow, or only the check before every step goes on until the key goes (E-15).
     """
     if not matches(encode(SE, s.selection), i.MW07):
         return _enter_error(s)  # RefuseMatch
+    if s.params.SELECTIONS == "once":
+        return State(s.params, COMPLETE, s.accepted, s.authority, s.selection, s.selection, 0)  # SwitchMode
     return State(s.params, SETTLE, s.accepted, s.authority, NONE, s.selection, 0)  # SwitchMode
 
 

@@ -22,12 +22,13 @@ CONSTANTS
     T_SEQ_FROM, \* "LA" or "ones": what T_SEQ counts from (E-38)
     T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11), and for Settle (E-15)
     T_DWELL,    \* least ticks before returned zeros count (E-52)
-    ON_ERROR    \* "hold" or "none": what Error does to the active mode (E-24)
+    ON_ERROR,   \* "hold" or "none": what Error does to the active mode (E-24)
+    SELECTIONS  \* "again" or "once": whether a switchover may be followed by another one with the key (E-15)
 
 ASSUME T_ON \in Nat \ {0} /\ T_SEQ \in Nat \ {0}
 ASSUME T_SEQ_FROM \in {"LA", "ones"} /\ (T_SEQ_FROM = "LA" => T_ON <= T_SEQ)
 ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
-ASSUME ON_ERROR \in {"hold", "none"}
+ASSUME ON_ERROR \in {"hold", "none"} /\ SELECTIONS \in {"again", "once"}
 
 VARIABLES
     fplcState,      \* the step that is executed next
@@ -41,7 +42,8 @@ fplc == <<fplcState, accepted, authority, fplcSelection, mode, fplcElapsed>>
 
 Echoing == {"AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
 Transaction == {"EchoSelection"} \cup Echoing
-Authorized == {"AwaitSelection", "CheckSelection"} \cup Transaction
+Chosen == Transaction \cup {"Complete"}                \* a selection is latched
+Authorized == {"AwaitSelection", "CheckSelection"} \cup Chosen
 Holding == {"Authorize", "Settle"} \cup Authorized    \* an output has been accepted
 Pulse == {"PulseOnes", "PulseZeros"}
 Inserting == Pulse \cup {"OneOutput"}
@@ -68,12 +70,12 @@ FplcInit ==
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
-\* EKS-2-12, EKS-8-6, E-05: published from AwaitSelection to Switch, and zero in every other state.
+\* EKS-2-12, EKS-8-6, E-05, E-15: published from AwaitSelection to Switch and in Complete, else zero.
 \* E-59: also in Settle, so that the panel closes and the next selection cannot overtake the return to zero
 MW01 == IF fplcState \in Authorized THEN RE[authority] ELSE 0
-\* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-15, EKS-8-16, E-27: the echo is there only
-\* while an acknowledgment may come
-MW05 == IF fplcState \in Echoing THEN CH[fplcSelection] ELSE 0
+\* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-15, EKS-8-16, E-15, E-27: the echo is there
+\* only while an acknowledgment may come, and in Complete
+MW05 == IF fplcState \in Echoing \cup {"Complete"} THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
 ERROR == fplcState = "Error"
 \* The outputs by their names; a mode output for each mode
@@ -149,7 +151,7 @@ VectorChanged(i) ==
 \* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-06, E-15, E-25d, E-30, E-32, E-64: expiry is tested before
 \* success
 DeadlineExpired(i) ==
-    /\ IsExpired(i) /\ ~IsGone(i) /\ ~IsMany(i)
+    /\ IsExpired(i) /\ ~IsGone(i) /\ ~IsMany(i) /\ ~IsChanged(i)
     /\ EnterError
     /\ Did("DeadlineExpired")
 
@@ -309,12 +311,16 @@ RefuseMatch(i) ==
     /\ EnterError
     /\ Did("RefuseMatch")
 
-\* EKS-2-29, EKS-SD-2, E-01, E-16, E-18, E-42, E-71: every guard is evaluated again in the scan that switches
+\* EKS-2-29, EKS-SD-2, E-01, E-15, E-16, E-18, E-42, E-71: every guard is evaluated again in the scan that switches
 SwitchMode(i) ==
     /\ StandsIn("Switch", i) /\ Matches(i)
     /\ mode' = {fplcSelection}
-    /\ GoTo("Settle") /\ KeepKey /\ fplcSelection' = None
+    /\ GoTo(IF SELECTIONS = "once" THEN "Complete" ELSE "Settle")
+    /\ KeepKey /\ fplcSelection' = IF SELECTIONS = "once" THEN fplcSelection ELSE None
     /\ Did("SwitchMode")
+\* EKS-2-29, EKS-8-6, EKS-GP-5, EKS-KS-8, E-15: where each insertion has one selection, only the check before
+\* every step goes on; MW01 and MW05 stay as steps 12 and 20 left them, whatever MW03 and MW07 show
+AwaitRemoval(i) == fplcState = "Complete" /\ Untimed /\ Did("AwaitRemoval")
 
 \* EKS-GP-5, E-15: before the next selection both words must have been zero
 AwaitSettled(i) ==
@@ -373,6 +379,7 @@ FplcStep(i) ==
       [] fplcState = "Switch" ->
             \/ SwitchMode(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i)
             \/ WithdrawSelection(i) \/ RefuseSelection(i)
+      [] fplcState = "Complete" -> AwaitRemoval(i)
       [] fplcState = "Settle" -> AwaitSettled(i) \/ LeaveSettle(i)
       [] fplcState = "Clear" -> ClearWords(i)
       [] fplcState = "AwaitZeros" -> AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i)

@@ -182,12 +182,19 @@ RemovalSeenAtOnce ==
     [][(fplcState \in Holding /\ (~Scanned.LA \/ Scanned.vec # {accepted})) =>
         MW01' = 0 /\ MW05' = 0 /\ fplcState' \in {"Clear", "Error"}]_beat
 
-\* EKS-2-20, EKS-6-12: what MW05 shows stands in MW03 in the scan that shows it, and the signalled level
-\* permits it
+\* EKS-2-20, EKS-6-12, E-15: what MW05 shows stands in MW03 in the scan that shows it, or is the mode that was
+\* switched, and the signalled level permits it
 EchoNeedsSelection ==
     [][MW05' # 0 =>
         (\E a, m \in MSO :
-            MW05' = CH[m] /\ Scanned.MW03 = SE[m] /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
+            /\ MW05' = CH[m] /\ Scanned.vec = {a} /\ Permitted(a, m)
+            /\ Scanned.MW03 = SE[m] \/ (fplcState' = "Complete" /\ mode' = {m}))]_beat
+
+\* EKS-2-29, EKS-GP-5, E-15: where each insertion has one selection, the key must go before the next one
+OneSelectionWhereSet ==
+    [][SELECTIONS = "once" =>
+        /\ Switched => fplcState' = "Complete"
+        /\ fplcState = "Complete" => fplcState' \in {"Complete", "Clear", "Error"} /\ ~Switched]_beat
 
 \* EKS-2-10, EKS-4-1, EKS-4-3, E-10: no level is published without the test pulse of this insertion
 LevelNeedsPulse == [][(MW01' # 0 /\ MW01 = 0) => pulse = 2]_beat

@@ -15,6 +15,7 @@ Mark ==
     /\ (Signalled /\ fplcState \in Transaction /\ NoCode => Report("NoCodeInATransaction"))
     \* E-15
     /\ (fplcState = "Settle" /\ step' = "DeadlineExpired" => Report("SettleExpired"))
+    /\ (fplcState = "Complete" /\ Signalled /\ NoWords(Scanned) => Report("WordsTakenBackAfterTheOneSelection"))
 
 ASSUME TLCSet(1, {})
 =============================================================================

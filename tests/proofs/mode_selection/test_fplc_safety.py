@@ -181,6 +181,18 @@ FAULTS = [
         )
     ),
     (
+        "OneSelectionWhereSet",
+        "Switch",
+        fplc_safety.one_selection_where_set,
+        [('if s.params.SELECTIONS == "once":', 'if s.params.SELECTIONS == "again":')],
+    ),
+    (
+        "OneSelectionWhereSet",
+        "Complete",
+        fplc_safety.one_selection_where_set,
+        [("return s  # AwaitRemoval", "return _enter_settle(s)  # AwaitRemoval")],
+    ),
+    (
         "StuckWordIsReported",
         "Settle",
         _state(fplc_safety.stuck_word_is_reported),

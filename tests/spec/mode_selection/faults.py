@@ -18,6 +18,11 @@ FPLC = Base("MC_Fplc_arbitrary", SMALL_OF_CLASSES, module="FplcSmall")
 TEXT_ORDER = Base("MC_Fplc_text_order", SMALL, module="FplcSmall")
 ANSWERS = Base("MC_Fplc_answers", SMALL, module="FplcPromptSmall")
 ORDER = Base("MC_Fplc_order", SMALL, module="FplcOrderSmall")
+NO_CODE = Base(
+    "MC_Fplc_order",
+    (('VECTORS = "few"', 'VECTORS = "classes"  InputsToTry <- NoCodeInputs'),),
+    module="FplcOrderSmall",
+)
 HMI_PROMPT = Base("MC_Hmi_prompt")
 EKS_PROMPT = Base("MC_Eks6_prompt")
 FPLC_SMOKE = Base("MC_Fplc_smoke", SMALL, module="FplcSmall")
@@ -27,6 +32,11 @@ DEADLINES = Base(
     module="FplcSmall",
 )
 NO_MODE = Base("MC_Fplc_on_error_none", SMALL, module="FplcSmall")
+ONE_SELECTION = Base(
+    "MC_Fplc_one_selection",
+    (('VECTORS = "one"', 'VECTORS = "one"  InputsToTry <- OneLevelInputs'),),
+    module="FplcSmall",
+)
 EKS = Base("OPEN_Eks6", SILENT)
 HMI = Base("OPEN_Hmi", SILENT)
 PLC = Base("OPEN_Plc", SILENT)
@@ -205,6 +215,14 @@ FAULTS = (
         "Fplc.tla",
         'fplcState = "Error" /\\ ZerosReturned(i)',
         'fplcState = "Error" /\\ ~i.LA',
+    ),
+    falls(
+        "OneSelectionWhereSet",
+        ONE_SELECTION,
+        "another selection may follow all the same",
+        "Fplc.tla",
+        'GoTo(IF SELECTIONS = "once" THEN "Complete" ELSE "Settle")',
+        'GoTo("Settle")',
     ),
     falls(
         "StuckWordIsReported",
@@ -891,7 +909,7 @@ FAULTS = (
     ),
     falls(
         "NoCodeIsReported",
-        ORDER,
+        NO_CODE,
         "a word that is no code takes the selection back in the scan that would switch",
         "Fplc.tla",
         "~SelectionStands(i) /\\ ~IsNoCode(i)\n",
