@@ -570,6 +570,6 @@ def the_panel_offers_nothing_beyond_the_level_in_force() -> Queries:
 )
 def no_word_of_an_honest_panel_is_refused() -> Queries:
     """While LA and the accepted output stand, the F-PLC refuses no word: an honest panel sends none that it
-    would have to refuse.
+    would have to refuse. In Settle, which judges no word, a deadline may pass (E-15).
     """
     yield from _proofs_of("no_word_of_an_honest_panel_is_refused")

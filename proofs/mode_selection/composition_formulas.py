@@ -80,7 +80,7 @@ def echo_on_the_bus(s: System) -> z3.BoolRef:
 
 
 def words_of_one_selection(s: System) -> z3.BoolRef:
-    """EKS-2-15, EKS-2-16, EKS-2-24, EKS-2-26, E-11, E-15, E-16"""
+    """EKS-2-15, EKS-2-16, EKS-2-24, EKS-2-26, E-11, E-15, E-16, E-61"""
     f, h, p = s.fplc, s.hmi, s.plc
     selecting = z3.And(h.at("AwaitEcho"), is_mode(h.selection), code("SE", h.selection) == p.MW03)
     offering = z3.And(
@@ -95,6 +95,7 @@ def words_of_one_selection(s: System) -> z3.BoolRef:
         h.at("AwaitEcho", "Confirm", "AwaitSwitch", "Withdrawn"),
         z3.Implies(z3.Not(h.at("AwaitEcho")), p.CheckMSO == code("CH", f.selection)),
         z3.Implies(z3.Not(h.at("Withdrawn")), sent),
+        z3.Or(p.MW03 == 0, code("SE", f.selection) == p.MW03),
         z3.Implies(p.MW07 != 0, z3.And(h.at("AwaitSwitch"), code("SW", f.selection) == p.MW07)),
     )
     return z3.And(
@@ -301,10 +302,13 @@ def user_intent(step: Step) -> z3.BoolRef:
 
 
 def no_word_is_refused(step: Step) -> z3.BoolRef:
-    """No scan that finds LA and the accepted output ends in Error once an output was accepted."""
+    """No scan that finds LA and the accepted output ends in Error once an output was accepted; Settle judges
+    no word, and its deadline is no refusal (E-15)
+    """
     scan = step.fplc
     stands = z3.And(scan.LA, signals(scan.outputs, scan.before.accepted))
-    return z3.Not(z3.And(scan.before.at("Authorize", *HOLDING), stands, scan.after.at("Error")))
+    judged = scan.before.at("Authorize", *OFFERING, *ECHOING)
+    return z3.Not(z3.And(judged, stands, scan.after.at("Error")))
 
 
 def signalled(s: System) -> z3.BitVecRef:

@@ -23,7 +23,7 @@ from proofs.mode_selection.vocabulary import code, mode, permits
 from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
-DWELLING: Final = ("Start", "Settle", "Error")
+DWELLING: Final = ("Start", "Error")
 """The states that count time up to T_DWELL."""
 GOING_ON: Final = (("PulseOnes", "PulseZeros"), ("PulseZeros", "OneOutput"), ("Clear", "AwaitZeros"))
 """From one step to the next the time of the insertion, or of the removal, goes on."""
@@ -113,7 +113,7 @@ def dwell_in_range(scan: Scanned, seen: Seen) -> z3.BoolRef:
 
 @theorem(clauses=["EKS-GP-3", "EKS-8-18"], findings=["E-52"], slow=True)
 def no_dwell_time_of_the_fplc_counts_beyond_its_end() -> Queries:
-    """At power-up and after every scan the timer of Start, Settle and Error is at most T_DWELL, however long
+    """At power-up and after every scan the timer of Start and Error is at most T_DWELL, however long
     the F-PLC stays there, so that no timer of a machine overflows.
     """
     yield from JUDGE.after_every_scan(dwell_in_range)

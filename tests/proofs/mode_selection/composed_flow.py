@@ -49,9 +49,10 @@ class Moment:
     """How far the mode outputs have come; the display wire of a flow takes no time."""
 
 
-def beginning(**times: int) -> Moment:
+def beginning(selections: str = "again", **times: int) -> Moment:
     """Power-up; the default times of the F-PLC unless others are given."""
-    return Moment(key_flows.power_up(eks.Params(lambda data: CHECKSUM), fplc.Params(**times)))
+    params = fplc.Params(SELECTIONS=selections, **times)
+    return Moment(key_flows.power_up(eks.Params(lambda data: CHECKSUM), params))
 
 
 def in_selection(moment: Moment) -> bool:
@@ -90,7 +91,7 @@ def scan(moment: Moment, device: str, dt_ms: int = 0, wires: Mapping[str, bool] 
         here = before.fplc_state
         switched = (
             here.state == fplc.Step.SWITCH
-            and after.fplc_state.state == fplc.Step.SETTLE
+            and after.fplc_state.state in (fplc.Step.SETTLE, fplc.Step.COMPLETE)
             and fplc.matches(before.plc_out.MW03, before.plc_out.MW07)
         )
         unseen = moment.unseen and in_selection(made)
