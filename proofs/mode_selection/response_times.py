@@ -12,7 +12,7 @@ from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_response import quiet
 from proofs.mode_selection.fplc_safety import two_outputs_lead_to_error
 from proofs.mode_selection.observer import REMOVAL
-from proofs.mode_selection.vocabulary import NONE, mode, none_set
+from proofs.mode_selection.vocabulary import NONE, mode, none_set, only_of, vector
 from proofs.responses import waits_without_end, within_calls, within_time
 from proofs.theorem import Queries, theorem
 
@@ -125,12 +125,13 @@ def the_mode_output_stays_on_without_end_when_the_key_is_out(row: Response) -> Q
 
 
 @theorem(clauses=["EKS-8-11", "EKS-GP-5"], findings=["E-15"], responses=["R-10"], slow=True)
-def a_word_that_stays_is_waited_for_without_end(row: Response) -> Queries:
-    """R-10 has no bound: a scan in Settle that finds MW03 or MW07 not zero can be followed by as many like it
-    as one likes, whatever time passes, without ERROR.
-    """
+def a_word_that_stays_in_settle_is_an_error_in_the_time_of_its_row(row: Response) -> Queries:
+    """While the level of the key stands, a word that stays in Settle gives ERROR in the time of R-10."""
 
     def asks(scan: Scanned) -> z3.BoolRef:
-        return z3.Or(scan.inputs.MW03 != 0, scan.inputs.MW07 != 0) if scan.was("Settle") else FALSE
+        if not scan.was("Settle"):
+            return FALSE
+        same_key = z3.And(scan.inputs.LA, only_of(vector(scan.inputs), scan.before.accepted))
+        return z3.And(same_key, z3.Or(scan.inputs.MW03 != 0, scan.inputs.MW07 != 0))
 
-    yield from waits_without_end(JUDGE, row, asks, lambda scan: scan.sends.ERROR)
+    yield from within_time(JUDGE, row, asks, lambda seen: seen.waited, lambda scan: scan.sends.ERROR)

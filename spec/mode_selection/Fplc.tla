@@ -70,7 +70,7 @@ FplcInit ==
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
-\* EKS-2-12, EKS-8-6, E-05, E-15: published from AwaitSelection to Switch and in Complete, else zero.
+\* EKS-2-12, EKS-8-6, E-15: published from AwaitSelection to Switch and in Complete, else zero.
 \* E-59: also in Settle, so that the panel closes and the next selection cannot overtake the return to zero
 MW01 == IF fplcState \in Authorized THEN RE[authority] ELSE 0
 \* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-15, EKS-8-16, E-15, E-27: the echo is there
@@ -169,7 +169,7 @@ AwaitPowerUpZeros(i) ==
     /\ Wait(i, T_DWELL)
     /\ Did("AwaitPowerUpZeros")
 
-\* EKS-9-1-FPLC, EKS-9-2, EKS-9-3, E-35, E-36
+\* EKS-9-1-FPLC, EKS-9-2, EKS-9-3, E-36
 AwaitKey(i) == fplcState = "Idle" /\ ~i.LA /\ ~Many(i) /\ Untimed /\ Did("AwaitKey")
 \* EKS-2-6, EKS-9-4-FPLC, E-17, E-40, E-73: the pulse has its deadline from LA on, whatever the outputs show
 DetectKey(i) == fplcState = "Idle" /\ i.LA /\ Proceed("PulseOnes") /\ Did("DetectKey")
@@ -207,7 +207,7 @@ EarlyWord(i) == ~NoWords(i)
 RefuseEarlyWord(i) == fplcState = "Authorize" /\ EarlyWord(i) /\ EnterError /\ Did("RefuseEarlyWord")
 \* EKS-T2-3, E-02: A, B, C, D, STR are the levels 0 to 4, by Table 2
 LevelOf(output) == output
-\* EKS-2-12, EKS-SD-1, E-05, E-18: the level comes from the outputs and is kept in private memory
+\* EKS-2-12, EKS-SD-1, E-18: the level comes from the outputs and is kept in private memory
 PublishAuthority(i) ==
     /\ fplcState = "Authorize" /\ ~EarlyWord(i)
     /\ \E a \in i.vec : authority' = LevelOf(a)
@@ -343,7 +343,7 @@ AwaitReturnedZeros(i) ==
     /\ fplcState = "AwaitZeros" /\ ~ZerosReturned(i)
     /\ Wait(i, T_REM)
     /\ Did("AwaitReturnedZeros")
-\* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-35, E-52
+\* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-52
 LeaveAwaitZeros(i) ==
     /\ fplcState = "AwaitZeros" /\ ZerosReturned(i)
     /\ Proceed("Idle")

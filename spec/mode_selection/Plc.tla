@@ -61,7 +61,7 @@ Passes(i) == IF ANY_ORDER THEN TRUE ELSE StillSame(i)
 \* EKS-GP-4, EKS-GP-5, EKS-3-2, EKS-3-3, EKS-9-2, EKS-9-3: the check, then the step, then on to the next
 Due(i, this, next) == Passes(i) /\ Turn(this, next)
 
-\* EKS-2-13, EKS-3-4-PLC, EKS-8-7, EKS-9-4-PLC, E-05, E-08: at its turn, and where the check fails: the other
+\* EKS-2-13, EKS-3-4-PLC, EKS-8-7, EKS-9-4-PLC, E-08: at its turn, and where the check fails: the other
 \* routine begins with it too
 CopyReadAuthorization(i) ==
     /\ IF Passes(i) THEN Turn("CopyReadAuthorization", "CopyMW03") ELSE turn' = "CopyMW03"
