@@ -1,8 +1,7 @@
 """The page of a document, docs/<document>.md: what was shown, what not, and every finding in a few lines.
 
-The page is made from the registers. Only the tables of its counterexamples come from evidence; each stands
-between two marks with a digest of its text and of the pins of its run. So the page can be compared with the
-registers at any time: it must be what they give, around the tables that it holds.
+Only the tables of its counterexamples come from evidence; each stands between two marks with a digest of its
+text and of the pins of its run. So the page must be what the registers give, around the tables that it holds.
 """
 
 from __future__ import annotations
@@ -145,9 +144,8 @@ def _shown(document: Document, sources: Sources) -> str:
     name = document.name
     holding = [run for run in document.runs if run.kind in ("MC", "OPEN", "LIVE")]
     negatives = [run for run in document.runs if run.kind == "NEG"]
+    graphs = str(sum(run.graph is not None for run in document.runs))
     witnesses = {witness for run in document.runs if run.kind == "WIT" for witness in run.witnesses}
-    graphs = [run for run in document.runs if run.graph is not None]
-    theorems = sum(len(module.theorems) for module in sources.proofs)
     verify = f"`modeproof verify --document {name}`"
     kinds = Counter(clause.kind for clause in document.clauses)
     rows = [
@@ -175,10 +173,10 @@ def _shown(document: Document, sources: Sources) -> str:
             str(len(witnesses)),
             f"`modeproof check --document {name} 'WIT_*'`",
         ],
-        ["complete graphs of a device, compared with our program both ways", str(len(graphs)), verify],
+        ["complete graphs of a device, compared with our program both ways", graphs, verify],
         [
             "theorems about our program for all words and times, by two solvers",
-            str(theorems),
+            str(sum(len(module.theorems) for module in sources.proofs)),
             f"`modeproof prove --document {name}`",
         ],
     ]

@@ -55,7 +55,7 @@ def test_a_theorem_refuses_every_bound_but_its_own(theorem: Theorem, row: Respon
         assert refuses(theorem, other), (other.calls, other.times)
 
 
-def test_what_is_answered_in_time_is_not_shown_to_wait_without_end() -> None:
+def test_an_answered_response_is_not_shown_to_wait_for_ever() -> None:
     (row,) = [row for row in load_responses(root(), "edm").rows if row.id == "EDMR-06"]
 
     def demanded(scan: Scanned) -> z3.BoolRef:

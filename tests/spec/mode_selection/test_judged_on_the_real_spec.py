@@ -325,5 +325,7 @@ def test_unlisted_cfgs_and_runs_without_cfg_are_noticed(tmp_path: Path) -> None:
     assert set(register_problems(tmp_path, DOCUMENT)) == {
         "run OPEN_Plc: models/OPEN_Plc.cfg is missing",
         "run NEG_Plc_only_copies: models/OPEN_Plc.cfg is missing",
+        "run NEG_Plc_atomic_copy: models/OPEN_Plc.cfg is missing",
+        "run NEG_Plc_checks_zero: models/OPEN_Plc.cfg is missing",
         "models/MC_more.cfg is in no run",
     }
