@@ -10,10 +10,14 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final, Literal
 
 import z3
 
+from modeproof.registers import Response, load_responses
+
+ROOT: Final = Path(__file__).parents[1]
 Expected = Literal["unsat", "sat"]
 COUNTEREXAMPLE: Final = "counterexample"
 """The name of the negated conclusion in the query of a claim."""
@@ -55,11 +59,21 @@ class Theorem:
     remark: str
     clauses: tuple[str, ...]
     findings: tuple[str, ...]
-    build: Callable[[], Queries]
+    build: Callable[..., Queries]
     slow: bool = False
     """Takes too long for the lane smoke."""
     properties: tuple[str, ...] = ()
     """Ids of the properties of the document that it proves of the shipped code."""
+    responses: tuple[str, ...] = ()
+    """Ids of the response times of the document that it proves; `build` takes their rows in this order."""
+
+    def rows(self) -> tuple[Response, ...]:
+        """The rows of response.toml that it proves. Raises TheoremError for an id that is not there."""
+        document = self.build.__module__.split(".")[1] if self.responses else ""
+        found = {row.id: row for row in load_responses(ROOT, document).rows}
+        if lost := [name for name in self.responses if name not in found]:
+            raise TheoremError(f"theorem {self.name}: spec/{document}/response.toml has no {', '.join(lost)}")
+        return tuple(found[name] for name in self.responses)
 
     def queries(self) -> tuple[Query, ...]:
         """Build the queries and refuse a set that proves nothing.
@@ -67,22 +81,26 @@ class Theorem:
         Raises TheoremError: no query, a name used twice, an `unsat` without a twin, a twin that is not made
         of premises.
         """
-        queries = tuple(self.build())
+        queries = tuple(self.build(*self.rows()))
         check_queries(self.name, queries)
         return queries
 
 
 def theorem(
-    clauses: list[str], findings: list[str], slow: bool = False, properties: Sequence[str] = ()
-) -> Callable[[Callable[[], Queries]], Theorem]:
+    clauses: list[str],
+    findings: list[str],
+    slow: bool = False,
+    properties: Sequence[str] = (),
+    responses: Sequence[str] = (),
+) -> Callable[[Callable[..., Queries]], Theorem]:
     """Register a function as a theorem; the first paragraph of its docstring is the theorem in English.
 
-    clauses, findings, properties: ids from the registers of the document, written as literal lists so that
-    they can be read without running the code. slow: left out of the lane smoke. Raises TheoremError without a
-    sentence or without a clause.
+    clauses, findings, properties, responses: ids from the registers of the document, written as literal lists
+    so that they can be read without running the code. slow: left out of the lane smoke. Raises TheoremError
+    without a sentence or without a clause.
     """
 
-    def register(build: Callable[[], Queries]) -> Theorem:
+    def register(build: Callable[..., Queries]) -> Theorem:
         name = getattr(build, "__name__", "")
         paragraphs = [" ".join(part.split()) for part in (build.__doc__ or "").strip().split("\n\n")]
         if not paragraphs[0]:
@@ -91,7 +109,15 @@ def theorem(
             raise TheoremError(f"theorem {name}: cites no clause")
         sentence, remark = paragraphs[0], " ".join(paragraphs[1:])
         return Theorem(
-            name, sentence, remark, tuple(clauses), tuple(findings), build, slow, tuple(properties)
+            name,
+            sentence,
+            remark,
+            tuple(clauses),
+            tuple(findings),
+            build,
+            slow,
+            tuple(properties),
+            tuple(responses),
         )
 
     return register

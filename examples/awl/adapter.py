@@ -57,6 +57,7 @@ TARGETS = {
             "T_DWELL_ms": 500,
             "T_SEQ_FROM": "LA",
             "ON_ERROR": "hold",
+            "SELECTIONS": "again",
             **{name: list(range(level + 1)) for name, level in LEVELS.items()},
         },
     ),
@@ -67,7 +68,7 @@ TARGETS = {
         parameters={},
     ),
 }
-CHOICES = {"T_SEQ_FROM": ("LA", "ones"), "ON_ERROR": ("hold", "none")}
+CHOICES = {"T_SEQ_FROM": ("LA", "ones"), "ON_ERROR": ("hold", "none"), "SELECTIONS": ("again", "once")}
 BYE: dict[str, Any] = {"ok": True}
 
 

@@ -43,6 +43,7 @@ static void reset(wire_line *line)
     time_ms(line, "params.T_DWELL_ms", &set.T_DWELL_ms);
     set.T_SEQ_FROM_ones = choice(line, "params.T_SEQ_FROM", "LA", "ones");
     set.ON_ERROR_none = choice(line, "params.ON_ERROR", "hold", "none");
+    set.SELECTIONS_once = choice(line, "params.SELECTIONS", "again", "once");
     for (int level = 0; level < FPLC_MODES; level++) {
         if (wire_has(line, permits[level])) {
             set.PERMITS[level] = wire_modes(line, permits[level]);

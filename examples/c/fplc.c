@@ -57,7 +57,7 @@ fplc_parameters fplc_defaults(void)
 {
     const fplc_parameters set = {
         .T_ON_ms = 1000, .T_SEQ_ms = 1000, .T_REM_ms = 1000, .T_DWELL_ms = 500,
-        .T_SEQ_FROM_ones = false, .ON_ERROR_none = false,
+        .T_SEQ_FROM_ones = false, .ON_ERROR_none = false, .SELECTIONS_once = false,
         .PERMITS = {0x01, 0x03, 0x07, 0x0F, 0x1F}, /* each level its own mode and all lower ones (EKS-T2-2) */
     };
     return set;
@@ -180,12 +180,12 @@ static bool is_accepted(fplc_state s) /* from the acceptance of the one output u
 
 static bool is_authorized(fplc_state s) /* MW01 shows the level; not in Settle (E-59) */
 {
-    return s >= AwaitSelection && s <= Switch;
+    return s >= AwaitSelection && s <= Complete;
 }
 
 static bool is_echoed(fplc_state s) /* MW05 shows the selection */
 {
-    return s >= AwaitAcknowledgment && s <= Switch;
+    return s >= AwaitAcknowledgment && s <= Complete;
 }
 
 /* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11, E-64: late is at the deadline or after it */
@@ -197,10 +197,11 @@ static bool is_late(const fplc_memory *m, uint32_t now)
     case PulseZeros:
     case OneOutput:
         return now >= m->set.T_SEQ_ms;
+    case Settle: /* E-15 */
     case Clear:
     case AwaitZeros:
         return now >= m->set.T_REM_ms;
-    default: /* nobody can be made to touch a screen (E-25b); Start, Settle and Error wait for zeros */
+    default: /* nobody can be made to touch a screen (E-25b); Start and Error wait for zeros */
         return false;
     }
 }
@@ -235,8 +236,12 @@ static bool check_passes(fplc_memory *m, const fplc_inputs *in, uint8_t vector, 
 /* Steps 20 and 27 to 29, while the latched selection stands in MW03 */
 static void transaction(fplc_memory *m, const fplc_inputs *in)
 {
-    if (in->MW03 != SE[m->selection]) { /* E-16, E-61: taken back or changed, in any of the five states */
-        enter_settle(m);
+    if (in->MW03 != SE[m->selection]) { /* in any of the five states */
+        if (in->MW03 != 0 && mode_of(SE, in->MW03) == FPLC_NONE) { /* EKS-2-19, E-61: no code */
+            enter_error(m);
+        } else { /* E-16, E-21: taken back or changed */
+            enter_settle(m);
+        }
         return;
     }
     switch (m->state) {
@@ -270,7 +275,11 @@ static void transaction(fplc_memory *m, const fplc_inputs *in)
             go(m, Switch);
         } else {
             m->mode = m->selection; /* the latched selection, not a second decoding of MW07 (E-01) */
-            enter_settle(m);
+            if (m->set.SELECTIONS_once) { /* E-15 */
+                go(m, Complete);
+            } else {
+                enter_settle(m);
+            }
         }
         break;
     }
@@ -352,7 +361,9 @@ static void take_step(fplc_memory *m, const fplc_inputs *in, uint8_t vector, uin
     case Switch:
         transaction(m, in);
         break;
-    case Settle: /* EKS-GP-5, E-15, E-52: no deadline, the key ends it */
+    case Complete: /* EKS-GP-5, E-15: until the key goes, whatever the words show */
+        break;
+    case Settle: /* EKS-GP-5, E-15, E-52 */
         if (no_words(in) && now >= m->set.T_DWELL_ms) {
             go(m, AwaitSelection);
         } else {

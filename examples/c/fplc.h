@@ -13,7 +13,7 @@ typedef enum { /* the step that is executed next (EKS-GP-3) */
     PulseOnes, PulseZeros, OneOutput,                                   /* Figure 4 */
     Authorize, AwaitSelection, CheckSelection,                          /* steps 12, 17, 18 and 19 */
     EchoSelection, AwaitAcknowledgment, CheckAcknowledgment, Match, Switch, /* steps 20, 27, 28, 29 */
-    Settle,
+    Complete, Settle,                                                   /* E-15 */
     Clear, AwaitZeros,                                                  /* removal, steps 3 to 18 */
     Error
 } fplc_state;
@@ -21,10 +21,11 @@ typedef enum { /* the step that is executed next (EKS-GP-3) */
 typedef struct {
     uint32_t T_ON_ms;    /* 1..3600000: from LA to all outputs set (EKS-2-6) */
     uint32_t T_SEQ_ms;   /* 1..3600000: for the whole sequence of outputs (EKS-4-2) */
-    uint32_t T_REM_ms;   /* 1..3600000: for the whole removal (EKS-8-3) */
+    uint32_t T_REM_ms;   /* 1..3600000: for the whole removal (EKS-8-3), and for Settle (E-15) */
     uint32_t T_DWELL_ms; /* 0..3600000: least time before zeros count as returned (E-52) */
     bool T_SEQ_FROM_ones; /* T_SEQ_ms counts from all outputs set; else from LA (E-38) */
     bool ON_ERROR_none;   /* Error clears the active mode; else it is held (E-24) */
+    bool SELECTIONS_once; /* one switchover for each insertion; else another one may follow (E-15) */
     uint8_t PERMITS[FPLC_MODES]; /* for each level a bit for each mode that it permits (E-47) */
 } fplc_parameters;
 

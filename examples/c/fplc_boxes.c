@@ -116,6 +116,7 @@ static bool is_late(const fplc_memory *m) /* EKS-2-8, EKS-4-4, EKS-4-6, EKS-8-11
     case PulseZeros:
     case OneOutput:
         return m->elapsed_ms >= m->set.T_SEQ_ms;
+    case Settle: /* E-15 */
     case Clear:
     case AwaitZeros:
         return m->elapsed_ms >= m->set.T_REM_ms;
@@ -184,6 +185,20 @@ static void zeros_box(fplc_memory *m, const fplc_inputs *in, int8_t count, fplc_
 
 enum { FIGURE_6 = 9 }; /* the first box of Figure 6 within the step */
 
+/* MW03 shows another word than the one that is judged or was latched */
+static void another_word(fplc_memory *m, const fplc_inputs *in)
+{
+    bool code = in->MW03 == 0;
+    for (int8_t i = 0; i < FPLC_MODES; i++) {
+        code = code || in->MW03 == SE[i];
+    }
+    if (code) { /* E-16, E-21: taken back or changed */
+        settle(m);
+    } else { /* EKS-2-19, E-61 */
+        fault(m);
+    }
+}
+
 static void check_selection_box(fplc_memory *m, const fplc_inputs *in)
 {
     if (in->MW07 != 0) { /* E-65 */
@@ -193,8 +208,8 @@ static void check_selection_box(fplc_memory *m, const fplc_inputs *in)
     if (m->box == 0) {
         m->word = in->MW03;
     }
-    if (in->MW03 == 0 || in->MW03 != m->word) { /* E-16, E-21: taken back or changed while it is judged */
-        settle(m);
+    if (in->MW03 == 0 || in->MW03 != m->word) { /* while it is judged */
+        another_word(m, in);
         return;
     }
     if (m->box < FIGURE_6) {
@@ -229,8 +244,8 @@ static void check_selection_box(fplc_memory *m, const fplc_inputs *in)
 
 static void transaction_box(fplc_memory *m, const fplc_inputs *in)
 {
-    if (in->MW03 != SE[m->selection]) { /* E-16, E-61 */
-        settle(m);
+    if (in->MW03 != SE[m->selection]) {
+        another_word(m, in);
         return;
     }
     if (m->state == EchoSelection) { /* EKS-2-20 */
@@ -277,7 +292,11 @@ static void transaction_box(fplc_memory *m, const fplc_inputs *in)
             fault(m);
         } else {
             m->mode = m->selection;
-            settle(m);
+            if (m->set.SELECTIONS_once) { /* E-15 */
+                timed(m, Complete);
+            } else {
+                settle(m);
+            }
         }
         break;
     }
@@ -344,6 +363,8 @@ static void take_box(fplc_memory *m, const fplc_inputs *in, int8_t count, int8_t
     case Switch:
         transaction_box(m, in);
         break;
+    case Complete: /* EKS-GP-5, E-15 */
+        break;
     case Settle: /* EKS-GP-5, E-15 */
         zeros_box(m, in, count, AwaitSelection, false);
         break;
@@ -367,8 +388,8 @@ void fplc_scan(const fplc_inputs *in, fplc_memory *m, fplc_outputs *out)
         take_box(m, in, count, level);
     }
 
-    out->MW01 = m->state >= AwaitSelection && m->state <= Switch ? RE[m->authority] : 0;
-    out->MW05 = m->state >= AwaitAcknowledgment && m->state <= Switch ? CH[m->selection] : 0;
+    out->MW01 = m->state >= AwaitSelection && m->state <= Complete ? RE[m->authority] : 0;
+    out->MW05 = m->state >= AwaitAcknowledgment && m->state <= Complete ? CH[m->selection] : 0;
     for (int8_t i = 0; i < FPLC_MODES; i++) {
         out->MSO[i] = m->mode == i;
     }

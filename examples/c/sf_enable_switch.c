@@ -69,6 +69,7 @@ static uint16_t change(const sf_enable_switch_memory *m, const sf_enable_switch_
 static uint16_t of_error(const sf_enable_switch_memory *m, const sf_enable_switch_inputs *in)
 {
     const bool released = pattern(in) == RELEASED;
+    const bool automatic = m->set.AUTO_RESET_ERRORS && in->S_AutoReset; /* ESF-14 */
     for (int kind = 0; kind < 3; kind++) {
         if (m->code == errors[kind][0]) { /* ES-SEQ-4: stage 0, and nothing else, shows that the cause is gone */
             return released ? errors[kind][1] : m->code;
@@ -77,10 +78,10 @@ static uint16_t of_error(const sf_enable_switch_memory *m, const sf_enable_switc
             if (!released) {
                 return errors[kind][0];
             }
-            if (!in->S_AutoReset && held(in->Reset, m->reset_before)) {
+            if (!automatic && held(in->Reset, m->reset_before)) {
                 return errors[kind][2];
             }
-            if (in->S_AutoReset || rises(in->Reset, m->reset_before)) {
+            if (automatic || rises(in->Reset, m->reset_before)) {
                 return in->S_SafetyActive ? STAGE_0 : BASIC_MODE;
             }
             return m->code;
@@ -139,7 +140,8 @@ static sf_enable_switch_outputs row(uint16_t code)
 
 sf_enable_switch_parameters sf_enable_switch_defaults(void)
 {
-    const sf_enable_switch_parameters set = {.DiscrepancyTimeCh1_Ch3_ms = 0, .MODE_ENDS_ERROR = false};
+    const sf_enable_switch_parameters set = {
+        .DiscrepancyTimeCh1_Ch3_ms = 0, .MODE_ENDS_ERROR = false, .AUTO_RESET_ERRORS = true};
     return set;
 }
 

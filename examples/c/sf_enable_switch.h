@@ -8,6 +8,7 @@
 typedef struct {
     uint32_t DiscrepancyTimeCh1_Ch3_ms; /* 0..3600000: how long a change between two stages may last (ESF-07) */
     bool MODE_ENDS_ERROR;               /* the end of the mode also ends an error (ESF-08) */
+    bool AUTO_RESET_ERRORS;             /* S_AutoReset takes the place of the edge that ends an error (ESF-14) */
 } sf_enable_switch_parameters;
 
 typedef struct {

@@ -29,6 +29,7 @@ static const block_row outputs[] = {
 static const block_row parameters[] = {
     {.name = "DiscrepancyTimeCh1_Ch3_ms", .number = &set.DiscrepancyTimeCh1_Ch3_ms},
     {.name = "MODE_ENDS_ERROR", .flag = &set.MODE_ENDS_ERROR},
+    {.name = "AUTO_RESET_ERRORS", .flag = &set.AUTO_RESET_ERRORS},
     {0},
 };
 

@@ -34,7 +34,7 @@ typedef sf_testable_safety_sensor_inputs inputs_t;
 void sf_testable_safety_sensor_defaults(sf_testable_safety_sensor_params *set)
 {
     set->TestTime_ms = 10;
-    set->AUTO_RESET_ERRORS = false;
+    set->AUTO_RESET_ERRORS = true;
 }
 
 void sf_testable_safety_sensor_power_up(sf_testable_safety_sensor_memory *memory, const sf_testable_safety_sensor_params *set)

@@ -66,6 +66,7 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
             "clauses": len(judgement.rows),
             "citations": judgement.citations,
             "unresolved": judgement.unresolved,
+            "properties_fall_with": dict(judgement.falls),
         }
         if problems:
             verdict = "DIFFERS"
@@ -128,7 +129,7 @@ def declared_pairs(place: Path, document: str) -> dict[str, set[tuple[str, str]]
     return {
         run.id: {(name, run.environment) for name in run.properties}
         for run in load_runs(place, document)
-        if run.kind in POSITIVE
+        if run.kind in POSITIVE and not run.readings
     }
 
 

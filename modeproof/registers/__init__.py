@@ -11,7 +11,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.crosscheck import cross_check, value_fault
 from modeproof.registers.judge import Judgement, check_document, judge, judge_tree, matrix
-from modeproof.registers.load import load_document, load_interface, read_register
+from modeproof.registers.load import load_document, load_interface, load_responses, read_register
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import (
     About,
@@ -23,6 +23,7 @@ from modeproof.registers.rows import (
     Interface,
     Problem,
     Property,
+    Response,
     Signal,
 )
 from modeproof.registers.runs import Graph, Run, load_runs
@@ -40,6 +41,7 @@ __all__ = [
     "Judgement",
     "Problem",
     "Property",
+    "Response",
     "Row",
     "Run",
     "Signal",
@@ -51,6 +53,7 @@ __all__ = [
     "judge_tree",
     "load_document",
     "load_interface",
+    "load_responses",
     "load_runs",
     "matrix",
     "read_register",

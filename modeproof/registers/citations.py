@@ -18,8 +18,8 @@ class Citation:
     """One place that cites.
 
     `kind` is one of definition, module (text of TLA+ and Python outside definitions), property, theorem,
-    finding, assumption, run, signal. `room` is spec, refimpl, proofs or registers. `device` is set for
-    text in a device's own module.
+    finding, assumption, run, response, signal. `room` is spec, refimpl, proofs or registers. `device` is set
+    for text in a device's own module.
     """
 
     kind: str
@@ -158,6 +158,9 @@ def _in_registers(document: Document, ids: Ids) -> Iterator[Citation]:
         yield _listed("assumption", "registers", document.source("assumptions"), row.id, row.clauses, (), ids)
     for run in document.runs:
         yield _listed("run", "registers", document.source("runs"), run.id, run.clauses, run.findings, ids)
+    for response in document.responses.rows:
+        source = document.source("response")
+        yield _listed("response", "registers", source, response.id, response.clauses, (), ids)
     source = document.source("interface")
     for device in document.interface.devices.values():
         groups = {

@@ -79,9 +79,19 @@ def summary(judgement: Judgement) -> str:
         for column in ("action", "step", "property", "theorem", "vector")
     }
     counts = ", ".join(f"{number} with {column}" for column, number in filled.items())
+    words = {
+        "negative": "fall with a negative",
+        "edit": "with an edit",
+        "by construction": "by construction",
+        "nothing": "with nothing",
+    }
+    falls = ", ".join(
+        f"{judgement.falls[kind]} {word}" for kind, word in words.items() if judgement.falls[kind]
+    )
     return (
         f"{judgement.document}: {len(judgement.rows)} clauses ({counts}); "
         f"{judgement.citations} citations, {judgement.unresolved} unresolved; "
+        f"{sum(judgement.falls.values())} properties ({falls}); "
         f"{len(judgement.problems)} problems"
     )
 

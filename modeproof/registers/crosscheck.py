@@ -113,8 +113,14 @@ def value_fault(signal: Signal, value: object) -> str:
 def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
     file = document.source("properties")
     witnesses = [name for run in document.runs for name in run.witnesses]
+    decided = [run for run in document.runs if "full" in run.lanes and not run.readings]
+    judged = {name for run in decided for name in run.witnesses}
     for prop in document.properties:
-        runs = [run for run in document.runs if prop.tla in run.properties and run.kind != "NEG"]
+        runs = [
+            run
+            for run in document.runs
+            if prop.tla in run.properties and run.kind != "NEG" and not run.readings
+        ]
         if not runs:
             yield Problem(file, prop.id, f"no run checks {prop.tla}")
         for environment in prop.environments:
@@ -131,6 +137,11 @@ def _properties(document: Document, sources: Sources) -> Iterator[Problem]:
                 prop.id,
                 f"no run has the witness {prop.antecedent!r}; {suggestion(prop.antecedent, witnesses)}",
             )
+        elif prop.antecedent and prop.antecedent not in judged:
+            text = f"the witness {prop.antecedent!r} is reached by no run of what was decided in lane full"
+            yield Problem(file, prop.id, text)
+        if prop.antecedent and prop.reason:
+            yield Problem(file, prop.id, "names an antecedent, and `reason` says why it needs none")
         if not prop.antecedent and not prop.reason.strip():
             yield Problem(file, prop.id, "names no antecedent, and `reason` does not say why it needs none")
         modules = closure(sources.modules, prop.module)
@@ -186,6 +197,9 @@ def _findings(document: Document, sources: Sources) -> Iterator[Problem]:
             yield Problem(
                 file, finding.id, "names no evidence, and `evidence_open` does not say what is open"
             )
+        if (finding.severity == "hazard") != (len(finding.readings) == 1):
+            text = f"{len(finding.readings)} readings and class {finding.severity}; a hazard of the text as "
+            yield Problem(file, finding.id, text + "it stands has one reading, any other finding has more")
         if match := PROMISE.search(finding.evidence_open):
             yield Problem(
                 file, finding.id, _promise("evidence_open", match.group(), "why no model can show it")

@@ -1,8 +1,7 @@
 """The page of a document, docs/<document>.md: what was shown, what not, and every finding in a few lines.
 
-The page is made from the registers. Only the tables of its counterexamples come from evidence; each stands
-between two marks with a digest of its text and of the pins of its run. So the page can be compared with the
-registers at any time: it must be what they give, around the tables that it holds.
+Only the tables of its counterexamples come from evidence; each stands between two marks with a digest of its
+text and of the pins of its run. So the page must be what the registers give, around the tables that it holds.
 """
 
 from __future__ import annotations
@@ -10,13 +9,16 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from modeproof.registers.citations import Sources
-from modeproof.registers.files import read_text, read_toml
+from modeproof.registers.files import markdown, read_text, read_toml
+from modeproof.registers.killers import ways_to_fall
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
+from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import Run
 from modeproof.registers.scores import WHAT, Score, load_scores
@@ -24,6 +26,7 @@ from modeproof.registers.scores import WHAT, Score, load_scores
 REMEDY = "run modeproof render"
 CLASSES = {
     "safety": "Safety: the other reading starts the machine, or hides a fault",
+    "hazard": "Hazard: the text has one reading, which leaves something to the machine",
     "availability": "Availability: the other reading stops the machine or its user",
     "wording": "Wording: no effect once it is noticed",
 }
@@ -48,15 +51,6 @@ def tellings(document: Document) -> tuple[tuple[Finding, Telling], ...]:
     """The counterexamples that findings.toml marks as telling: safety first, then in its order."""
     ranked = sorted(document.findings, key=lambda finding: list(CLASSES).index(finding.severity))
     return tuple((finding, finding.telling) for finding in ranked if finding.telling)
-
-
-def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A Markdown table that ends with a line end."""
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    lines += [
-        "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in row) + " |" for row in rows
-    ]
-    return "\n".join(lines) + "\n"
 
 
 # ------------------------------------------------------------------------------------------- the check
@@ -112,6 +106,7 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
         _head(document),
         _shown(document, sources),
         *_profiles(document),
+        *section(document, sources),
         _limits(document),
         *_counterexamples(document, tables),
         _findings(document),
@@ -149,11 +144,18 @@ def _shown(document: Document, sources: Sources) -> str:
     name = document.name
     holding = [run for run in document.runs if run.kind in ("MC", "OPEN", "LIVE")]
     negatives = [run for run in document.runs if run.kind == "NEG"]
+    graphs = str(sum(run.graph is not None for run in document.runs))
     witnesses = {witness for run in document.runs if run.kind == "WIT" for witness in run.witnesses}
-    graphs = [run for run in document.runs if run.graph is not None]
-    theorems = sum(len(module.theorems) for module in sources.proofs)
     verify = f"`modeproof verify --document {name}`"
+    kinds = Counter(clause.kind for clause in document.clauses)
     rows = [
+        [
+            "statements of the text: what a program does, what must be true of it, what is assumed, and "
+            "what is left out with a reason",
+            f"{len(document.clauses)}: {kinds['behaviour']}, {kinds['property']}, {kinds['assumption']}, "
+            f"{kinds['not modelled']}",
+            f"`modeproof registers --matrix --document {name}`",
+        ],
         [
             "properties that hold in every state and step, within the bounds of each run",
             f"{len(document.properties)} in {len(holding)} runs",
@@ -165,15 +167,16 @@ def _shown(document: Document, sources: Sources) -> str:
             str(len(negatives)),
             f"`modeproof check --document {name} 'NEG_*'`",
         ],
+        _fallen(document, sources),
         [
             "situations that do occur, so the properties are not vacuous",
             str(len(witnesses)),
             f"`modeproof check --document {name} 'WIT_*'`",
         ],
-        ["complete graphs of a device, compared with our program both ways", str(len(graphs)), verify],
+        ["complete graphs of a device, compared with our program both ways", graphs, verify],
         [
             "theorems about our program for all words and times, by two solvers",
-            str(theorems),
+            str(sum(len(module.theorems) for module in sources.proofs)),
             f"`modeproof prove --document {name}`",
         ],
     ]
@@ -191,6 +194,15 @@ def _shown(document: Document, sources: Sources) -> str:
         "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
         "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
     )
+
+
+def _fallen(document: Document, sources: Sources) -> list[str]:
+    kinds = Counter(falls.kind for falls in ways_to_fall(document, sources).values())
+    much = f"{kinds['negative']} with a counterexample above, {kinds['edit']} with an edit of their own"
+    if rest := kinds["by construction"]:
+        much += f", {rest} by construction (`killers.toml` says why)"
+    command = f"`modeproof mutate spec --killers --complete --document {document.name}`"
+    return ["properties that fall when one operator of a device is changed", much, command]
 
 
 def _profiles(document: Document) -> Iterator[str]:
@@ -212,7 +224,7 @@ def _profiles(document: Document) -> Iterator[str]:
     of = [profile_of(document.root, run, document.interface) for run in document.runs]
     counts = ", ".join(f"{of.count(profile)} of the profile {profile}" for profile in PROFILES)
     only = ", ".join(
-        f"`{row.id}` ({' and '.join(row.profiles)})"
+        f"`{row.id}` ({' and '.join(row.profiles) or 'neither: with another value alone'})"
         for row in document.properties
         if row.profiles != PROFILES
     )
@@ -223,7 +235,11 @@ def _profiles(document: Document) -> Iterator[str]:
         "Models, vectors and the kit\n(`--profile`) name the profile that they speak of; a theorem holds for "
         "every value, unless its sentence\nnames one.\n\n"
         f"Runs: {counts}. "
-        + (f"Properties of one profile alone: {only}.\n\n" if only else "Every property holds in both.\n\n")
+        + (
+            f"Properties that do not hold in both: {only}.\n\n"
+            if only
+            else "Every property holds in both.\n\n"
+        )
         + markdown(["choice", "letter", "cautious", "why", "what happens otherwise"], rows)
     )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -36,3 +37,12 @@ def read_toml(root: Path, path: Path) -> dict[str, Any]:
         return tomllib.loads(read_text(root, path))
     except tomllib.TOMLDecodeError as error:
         raise Unjudged(f"{shown(root, path)}: not valid TOML: {error}") from None
+
+
+def markdown(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A Markdown table that ends with a line end."""
+    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
+    lines += [
+        "| " + " | ".join(" ".join(cell.split()).replace("|", "\\|") for cell in row) + " |" for row in rows
+    ]
+    return "\n".join(lines) + "\n"

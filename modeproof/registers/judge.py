@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -9,11 +10,13 @@ from modeproof.ground.places import documents
 from modeproof.registers.citations import citations, read_sources, unresolved
 from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.document_page import check_document_page
+from modeproof.registers.killers import check_killers, ways_to_fall
 from modeproof.registers.load import load_document
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.pins import check_pins
 from modeproof.registers.readings import check_readings, check_tops
+from modeproof.registers.responses import check_responses
 from modeproof.registers.rooms import check_imports, check_no_document_known, check_order
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.tables import check_pages
@@ -29,6 +32,8 @@ class Judgement:
     problems: tuple[Problem, ...]
     citations: int
     unresolved: int
+    falls: Counter[str]
+    """How many properties fall with a negative, with an edit, or are true by construction."""
 
     @property
     def as_expected(self) -> bool:
@@ -46,14 +51,17 @@ def judge(document: Document) -> Judgement:
         *cross_check(document, sources),
         *check_readings(document, sources.modules),
         *check_tops(document, sources.modules),
-        *check_document_page(document, sources),
+        *(faults := check_responses(document, sources)),
+        *(() if faults else check_document_page(document, sources)),
         *lost,
         *orphans(document, rows, cited, sources),
         *check_names(document, sources),
         *check_pins(document, sources),
+        *check_killers(document, sources),
     ]
     count = sum(len(citation.clauses) + len(citation.findings) for citation in cited)
-    return Judgement(document.name, rows, tuple(problems), count, len(lost))
+    falls = Counter(found.kind for found in ways_to_fall(document, sources).values())
+    return Judgement(document.name, rows, tuple(problems), count, len(lost), falls)
 
 
 def judge_tree(root: Path) -> list[Problem]:

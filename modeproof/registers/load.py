@@ -11,14 +11,18 @@ from modeproof.registers.files import read_toml
 from modeproof.registers.rows import (
     About,
     Assumption,
+    Chain,
     Clause,
     Device,
     Document,
+    Example,
     Fault,
     Finding,
     Interface,
     Matrix,
     Property,
+    Response,
+    Responses,
     Signal,
 )
 from modeproof.registers.runs import load_runs
@@ -53,6 +57,20 @@ def load_document(root: Path, name: str) -> Document:
         faults=typed_rows(Fault, at_faults, faults, "fault") if has_faults else (),
         faults_summary=faults.get("summary", ""),
         matrix=typed(Matrix, faults["matrix"], f"{at_faults}: matrix") if "matrix" in faults else None,
+        responses=load_responses(root, name),
+    )
+
+
+def load_responses(root: Path, name: str) -> Responses:
+    """The response times of a document; empty without a file. Raises Unjudged like `load_document`."""
+    source = f"spec/{name}/response.toml"
+    if not (root / source).is_file():
+        return Responses()
+    table = read_register(root, name, "response", "response", "chain", "example")
+    return Responses(
+        typed_rows(Response, source, table, "response"),
+        typed_rows(Chain, source, table, "chain") if "chain" in table else (),
+        typed(Example, table.get("example", {}), f"{source}: [example]"),
     )
 
 

@@ -111,6 +111,8 @@ def _clause_orphans(
             for device in _unserved(document, clause, room, cited):
                 of = f" of {device}" if device else ""
                 yield Problem(file, clause.id, f"no {noun}{of} cites this behaviour")
+        if not (row.property or row.theorem):
+            yield Problem(file, clause.id, "no property and no theorem cites this behaviour")
     elif clause.kind == "property" and not (row.property or row.theorem):
         yield Problem(file, clause.id, "no property and no theorem cites this property")
     elif clause.kind == "assumption" and not (row.assumption or row.property):

@@ -60,9 +60,7 @@ class Pins(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
 
 def check_pins(document: Document, sources: Sources) -> list[Problem]:
     """Every text that is not the pinned one, and every property that can say nothing."""
-    file = document.source("pins")
-    path = document.root / file
-    pins = typed(Pins, read_toml(document.root, path), file) if path.is_file() else Pins(document="")
+    file, pins = document.source("pins"), load_pins(document)
     problems = [] if pins.document in ("", document.name) else [Problem(file, "document", "is another's")]
     for table, texts in texts_of(document, sources).items():
         pinned = pins.of(table)
@@ -79,9 +77,18 @@ def check_pins(document: Document, sources: Sources) -> list[Problem]:
     return [*problems, *_saying_nothing(document, sources)]
 
 
+def load_pins(document: Document) -> Pins:
+    """The pins of a document; empty ones where it has none. Raises Unjudged when the file cannot be read."""
+    path = document.root / document.source("pins")
+    there = path.is_file()
+    return (
+        typed(Pins, read_toml(document.root, path), document.source("pins")) if there else Pins(document="")
+    )
+
+
 def texts_of(document: Document, sources: Sources) -> dict[str, Texts]:
     """Both tables: what is checked, and what is proved."""
-    return {"checked": _checked(document, sources), "theorems": _proved(document, sources)}
+    return {"checked": checked_texts(document, sources), "theorems": _proved(document, sources)}
 
 
 def digest(text: str) -> str:
@@ -122,7 +129,7 @@ def repin(document: Document, sources: Sources, reason: str) -> list[str]:
 # ---------------------------------------------------------------------------------------------- TLA+
 
 
-def _checked(document: Document, sources: Sources) -> Texts:
+def checked_texts(document: Document, sources: Sources) -> Texts:
     """For each name that a run checks, or explores and views by: its definition in every root module, and
     what that refers to, without what the steps of the devices are made of: graphs and counts judge that.
     """

@@ -132,7 +132,11 @@ def _properties(document: Document) -> Iterator[Problem]:
         return
     of = {run.id: profile_of(document.root, run, document.interface) for run in document.runs}
     for prop in document.properties:
-        runs = [run for run in document.runs if prop.tla in run.properties and run.kind != "NEG"]
+        runs = [
+            run
+            for run in document.runs
+            if prop.tla in run.properties and run.kind != "NEG" and not run.readings
+        ]
         have = {of[run.id] for run in runs}
         for profile in prop.profiles:
             if runs and not have & {profile, ""}:

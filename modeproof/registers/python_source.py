@@ -38,6 +38,7 @@ class PythonTheorem:
     clauses: tuple[str, ...]
     findings: tuple[str, ...]
     properties: tuple[str, ...] = ()
+    responses: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -162,6 +163,9 @@ def _theorem(node: ast.FunctionDef, file: str) -> PythonTheorem | None:
             findings=_literal(keywords.get("findings"), f"{file}: line {node.lineno}: {node.name}: findings"),
             properties=_literal(
                 keywords.get("properties"), f"{file}: line {node.lineno}: {node.name}: properties"
+            ),
+            responses=_literal(
+                keywords.get("responses"), f"{file}: line {node.lineno}: {node.name}: responses"
             ),
         )
     return None

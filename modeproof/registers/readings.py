@@ -1,17 +1,24 @@
 """Readings against runs and findings: every reading is tried alone once and named by a finding, and each
-changes something. What a reading is, modeproof/registers/made.py says.
+changes something. One that breaks nothing was asked every property that the decided device is asked. What a
+reading is, modeproof/registers/made.py says.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.registers.crosscheck import TECHNICAL
 from modeproof.registers.made import SUFFIX, decided_modules, reading_problems, replaced_by, replacements
+from modeproof.registers.profiles import profile_of
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Document, Problem
-from modeproof.registers.runs import Run
+from modeproof.registers.runs import ASKING, Run
 from modeproof.registers.tla import Module, closure
+
+HARMLESS = re.compile(r"\b(?:is|are|as) harmless\b|breaks no property", re.IGNORECASE)
+"""How a finding says that a reading does no harm."""
 
 
 def readings_of(document: Document, modules: Mapping[str, Module]) -> tuple[str, ...]:
@@ -42,6 +49,7 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
         ),
         *_tried(document, readings),
         *_runs(document, modules),
+        *_harmless(document, modules),
         *_findings(document, readings),
     ]
 
@@ -53,7 +61,7 @@ def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
     """
     named = {name for finding in document.findings for name in finding.tries}
     for name in readings:
-        alone = [run.id for run in document.runs if run.readings == (name,)]
+        alone = [run.id for run in document.runs if run.readings == (name,) and not run.of]
         if name.endswith(SUFFIX):
             if not any(name in run.readings for run in document.runs):
                 yield Problem(document.source("runs"), name, "no run tries this reading")
@@ -75,15 +83,64 @@ def _runs(document: Document, modules: Mapping[str, Module]) -> Iterator[Problem
             place = f"{document.source('runs')}: run {run.id}: "
             yield Problem(document.source("runs"), run.id, error.message.removeprefix(place))
         counts = (run.distinct, run.generated)
-        if run.kind != "NEG" and None not in counts and (text := _idle(document, run, counts)):
+        if not run.of and run.kind != "NEG" and None not in counts and (text := _idle(document, run, counts)):
             yield Problem(document.source("runs"), run.id, text)
 
 
+def _harmless(document: Document, modules: Mapping[str, Module]) -> Iterator[Problem]:
+    """Of a reading that an MC run calls harmless: the properties that none of its runs asks.
+
+    It must be asked each that a run of the decided device asks, in the same module and the same profile,
+    wherever that module can be given the reading.
+    """
+    for main in (run for run in document.runs if run.kind == "MC" and len(run.readings) == 1 and not run.of):
+        try:
+            there = askers(document, modules, main)
+        except Unjudged:
+            continue  # said where runs are looked at
+        own = [run for run in document.runs if run.readings == main.readings and run.kind in ASKING]
+        asked = {pair for run in own for pair in _asks(document, run)}
+        while missing := [(run, lost) for run in there if (lost := _asks(document, run) - asked)]:
+            run, lost = max(missing, key=lambda entry: (len(entry[1]), -(entry[0].generated or 0)))
+            names = ", ".join(sorted(name for _, _, name in lost))
+            text = f"calls {main.readings[0]} harmless without asking {names}; name {run.id} in its `also`"
+            yield Problem(document.source("runs"), main.id, text)
+            asked |= lost
+
+
+def _asks(document: Document, run: Run) -> set[tuple[str, str, str]]:
+    """The properties that a run asks, each with the module and the profile that it asks them in."""
+    profile = profile_of(document.root, run, document.interface)
+    return {
+        (run.module, profile, name)
+        for name in (*run.properties, run.property)
+        if name and not TECHNICAL.fullmatch(name)
+    }
+
+
+def askers(document: Document, modules: Mapping[str, Module], run: Run) -> list[Run]:
+    """The runs of the decided device that could be made with the reading of a run."""
+    of = [decided_modules(modules, replacement.module) for replacement in replaced_by(modules, run)]
+    return [
+        other
+        for other in document.runs
+        if other.kind in ASKING
+        and not other.readings
+        and any(needed <= {module.name for module in closure(modules, other.module)} for needed in of)
+    ]
+
+
 def _findings(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
-    """A finding names readings that there are, and among its evidence a run that has each."""
+    """A finding names readings that there are, and among its evidence a run that has each; who says harmless
+    shows an MC run with a reading, which is asked every property.
+    """
     file = document.source("findings")
     for finding in document.findings:
         evidence = [run for run in document.runs if run.id in finding.evidence]
+        judged = any(run.kind == "MC" and run.readings for run in evidence)
+        said = " ".join((*finding.readings, finding.consequence, finding.decision))
+        if HARMLESS.search(said) and not judged:
+            yield Problem(file, finding.id, "says harmless, and no MC run with a reading is its evidence")
         for name in finding.tries:
             if name not in readings:
                 text = f"tries {name!r}, which no module of readings has; {suggestion(name, readings)}"

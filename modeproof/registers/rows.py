@@ -12,6 +12,7 @@ from msgspec import Meta, field
 from modeproof.registers.runs import Run
 from modeproof.registers.typed import (
     Clauses,
+    Count,
     Entry,
     LowerName,
     Name,
@@ -166,6 +167,7 @@ class Telling(Entry, frozen=True, kw_only=True):
 class Finding(Entry, frozen=True, kw_only=True):
     """Where the document is wrong or silent, and what was decided.
 
+    A hazard has one reading, all others have more.
     `tries` are the readings, by the names that they have in the specification, that runs of its evidence try;
     `parameter` is the constant of the specification that leaves the choice to the project.
     """
@@ -177,7 +179,7 @@ class Finding(Entry, frozen=True, kw_only=True):
     readings: SomeTexts
     consequence: Text
     decision: Text
-    severity: Literal["safety", "availability", "wording"] = field(name="class")
+    severity: Literal["safety", "hazard", "availability", "wording"] = field(name="class")
     drawing_could_settle: bool
     tries: Texts = ()
     parameter: str = ""
@@ -226,6 +228,61 @@ class Fault(Entry, frozen=True, kw_only=True):
     not_modelled: str = ""
 
 
+class Response(Entry, frozen=True, kw_only=True):
+    """How soon a device answers what stands on its wires; times are ms.
+
+    `calls` counts calls of the device, the one that sees it first included; `times` are parameters of the
+    device, and how often each is waited for besides, up to the first call that finds it over. The theorem
+    that names the row proves just this number and these times. A row without `calls` has no bound:
+    `unbounded` says why, and the theorem shows it.
+    """
+
+    id: RowId
+    device: LowerName
+    start: Text = field(name="from")
+    end: Text = field(name="to")
+    clauses: Clauses
+    calls: Annotated[int, Meta(ge=1)] | None = None
+    times: dict[Name, Count] = field(default_factory=dict)
+    unbounded: str = ""
+
+    @property
+    def waits(self) -> int:
+        """How many times are waited for."""
+        return sum(self.times.values())
+
+
+class Chain(Entry, frozen=True, kw_only=True):
+    """Responses one after the other, with a transfer between each two.
+
+    `steps` are ids of rows, those of another document after its name; `then` is what comes
+    last and is no program's, such as a contactor, with its time in ms in the example.
+    """
+
+    id: RowId
+    title: Text
+    steps: SomeTexts
+    then: str = ""
+    then_ms: Annotated[int, Meta(ge=0)] = 0
+
+
+class Example(Entry, frozen=True, kw_only=True):
+    """Numbers for a worked example, in ms: the longest cycle of each device, parameters, one transfer."""
+
+    cycle: dict[LowerName, Count]
+    times: dict[Name, Count] = field(default_factory=dict)
+    transfer: Count
+
+
+@dataclass(frozen=True)
+class Responses:
+    """The register of response times of a document; empty where it has none."""
+
+    rows: tuple[Response, ...] = ()
+    chains: tuple[Chain, ...] = ()
+    example: Example | None = None
+
+
 class Matrix(Entry, frozen=True, kw_only=True):
     """A run whose witnesses are the cells of a table: `ROW at COLUMN: WHAT`."""
 
@@ -249,6 +306,7 @@ class Document:
     faults: tuple[Fault, ...] = ()
     faults_summary: str = ""
     matrix: Matrix | None = None
+    responses: Responses = Responses()
 
     @property
     def folder(self) -> Path:

@@ -1,13 +1,14 @@
 """The register runs.toml: every TLC run of a document, what it must show, and its pinned counts.
 
 A run has a cfg by hand, or it is another run (`base`) with a reading, other constants, or another
-specification; its cfg is then made (modeproof/registers/made.py).
+specification; its cfg is then made (modeproof/registers/made.py). A row that tries a reading names in `also`
+the other runs that this reading must hold in: each makes a run of its own, `<that run>_with_<reading>`.
 """
 
 from __future__ import annotations
 
 import builtins
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -27,9 +28,11 @@ EXPECTED: Mapping[str, str] = {
     "NEG": "VIOLATED",
     "WIT": "REACHED",
 }
+ASKING: tuple[Kind, ...] = ("MC", "LIVE", "OPEN")
+"""Kinds of runs in which every property must hold."""
 OWN_OF_BASE = (
     *("id", "lanes", "cfg_sha256", "distinct", "generated", "trace_length", "properties"),
-    *("property", "witnesses", "clauses", "findings", "why"),
+    *("property", "witnesses", "clauses", "findings", "why", "also"),
 )
 """What a run never takes from its base."""
 
@@ -49,6 +52,10 @@ class Graph(Entry, frozen=True, kw_only=True):
     edges: Count | None = None
 
 
+class _Also(Entry, frozen=True, kw_only=True):
+    also: dict[Name, tuple[Count, ...]] = msgspec.field(default_factory=dict)
+
+
 class Run(Entry, frozen=True, kw_only=True):
     """One declared TLC run.
 
@@ -57,7 +64,8 @@ class Run(Entry, frozen=True, kw_only=True):
     the temporal property of a LIVE run.
 
     Of a run with `base`, `module` and `cfg` are those of its base; `constants`, `specification` and `view`
-    take the place of what that cfg gives. `more_witnesses` are reached besides those of the base.
+    take the place of what that cfg gives. `more_witnesses` are reached besides those of the base. `of` names
+    the row whose `also` makes the run, and the run there; it is empty where a run has a row of its own.
     """
 
     document: str
@@ -89,6 +97,7 @@ class Run(Entry, frozen=True, kw_only=True):
     clauses: tuple[str, ...] = ()
     findings: tuple[str, ...] = ()
     why: str = ""
+    of: tuple[str, ...] = ()
 
     @builtins.property
     def name(self) -> str:
@@ -129,15 +138,52 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
     for name, values in rows.items():
         if "base" in values:
             found[name] = _derived(document, source, values, rows, found)
-    return tuple(found[name] for name in rows)
+    also = [
+        run for name, values in rows.items() for run in _also(f"{source}: run {name}: also", values, found)
+    ]
+    return (*(found[name] for name in rows), *also)
+
+
+def _also(place: str, row: Mapping[str, Any], found: Mapping[str, Run]) -> Iterator[Run]:
+    """The runs that a row makes of others with its reading, in its lanes; a graph is not printed again."""
+    main = found[row["id"]]
+    for name, counts in typed(_Also, {"also": row.get("also", {})}, place).also.items():
+        if main.kind != "MC" or len(main.readings) != 1:
+            raise Unjudged(f"{place} belongs to an MC run with one reading")
+        if name not in found:
+            raise Unjudged(f"{place}: unknown run {name!r}; {suggestion(name, found)}")
+        other = found[name]
+        if other.kind not in ASKING or other.readings:
+            raise Unjudged(f"{place}: {name} is no run of kind {', '.join(ASKING)} of what was decided")
+        if len(counts) not in (0, 2):
+            raise Unjudged(f"{place}: {name} must be [distinct, generated], or [] until --repin writes them")
+        yield msgspec.structs.replace(
+            other,
+            id=f"{'MC_' if other.kind == 'OPEN' else ''}{name}_with_{main.readings[0]}",
+            kind="MC" if other.kind == "OPEN" else other.kind,
+            base=other.base or other.id,
+            reading=main.reading,
+            lanes=main.lanes,
+            distinct=counts[0] if counts else None,
+            generated=counts[1] if counts else None,
+            **{
+                "graph": None,
+                "cfg_sha256": None,
+                "clauses": (),
+                "findings": (),
+                "why": "",
+                "of": (main.id, name),
+            },
+        )
 
 
 def _run(document: str, source: str, values: Mapping[str, Any]) -> Run:
     place = f"{source}: run {values.get('id', '?')}"
-    for key in ("document", "kind"):
+    for key in ("document", "kind", "of"):
         if key in values:
             raise Unjudged(f"{place}: unknown key {key!r}")
     kind = str(values.get("id", "")).partition("_")[0]
+    values = {key: value for key, value in values.items() if key != "also"}
     run = typed(Run, {**values, "kind": kind if kind in EXPECTED else "MC", "document": document}, place)
     _check_kind(place, run)
     return run

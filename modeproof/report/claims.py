@@ -159,6 +159,7 @@ def _claims(sources: Sources, document: Document) -> Iterator[Claim]:
                 result_of(sources, document, run)
                 for run in document.runs
                 if run.kind in POSITIVE and run.environment == environment and prop.tla in run.properties
+                if not run.readings
             ]
             row = agreed.get((prop.id, environment))
             if row is None:

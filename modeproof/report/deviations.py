@@ -12,17 +12,26 @@ from modeproof.report.sources import Sources
 
 @dataclass(frozen=True)
 class Deviation:
-    """A run that tries readings; `findings` are those that name it as evidence."""
+    """A run that tries readings; `findings` are those that name it as evidence.
+
+    `also` are the other runs in which its reading must hold (`also` of runs.toml).
+    """
 
     run: Run
     readings: tuple[str, ...]
     result: Result
     findings: tuple[Finding, ...]
+    also: tuple[Result, ...]
+
+    @property
+    def holding(self) -> int:
+        """In how many of its runs every property holds, as it was declared."""
+        return sum(one.word == "HOLDS" and one.good is True for one in (self.result, *self.also))
 
     @property
     def harmless(self) -> bool:
-        """One reading is tried, and every property still holds within the bounds."""
-        return len(self.readings) == 1 and self.result.word == "HOLDS" and self.result.good is True
+        """One reading is tried, and every property still holds in each of its runs, within their bounds."""
+        return len(self.readings) == 1 and self.holding == 1 + len(self.also)
 
 
 def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
@@ -34,9 +43,10 @@ def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
             run.readings,
             result_of(sources, document, run),
             tuple(finding for finding in document.findings if run.id in finding.evidence),
+            tuple(result_of(sources, document, one) for one in document.runs if run.id in one.of[:1]),
         )
         for run in document.runs
-        if run.readings
+        if run.readings and not run.of
     ]
     return tuple(
         sorted(

@@ -35,6 +35,7 @@ class Answer:
 QUESTIONS = {
     "safety": "Safety, and no drawing can settle it: is the decision right for the machine?",
     "assumption": "What the machine must ensure: does somebody ensure it, and was it checked?",
+    "hazard": "Hazard of the text as it stands: is what it leaves to the machine taken care of?",
     "drawing": "Safety, and a drawing could settle it: does the drawing say what was decided?",
     "requirement": "Requirements: are these the safety requirements that are meant, and is none missing?",
     "model": "What the model leaves out or merges: does that hide nothing that matters?",

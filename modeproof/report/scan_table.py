@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from modeproof.registers.document_page import markdown
+from modeproof.registers.files import markdown
 from modeproof.registers.replay import Traces
 from modeproof.report.cells import Cells, Column
 

@@ -31,7 +31,7 @@ def lines_of(sources: Sources, document: Document) -> list[Line]:
     """Each property in each environment; UNJUDGED where this lane declares a run and none has evidence."""
     rows = [PropertyRow(prop.id, prop.tla, prop.environments) for prop in document.properties]
     records = [as_it_counts(record) for record in sources.evidence[document.name].values()]
-    runs = [run for run in document.runs if run.kind in POSITIVE]
+    runs = [run for run in document.runs if run.kind in POSITIVE and not run.readings]
     declared = {run.id: {(name, run.environment) for name in run.properties} for run in runs}
     here: dict[tuple[str, str], str] = {}
     for run in runs:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 Record = Mapping[str, Any]
 
@@ -13,6 +14,8 @@ NOT_AS_DECLARED = "HOLDS?"
 """It held, but the run is not the one that was declared: a count or a name differs."""
 POSITIVE = ("MC", "LIVE", "OPEN")
 """Kinds of runs in which every property must hold."""
+PROFILE: Final = re.compile(r"profile (\w+); ")
+"""How the strength of a run begins where its document has two profiles."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +58,13 @@ def property_lines(
 
     `declared` gives for each run id the pairs (property, environment) that any lane checks: a pair that no
     run of any lane checks is UNJUDGED; one that only another lane checks is shown and not counted. Runs stand
-    in the order of runs.toml, the strongest first.
+    in the order of runs.toml, the strongest first. A run with a reading says nothing of what was
+    decided.
     """
     order = {run: place for place, run in enumerate(declared)}
     anywhere = set().union(*declared.values()) if declared else set()
-    positive = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in POSITIVE]
+    checked = [r for r in records if r["kind"] == "tlc" and r["result"].get("run") in POSITIVE]
+    positive = [r for r in checked if not r["result"].get("readings")]
     lines = []
     for row in properties:
         for environment in row.environments:
@@ -90,7 +95,16 @@ def _line(row: PropertyRow, environment: str, runs: Sequence[Record], elsewhere:
         verdict = NOT_AS_DECLARED
     seconds = sum(float(r["seconds"]) for r in runs)
     distinct = worst["result"].get("distinct")
-    return Line(row.id, verdict, environment, worst["strength"], distinct, seconds, status, str(worst["id"]))
+    strength = str(worst["strength"]) + ("" if status else _besides(worst, runs))
+    return Line(row.id, verdict, environment, strength, distinct, seconds, status, str(worst["id"]))
+
+
+def _besides(shown: Record, runs: Sequence[Record]) -> str:
+    """The other profiles in which a property holds, after the strength of the run that is shown."""
+    found = dict.fromkeys(match[1] for run in runs if (match := PROFILE.match(run["strength"])))
+    here = PROFILE.match(shown["strength"])
+    others = [name for name in found if name != "neither" and (here is None or name != here[1])]
+    return f"; and in the profile {' and '.join(others)}" if others else ""
 
 
 def never_needed(records: Sequence[Record]) -> list[str]:

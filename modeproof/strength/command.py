@@ -14,7 +14,7 @@ from typing import Any
 from modeproof.ground.errors import EXIT_NOT_AS_EXPECTED, EXIT_UNJUDGED, Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.lock import only_one
-from modeproof.ground.places import documents, root
+from modeproof.ground.places import chosen_documents, documents, root
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
 from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_of_code
@@ -31,7 +31,9 @@ from modeproof.strength.mutant import Mutant, diff
 from modeproof.strength.register import load_strength, load_vectors, path_of, theorems_path
 from modeproof.strength.results import read_results
 from modeproof.strength.scores import record_score
+from modeproof.tlc.killers import judge_killers
 from modeproof.tlc.schedule import memory_mb
+from modeproof.tlc.toolchain import find_toolchain
 
 TLC_MB = 768
 """Memory that a run of TLC on a mutant needs."""
@@ -63,6 +65,11 @@ def add_parser(commands: Any) -> None:
         "--record", action="store_true", help="write the counts to spec/<document>/scores.toml"
     )
     parser.add_argument(
+        "--killers",
+        action="store_true",
+        help="judge instead the edits of killers.toml whose stamps are of another text (--complete: all)",
+    )
+    parser.add_argument(
         "--judge",
         choices=("theorems", "vectors"),
         help="what judges mutants of the code: theorems (the default), or the published vectors alone",
@@ -82,6 +89,8 @@ def _mutate(args: argparse.Namespace) -> int:
     if str(place) not in sys.path:
         sys.path.insert(0, str(place))
     kind = "vectors" if args.judge == "vectors" else args.what
+    if args.killers:
+        return _killers(place, kind, args)
     named = _documents(place, kind, args.document)
     one_only = args.list or args.show or args.only or args.modules or args.json
     if one_only and len(named) > 1:
@@ -95,6 +104,24 @@ def _mutate(args: argparse.Namespace) -> int:
                 raise
             print(f"{document}: {error.message}", file=sys.stderr)
             status = EXIT_UNJUDGED
+    return status
+
+
+def _killers(place: Path, kind: str, args: argparse.Namespace) -> int:
+    """Judge the edit of each property that is to make it fall."""
+    if kind != "spec":
+        raise Unjudged("--killers speaks of the specification: modeproof mutate spec --killers")
+    chosen = chosen_documents(place, [args.document] if args.document else None)
+    status = 0
+    with only_one(place):
+        tools = find_toolchain()
+        for document in chosen:
+            try:
+                if judge_killers(place, document, tools, args.complete, print):
+                    status = max(status, EXIT_NOT_AS_EXPECTED)
+            except Unjudged as error:  # the other documents are judged all the same
+                print(error.message, file=sys.stderr)
+                status = EXIT_UNJUDGED
     return status
 
 
@@ -139,7 +166,6 @@ def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first
     if kind == "spec":
         from modeproof.strength.by_properties import ByProperties
         from modeproof.strength.judge import Bench
-        from modeproof.tlc.toolchain import find_toolchain
 
         bench = Bench(place, load_strength(place, document), find_toolchain(), first)
         return Campaign(ByProperties(bench), results)

@@ -12,7 +12,7 @@ classes.toml says. For each code that decides, the wrong words are
 A case goes a shortest way to such a state, sends the wrong word, and then what tells apart the state that
 must come from the one that the code would lead to. States and other inputs take turns.
 
-A device that passes words on and decides nothing by them has no wrong words (rule `copied` of classes.toml).
+A device that passes words on and at most compares them has no wrong words (rule `copied` of classes.toml).
 There each case is a walk in which single bits of a word, and words beside codes, pass through every field.
 """
 

@@ -214,7 +214,9 @@ def _repin(place: Path, done: list[Any], given: str | None) -> int:
             print(f"  {move}")
         if moved:
             print("  " + cfg_diff(place, checked).replace("\n", "\n  "))
-            changes.setdefault(checked.run.document, {})[checked.run.id] = moved
+            of_document = changes.setdefault(checked.run.document, {})
+            row = checked.run.of[0] if checked.run.of else checked.run.id
+            of_document[row] = (*of_document.get(row, ()), *moved)
     if not changes:
         return 0
     reason = ask_reason(given)

@@ -30,21 +30,25 @@ _HISTORY = 200
 
 @dataclass(frozen=True)
 class Move:
-    """One pin that moves; `table` is "" for the run itself and "graph" for its graph."""
+    """One pin that moves; `table` is "" for the run itself, "graph" for its graph, and "also" in the row that
+    makes it.
+    """
 
     table: str
     key: str
-    old: int | str | None
-    new: int | str | None
+    old: int | str | list[int] | None
+    new: int | str | list[int] | None
 
     def __str__(self) -> str:
         name = f"{self.table}.{self.key}" if self.table else self.key
         return f"{name}: {_show(self.old)} -> {_show(self.new)}"
 
 
-def _show(value: int | str | None) -> str:
+def _show(value: int | str | list[int] | None) -> str:
     if value is None:
         return "none"
+    if isinstance(value, list):
+        return " of ".join(map(_show, value)) or "none"
     return f"{value:,}" if isinstance(value, int) else value
 
 
@@ -73,6 +77,9 @@ def moves(place: Path, checked: Checked) -> tuple[Move, ...]:
         wanted.append(Move("graph", "states", run.graph.states, states))
         wanted.append(Move("graph", "edges", run.graph.edges, edges))
     _refuse_other_faults(place, checked, wanted)
+    if run.of:
+        old = [pin for pin in (run.distinct, run.generated) if pin is not None]
+        wanted = [Move("also", run.of[1], old, [pin.new for pin in wanted if isinstance(pin.new, int)])]
     return tuple(move for move in wanted if move.old != move.new)
 
 

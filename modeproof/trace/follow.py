@@ -9,15 +9,17 @@ far as the log tells.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import itertools
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged
 from modeproof.tlc.tla_values import canonical, parse
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.log import Log, Row
-from modeproof.trace.targets import Target
+from modeproof.trace.targets import Copies, Target
 
 MOST_STEPS = 20_000_000
 MOST_MOVES = 20_000
@@ -71,17 +73,18 @@ class Follower:
         for number, view in enumerate(graph.views):
             groups.setdefault(canonical(timeless(target, device, parse(view))), []).append(number)
         self._same_but_time = {number: frozenset(group) for group in groups.values() for number in group}
-        self._moves: dict[tuple[frozenset[int], tuple[int, ...]], frozenset[int]] = {}
+        self._moves: dict[tuple[frozenset[int], tuple[int, ...], bool | None], frozenset[int]] = {}
         self._next: dict[tuple[int, tuple[int, ...]], frozenset[int]] = {}
+        self._compared = _Compared(target, self.graph) if target.copies else None
 
-    def scan(self, row: Row) -> bool:
-        """Take one scan; false, and the states stay, when it is impossible."""
-        move = (self.states, self._letters(row))
+    def scan(self, row: Row, same: bool | None = None) -> bool:
+        """Take one scan; false, and the states stay, when it is impossible. `same`: see `_Compared`."""
+        move = (self.states, self._letters(row), same)
         if move not in self._moves:
             if len(self._moves) > MOST_MOVES:
                 self._moves.clear()
             states, letters = self._opened(self.states), move[1]
-            self._moves[move] = frozenset(after for state in states for after in self._after(state, letters))
+            self._moves[move] = self._reached(states, letters, same)
         return self._arrive(self._moves[move], row, (row,))
 
     def sample(self, before: Row | None, row: Row) -> bool:
@@ -92,7 +95,7 @@ class Follower:
         reached = set(self._opened(self.states))
         waiting = list(reached)
         while waiting:
-            for after in self._opened(self._after(waiting.pop(), letters)):
+            for after in self._opened(self._reached((waiting.pop(),), letters, None)):
                 if after not in reached:
                     reached.add(after)
                     waiting.append(after)
@@ -105,6 +108,12 @@ class Follower:
         if self.exact:
             return frozenset(states)
         return frozenset(other for state in states for other in self._same_but_time[state])
+
+    def _reached(self, states: Iterable[int], letters: tuple[int, ...], same: bool | None) -> frozenset[int]:
+        moves = [(state, letters) for state in states]
+        if self._compared is not None:
+            moves = [move for pair in moves for move in self._compared.moves(*pair, same)]
+        return frozenset(after for move in moves for after in self._after(*move))
 
     def _after(self, state: int, letters: tuple[int, ...]) -> frozenset[int]:
         key = (state, letters)
@@ -140,6 +149,39 @@ def passes(passed: Mapping[str, str], row: Row, inputs: Sequence[Row]) -> bool:
     )
 
 
+class _Compared:
+    """What a device that only copies compares, in a graph where one word stands for all others.
+
+    Two others can be the same word or not. Where they are not, the device does what it does in the state
+    that has zero in that place.
+    """
+
+    def __init__(self, target: Target, graph: DeviceGraph) -> None:
+        assert target.copies is not None
+        copies = target.copies
+        at = list(graph.device.memory).index(copies.kept)
+        views = [parse(view) for view in graph.graph.views]
+        numbers = {canonical(view): number for number, view in enumerate(views)}
+        self._zeroed = {
+            number: numbers[canonical((*view[:at], 0, *view[at + 1 :]))]
+            for number, view in enumerate(views)
+            if view[at] == copies.other
+        }
+        self._others = {n for n, letter in enumerate(graph.alphabet) if letter[copies.read] == copies.other}
+
+    def moves(
+        self, state: int, letters: tuple[int, ...], same: bool | None
+    ) -> Iterable[tuple[int, tuple[int, ...]]]:
+        """From which states, with which letters. `same`: whether the two words are; None: nobody knows."""
+        others = tuple(n for n in letters if n in self._others)
+        if state not in self._zeroed or not others or same is True:
+            return [(state, letters)]
+        apart = (self._zeroed[state], others)
+        if same is None:
+            return [(state, letters), apart]
+        return [(state, tuple(n for n in letters if n not in self._others)), apart]
+
+
 def follow(
     target: Target, log: Log, alphabets: Mapping[str, Alphabet], anywhere: bool, samples: bool
 ) -> Followed | NotFollowed:
@@ -150,7 +192,12 @@ def follow(
 
 
 def _follow(
-    target: Target, log: Log, alphabets: Mapping[str, Alphabet], anywhere: bool, samples: bool
+    target: Target,
+    log: Log,
+    alphabets: Mapping[str, Alphabet],
+    anywhere: bool,
+    samples: bool,
+    same: Iterable[bool | None] = itertools.repeat(None),
 ) -> Followed | NotFollowed:
     left_open = []
     followers: dict[str, Follower] = {}
@@ -174,11 +221,11 @@ def _follow(
     wires = Wires(target, followers)
     before: Row | None = None
     runs = tuple(candidate.graph.run for candidate in followers.values())
-    for n, row in enumerate(log.rows):
+    for n, (row, equal) in enumerate(zip(log.rows, same, strict=False)):
         follower = followers.get(row.device)
         wrong = wires.wrong(row)
         good = wrong is None and (
-            follower is None or (follower.sample(before, row) if samples else follower.scan(row))
+            follower is None or (follower.sample(before, row) if samples else follower.scan(row, equal))
         )
         if not good:
             states = 0 if follower is None else len(follower.states)
@@ -247,7 +294,7 @@ class Wires:
             self._values[name] = known
 
 
-# ------------------------------------------------------------------------- devices that decide by no word
+# --------------------------------------------------------------------------- devices that only copy words
 
 
 def _follow_each_word(
@@ -258,17 +305,27 @@ def _follow_each_word(
     That word is put to the one word of the graph, every other one but zero to the other.
     """
     assert target.copies is not None
-    words = sorted(words_of(target, log, target.only.device.id) - {0}) or [target.copies[0]]
+    words = sorted(words_of(target, log, target.only.device.id) - {0}) or [target.copies.one]
     if len(words) * len(log.rows) > MOST_STEPS:
         return NotFollowed(f"{len(words):,} words in {len(log.rows):,} lines are too many to follow each")
     found: list[Followed] = []
     for word in words:
-        one = _follow(target, _seen_as(target, log, word), alphabets, anywhere, samples)
+        seen = _seen_as(target, log, word)
+        one = _follow(target, seen, alphabets, anywhere, samples, _same(target.copies, log, anywhere))
         if isinstance(one, NotFollowed):
             return one
         found.append(one)
     worst = min(found, key=lambda one: one.accepted)
     return Followed(worst.accepted, (*worst.open, "how words hang together"), worst.runs, worst.states)
+
+
+def _same(copies: Copies, log: Log, anywhere: bool) -> Iterator[bool | None]:
+    """Of each scan: whether the two words that the device compares are one; None where the log is silent."""
+    kept = None if anywhere else 0
+    for row in log.rows:
+        read = row.inputs.get(copies.read)
+        yield None if kept is None or read is None else kept == read
+        kept = row.outputs.get(copies.kept)
 
 
 def words_of(target: Target, log: Log, device: str) -> frozenset[int]:
@@ -285,7 +342,7 @@ def words_of(target: Target, log: Log, device: str) -> frozenset[int]:
 
 def _seen_as(target: Target, log: Log, word: int) -> Log:
     assert target.copies is not None
-    one, other = target.copies
+    one, other = target.copies.one, target.copies.other
     device = target.only.device
     types = {name: signal.type for name, signal in (*device.inputs.items(), *device.outputs.items())}
 

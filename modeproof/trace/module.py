@@ -58,7 +58,7 @@ class Reading:
         self.log = log
         self._alphabets = alphabets
         self._words = {
-            name: words_of(target, log, name) | {0, target.copies[1]}
+            name: words_of(target, log, name) | {0, target.copies.other}
             for name in target.parts
             if target.copies is not None
         }

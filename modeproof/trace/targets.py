@@ -37,6 +37,7 @@ class _Device(Entry, frozen=True, kw_only=True):
 class _Copies(Entry, frozen=True, kw_only=True):
     one: Hex
     other: Hex
+    compares: tuple[Name, Name]
 
 
 class _Row(Entry, frozen=True, kw_only=True):
@@ -49,6 +50,19 @@ class _Row(Entry, frozen=True, kw_only=True):
     devices: Annotated[dict[LowerName, _Device], Meta(min_length=1)]
     anywhere: str = ""
     copies: _Copies | None = None
+
+
+@dataclass(frozen=True)
+class Copies:
+    """Of a device that only copies words: the word of its graph that is looked at, and that for all others.
+
+    It compares the output `kept` with the input `read`, and decides nothing else by a word.
+    """
+
+    one: int
+    other: int
+    kept: str
+    read: str
 
 
 @dataclass(frozen=True)
@@ -65,8 +79,8 @@ class Part:
 class Target:
     """What a log is of. `init` and `anywhere` are TLA+ texts, `constants` TLA+ with placeholders.
 
-    `anywhere` is empty when a log must begin at power-up. `copies` names two words, the first for the one
-    that is looked at and the second for all others, of a device that decides nothing by a word.
+    `anywhere` is empty when a log must begin at power-up. `copies`: of a device that
+    only copies words.
     """
 
     document: str
@@ -77,7 +91,7 @@ class Target:
     constants: Mapping[str, str]
     parts: Mapping[str, Part]
     forms: ValueForms
-    copies: tuple[int, int] | None = None
+    copies: Copies | None = None
 
     @property
     def system(self) -> bool:
@@ -137,8 +151,18 @@ def _target(
         constants=row.constants,
         parts={name: Part(devices[name], own.scan, own.row, own.view) for name, own in row.devices.items()},
         forms=forms,
-        copies=None if row.copies is None else (int(row.copies.one, 16), int(row.copies.other, 16)),
+        copies=None if row.copies is None else _copies(source, row.copies, devices[next(iter(row.devices))]),
     )
+
+
+def _copies(source: str, row: _Copies, device: Device) -> Copies:
+    kept, read = row.compares
+    for name, side in ((kept, device.outputs), (read, device.inputs)):
+        if name not in side:
+            raise Unjudged(
+                f"{source}: copies: {device.id} has no such signal {name!r}; {suggestion(name, side)}"
+            )
+    return Copies(int(row.one, 16), int(row.other, 16), kept, read)
 
 
 def _check_placeholder(

@@ -6,6 +6,7 @@ from typing import Final
 
 import z3
 
+from modeproof.registers import Response
 from proofs.edm.block_safety import both_are
 from proofs.edm.devices import BLOCK
 from proofs.edm.invariant import JUDGE
@@ -14,6 +15,7 @@ from proofs.edm.rows import FROM_ANYWHERE
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
+from proofs.responses import needs_all
 from proofs.sentences import Obligation
 from proofs.theorem import Queries, claim, theorem
 
@@ -76,18 +78,20 @@ def comes_closer(scan: Scanned) -> Obligation:
     clauses=["EDM-IN-START-2", "EDM-IN-RESET-1", "EDM-IN-RESET-2", "EDM-OUT-EDM-2", "EDM-SEQ-2", "EDM-SEQ-6"],
     findings=["EDMF-04", "EDMF-07"],
     properties=["EnablesAgain"],
+    responses=["EDMR-05"],
     slow=True,
 )
-def the_output_is_on_again_within_four_calls() -> Queries:
+def the_output_is_on_again_within_four_calls(row: Response) -> Queries:
     """From any state and memory: while the contactors follow, Reset changes in every call, and S_OutControl
     asks for the output once it was FALSE, each call lowers a number that is four at most and zero only where
     the output is on, and there it stays; for all times and parameters, and any S_StartReset.
     """
     yield from FROM_ANYWHERE.in_every_scan(comes_closer)
+    yield needs_all(FROM_ANYWHERE, row, calls_left)
     for scans in FROM_ANYWHERE.scans():
         scan = next(iter(scans.read.values()))
         left = calls_left(scan, before=True)
-        ends = left == 0 if scans.control == ON else z3.And(left >= 1, left <= 4)
+        ends = left == 0 if scans.control == ON else z3.And(left >= 1, left <= row.calls)
         yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
 
     def faster(scan: Scanned) -> Obligation:

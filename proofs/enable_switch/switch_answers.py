@@ -23,6 +23,7 @@ from proofs.enable_switch.vocabulary import (
     STAGE_2,
     TIMED,
     Pattern,
+    automatic,
     in_the_mode,
     shows,
 )
@@ -146,7 +147,7 @@ def resets_lead_back(scan: Scanned) -> Obligation:
     i = scan.inputs
     held = z3.And(i.Reset, scan.before.reset_before)
     edge = z3.And(i.Reset, z3.Not(scan.before.reset_before))
-    resets = z3.And(i.Activate, shows(i, STAGE_0), z3.Or(edge, i.S_AutoReset))
+    resets = z3.And(i.Activate, shows(i, STAGE_0), z3.Or(edge, automatic(scan)))
     kept = z3.And(resets, z3.Implies(scan.params.MODE_ENDS_ERROR, i.S_SafetyActive))
     if not scan.was(*RELEASED):
         return None
@@ -156,7 +157,7 @@ def resets_lead_back(scan: Scanned) -> Obligation:
         return kept, z3.Not(i.S_SafetyActive)
     static = RESET_ERRORS[RELEASED.index(control(scan.device, scan.before))]
     if scan.becomes(static):
-        return TRUE, z3.And(held, z3.Not(i.S_AutoReset), shows(i, STAGE_0))
+        return TRUE, z3.And(held, z3.Not(automatic(scan)), shows(i, STAGE_0))
     return i.Activate, z3.Not(z3.And(kept))
 
 
@@ -168,13 +169,13 @@ def resets_lead_back(scan: Scanned) -> Obligation:
 )
 def a_reset_at_stage_0_ends_the_error_in_that_call() -> Queries:
     """From any memory: where a reset is waited for, a call that sees stage 0 with a rising edge of Reset, or
-    with S_AutoReset, leads to Stage0 in the mode and to BasicMode without it; and to a reset error, which is
-    that of its own error, leads only a Reset that is held.
+    with S_AutoReset and AUTO_RESET_ERRORS, leads to Stage0 in the mode and to BasicMode without it; and to a
+    reset error, which is that of its own error, leads only a Reset that is held.
     """
     yield from ANYWHERE.in_every_scan(resets_lead_back)
 
     def without_stage_0(scan: Scanned) -> Obligation:
-        return z3.And(in_the_mode(scan), scan.inputs.S_AutoReset), TRUE if scan.becomes("Stage0") else FALSE
+        return z3.And(in_the_mode(scan), automatic(scan)), TRUE if scan.becomes("Stage0") else FALSE
 
     yield ANYWHERE.too_strong("at any stage", without_stage_0, "PlausibilityErrorAtStage0")
 

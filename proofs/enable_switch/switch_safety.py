@@ -18,6 +18,7 @@ from proofs.enable_switch.vocabulary import (
     STAGE_0,
     STAGE_1,
     TIMED,
+    automatic,
     in_the_mode,
     shows,
 )
@@ -134,7 +135,7 @@ def _ends(scan: Scanned) -> z3.BoolRef:
 
 def _by_a_reset(scan: Scanned) -> z3.BoolRef:
     edge = z3.And(scan.inputs.Reset, z3.Not(scan.before.reset_before))
-    return z3.And(shows(scan.inputs, STAGE_0), scan.sent.ResetRequest, z3.Or(scan.inputs.S_AutoReset, edge))
+    return z3.And(shows(scan.inputs, STAGE_0), scan.sent.ResetRequest, z3.Or(automatic(scan), edge))
 
 
 def error_needs_reset(scan: Scanned) -> Obligation:
@@ -146,13 +147,13 @@ def error_needs_reset(scan: Scanned) -> Obligation:
 
 @theorem(
     clauses=["ES-STAGE-0", "ES-SEQ-4", "ES-SEQ-5", "ES-RESTART"],
-    findings=["ESF-06", "ESF-08"],
-    properties=["ErrorNeedsReset"],
+    findings=["ESF-06", "ESF-08", "ESF-14"],
+    properties=["ErrorNeedsReset", "ErrorNeedsEdge"],
     slow=True,
 )
 def an_error_ends_at_stage_0_and_by_a_reset() -> Queries:
     """Unless MODE_ENDS_ERROR is set, an error of an active block ends only in a call that sees stage 0 after
-    ResetRequest was TRUE, with a rising edge of Reset or with S_AutoReset.
+    ResetRequest was TRUE, with a rising edge of Reset or with S_AutoReset and AUTO_RESET_ERRORS.
     """
     yield from JUDGE.in_every_scan(error_needs_reset)
 
@@ -194,7 +195,7 @@ def in_the_mode_an_error_ends_by_a_reset_whatever_the_parameter_is() -> Queries:
 
 def held_reset_never_resets(scan: Scanned) -> Obligation:
     counts = z3.Implies(scan.params.MODE_ENDS_ERROR, scan.inputs.S_SafetyActive)
-    ends = z3.And(_ends(scan), z3.Not(scan.inputs.S_AutoReset), counts)
+    ends = z3.And(_ends(scan), z3.Not(automatic(scan)), counts)
     if scan.was(*RELEASED) and scan.becomes("Stage0", "BasicMode"):
         return ends, z3.And(scan.inputs.Reset, z3.Not(SEEN.last_reset))
     return TRUE, z3.Not(ends)
@@ -204,9 +205,9 @@ def held_reset_never_resets(scan: Scanned) -> Obligation:
     clauses=["ES-SEQ-5", "ES-RESTART"], findings=["ESF-10"], properties=["HeldResetNeverResets"], slow=True
 )
 def a_reset_that_is_held_never_resets() -> Queries:
-    """Without S_AutoReset an error of an active block ends only in a call with Reset TRUE, and an observer of
-    the wires saw Reset FALSE in the call before, whether or not the block was active in it; where
-    MODE_ENDS_ERROR is set, in the mode.
+    """Unless S_AutoReset and AUTO_RESET_ERRORS are set, an error of an active block ends only in a call with
+    Reset TRUE, and an observer of the wires saw Reset FALSE in the call before, whether or not the block was
+    active in it; where MODE_ENDS_ERROR is set, in the mode.
     """
     yield from JUDGE.in_every_scan(held_reset_never_resets)
     yield JUDGE.without(held_reset_never_resets, "PlausibilityErrorAtStage0", "ResetIsRemembered")
@@ -217,7 +218,7 @@ def held_reset_is_an_error(scan: Scanned) -> Obligation:
     kept = z3.And(i.Activate, z3.Implies(scan.params.MODE_ENDS_ERROR, i.S_SafetyActive))
     stays = TRUE if scan.becomes(*RESET_ERRORS) else FALSE
     if scan.was(*RELEASED):
-        held = z3.And(shows(i, STAGE_0), i.Reset, scan.before.reset_before, z3.Not(i.S_AutoReset))
+        held = z3.And(shows(i, STAGE_0), i.Reset, scan.before.reset_before, z3.Not(automatic(scan)))
         return z3.And(kept, held), stays
     if scan.was(*RESET_ERRORS):
         return z3.And(kept, i.Reset), stays
@@ -229,7 +230,8 @@ def held_reset_is_an_error(scan: Scanned) -> Obligation:
 )
 def a_reset_that_is_held_is_reported_until_it_is_released() -> Queries:
     """Where the edge of Reset is waited for, a call that finds Reset TRUE as in the call before leads to a
-    reset error, unless S_AutoReset is set; and a reset error stays for as long as Reset is TRUE.
+    reset error, unless S_AutoReset and AUTO_RESET_ERRORS are set; and a reset error stays for as long as
+    Reset is TRUE.
     """
     yield from JUDGE.in_every_scan(held_reset_is_an_error)
 

@@ -41,6 +41,11 @@ def stage_of(inputs: Any) -> z3.ArithRef:
     )
 
 
+def automatic(scan: Scanned) -> z3.BoolRef:
+    """S_AutoReset takes the place of the edge (ESF-14)."""
+    return z3.And(scan.params.AUTO_RESET_ERRORS, scan.inputs.S_AutoReset)
+
+
 def in_the_mode(scan: Scanned) -> z3.BoolRef:
     """The call finds the block activated and the mode active."""
     return z3.And(scan.inputs.Activate, scan.inputs.S_SafetyActive)

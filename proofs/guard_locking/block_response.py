@@ -6,6 +6,7 @@ from typing import Final
 
 import z3
 
+from modeproof.registers import Response
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
@@ -13,6 +14,7 @@ from proofs.guard_locking.block_safety import secure, start_up_inhibited
 from proofs.guard_locking.devices import BLOCK, chosen
 from proofs.guard_locking.invariant import JUDGE, LOCKED
 from proofs.guard_locking.observer import SEEN, request_edge, reset_edge
+from proofs.responses import needs_all
 from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, claim, theorem
 
@@ -177,18 +179,20 @@ def comes_closer(scan: Scanned) -> Obligation:
     clauses=["GL-IN-RESET", "GL-IN-STARTRESET", "GL-IN-AUTORESET", "GL-SEQ-2"],
     findings=["GLF-07", "GLF-13"],
     properties=["EnablesAgain"],
+    responses=["GLR-06"],
     slow=True,
 )
-def the_block_enables_again_within_five_calls() -> Queries:
+def the_block_enables_again_within_five_calls(row: Response) -> Queries:
     """From any state and memory: while the guard is closed and locked, the zone safe and nobody asks, and
     Reset changes in every call, each call lowers a number that is five at most and zero only where the block
     enables, and there it stays. S_StartReset and S_AutoReset may be anything.
     """
     yield from FROM_ANYWHERE.in_every_scan(comes_closer)
+    yield needs_all(FROM_ANYWHERE, row, calls_left)
     for scans in FROM_ANYWHERE.scans():
         scan = next(iter(scans.read.values()))
         left = calls_left(scan, before=True)
-        ends = left == 0 if scans.control == LOCKED else z3.And(left >= 1, left <= 5)
+        ends = left == 0 if scans.control == LOCKED else z3.And(left >= 1, left <= row.calls)
         yield from claim(f"the number in {scans.control}", FROM_ANYWHERE.premises(scans), ends, LOGIC)
 
     def faster(scan: Scanned) -> Obligation:

@@ -8,11 +8,18 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
-from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, invariant
+from proofs.guard_locking import (
+    block_locks,
+    block_losses,
+    block_memory,
+    block_response,
+    block_safety,
+    invariant,
+)
 from proofs.guard_locking.devices import BLOCK
 from proofs.theorem import Theorem
 
-_MODULES: Final = (block_safety, block_locks, block_memory, block_response, invariant)
+_MODULES: Final = (block_safety, block_losses, block_locks, block_memory, block_response, invariant)
 
 JUDGES: Final[Mapping[str, tuple[Theorem, ...]]] = MappingProxyType(
     {

@@ -89,6 +89,7 @@ NOT_PROVED: Final[Mapping[str, str]] = {
     "GoalReached": LIVENESS,
     "GoalReachedAfterFault": LIVENESS,
     "RemovalLeadsToIdle": LIVENESS,
+    "SettleEnds": LIVENESS,
     "RecoversFully": LIVENESS,
     "NoErrorWithoutFault": "it needs all devices to keep their deadlines (A-08, A-09), and time has no"
     " durations here; proved of it is that no word is refused",

@@ -38,8 +38,6 @@ INTENT_ANYWAY: Final = "the mode is what was touched, seen and confirmed, with o
 HISTORY: Final = "what is echoed was touched, seen, confirmed"
 SIGNALLED: Final = "the one output is that of the key"
 ASKED: Final = "nothing is confirmed while it is asked"
-MODE: Final = "the mode is one of five, or none"
-DISPLAYED: Final = "the mode is displayed, or was just switched"
 INTENT: Final = "the mode is what was touched, seen and confirmed"
 WITHIN_LEVEL: Final = "the mode is permitted by the output seen"
 WITHIN_KEY: Final = "the mode is permitted by the key"
@@ -317,22 +315,10 @@ ARGUMENT: Final = Argument(
             "the_mode_changes_only_by_a_switchover_with_la",
         ),
         Invariant(
-            MODE,
-            formulas.mode_is_a_mode,
-            (LEVEL, F_SWITCH, F_MODE),
-            "the_panel_displays_the_active_mode_while_a_key_is_awaited",
-        ),
-        Invariant(
-            DISPLAYED,
-            formulas.displays_or_switched,
-            (FPLC_ROW, LEVEL, MODE, WORDS, F_SWITCH, F_MODE, HELD, H_ROW, WIRED, DISPLAY_WIRED),
-            "the_panel_displays_the_active_mode_while_a_key_is_awaited",
-        ),
-        Invariant(
             "the panel displays the mode",
-            formulas.displays_the_mode,
-            (DISPLAYED, ZEROS),
-            "the_panel_displays_the_active_mode_while_a_key_is_awaited",
+            formulas.displays_what_has_come,
+            (H_ROW, DISPLAY_WIRED),
+            "the_panel_displays_the_active_mode_that_the_display_wire_has_carried",
         ),
         Invariant(
             ASKED,
@@ -544,11 +530,13 @@ def the_mode_changes_only_by_a_switchover_with_la() -> Queries:
     findings=["E-25"],
     properties=["DisplayIsTheMode"],
 )
-def the_panel_displays_the_active_mode_while_a_key_is_awaited() -> Queries:
-    """While the machine waits for a key, the mode that the panel displays as active is the active mode
-    (with ON_ERROR = hold).
+def the_panel_displays_the_active_mode_that_the_display_wire_has_carried() -> Queries:
+    """Once the display wire has carried the mode outputs and the panel has scanned, the mode that the panel
+    displays as active is the active mode, whatever the F-PLC does.
+
+    A-33 says of the wire that it carries the mode outputs and nothing else, at any time.
     """
-    yield from _proofs_of("the_panel_displays_the_active_mode_while_a_key_is_awaited")
+    yield from _proofs_of("the_panel_displays_the_active_mode_that_the_display_wire_has_carried")
 
 
 @theorem(
@@ -582,6 +570,6 @@ def the_panel_offers_nothing_beyond_the_level_in_force() -> Queries:
 )
 def no_word_of_an_honest_panel_is_refused() -> Queries:
     """While LA and the accepted output stand, the F-PLC refuses no word: an honest panel sends none that it
-    would have to refuse.
+    would have to refuse. In Settle, which judges no word, a deadline may pass (E-15).
     """
     yield from _proofs_of("no_word_of_an_honest_panel_is_refused")

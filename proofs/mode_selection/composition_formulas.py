@@ -58,10 +58,6 @@ def idle_means_zeros(s: System) -> z3.BoolRef:
     return z3.Implies(s.fplc.at(*QUIET), zeros)
 
 
-def mode_is_a_mode(s: System) -> z3.BoolRef:
-    return z3.And(s.fplc.mode >= -1, s.fplc.mode <= 4)
-
-
 def screen_has_the_level(s: System) -> z3.BoolRef:
     """EKS-2-13, EKS-2-14, EKS-8-7, E-46, E-55"""
     f, read = s.fplc, s.plc.ReadAuthorization
@@ -84,7 +80,7 @@ def echo_on_the_bus(s: System) -> z3.BoolRef:
 
 
 def words_of_one_selection(s: System) -> z3.BoolRef:
-    """EKS-2-15, EKS-2-16, EKS-2-24, EKS-2-26, E-11, E-15, E-16"""
+    """EKS-2-15, EKS-2-16, EKS-2-24, EKS-2-26, E-11, E-15, E-16, E-61"""
     f, h, p = s.fplc, s.hmi, s.plc
     selecting = z3.And(h.at("AwaitEcho"), is_mode(h.selection), code("SE", h.selection) == p.MW03)
     offering = z3.And(
@@ -99,6 +95,7 @@ def words_of_one_selection(s: System) -> z3.BoolRef:
         h.at("AwaitEcho", "Confirm", "AwaitSwitch", "Withdrawn"),
         z3.Implies(z3.Not(h.at("AwaitEcho")), p.CheckMSO == code("CH", f.selection)),
         z3.Implies(z3.Not(h.at("Withdrawn")), sent),
+        z3.Or(p.MW03 == 0, code("SE", f.selection) == p.MW03),
         z3.Implies(p.MW07 != 0, z3.And(h.at("AwaitSwitch"), code("SW", f.selection) == p.MW07)),
     )
     return z3.And(
@@ -160,13 +157,11 @@ def asked_before_confirmed(s: System) -> z3.BoolRef:
     )
 
 
-def displays_or_switched(s: System) -> z3.BoolRef:
-    """EKS-8-8, E-25"""
-    return z3.Or(s.hmi.active == s.fplc.mode, s.hmi.at("AwaitSwitch"))
-
-
-def displays_the_mode(s: System) -> z3.BoolRef:
-    return z3.Implies(s.fplc.at("Idle"), s.hmi.active == s.fplc.mode)
+def displays_what_has_come(s: System) -> z3.BoolRef:
+    """EKS-8-8, E-25: what the mode outputs have reached holds out, or displays, the active mode"""
+    wire, mode = s.history, s.fplc.mode
+    carried = z3.Implies(wire.come >= 1, wire.carried == mode)
+    return z3.And(wire.come >= 0, wire.come <= 2, carried, z3.Implies(wire.come == 2, s.hmi.active == mode))
 
 
 def signals_the_key(s: System) -> z3.BoolRef:
@@ -187,7 +182,7 @@ def no_output_without_la(s: System) -> z3.BoolRef:
 
 
 def nothing_kept_without_a_key(s: System) -> z3.BoolRef:
-    """EKS-8-6, E-17, E-35"""
+    """EKS-8-6, E-17"""
     f = s.fplc
     keyless = f.at(*UNKEYED, "PulseOnes", "PulseZeros", "OneOutput")
     nobody = z3.And(f.accepted == -1, f.authority == -1)
@@ -307,10 +302,13 @@ def user_intent(step: Step) -> z3.BoolRef:
 
 
 def no_word_is_refused(step: Step) -> z3.BoolRef:
-    """No scan that finds LA and the accepted output ends in Error once an output was accepted."""
+    """No scan that finds LA and the accepted output ends in Error once an output was accepted; Settle judges
+    no word, and its deadline is no refusal (E-15)
+    """
     scan = step.fplc
     stands = z3.And(scan.LA, signals(scan.outputs, scan.before.accepted))
-    return z3.Not(z3.And(scan.before.at("Authorize", *HOLDING), stands, scan.after.at("Error")))
+    judged = scan.before.at("Authorize", *OFFERING, *ECHOING)
+    return z3.Not(z3.And(judged, stands, scan.after.at("Error")))
 
 
 def signalled(s: System) -> z3.BitVecRef:

@@ -36,7 +36,7 @@ QUIET: Final = ("Idle", "PulseOnes", "PulseZeros", "OneOutput", "Authorize")
 """No level is published: a key is awaited, or is being read."""
 OFFERING: Final = ("AwaitSelection", "CheckSelection", "EchoSelection")
 """A level is published, and no echo."""
-ECHOING: Final = ("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch")
+ECHOING: Final = ("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch", "Complete")
 """A level and an echo are published."""
 HOLDING: Final = (*OFFERING, *ECHOING, "Settle")
 """A level is in force."""
@@ -113,11 +113,12 @@ def _latched_from_mw03(s: FplcScan) -> z3.BoolRef:
 
 
 def _echo_while_it_stands(s: FplcScan) -> z3.BoolRef:
-    """EKS-2-20, E-16, E-21"""
+    """EKS-2-20, E-15, E-16, E-21: or the mode was switched, and no other selection may follow"""
+    over = z3.And(s.before.at("Complete"), s.after.at("Complete"))
     stands = z3.And(
         s.before.at("EchoSelection", *ECHOING),
         s.after.selection == s.before.selection,
-        code("SE", s.before.selection) == s.MW03,
+        z3.Or(code("SE", s.before.selection) == s.MW03, over),
     )
     return z3.Implies(s.after.at(*ECHOING), stands)
 
@@ -133,7 +134,7 @@ def _switches_on_a_pair(s: FplcScan) -> z3.BoolRef:
     mode = s.before.selection
     pair = z3.And(code("SE", mode) == s.MW03, code("SW", mode) == s.MW07)
     signalled = z3.And(s.LA, signals(s.outputs, s.before.accepted))
-    steps = z3.And(s.before.at("Switch"), s.after.at("Settle"), s.after.mode == mode)
+    steps = z3.And(s.before.at("Switch"), s.after.at("Complete", "Settle"), s.after.mode == mode)
     return z3.Implies(s.switches, z3.And(steps, pair, signalled))
 
 
@@ -144,7 +145,7 @@ def _mode_stays(s: FplcScan) -> z3.BoolRef:
 
 
 def _forgets_without_a_key(s: FplcScan) -> z3.BoolRef:
-    """EKS-8-6, EKS-3-4-FPLC, E-17, E-22, E-35"""
+    """EKS-8-6, EKS-3-4-FPLC, E-17, E-22"""
     keyless = (*UNKEYED, "PulseOnes", "PulseZeros", "OneOutput")
     chosen = ("EchoSelection", *ECHOING)
     nobody = z3.And(s.after.accepted == -1, s.after.authority == -1)
@@ -158,7 +159,9 @@ def _forgets_without_a_key(s: FplcScan) -> z3.BoolRef:
 
 
 def _refuses_only_wrong_words(s: FplcScan) -> z3.BoolRef:
-    """EKS-2-19, EKS-2-27, E-15, E-54, E-65: which words lead to Error while the accepted output stands"""
+    """EKS-2-19, EKS-2-27, E-15, E-54, E-61, E-65: which words lead to Error while the accepted output stands;
+    what leads there from Settle is no word but its deadline
+    """
     early = z3.And(s.before.at("Authorize"), z3.Or(s.MW03 != 0, s.MW07 != 0))
     unasked = z3.And(s.before.at(*OFFERING), s.MW07 != 0)
     within = [
@@ -170,10 +173,11 @@ def _refuses_only_wrong_words(s: FplcScan) -> z3.BoolRef:
         s.MW07 != 0,
         code("SW", s.before.selection) != s.MW07,
     )
+    codes = [code("SE", level) == s.MW03 for level in LEVELS]
+    no_code = z3.And(s.before.at("EchoSelection", *ECHOING), s.MW03 != 0, z3.Not(z3.Or(*codes)))
     stands = z3.And(s.LA, signals(s.outputs, s.before.accepted))
-    keyed = s.before.at("Authorize", *HOLDING)
-    refused = z3.And(keyed, stands, s.after.at("Error"))
-    return z3.Implies(refused, z3.Or(early, unasked, not_permitted, unmatched))
+    refused = z3.And(s.before.at("Authorize", *OFFERING, *ECHOING), stands, s.after.at("Error"))
+    return z3.Implies(refused, z3.Or(early, unasked, not_permitted, unmatched, no_code))
 
 
 # ---------------------------------------------------------------- the panel
@@ -370,9 +374,9 @@ def guarantees_of(device: Device) -> tuple[Guarantee, ...]:
 def every_scan_of_the_fplc_keeps_its_guarantees() -> Queries:
     """In any scan, whatever its memory, inputs, times and parameters: the F-PLC leaves the states without a
     key for Idle only over zeros and after the dwell time; it offers a selection only to an accepted key or
-    over zeros; it latches what stands in MW03 and is permitted, echoes it while it stands, and switches to it
-    only with LA, the accepted output alone, and its pair in MW03 and MW07; the mode stays otherwise; and it
-    refuses only the words that are listed.
+    over zeros; it latches what stands in MW03 and is permitted, echoes it while it stands, or as the one
+    selection of its insertion, and switches to it only with LA, the accepted output alone, and its pair in
+    MW03 and MW07; the mode stays otherwise; and it refuses only the words that are listed.
 
     Each is a formula of its own, which the theorems on all devices together assume by name.
     """

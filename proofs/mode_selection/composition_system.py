@@ -38,6 +38,9 @@ STEPS: Final = ("insert", "eks", "fplc", "plc", "hmi")
 class History:
     """What the user did and saw since the key went in, each -1 for nothing; only user and panel set it.
 
+    carried: the mode that the display wire holds out to the panel. come: how far the mode outputs have come
+    since they last changed: 0, 1 the wire, 2 the panel (KeyFlowsDisplay).
+
     unseen: a key was put in while a selection of the key before was going on, which goes on still. low: the
     F-PLC has scanned while neither LA nor an output of the EKS was on, and LA has not come since.
     """
@@ -45,6 +48,8 @@ class History:
     touched: Mode
     seen: Mode
     confirmed: Mode
+    carried: Mode
+    come: Mode
     unseen: z3.BoolRef
     low: z3.BoolRef
 
@@ -79,11 +84,12 @@ class Step:
 
 
 def _system(when: str) -> System:
-    touched, seen, confirmed = (
-        views.small(f"user.{name}{when}") for name in ("touched", "seen", "confirmed")
+    touched, seen, confirmed, carried, come = (
+        views.small(f"{name}{when}")
+        for name in ("user.touched", "user.seen", "user.confirmed", "display.carried", "display.come")
     )
     unseen, low = z3.Bool(f"user.unseen{when}"), z3.Bool(f"fplc.low{when}")
-    history = History(touched, seen, confirmed, unseen, low)
+    history = History(touched, seen, confirmed, carried, come, unseen, low)
     return System(
         views.fplc_symbols(when),
         views.hmi_symbols(when),
@@ -101,9 +107,9 @@ HOLDS: Final = z3.Bool("fplc.holds_mode_on_error")
 
 
 def _after(actor: str) -> System:
-    """Who does not act keeps memory and words; the history changes with user, panel and F-PLC."""
+    """Who does not act keeps memory and words."""
     parts = {name: getattr(NEXT if name == actor else NOW, name) for name in ("fplc", "hmi", "plc", "eks")}
-    return System(**parts, history=NOW.history if actor == "plc" else NEXT.history)
+    return System(**parts, history=NEXT.history)
 
 
 def _step(actor: str) -> Step:
@@ -155,15 +161,31 @@ def states_are_states(system: System) -> z3.BoolRef:
     return z3.And(*[z3.And(seen.state >= 0, seen.state < len(by.module.Step)) for seen, by in counted])
 
 
+def wire_kept(step: Step) -> z3.BoolRef:
+    """The display wire holds out what it did, or has carried the mode outputs; the panel has scanned.
+
+    EKS-8-8, E-25
+    """
+    old, new = step.before.history, step.after.history
+    scanned = z3.If(old.come == 1, 2, old.come) if step.actor == "hmi" else old.come
+    come = z3.If(step.before.fplc.mode == step.after.fplc.mode, scanned, 0)
+    kept = z3.And(new.carried == old.carried, new.come == come)
+    return z3.Or(kept, new.come == z3.If(come == 0, 1, come))
+
+
 def history_kept(step: Step) -> z3.BoolRef:
-    """What the user did and saw, as KeyFlows records it, from touches and screens alone.
+    """What the user did and saw, as KeyFlows records it, from touches and screens alone; the display wire.
 
     EKS-2-1, EKS-2-14, EKS-2-22, EKS-2-23
     """
+    return z3.And(_user_kept(step), wire_kept(step))
+
+
+def _user_kept(step: Step) -> z3.BoolRef:
     old, new, now = step.before.history, step.after.history, step.before
     kept = z3.And(*[getattr(new, name) == getattr(old, name) for name in ("touched", "seen", "confirmed")])
     if step.actor == "plc":
-        return z3.BoolVal(True)
+        return z3.And(kept, new.unseen == old.unseen, new.low == old.low)
     if step.actor == "insert":
         none = [mode == -1 for mode in (new.touched, new.seen, new.confirmed)]
         going_on = now.fplc.at(*OFFERING, *ECHOING)
@@ -199,6 +221,8 @@ def power_up() -> z3.BoolRef:
         same(NOW.plc, views.first_view(PLC)),
         same(NOW.eks, views.first_view(EKS)),
         *history,
+        NOW.history.carried == -1,
+        NOW.history.come == 2,
         z3.Not(NOW.history.unseen),
         z3.Not(NOW.history.low),
     )
@@ -234,9 +258,12 @@ def _words_are_wired(step: Step) -> z3.BoolRef:
 
 
 def _display_is_wired(step: Step) -> z3.BoolRef:
-    """E-25: the mode to display is the one whose output is set; none set, none displayed."""
-    active, modes = step.hmi.ActiveMSO, step.before.fplc.MSO
-    return z3.And(active >= -1, active <= 4, *[modes[mode] == (active == mode) for mode in views.LEVELS])
+    """A-33: the display wire carries the mode whose output is set, and the panel reads what it holds out."""
+    old, new, now = step.before.history, step.after.history, step.after.fplc.mode
+    mode_stays = step.before.fplc.mode == now
+    nothing_sent = z3.And(new.carried == old.carried, z3.Or(new.come == 0, z3.And(mode_stays, old.come > 0)))
+    told = z3.Or(nothing_sent, new.carried == now)
+    return z3.And(told, step.hmi.ActiveMSO == old.carried) if step.actor == "hmi" else told
 
 
 def _outputs_are_wired(step: Step) -> z3.BoolRef:
@@ -300,7 +327,7 @@ def _same_permissions(step: Step) -> z3.BoolRef:
 
 ASSUMPTIONS: Final = (
     Assumption("words are wired", ("A-01", "A-21", "A-25"), _words_are_wired, ("fplc", "plc", "hmi")),
-    Assumption("the display is wired", ("E-25",), _display_is_wired, ("hmi",)),
+    Assumption("the display is wired", ("A-33",), _display_is_wired, STEPS),
     Assumption("outputs are wired", ("A-20",), _outputs_are_wired, ("fplc",)),
     Assumption("words arrive within the dwell time", ("A-06",), _words_arrive, ("fplc",)),
     Assumption("a key goes in without LA", ("A-07",), _key_goes_in_without_la, ("insert",)),

@@ -23,7 +23,7 @@ from proofs.mode_selection.vocabulary import code, mode, permits
 from proofs.sentences import Obligation
 from proofs.theorem import Queries, theorem
 
-DWELLING: Final = ("Start", "Settle", "Error")
+DWELLING: Final = ("Start", "Error")
 """The states that count time up to T_DWELL."""
 GOING_ON: Final = (("PulseOnes", "PulseZeros"), ("PulseZeros", "OneOutput"), ("Clear", "AwaitZeros"))
 """From one step to the next the time of the insertion, or of the removal, goes on."""
@@ -61,7 +61,7 @@ def level_is_published(scan: Scanned) -> Obligation:
     return signalled(scan), z3.If(no_word(scan), shown, scan.sends.ERROR)
 
 
-@theorem(clauses=["EKS-2-12"], findings=["E-05", "E-54"], slow=True)
+@theorem(clauses=["EKS-2-12"], findings=["E-06b", "E-54"], slow=True)
 def the_fplc_publishes_the_level_or_refuses_an_early_word() -> Queries:
     """In Authorize, while the key is signalled, MW01 gets the word of its level in that scan; but a word in
     MW03 or MW07, which cannot be an answer yet, leads to the error mode.
@@ -113,7 +113,7 @@ def dwell_in_range(scan: Scanned, seen: Seen) -> z3.BoolRef:
 
 @theorem(clauses=["EKS-GP-3", "EKS-8-18"], findings=["E-52"], slow=True)
 def no_dwell_time_of_the_fplc_counts_beyond_its_end() -> Queries:
-    """At power-up and after every scan the timer of Start, Settle and Error is at most T_DWELL, however long
+    """At power-up and after every scan the timer of Start and Error is at most T_DWELL, however long
     the F-PLC stays there, so that no timer of a machine overflows.
     """
     yield from JUDGE.after_every_scan(dwell_in_range)

@@ -94,7 +94,7 @@ def switches_when_all_stands(scan: Scanned) -> Obligation:
     if not scan.was("Switch"):
         return None
     acknowledged = scan.inputs.MW07 == code("SW", scan.before.selection)
-    switched = scan.after.mode == scan.before.selection if scan.becomes("Settle") else FALSE
+    switched = scan.after.mode == scan.before.selection if scan.becomes("Complete", "Settle") else FALSE
     return z3.And(signalled(scan), selection_stands(scan), acknowledged), switched
 
 

@@ -25,7 +25,7 @@ from proofs.theorem import Queries, theorem
 
 WAITING: Final = (
     *("Start", "Idle", "PulseOnes", "PulseZeros", "OneOutput", "AwaitSelection"),
-    *("AwaitAcknowledgment", "Settle", "AwaitZeros", "Error"),
+    *("AwaitAcknowledgment", "Complete", "Settle", "AwaitZeros", "Error"),
 )
 IN_ORDER: Final = frozenset(
     {
@@ -33,6 +33,7 @@ IN_ORDER: Final = frozenset(
         *pairwise(("AwaitSelection", "CheckSelection", "EchoSelection", "AwaitAcknowledgment")),
         *pairwise(("AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch", "Settle")),
         ("Settle", "AwaitSelection"),
+        ("Switch", "Complete"),
         *pairwise(("Clear", "AwaitZeros", "Idle")),
         ("Start", "Idle"),
         ("Error", "Idle"),
@@ -148,7 +149,9 @@ def the_fplc_refuses_an_acknowledgment_before_the_echo() -> Queries:
 def changed_selection_is_withdrawn(scan: Scanned) -> Obligation:
     if not scan.was(*TRANSACTION):
         return None
-    changed = z3.And(signalled(scan), z3.Not(selection_stands(scan)))
+    MW03 = scan.inputs.MW03
+    taken_back = z3.Or(MW03 == 0, mode("SE", MW03) != NONE)
+    changed = z3.And(signalled(scan), z3.Not(selection_stands(scan)), taken_back)
     return changed, scan.after.mode == scan.before.mode if scan.becomes("Settle") else FALSE
 
 
@@ -159,8 +162,8 @@ def changed_selection_is_withdrawn(scan: Scanned) -> Obligation:
     slow=True,
 )
 def the_fplc_takes_back_a_selection_that_no_longer_stands() -> Queries:
-    """While the key stands, a scan of a transaction that finds another word than that of the selection in
-    MW03 leads to Settle and leaves the mode as it is, whatever MW07 shows.
+    """While the key stands, a scan of a transaction that finds zero or another selection in MW03 leads to
+    Settle and leaves the mode as it is, whatever MW07 shows.
     """
     yield from JUDGE.in_every_scan(changed_selection_is_withdrawn)
 
@@ -170,6 +173,30 @@ def the_fplc_takes_back_a_selection_that_no_longer_stands() -> Queries:
         return None if obligation is None else (obligation[0], z3.Not(refused))
 
     yield JUDGE.too_strong("but not beside a word in MW07", a_code_is_an_error, "Switch")
+
+
+def no_code_is_reported(scan: Scanned) -> Obligation:
+    if not scan.was("CheckSelection", *TRANSACTION):
+        return None
+    MW03 = scan.inputs.MW03
+    no_code = z3.And(signalled(scan), MW03 != 0, mode("SE", MW03) == NONE)
+    return no_code, TRUE if scan.becomes("Error") else FALSE
+
+
+@theorem(clauses=["EKS-2-19"], findings=["E-61"], properties=["NoCodeIsReported"], slow=True)
+def the_fplc_reports_a_selection_that_is_no_code() -> Queries:
+    """While the key stands, from the check of the selection until the switchover, a word in MW03 that is
+    neither zero nor one of the five selections leads to the error mode in that scan, whatever MW07 shows.
+    """
+    yield from JUDGE.in_every_scan(no_code_is_reported)
+
+    def any_change(scan: Scanned) -> Obligation:
+        if not scan.was(*TRANSACTION):
+            return None
+        changed = z3.And(signalled(scan), z3.Not(selection_stands(scan)))
+        return changed, TRUE if scan.becomes("Error") else FALSE
+
+    yield JUDGE.too_strong("and so does every change", any_change, "Match")
 
 
 def acknowledgment_is_judged(scan: Scanned) -> Obligation:

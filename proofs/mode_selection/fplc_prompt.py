@@ -13,7 +13,7 @@ from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control
 from proofs.mode_selection.fplc_invariant import JUDGE
 from proofs.mode_selection.fplc_safety import TIMED, deadline, now, zeros_everywhere
-from proofs.mode_selection.invariants import CLOCKED, HOLDING, TRANSACTION
+from proofs.mode_selection.invariants import CHOSEN, CLOCKED, HOLDING
 from proofs.mode_selection.observer import INSERTION, REMOVAL, Seen
 from proofs.mode_selection.vocabulary import NONE, all_set, none_set, only_of, several_set, vector
 from proofs.sentences import Obligation, Sentence
@@ -47,6 +47,7 @@ def no_needless_wait(scan: Scanned) -> Obligation:
         "OneOutput": none_set(flags),
         "AwaitSelection": no_word(scan),
         "AwaitAcknowledgment": scan.inputs.MW07 == 0,
+        "Complete": signalled(scan),
     }
     return TRUE, absent.get(c, FALSE)
 
@@ -68,7 +69,8 @@ def no_needless_wait(scan: Scanned) -> Obligation:
 )
 def the_fplc_waits_only_for_what_is_not_there() -> Queries:
     """A scan that stays in a state has not seen what that state waits for: a key, the next part of the pulse,
-    a word, or zeros for the dwell time; and a state that waits for nothing is left in one scan.
+    a word, the end of the key, or zeros for the dwell time; and a state that waits for nothing is left in one
+    scan.
     """
     yield from JUDGE.in_every_scan(no_needless_wait)
 
@@ -159,7 +161,7 @@ def nothing_is_kept(scan: Scanned, seen: Seen) -> z3.BoolRef:
     kept = [TRUE]
     if c not in HOLDING:
         kept += [s.accepted == NONE, s.authority == NONE]
-    if c not in TRANSACTION:
+    if c not in CHOSEN:
         kept.append(s.selection == NONE)
     if c not in CLOCKED or scan.inputs is None:
         kept.append(s.elapsed_ms == 0)
@@ -174,7 +176,7 @@ def nothing_is_kept(scan: Scanned, seen: Seen) -> z3.BoolRef:
 )
 def the_fplc_keeps_nothing_beyond_its_insertion() -> Queries:
     """At power-up and after every scan no output and no level is remembered outside of an accepted key, no
-    selection outside of a transaction, and no time where none runs.
+    selection outside of a transaction and Complete, and no time where none runs.
     """
     yield from JUDGE.after_every_scan(nothing_is_kept)
     sentence = JUDGE.after_a_scan(nothing_is_kept)

@@ -13,6 +13,7 @@ from typing import Any, Final
 
 import z3
 
+from modeproof.registers import Response
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, Scans, control, memory, parameters
@@ -21,6 +22,7 @@ from proofs.mode_selection.fplc_safety import now
 from proofs.mode_selection.invariants import HOLDING
 from proofs.mode_selection.observer import INSERTION
 from proofs.mode_selection.vocabulary import none_set, vector
+from proofs.responses import waited_for
 from proofs.sentences import Judge, Obligation
 from proofs.theorem import Queries, claim, theorem
 from proofs.theorem import control as control_query
@@ -223,26 +225,46 @@ def any_times(p: Any) -> z3.BoolRef:
 
 
 @theorem(
-    clauses=["EKS-8-3", "EKS-8-11", "EKS-8-18", "EKS-9-0", "EKS-3-0"], findings=["E-23", "E-52"], slow=True
+    clauses=["EKS-8-3", "EKS-8-11", "EKS-8-18", "EKS-9-0", "EKS-3-0"],
+    findings=["E-23", "E-52"],
+    responses=["R-07"],
+    slow=True,
 )
-def the_fplc_is_idle_again_within_a_stated_time() -> Queries:
+def the_fplc_is_idle_again_within_a_stated_time(row: Response) -> Queries:
     """From any memory, the F-PLC is in Idle no later than in the first quiet scan that comes more than twice
     T_DWELL and twice the longest time between two scans after the first quiet one.
     """
     yield from stays_on_the_way(on_the_way, ANYWHERE, any_times)
-    yield from _bound(on_the_way, lambda p: 2 * p.T_DWELL_ms + 2 * BETWEEN >= PASSED, any_times)
+    calls = row.calls or 0
+    yield from _bound(on_the_way, lambda p: waited_for(row, p) + calls * BETWEEN >= PASSED, any_times)
+
+    def longest(p: Any) -> z3.BoolRef:
+        return z3.And(BETWEEN >= 1, waited_for(row, p) + calls * BETWEEN == PASSED + 1)
+
+    yield _reaches("control: a millisecond less is not enough", on_the_way, "Error", any_times, longest)
     yield _reaches("control: half of that is not enough", on_the_way, "Error", any_times)
 
 
-def _reaches(name: str, way: OnTheWay, start: str, also: Callable[[Any], z3.BoolRef]) -> Any:
-    """An example of a state on the way after more than T_DWELL and the time between two scans."""
+def _late(p: Any) -> z3.BoolRef:
+    late: z3.BoolRef = p.T_DWELL_ms + BETWEEN < PASSED
+    return late
+
+
+def _reaches(
+    name: str,
+    way: OnTheWay,
+    start: str,
+    also: Callable[[Any], z3.BoolRef],
+    late: Callable[[Any], z3.BoolRef] = _late,
+) -> Any:
+    """An example of a state on the way so late: after more than T_DWELL and the time between two scans."""
     scans = JUDGE.begin(start)
     params = parameters(FPLC, scans.scan.state)
     formulas = {
         **JUDGE.premises(scans),
         "what the times fulfil": also(params),
         "known before": _known(scans, way),
-        "late": params.T_DWELL_ms + BETWEEN < PASSED,
+        "late": late(params),
     }
     return control_query(name, formulas, LOGIC)
 

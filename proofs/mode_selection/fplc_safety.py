@@ -15,8 +15,8 @@ import z3
 from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned
 from proofs.mode_selection.fplc_invariant import JUDGE
-from proofs.mode_selection.invariants import HOLDING, ON_ERROR_NONE
-from proofs.mode_selection.observer import FROM_ONES, INSERTION, REMOVAL, SEEN, Seen
+from proofs.mode_selection.invariants import HOLDING, ON_ERROR_NONE, ONCE
+from proofs.mode_selection.observer import FROM_ONES, INSERTION, REMOVAL, SEEN, SETTLING, Seen
 from proofs.mode_selection.vocabulary import (
     LEVELS,
     NONE,
@@ -33,7 +33,7 @@ from proofs.mode_selection.vocabulary import (
 from proofs.sentences import Obligation, Sentence
 from proofs.theorem import Queries, theorem
 
-TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL))
+TIMED: Final = (*sorted(INSERTION), *sorted(REMOVAL), *SETTLING)
 
 # ---------------------------------------------------------------- what sentences have in common
 
@@ -70,7 +70,7 @@ def deadline(c: str, params: Any) -> z3.ArithRef:
     """The deadline of a state that has one."""
     if c == "PulseOnes":
         return params.T_ON_ms
-    return params.T_REM_ms if c in REMOVAL else params.T_SEQ_ms
+    return params.T_REM_ms if c in REMOVAL | SETTLING else params.T_SEQ_ms
 
 
 # ---------------------------------------------------------------- outputs and memory
@@ -254,7 +254,7 @@ def the_fplc_switches_nothing_without_la() -> Queries:
 
 
 def no_change_beside_switchover(scan: Scanned) -> Obligation:
-    if scan.was("Switch") and scan.becomes("Settle"):
+    if scan.was("Switch") and scan.becomes("Complete", "Settle"):
         return TRUE, z3.Or(scan.after.mode == scan.before.mode, is_mode(scan.after.mode))
     return TRUE, scan.after.mode == scan.before.mode if not scan.becomes("Error") else mode_is_held(scan)
 
@@ -266,8 +266,8 @@ def no_change_beside_switchover(scan: Scanned) -> Obligation:
     slow=True,
 )
 def nothing_but_the_switchover_changes_the_mode() -> Queries:
-    """The active mode is the same after every scan but one that goes from Switch to Settle, and, with
-    ON_ERROR = none, one that ends in the error mode without a mode.
+    """The active mode is the same after every scan but one that goes from Switch to Settle or Complete, and,
+    with ON_ERROR = none, one that ends in the error mode without a mode.
     """
     yield from JUDGE.in_every_scan(no_change_beside_switchover)
     held: Sentence = lambda scan: (TRUE, scan.after.mode == scan.before.mode)  # noqa: E731
@@ -411,16 +411,57 @@ def echo_needs_selection(scan: Scanned) -> Obligation:
     permitted = [
         z3.And(only(flags, level), permits(scan.params, z3.IntVal(level), shown)) for level in LEVELS
     ]
-    return scan.sends.MW05 != 0, z3.And(scan.inputs.MW03 == code("SE", shown), z3.Or(*permitted))
+    stands = scan.inputs.MW03 == code("SE", shown)
+    if scan.becomes("Complete"):
+        stands = z3.Or(stands, scan.after.mode == shown)
+    return scan.sends.MW05 != 0, z3.And(stands, z3.Or(*permitted))
 
 
-@theorem(clauses=["EKS-2-20", "EKS-6-12"], findings=["E-16"], properties=["EchoNeedsSelection"], slow=True)
+@theorem(
+    clauses=["EKS-2-20", "EKS-6-12"],
+    findings=["E-15", "E-16"],
+    properties=["EchoNeedsSelection"],
+    slow=True,
+)
 def the_fplc_echoes_only_what_stands_in_mw03() -> Queries:
-    """In every scan that sends an echo, MW03 carries the word of the same mode, one output is set, and the
-    machine permits the mode to its level.
+    """In every scan that sends an echo, MW03 carries the word of the same mode, or it was switched as the one
+    selection of this insertion, one output is set, and the machine permits the mode to its level.
     """
     yield from JUDGE.in_every_scan(echo_needs_selection)
     yield JUDGE.without(echo_needs_selection, "EchoSelection", "SelectionIsPermitted")
+    yield JUDGE.without(echo_needs_selection, "Complete", "OneSelectionWhereSet")
+
+
+def one_selection_where_set(scan: Scanned) -> Obligation:
+    once = scan.params.SELECTIONS == ONCE
+    if scan.was("Complete"):
+        return once, z3.BoolVal(scan.becomes("Complete", "Clear", "Error") and not switched(scan))
+    return (once, z3.BoolVal(scan.becomes("Complete"))) if switched(scan) else None
+
+
+@theorem(clauses=["EKS-2-29", "EKS-GP-5"], findings=["E-15"], properties=["OneSelectionWhereSet"], slow=True)
+def the_fplc_switches_once_in_each_insertion_where_it_is_so_set() -> Queries:
+    """With SELECTIONS = once a scan that writes a mode leads to Complete, and Complete is left for the
+    removal or the error mode alone, without a switchover.
+    """
+    yield from JUDGE.in_every_scan(one_selection_where_set)
+
+    def in_any_case(scan: Scanned) -> Obligation:
+        said = one_selection_where_set(scan)
+        return None if said is None else (TRUE, said[1])
+
+    yield JUDGE.too_strong("in any case", in_any_case, "Switch")
+
+
+def another_selection_where_set(scan: Scanned) -> Obligation:
+    again = scan.params.SELECTIONS != ONCE
+    return (again, z3.BoolVal(scan.becomes("Settle"))) if switched(scan) else None
+
+
+@theorem(clauses=["EKS-2-29", "EKS-GP-5"], findings=["E-15"], slow=True)
+def another_selection_may_follow_where_it_is_so_set() -> Queries:
+    """With SELECTIONS = again a scan that writes a mode leads to Settle."""
+    yield from JUDGE.in_every_scan(another_selection_where_set)
 
 
 def level_needs_pulse(scan: Scanned) -> Obligation:
@@ -470,7 +511,7 @@ def no_wait_of_the_fplc_outlasts_its_deadline() -> Queries:
 def expiry_ends_the_wait(scan: Scanned) -> Obligation:
     for c in TIMED:
         if scan.was(c):
-            ends = scan.becomes("Error") or (c in INSERTION and scan.becomes("Clear"))
+            ends = scan.becomes("Error") or (c not in REMOVAL and scan.becomes("Clear"))
             return now(scan) >= deadline(c, scan.params), TRUE if ends else z3.BoolVal(False)
     return None
 
@@ -483,7 +524,7 @@ def expiry_ends_the_wait(scan: Scanned) -> Obligation:
 )
 def every_wait_with_a_deadline_ends_in_the_scan_that_reaches_it() -> Queries:
     """A scan that finds the deadline reached ends the wait, whatever else it finds: in the error mode, or, of
-    an insertion, in the removal.
+    an insertion and of Settle, in the removal.
     """
     yield from JUDGE.in_every_scan(expiry_ends_the_wait)
 
@@ -517,6 +558,17 @@ def all_waits_of_the_fplc_together_stay_within_their_deadline() -> Queries:
     yield from JUDGE.after_every_scan(shared_deadline_holds)
     for start in ("PulseZeros", "Clear"):
         yield JUDGE.without(JUDGE.after_a_scan(shared_deadline_holds), start, "TimerIsTheTimeWaited")
+
+
+def stuck_word_is_reported(scan: Scanned, seen: Seen) -> z3.BoolRef:
+    return seen.waited < scan.params.T_REM_ms if scan.becomes(*SETTLING) else TRUE
+
+
+@theorem(clauses=["EKS-8-11"], findings=["E-15"], properties=["StuckWordIsReported"], slow=True)
+def the_fplc_reports_a_word_that_does_not_go_back_to_zero() -> Queries:
+    """After every scan in Settle the time since Settle began is below T_REM."""
+    yield from JUDGE.after_every_scan(stuck_word_is_reported)
+    yield JUDGE.without(JUDGE.after_a_scan(stuck_word_is_reported), "Settle", "TimerIsTheTimeWaited")
 
 
 def removal_timer_goes_on(scan: Scanned) -> Obligation:

@@ -5,8 +5,9 @@ outputs, all 65,536 words in MW03 and MW07, any elapsed time, all parameters tha
 conjunct is a sentence and a formula over the memory (`s`), the parameters (`p`) and what an observer of the
 wires has seen (`seen`, observer.py). In words: no level, output or selection is kept while no key is
 accepted; from Authorize on there is an accepted output, and the authority is its level; a selection is kept
-only while a transaction runs, and the machine permits it to that level; and what the F-PLC relies on was
-really on the wires in this insertion. Every conjunct is needed: a control of some theorem drops it.
+only while a transaction runs, or after its one switchover, and the machine permits it to that level; and what
+the F-PLC relies on was really on the wires in this insertion. Every conjunct is needed: a control of some
+theorem drops it.
 
 The panel and the EKS have one each below, the PLC needs none. For other proofs:
 `Judge.known` is the whole as one formula, `conjuncts(..)` the same by name. That
@@ -23,7 +24,7 @@ import z3
 from proofs.explorer.ends import TRUE
 from proofs.explorer.invariant import Conjunct
 from proofs.mode_selection.devices import KEY_ID_MAX
-from proofs.mode_selection.observer import INSERTION, REMOVAL, Seen
+from proofs.mode_selection.observer import INSERTION, REMOVAL, SETTLING, Seen
 from proofs.mode_selection.ranges import codes
 from proofs.mode_selection.vocabulary import NONE, is_mode, permits
 from proofs.words import one_of
@@ -32,12 +33,16 @@ TRANSACTION: Final = frozenset(
     {"EchoSelection", "AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
 )
 AUTHORIZED: Final = TRANSACTION | {"AwaitSelection", "CheckSelection"}
-HOLDING: Final = AUTHORIZED | {"Authorize", "Settle"}
+CHOSEN: Final = TRANSACTION | {"Complete"}
+"""The states in which a selection is kept."""
+HOLDING: Final = AUTHORIZED | CHOSEN | {"Authorize", "Settle"}
 """The states in which one output is accepted."""
-CLOCKED: Final = INSERTION | REMOVAL | {"Start", "Settle", "Error"}
+CLOCKED: Final = INSERTION | REMOVAL | SETTLING | {"Start", "Error"}
 """The states in which time is counted."""
 ON_ERROR_NONE: Final = 1
 """The value "none" of ON_ERROR in terms: its place in interface.toml."""
+ONCE: Final = 1
+"""The value "once" of SELECTIONS in terms: its place in interface.toml."""
 
 # ---------------------------------------------------------------- F-PLC
 
@@ -64,11 +69,15 @@ def _authority_is_the_accepted_level(c: str, s: Any, p: Any, seen: Seen) -> z3.B
 
 
 def _selection_only_in_a_transaction(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
-    return s.selection == NONE if c in HOLDING - TRANSACTION else TRUE
+    return s.selection == NONE if c in HOLDING - CHOSEN else TRUE
 
 
 def _selection_is_permitted(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
-    return permits(p, s.authority, s.selection) if c in TRANSACTION else TRUE
+    return permits(p, s.authority, s.selection) if c in CHOSEN else TRUE
+
+
+def _one_selection_where_set(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
+    return z3.And(p.SELECTIONS == ONCE, s.mode == s.selection) if c == "Complete" else TRUE
 
 
 def _error_drops_the_mode_where_set(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
@@ -94,7 +103,7 @@ def _echo_was_seen(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
 
 
 def _timer_is_the_time_waited(c: str, s: Any, p: Any, seen: Seen) -> z3.BoolRef:
-    timed = ("PulseOnes", "PulseZeros", "OneOutput", "Clear", "AwaitZeros")
+    timed = INSERTION | REMOVAL | SETTLING
     return seen.waited == s.elapsed_ms if c in timed else TRUE
 
 
@@ -120,13 +129,18 @@ FPLC_INVARIANT: Final = (
     ),
     Conjunct(
         "SelectionOnlyInATransaction",
-        "Outside EchoSelection to Switch no selection is kept.",
+        "Outside EchoSelection to Complete no selection is kept.",
         _selection_only_in_a_transaction,
     ),
     Conjunct(
         "SelectionIsPermitted",
         "A kept selection is one that the machine permits to the authority.",
         _selection_is_permitted,
+    ),
+    Conjunct(
+        "OneSelectionWhereSet",
+        "Complete is there with SELECTIONS = once alone, and the kept selection is the active mode.",
+        _one_selection_where_set,
     ),
     Conjunct(
         "ErrorDropsTheModeWhereSet",
@@ -151,7 +165,7 @@ FPLC_INVARIANT: Final = (
     Conjunct("EchoWasSeen", "From CheckAcknowledgment on MW05 has shown it.", _echo_was_seen),
     Conjunct(
         "TimerIsTheTimeWaited",
-        "In the insertion and in the removal the timer is the time since it began.",
+        "In the insertion, in the removal and in Settle the timer is the time since it began.",
         _timer_is_the_time_waited,
     ),
     Conjunct(

@@ -18,6 +18,7 @@ from proofs.mode_selection.vocabulary import NONE, all_set, code, mode, none_set
 
 INSERTION: Final = frozenset({"PulseOnes", "PulseZeros", "OneOutput"})
 REMOVAL: Final = frozenset({"Clear", "AwaitZeros"})
+SETTLING: Final = frozenset({"Settle"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +28,7 @@ class Seen:
     cleared: one output, LA and both words zero, since LA was last off and the last echo was taken back ·
     pulse: with LA, 0 no pulse, 1 all outputs seen, 2 then none · selected: then MW03 showed this mode, with
     MW07 still zero (-1 none) · echoed: then MW05 showed it · waited: ms since LA was seen, or all outputs
-    (E-38), until one output is accepted; or since the removal began.
+    (E-38), until one output is accepted; or since the removal began, or Settle.
     """
 
     cleared: z3.BoolRef
@@ -75,8 +76,8 @@ def sees(scan: Scanned, seen: Seen = SEEN) -> Seen:
 
 
 def _waited(scan: Scanned, seen: Seen) -> z3.ArithRef:
-    """Time goes on within the insertion and within the removal, and starts anew where the next one begins."""
-    within = any(scan.was(*stretch) and scan.becomes(*stretch) for stretch in (INSERTION, REMOVAL))
+    """Time goes on in the insertion, the removal and Settle, and starts anew where the next one begins."""
+    within = any(scan.was(*stretch) and scan.becomes(*stretch) for stretch in (INSERTION, REMOVAL, SETTLING))
     if not within:
         return z3.IntVal(0)
     if scan.was("PulseOnes") and not scan.becomes("PulseOnes"):

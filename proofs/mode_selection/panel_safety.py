@@ -166,3 +166,22 @@ def the_panel_closes_in_the_scan_without_a_level() -> Queries:
         return TRUE, TRUE if scan.becomes("Inhibited") else FALSE
 
     yield JUDGE.too_strong("at any word", at_any_word, "Select")
+
+
+def displays_what_it_reads(scan: Scanned) -> Obligation:
+    return TRUE, scan.sends.active == scan.inputs.ActiveMSO
+
+
+@theorem(clauses=["EKS-8-8", "EKS-8-16", "EKS-SD-7"], findings=["E-25"])
+def the_panel_displays_in_every_scan_what_the_display_wire_brings() -> Queries:
+    """After every scan the panel displays as active the mode, or none, that ActiveMSO has in that scan,
+    whatever stands on the bus, is touched or was confirmed.
+
+    That ActiveMSO is the mode whose output is set is no part of it: DisplayIsTheMode, A-33.
+    """
+    yield from JUDGE.in_every_scan(displays_what_it_reads)
+
+    def what_it_confirmed(scan: Scanned) -> Obligation:
+        return TRUE, scan.sends.active == scan.before.selection
+
+    yield JUDGE.too_strong("what the user confirmed", what_it_confirmed, "AwaitSwitch")

@@ -23,7 +23,9 @@ def every_scan_of_the_fplc_takes_exactly_one_path() -> Queries:
 
 @theorem(clauses=["EKS-GP-2", "EKS-GP-3"], findings=["E-08"], properties=["EveryScanIsAnswered"])
 def every_scan_of_the_plc_takes_exactly_one_path() -> Queries:
-    """In every control state of the PLC, with any words, `step` has one path only: the copy that is due."""
+    """In every control state of the PLC, with any words, exactly one path of `step` applies: the copy that is
+    due, or the first one.
+    """
     yield from exactly_one_path(PLC)
 
 

@@ -179,22 +179,32 @@ def the_panel_cannot_tell_the_words_of_one_class_apart() -> Queries:
     yield from _too_coarse(HMI, "AwaitEcho", "CheckMSO")
 
 
-@theorem(clauses=["EKS-GP-2", "EKS-2-13", "EKS-2-16", "EKS-2-21", "EKS-2-26"], findings=["E-08"])
-def the_plc_passes_words_on_and_decides_nothing_by_them() -> Queries:
-    """In every control state the PLC has one path, and each word that it keeps or writes is one that it read
-    in this scan or kept.
+@theorem(
+    clauses=["EKS-GP-2", "EKS-2-13", "EKS-2-16", "EKS-2-21", "EKS-2-26", "EKS-3-1-PLC", "EKS-9-1-PLC"],
+    findings=["E-08"],
+)
+def the_plc_passes_words_on_and_decides_only_by_its_comparison() -> Queries:
+    """In every control state the PLC asks at most whether ReadAuthorization is MW01, and each word that it
+    keeps or writes is one that it read in this scan or kept.
 
-    So its words need no classes: any renaming of words before a scan is the same renaming after it.
+    So its words need no classes: any one-to-one renaming of words before a scan is the same one after it.
     """
     for scan in scans(PLC):
-        path = scan.paths[0]
-        if path.decisions:
-            raise TheoremError(f"from {scan.control.value} the PLC decides by its inputs")
+        compared = {scan.state.ReadAuthorization.term.get_id(), scan.inputs.MW01.term.get_id()}
         known = [symbol.term for symbol in symbols((scan.state, scan.inputs)) if isinstance(symbol, Word)]
-        given = {"all in their ranges": scan.premise}
-        written = [leaf for _, leaf in terms(path.result) if isinstance(leaf, z3.ExprRef)]
-        then = z3.And(*[z3.Or(*[leaf == value for value in known]) for leaf in written])
-        yield from claim(f"{scan.control.value}: {len(written)} words", given, then, LOGIC)
+        for path in scan.paths:
+            questions = [_without_not(decision.question) for decision in path.decisions]
+            if any({part.get_id() for part in asked.children()} != compared for asked in questions):
+                raise TheoremError(f"from {scan.control.value} the PLC decides by more than its comparison")
+            answers = "".join(", same" if decision.answer else ", other" for decision in path.decisions)
+            given = {"all in their ranges": scan.premise, "this path": path.condition}
+            written = [leaf for _, leaf in terms(path.result) if isinstance(leaf, z3.ExprRef)]
+            then = z3.And(*[z3.Or(*[leaf == value for value in known]) for leaf in written])
+            yield from claim(f"{scan.control.value}{answers}: {len(written)} words", given, then, LOGIC)
+
+
+def _without_not(asked: z3.ExprRef) -> z3.ExprRef:
+    return _without_not(asked.arg(0)) if z3.is_not(asked) else asked
 
 
 @theorem(clauses=["EKS-KS-1", "EKS-KS-5", "EKS-KS-8", "EKS-T1"], findings=["E-41"], slow=True)

@@ -78,7 +78,7 @@ def row_of_the_state(scan: Scanned, seen: Any) -> z3.BoolRef:
         "TSS-C410",
         "TSS-C010",
     ],
-    findings=["TSSF-05", "TSSF-26", "TSSF-30"],
+    findings=["TSSF-05", "TSSF-30"],
 )
 def every_state_has_its_row_of_the_table() -> Queries:
     """At power-up and after every call, from any memory, the nine outputs are the row that the table prints

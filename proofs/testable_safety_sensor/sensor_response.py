@@ -12,9 +12,11 @@ from typing import Any, Final
 
 import z3
 
+from modeproof.registers import Response
 from proofs.explorer.device import LOGIC
 from proofs.explorer.ends import FALSE, TRUE
 from proofs.explorer.scanned import Scanned, control, memory
+from proofs.responses import needs_all
 from proofs.sentences import Judge, Obligation
 from proofs.testable_safety_sensor.devices import SENSOR
 from proofs.testable_safety_sensor.invariants import PARAMETER_ERRORS, TESTING, valid
@@ -24,7 +26,6 @@ JUDGE: Final = Judge(SENSOR, ())
 MANUAL_TEST: Final = z3.Not(z3.Bool("served.NoExternalTest"))
 """There is a manual test: what NoExternalTest stays at."""
 ENABLED: Final = frozenset({"ESPEFreeNoTest", "ESPEFreeTestOk", *TESTING})
-MOST: Final = 6
 
 
 def served(scan: Scanned) -> z3.BoolRef:
@@ -89,9 +90,10 @@ def comes_closer(scan: Scanned) -> Obligation:
     ],
     findings=["TSSF-12", "TSSF-13", "TSSF-15", "TSSF-16"],
     properties=["EnablesAgain"],
+    responses=["TSSR-05"],
     slow=True,
 )
-def a_served_block_enables_within_six_calls_and_goes_on_to() -> Queries:
+def a_served_block_enables_within_six_calls_and_goes_on_to(row: Response) -> Queries:
     """With a valid TestTime, from any memory and in every state but the parameter errors: S_OSSD_Out is TRUE
     after at most six calls of a machine that is served, and stays so through every test.
 
@@ -99,11 +101,16 @@ def a_served_block_enables_within_six_calls_and_goes_on_to() -> Queries:
     where a static Reset was found at a failed test and a manual test is to be made.
     """
     yield from JUDGE.in_every_scan(comes_closer)
+
+    def left_before(scan: Scanned, before: bool) -> z3.ArithRef:
+        return calls_left(control(SENSOR, scan.before), scan.before)
+
+    yield needs_all(JUDGE, row, left_before)
     for scans in JUDGE.scans():
         if scans.control in PARAMETER_ERRORS:
             continue
         left = calls_left(scans.control, memory(SENSOR, scans.scan.state))
-        most = z3.And(left >= (0 if scans.control in ENABLED else 1), left <= MOST)
+        most = z3.And(left >= (0 if scans.control in ENABLED else 1), left <= row.calls)
         yield from claim(f"the number in {scans.control}", JUDGE.premises(scans), most, LOGIC)
 
     def in_one_call(scan: Scanned) -> Obligation:

@@ -45,7 +45,7 @@ def every_call_of_the_block_keeps_its_invariant() -> Queries:
 
 @theorem(
     clauses=["TSS-IN-RESET", "TSS-IN-STARTTEST"],
-    findings=["TSSF-25"],
+    findings=["TSSF-24"],
     properties=["EdgesAreRemembered"],
     slow=True,
 )

@@ -43,11 +43,13 @@ class Step(Enum):
 class Params:
     """``DiscrepancyTimeCh1_Ch3_ms``: how long a change between two stages may last, 0..3600000 ms; 0: it has
     to be complete in the call that sees it (ESF-07). ``MODE_ENDS_ERROR``: the end of the mode also ends an
-    error (ESF-08). Raises ParameterError.
+    error (ESF-08). ``AUTO_RESET_ERRORS``: S_AutoReset takes the place of the edge that ends an error
+    (ESF-14). Raises ParameterError.
     """
 
     DiscrepancyTimeCh1_Ch3_ms: int = 0
     MODE_ENDS_ERROR: bool = False
+    AUTO_RESET_ERRORS: bool = True
 
     def __post_init__(self) -> None:
         check_int(
@@ -58,6 +60,7 @@ class Params:
             ParameterError,
         )
         check_bool("MODE_ENDS_ERROR", self.MODE_ENDS_ERROR, ParameterError)
+        check_bool("AUTO_RESET_ERRORS", self.AUTO_RESET_ERRORS, ParameterError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -367,14 +370,15 @@ def _faulty(s: State, i: Inputs, released: Step) -> State:
 def _released(s: State, i: Inputs, cause: Step, static: Step) -> State:
     """Stage 0 is there: wait for the reset. ES-SEQ-4, ES-SEQ-5, ES-RESTART, ESF-06, ESF-10
 
-    First the stage, then a Reset that is held, then the edge or S_AutoReset. Without the mode the reset leads
-    to where the mode is waited for (ESF-08).
+    First the stage, then a Reset that is held, then the edge or S_AutoReset (ESF-14). Without the mode the
+    reset leads to where the mode is waited for (ESF-08).
     """
     if not sees_stage_0(i):
         return _at(s, i, cause)  # LoseStage0
-    if held(i.Reset, s.reset_before) and not i.S_AutoReset:
+    automatic = s.params.AUTO_RESET_ERRORS and i.S_AutoReset
+    if held(i.Reset, s.reset_before) and not automatic:
         return _at(s, i, static)  # FindStaticReset
-    if rises(i.Reset, s.reset_before) or i.S_AutoReset:
+    if rises(i.Reset, s.reset_before) or automatic:
         if i.S_SafetyActive:
             return _at(s, i, Step.STAGE_0)  # LeaveError
         return _at(s, i, Step.BASIC_MODE)  # LeaveError

@@ -53,6 +53,7 @@ class Step(Enum):
     CHECK_ACKNOWLEDGMENT = "CheckAcknowledgment"
     MATCH = "Match"
     SWITCH = "Switch"
+    COMPLETE = "Complete"
     SETTLE = "Settle"
     CLEAR = "Clear"
     AWAIT_ZEROS = "AwaitZeros"
@@ -72,6 +73,7 @@ AWAIT_ACKNOWLEDGMENT = Step.AWAIT_ACKNOWLEDGMENT
 CHECK_ACKNOWLEDGMENT = Step.CHECK_ACKNOWLEDGMENT
 MATCH = Step.MATCH
 SWITCH = Step.SWITCH
+COMPLETE = Step.COMPLETE
 SETTLE = Step.SETTLE
 CLEAR = Step.CLEAR
 AWAIT_ZEROS = Step.AWAIT_ZEROS
@@ -84,9 +86,11 @@ class Params:
 
     T_ON_ms: deadline from LA to all outputs set (EKS-2-6). T_SEQ_ms: deadline of the sequence up to the one
     output (EKS-4-2). T_SEQ_FROM: it counts from "LA", and is then at least T_ON_ms, or anew from all "ones"
-    (E-38). T_REM_ms: deadline of the removal (EKS-8-3). T_DWELL_ms: least time before zeros count as returned
-    (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24). PERMITS_0 to PERMITS_4: the
-    modes that a level permits, itself and none above it (E-47). Raises ParameterError.
+    (E-38). T_REM_ms: deadline of the removal (EKS-8-3) and of Settle (E-15). T_DWELL_ms: least time
+    before zeros count as returned (E-52); less than T_REM_ms. ON_ERROR: "hold" the mode or set "none" (E-24).
+    SELECTIONS: after a switchover "again" another one with the same key, or "once" for each insertion (E-15).
+    PERMITS_0 to PERMITS_4: the modes that a level permits, itself and none above it (E-47). Raises
+    ParameterError.
     """
 
     T_ON_ms: int = 1000
@@ -95,6 +99,7 @@ class Params:
     T_REM_ms: int = 1000
     T_DWELL_ms: int = 500
     ON_ERROR: str = "hold"
+    SELECTIONS: str = "again"
     PERMITS_0: tuple[bool, bool, bool, bool, bool] = UP_TO_0
     PERMITS_1: tuple[bool, bool, bool, bool, bool] = UP_TO_1
     PERMITS_2: tuple[bool, bool, bool, bool, bool] = UP_TO_2
@@ -108,6 +113,7 @@ class Params:
         check_int("T_REM_ms", self.T_REM_ms, 1, T_MAX_MS, ParameterError)
         check_int("T_DWELL_ms", self.T_DWELL_ms, 0, T_MAX_MS, ParameterError)
         check_text("ON_ERROR", self.ON_ERROR, ("hold", "none"), ParameterError)
+        check_text("SELECTIONS", self.SELECTIONS, ("again", "once"), ParameterError)
         check_permits("PERMITS_0", self.PERMITS_0, 0)
         check_permits("PERMITS_1", self.PERMITS_1, 1)
         check_permits("PERMITS_2", self.PERMITS_2, 2)
@@ -200,13 +206,14 @@ def outputs(s: State) -> Outputs:
     (EKS-2-12, EKS-8-6); zero is the word of no key (EKS-KS-8). It is zero in Settle too, so that the panel
     closes and a quick next touch cannot overtake the return to zero (E-59).
     MW05 carries the echo from step 20 until the switchover (Figure 6, from the latched selection), and is
-    zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). The mode outputs are one of five, none before
+    zeroed in the same scan as MW01 on removal (EKS-2-20, E-27). With one selection for each insertion both
+    stay as they are after the switchover (E-15). The mode outputs are one of five, none before
     the first switchover; removal does not touch them (EKS-2-29, EKS-8-8). ERROR is the one error mode (E-22).
     """
     c = s.state
     MW01 = ZERO
     MW05 = ZERO
-    if c == AWAIT_ACKNOWLEDGMENT or c == CHECK_ACKNOWLEDGMENT or c == MATCH or c == SWITCH:
+    if c == AWAIT_ACKNOWLEDGMENT or c == CHECK_ACKNOWLEDGMENT or c == MATCH or c == SWITCH or c == COMPLETE:
         MW01 = encode(RE, s.authority)
         MW05 = echo(encode(SE, s.selection))
     elif c == AWAIT_SELECTION or c == CHECK_SELECTION or c == ECHO_SELECTION:
@@ -258,7 +265,7 @@ def permitted(MW01: int, MW03: int) -> bool:
         return False
     if MW01 == RE[4]:  # EKS-5-1
         return True
-    if MW03 == SE[4]:  # EKS-5-2, constant as in Table 2: E-04
+    if MW03 == SE[4]:  # EKS-5-2, constant as in Table 2: E-01
         return False
     if MW01 == RE[3]:  # EKS-5-3
         return True
@@ -268,7 +275,7 @@ def permitted(MW01: int, MW03: int) -> bool:
         return True
     if MW03 == SE[2]:  # EKS-5-6
         return False
-    if MW01 == RE[1]:  # EKS-5-7, constant as in Table 2: E-04
+    if MW01 == RE[1]:  # EKS-5-7, constant as in Table 2: E-01
         return True
     if MW03 == SE[1]:  # EKS-5-8
         return False
@@ -300,7 +307,7 @@ def echo(MW03: int) -> int:
     """Figure 6: the word for MW05 that means the selection in MW03; zero when MW03 is no code.
 
     A word of the range CH is row EKS-6-11 (no error), zero is row EKS-6-12 (error). Constants of Table 2:
-    E-04
+    E-01
     """
     if MW03 == SE[4]:  # EKS-6-1
         return CH[4]  # EKS-6-2
@@ -369,7 +376,7 @@ def _enter(s: State, to: Step) -> State:
 
 
 def _enter_idle(s: State) -> State:
-    """Ready for the next key; nothing of the last insertion is left. E-17, E-35, EKS-GP-5"""
+    """Ready for the next key; nothing of the last insertion is left. E-17, EKS-GP-5"""
     return State(s.params, IDLE, NONE, NONE, NONE, s.mode, 0)
 
 
@@ -403,7 +410,7 @@ def _wait(s: State, elapsed: int) -> State:
 
 
 def _wait_dwelling(s: State, elapsed: int) -> State:
-    """Stay, and let the timer run up to T_DWELL_ms; more says nothing new in Start, Settle and Error. E-52"""
+    """Stay, and let the timer run up to T_DWELL_ms; more says nothing new in Start and Error. E-52"""
     if elapsed >= s.params.T_DWELL_ms:
         return _wait(s, s.params.T_DWELL_ms)
     return _wait(s, elapsed)
@@ -458,9 +465,11 @@ def _insert_step(s: State, i: Inputs, elapsed: int) -> State:
         return _check_selection(s, i)
     if c == SETTLE:
         return _settle(s, i, elapsed)
+    if c == COMPLETE:
+        return s  # AwaitRemoval: EKS-2-29, EKS-GP-5, E-15
 
     if i.MW03 != encode(SE, s.selection):
-        return _enter_settle(s)  # WithdrawSelection: taken back or changed before step 29 (E-16, E-21)
+        return _another_word(s, i)
     if c == ECHO_SELECTION:
         return _echo_selection(s, i)
     if c == AWAIT_ACKNOWLEDGMENT:
@@ -553,7 +562,7 @@ def _one_output(s: State, output: int, elapsed: int) -> State:
 
 
 def _authorize(s: State, i: Inputs) -> State:
-    """Step 12: publish the authorization level of the accepted output in MW01. EKS-2-12, E-05
+    """Step 12: publish the authorization level of the accepted output in MW01. EKS-2-12, E-06b
 
     Nothing has been offered yet, so a word from the panel cannot be an answer: it is refused.
     """
@@ -598,6 +607,16 @@ def _echo_selection(s: State, i: Inputs) -> State:
     return _enter(s, AWAIT_ACKNOWLEDGMENT)  # PublishEcho
 
 
+def _another_word(s: State, i: Inputs) -> State:
+    """Before step 29 MW03 no longer shows the latched selection. EKS-2-19, EKS-2-25, E-16, E-21, E-61
+
+    Zero and another selection take the first one back; a word that is neither is a fault.
+    """
+    if i.MW03 != ZERO and decode(SE, i.MW03) == NONE:
+        return _enter_error(s)  # RefuseSelection
+    return _enter_settle(s)  # WithdrawSelection
+
+
 def _await_acknowledgment(s: State, i: Inputs) -> State:
     """Wait for the acknowledgment; the note has no step for it, and step 27 would refuse the zero. E-11"""
     if i.MW07 == ZERO:
@@ -627,18 +646,23 @@ def _switch(s: State, i: Inputs) -> State:
 
     EKS-2-29, EKS-SD-2, E-16, E-42
 
-    The mode that becomes active is the latched selection (E-01).
+    The mode that becomes active is the latched selection (E-01). By parameter another selection may
+    follow, or only the check before every step goes on until the key goes (E-15).
     """
     if not matches(encode(SE, s.selection), i.MW07):
         return _enter_error(s)  # RefuseMatch
+    if s.params.SELECTIONS == "once":
+        return State(s.params, COMPLETE, s.accepted, s.authority, s.selection, s.selection, 0)  # SwitchMode
     return State(s.params, SETTLE, s.accepted, s.authority, NONE, s.selection, 0)  # SwitchMode
 
 
 def _settle(s: State, i: Inputs, elapsed: int) -> State:
-    """Between two selections: wait without deadline until both words are zero again. E-15, E-52, EKS-GP-5"""
+    """Between two selections: wait, at most T_REM_ms, for zeros in both words. E-15, E-52, EKS-GP-5"""
+    if elapsed >= s.params.T_REM_ms:
+        return _enter_error(s)  # DeadlineExpired: E-15
     if _zeros_returned(s, i, elapsed):
         return _enter(s, AWAIT_SELECTION)  # LeaveSettle
-    return _wait_dwelling(s, elapsed)  # AwaitSettled
+    return _wait(s, elapsed)  # AwaitSettled
 
 
 def _clear(s: State, elapsed: int) -> State:

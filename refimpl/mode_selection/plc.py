@@ -1,10 +1,10 @@
-"""The PLC: it copies four words between the F-PLC and the panel, one a scan, and decides nothing.
+"""The PLC: it copies four words between the F-PLC and the panel, one a scan, and compares before each copy.
 
-Covers steps 13, 16, 21, 26 of the insert flow and 7, 10, 15, 17 of the remove flow. The PLC is not safe
-(EKS-GP-2), so nothing may rest on a check in it: the note's comparisons for the PLC in Figures 3 and 9
-(EKS-3-1-PLC, EKS-3-4-PLC, EKS-9-1-PLC, EKS-9-4-PLC) would forbid the very copies that make the words equal
-(E-08, E-33), and "go to the removed/inserted routine" is the same cyclic copying. The order of the copies is
-ours.
+Covers steps 13, 16, 21, 26 of the insert flow and 7, 10, 15, 17 of the remove flow, and the PLC's rows of
+Figures 3 and 9. The copy of MW01 makes ReadAuthorization the same word; the other copies are made only while
+it still is (E-08). In the removal both are zero, so that one comparison serves both figures. If it fails, the
+other routine begins, and that begins with the copy of MW01. The PLC is not safe (EKS-GP-2), so nothing rests
+on this check. The order of the copies is that of the steps.
 """
 
 from __future__ import annotations
@@ -79,11 +79,12 @@ def power_up(params: Params) -> State:
 
 
 def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
-    """One scan: one copy, always, whatever the words are.
+    """One scan: one copy, always; that of MW01 where ReadAuthorization is no longer MW01.
 
-    EKS-GP-2, EKS-GP-3, EKS-GP-4, EKS-3-2, EKS-3-3, EKS-9-2, EKS-9-3
+    EKS-GP-2, EKS-GP-3, EKS-GP-4, EKS-GP-5, EKS-3-1-PLC, EKS-3-2, EKS-3-3, EKS-3-4-PLC, EKS-9-1-PLC, EKS-9-2,
+    EKS-9-3, EKS-9-4-PLC, E-08
     """
-    if state.turn == Step.COPY_READ_AUTHORIZATION:
+    if state.turn == Step.COPY_READ_AUTHORIZATION or state.ReadAuthorization != inputs.MW01:
         after = _copy_read_authorization(state, inputs)
     elif state.turn == Step.COPY_MW03:
         after = _copy_mw03(state, inputs)
@@ -102,11 +103,11 @@ def outputs(s: State) -> Outputs:
 
 
 def _copy_read_authorization(s: State, i: Inputs) -> State:
-    """ReadAuthorization := MW01, unchanged; it is the authorization level, not the access code (E-05).
+    """ReadAuthorization := MW01, unchanged; it is the authorization level, not the access code (E-06b).
 
     EKS-2-13, EKS-8-7
 
-    No comparison stands in the way of this copy. EKS-3-1-PLC, EKS-3-4-PLC, EKS-9-1-PLC, EKS-9-4-PLC, E-08
+    No comparison stands in the way of this copy: it makes the two equal. E-08
     """
     return State(s.params, Step.COPY_MW03, i.MW01, s.MW03, s.CheckMSO, s.MW07)  # CopyReadAuthorization
 

@@ -60,7 +60,7 @@ class Params:
     """
 
     TestTime_ms: int = 10
-    AUTO_RESET_ERRORS: bool = False
+    AUTO_RESET_ERRORS: bool = True
 
     def __post_init__(self) -> None:
         check_int("TestTime_ms", self.TestTime_ms, TIME_MIN_MS, TIME_MAX_MS, ParameterError)
@@ -169,7 +169,7 @@ def outputs(s: State) -> Outputs:
 
 
 def _row_of_start(c: Step) -> Outputs:
-    """TSS-0000 (S_TestOut is TRUE there, TSSF-05), TSS-8401 (ResetRequest is TRUE there, TSSF-26)."""
+    """TSS-0000 (S_TestOut is TRUE there, TSSF-05), TSS-8401 (ResetRequest is TRUE there, TSSF-30)."""
     if c == Step.IDLE:
         return Outputs(False, False, True, False, False, False, False, False, 0x0000)
     return Outputs(True, False, True, False, False, False, True, False, 0x8401)

@@ -12,7 +12,7 @@ ResetRises_ResetByLevel(i) == i.Reset
 ResetStatic_ResetByLevel(i) == FALSE
 
 ----------------------------------------------------------------------------
-\* EDMF-10, ESF-10, GLF-07, TSSF-25: Reset is read only while the block is active, so that one which is
+\* EDMF-10, ESF-10, GLF-07, TSSF-24: Reset is read only while the block is active, so that one which is
 \* held while the block is switched on counts as an edge
 RemembersReset_ResetSeenOnlyWhileActive(i) == resetBefore' = (i.Reset /\ i.Activate)
 =============================================================================

@@ -14,13 +14,14 @@ EXTENDS CyclicBlock
 
 CONSTANTS
     DiscrepancyTimeCh1_Ch3,   \* ticks that a change between two stages may last; 0 is the initial value
-    MODE_ENDS_ERROR           \* TRUE: the end of the operating mode also ends an error
+    MODE_ENDS_ERROR,          \* TRUE: the end of the operating mode also ends an error
+    AUTO_RESET_ERRORS         \* TRUE: S_AutoReset takes the place of the edge that ends an error
 
 VARIABLES elapsed             \* ticks since the call that saw the change begin; 0 outside the timed states
 
 block == <<state, resetBefore, elapsed>>
 
-ASSUME DiscrepancyTimeCh1_Ch3 \in Nat /\ MODE_ENDS_ERROR \in BOOLEAN
+ASSUME DiscrepancyTimeCh1_Ch3 \in Nat /\ MODE_ENDS_ERROR \in BOOLEAN /\ AUTO_RESET_ERRORS \in BOOLEAN
 
 \* A change between two stages is under way: the only states with a timer
 Timed == {"ChangeToStage1", "ChangeToStage0"}
@@ -203,21 +204,23 @@ LoseStage0(i) ==
     /\ \E f \in Family : f.released = state /\ To(f.cause, i)
     /\ Did("LoseStage0")
 LOCAL Waiting(i) == Held(Released, i) /\ SeesCauseGone(i)
+\* ES-RESTART, ESF-14: no edge is needed
+AutoReset(i) == AUTO_RESET_ERRORS /\ i.S_AutoReset
 \* ES-RESTART, ESF-10: where an edge is waited for, a Reset that is held is an error
 FindStaticReset(i) ==
-    /\ Waiting(i) /\ ResetStatic(i) /\ ~i.S_AutoReset
+    /\ Waiting(i) /\ ResetStatic(i) /\ ~AutoReset(i)
     /\ \E f \in Family : f.released = state /\ To(f.static, i)
     /\ Did("FindStaticReset")
 \* ES-SEQ-5, ES-RESTART, ESF-06
-Resets(i) == ~i.S_AutoReset => ResetRises(i)
+Resets(i) == ~AutoReset(i) => ResetRises(i)
 \* ES-SEQ-5, ES-RESTART
 LeaveError(i) ==
-    /\ Waiting(i) /\ ~(ResetStatic(i) /\ ~i.S_AutoReset) /\ Resets(i)
+    /\ Waiting(i) /\ ~(ResetStatic(i) /\ ~AutoReset(i)) /\ Resets(i)
     /\ To(IF i.S_SafetyActive THEN "Stage0" ELSE "BasicMode", i)
     /\ Did("LeaveError")
 \* ES-SEQ-4
 AwaitReset(i) ==
-    Waiting(i) /\ ~(ResetStatic(i) /\ ~i.S_AutoReset) /\ ~Resets(i) /\ Stay(i) /\ Did("AwaitReset")
+    Waiting(i) /\ ~(ResetStatic(i) /\ ~AutoReset(i)) /\ ~Resets(i) /\ Stay(i) /\ Did("AwaitReset")
 \* ESF-10
 AwaitResetReleased(i) == Held(ResetErrors, i) /\ i.Reset /\ Stay(i) /\ Did("AwaitResetReleased")
 \* ESF-10: back to where the held Reset was found; it resets nothing

@@ -95,22 +95,28 @@ ActivateGoesFirst == [][Ready' = Called.Activate]_beat
 ModeEndsOperation ==
     [][~Called.S_SafetyActive => /\ ~S_EnableSwitchOut' /\ ~SafetyDemand'
                                  /\ (~Error /\ Called.Activate) => DiagCode' = 32770]_beat
+\* ES-RESTART, ESF-14: no edge is needed
+Automatic == AUTO_RESET_ERRORS /\ Called.S_AutoReset
 \* ES-STAGE-0, ES-SEQ-5, ES-RESTART, ESF-06: an error of an active block is left at stage 0 alone, by a reset
 ErrorNeedsReset ==
     [][(Error /\ ~Error' /\ Called.Activate) =>
         /\ SeesStage0(Called) /\ ResetRequest
-        /\ Called.S_AutoReset \/ (Called.Reset /\ ~resetBefore)]_beat
+        /\ Automatic \/ (Called.Reset /\ ~resetBefore)]_beat
+\* ES-SEQ-5, ESF-14: no error ends without an edge
+ErrorNeedsEdge ==
+    [][(Error /\ ~Error' /\ Called.Activate /\ (MODE_ENDS_ERROR => Called.S_SafetyActive)) =>
+        Called.Reset /\ ~resetBefore]_beat
 \* ESF-08: where the parameter lets the end of the mode end an error, nothing else does without a reset
 ErrorNeedsResetInTheMode ==
     [][(Error /\ ~Error' /\ Called.Activate /\ Called.S_SafetyActive) =>
         /\ SeesStage0(Called) /\ ResetRequest
-        /\ Called.S_AutoReset \/ (Called.Reset /\ ~resetBefore)]_beat
+        /\ Automatic \/ (Called.Reset /\ ~resetBefore)]_beat
 \* The three channels as the call found them
 Shown == <<Called.S_EnableSwitchCh1, Called.S_EnableSwitchCh2, Called.S_EnableSwitchCh3>>
 \* ES-SEQ-5, ES-RESTART, ESF-06, ESF-08: where a reset is waited for, it ends the error in that very call
 ResetEndsTheError ==
     [][/\ ResetRequest /\ Called.Activate /\ Shown = <<FALSE, TRUE, FALSE>>
-       /\ Called.S_AutoReset \/ (Called.Reset /\ ~resetBefore)
+       /\ Automatic \/ (Called.Reset /\ ~resetBefore)
        /\ MODE_ENDS_ERROR => Called.S_SafetyActive
        => state' = IF Called.S_SafetyActive THEN "Stage0" ELSE "BasicMode"]_beat
 \* ES-RESTART, ESF-08: what the parameter is for
@@ -124,7 +130,7 @@ LateChangeHasItsError ==
 \* ESF-10: a Reset that is held where its edge is waited for is an error of its own, until it is released
 HeldResetIsAnError ==
     [][Called.Activate =>
-        /\ (ResetRequest /\ SeesStage0(Called) /\ Called.Reset /\ resetBefore /\ ~Called.S_AutoReset) =>
+        /\ (ResetRequest /\ SeesStage0(Called) /\ Called.Reset /\ resetBefore /\ ~Automatic) =>
                (state' \in ResetErrors \/ (MODE_ENDS_ERROR /\ ~Called.S_SafetyActive))
         /\ (state \in ResetErrors /\ Called.Reset) =>
                (state' = state \/ (MODE_ENDS_ERROR /\ ~Called.S_SafetyActive))]_beat

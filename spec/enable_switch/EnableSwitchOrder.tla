@@ -56,7 +56,7 @@ EnableComesInTime ==
     [][(apart # None /\ apart + Called.dt >= DiscrepancyTimeCh1_Ch3) => ~S_EnableSwitchOut']_beat
 \* ES-SEQ-5, ES-RESTART, ESF-10: only a Reset that was FALSE in the call before resets
 HeldResetNeverResets ==
-    [][/\ Error /\ ~Error' /\ Called.Activate /\ ~Called.S_AutoReset
+    [][/\ Error /\ ~Error' /\ Called.Activate /\ ~Automatic
        /\ MODE_ENDS_ERROR => Called.S_SafetyActive
        => Called.Reset /\ ~lastReset]_beat
 =============================================================================

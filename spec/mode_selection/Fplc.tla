@@ -20,14 +20,15 @@ CONSTANTS
     T_ON,       \* ticks from LA to all outputs set (EKS-2-6)
     T_SEQ,      \* ticks of the sequence of outputs (EKS-4-2)
     T_SEQ_FROM, \* "LA" or "ones": what T_SEQ counts from (E-38)
-    T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11)
+    T_REM,      \* ticks for the whole removal (EKS-8-3, EKS-8-11), and for Settle (E-15)
     T_DWELL,    \* least ticks before returned zeros count (E-52)
-    ON_ERROR    \* "hold" or "none": what Error does to the active mode (E-24)
+    ON_ERROR,   \* "hold" or "none": what Error does to the active mode (E-24)
+    SELECTIONS  \* "again" or "once": whether a switchover may be followed by another one with the key (E-15)
 
 ASSUME T_ON \in Nat \ {0} /\ T_SEQ \in Nat \ {0}
 ASSUME T_SEQ_FROM \in {"LA", "ones"} /\ (T_SEQ_FROM = "LA" => T_ON <= T_SEQ)
 ASSUME T_DWELL \in Nat /\ T_REM \in Nat /\ T_DWELL < T_REM
-ASSUME ON_ERROR \in {"hold", "none"}
+ASSUME ON_ERROR \in {"hold", "none"} /\ SELECTIONS \in {"again", "once"}
 
 VARIABLES
     fplcState,      \* the step that is executed next
@@ -41,15 +42,17 @@ fplc == <<fplcState, accepted, authority, fplcSelection, mode, fplcElapsed>>
 
 Echoing == {"AwaitAcknowledgment", "CheckAcknowledgment", "Match", "Switch"}
 Transaction == {"EchoSelection"} \cup Echoing
-Authorized == {"AwaitSelection", "CheckSelection"} \cup Transaction
+Chosen == Transaction \cup {"Complete"}                \* a selection is latched
+Authorized == {"AwaitSelection", "CheckSelection"} \cup Chosen
 Holding == {"Authorize", "Settle"} \cup Authorized    \* an output has been accepted
 Pulse == {"PulseOnes", "PulseZeros"}
 Inserting == Pulse \cup {"OneOutput"}
 WithKey == Inserting \cup Holding                     \* LA is expected
 Removing == {"Clear", "AwaitZeros"}
 OwnRules == {"Start", "Idle", "Error"}                \* left alone by the check before every step
-Timed == Inserting \cup Removing                      \* with a deadline
-Clocked == Timed \cup {"Start", "Settle", "Error"}    \* time is counted
+Returning == Removing \cup {"Settle"}                 \* the words go back to zero, within T_REM
+Timed == Inserting \cup Returning                     \* with a deadline
+Clocked == Timed \cup {"Start", "Error"}              \* time is counted
 FplcStates == OwnRules \cup WithKey \cup Removing
 
 FplcTypeOK ==
@@ -67,12 +70,12 @@ FplcInit ==
 ----------------------------------------------------------------------------
 (* Outputs: the row of the state.                                          *)
 
-\* EKS-2-12, EKS-8-6, E-05: published from AwaitSelection to Switch, and zero in every other state.
+\* EKS-2-12, EKS-8-6, E-15: published from AwaitSelection to Switch and in Complete, else zero.
 \* E-59: also in Settle, so that the panel closes and the next selection cannot overtake the return to zero
 MW01 == IF fplcState \in Authorized THEN RE[authority] ELSE 0
-\* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-15, EKS-8-16, E-27: the echo is there only
-\* while an acknowledgment may come
-MW05 == IF fplcState \in Echoing THEN CH[fplcSelection] ELSE 0
+\* EKS-2-20, EKS-6-2, EKS-6-4, EKS-6-6, EKS-6-8, EKS-6-10, EKS-8-15, EKS-8-16, E-15, E-27: the echo is there
+\* only while an acknowledgment may come, and in Complete
+MW05 == IF fplcState \in Echoing \cup {"Complete"} THEN CH[fplcSelection] ELSE 0
 \* EKS-2-19, EKS-KS-6, E-22: one error mode
 ERROR == fplcState = "Error"
 \* The outputs by their names; a mode output for each mode
@@ -97,7 +100,7 @@ Dwelt(i) == Now(i) >= T_DWELL
 \* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-52: in one scan, not before the dwell time is over
 ZerosReturned(i) == NoSignal(i) /\ NoWords(i) /\ Dwelt(i)
 
-Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Removing -> T_REM [] OTHER -> T_SEQ
+Deadline == CASE fplcState = "PulseOnes" -> T_ON [] fplcState \in Returning -> T_REM [] OTHER -> T_SEQ
 
 \* The check before every single step (EKS-3-0, EKS-9-0, EKS-GP-4), by priority (E-63)
 IsGone(i) == ~i.LA /\ fplcState \in WithKey
@@ -145,10 +148,10 @@ VectorChanged(i) ==
     /\ EnterClear
     /\ Did("VectorChanged")
 
-\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-06, E-25d, E-30, E-32, E-64: expiry is tested before
+\* EKS-2-8, EKS-4-4, EKS-4-6, EKS-4-8, EKS-8-11, E-03, E-06, E-15, E-25d, E-30, E-32, E-64: expiry is tested before
 \* success
 DeadlineExpired(i) ==
-    /\ IsExpired(i) /\ ~IsGone(i) /\ ~IsMany(i)
+    /\ IsExpired(i) /\ ~IsGone(i) /\ ~IsMany(i) /\ ~IsChanged(i)
     /\ EnterError
     /\ Did("DeadlineExpired")
 
@@ -166,7 +169,7 @@ AwaitPowerUpZeros(i) ==
     /\ Wait(i, T_DWELL)
     /\ Did("AwaitPowerUpZeros")
 
-\* EKS-9-1-FPLC, EKS-9-2, EKS-9-3, E-35, E-36
+\* EKS-9-1-FPLC, EKS-9-2, EKS-9-3, E-36
 AwaitKey(i) == fplcState = "Idle" /\ ~i.LA /\ ~Many(i) /\ Untimed /\ Did("AwaitKey")
 \* EKS-2-6, EKS-9-4-FPLC, E-17, E-40, E-73: the pulse has its deadline from LA on, whatever the outputs show
 DetectKey(i) == fplcState = "Idle" /\ i.LA /\ Proceed("PulseOnes") /\ Did("DetectKey")
@@ -204,7 +207,7 @@ EarlyWord(i) == ~NoWords(i)
 RefuseEarlyWord(i) == fplcState = "Authorize" /\ EarlyWord(i) /\ EnterError /\ Did("RefuseEarlyWord")
 \* EKS-T2-3, E-02: A, B, C, D, STR are the levels 0 to 4, by Table 2
 LevelOf(output) == output
-\* EKS-2-12, EKS-SD-1, E-05, E-18: the level comes from the outputs and is kept in private memory
+\* EKS-2-12, EKS-SD-1, E-18: the level comes from the outputs and is kept in private memory
 PublishAuthority(i) ==
     /\ fplcState = "Authorize" /\ ~EarlyWord(i)
     /\ \E a \in i.vec : authority' = LevelOf(a)
@@ -235,6 +238,8 @@ UnexpectedAcknowledgment(i) ==
 
 \* EKS-2-12, EKS-2-18, EKS-5-1, E-12, E-18: range and authority, by the level in private memory
 MayBeSelected(i) == Permitted(authority, ModeOf(SE, i.MW03))
+\* EKS-2-19, E-61: neither zero, which takes the selection back, nor one of the five words
+IsNoCode(i) == i.MW03 # 0 /\ ModeOf(SE, i.MW03) = None
 \* EKS-2-18, EKS-2-19, EKS-5-1 to the end of Figure 5, EKS-5-9, EKS-6-1, EKS-6-3, EKS-6-5, EKS-6-7, EKS-6-9,
 \* EKS-6-11, EKS-5-3, EKS-5-5, EKS-5-7, E-12, E-14, E-16, E-47: range and authority in one scan, then the
 \* selection is latched.  E-71: also that of the mode that is active
@@ -245,18 +250,20 @@ AcceptSelection(i) ==
     /\ KeepKey /\ UNCHANGED mode
     /\ Did("AcceptSelection")
 \* EKS-2-18, EKS-2-19, EKS-5-2, EKS-5-4, EKS-5-6, EKS-5-8, EKS-5-10, EKS-6-12, E-12, E-14
+\* E-61: from there until the switchover a word that is no code is refused as well, whatever MW07 shows
 RefuseSelection(i) ==
-    /\ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 # 0 /\ ~MayBeSelected(i)
+    /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 # 0 /\ ~MayBeSelected(i)
+       \/ fplcState \in Transaction /\ IsNoCode(i)
     /\ EnterError
     /\ Did("RefuseSelection")
 
 ----------------------------------------------------------------------------
 (* Echo, acknowledgment, switchover.                                       *)
 
-\* EKS-2-25, E-16, E-21, E-61: the panel took the selection back or changed it
+\* EKS-2-25, E-16, E-21, E-61: the panel took the selection back, or changed it to another one
 WithdrawSelection(i) ==
     /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 = 0
-       \/ fplcState \in Transaction /\ ~SelectionStands(i)
+       \/ fplcState \in Transaction /\ ~SelectionStands(i) /\ ~IsNoCode(i)
     /\ EnterSettle
     /\ Did("WithdrawSelection")
 
@@ -304,17 +311,21 @@ RefuseMatch(i) ==
     /\ EnterError
     /\ Did("RefuseMatch")
 
-\* EKS-2-29, EKS-SD-2, E-01, E-16, E-18, E-42, E-71: every guard is evaluated again in the scan that switches
+\* EKS-2-29, EKS-SD-2, E-01, E-15, E-16, E-18, E-42, E-71: every guard is evaluated again in the scan that switches
 SwitchMode(i) ==
     /\ StandsIn("Switch", i) /\ Matches(i)
     /\ mode' = {fplcSelection}
-    /\ GoTo("Settle") /\ KeepKey /\ fplcSelection' = None
+    /\ GoTo(IF SELECTIONS = "once" THEN "Complete" ELSE "Settle")
+    /\ KeepKey /\ fplcSelection' = IF SELECTIONS = "once" THEN fplcSelection ELSE None
     /\ Did("SwitchMode")
+\* EKS-2-29, EKS-8-6, EKS-GP-5, EKS-KS-8, E-15: where each insertion has one selection, only the check before
+\* every step goes on; MW01 and MW05 stay as steps 12 and 20 left them, whatever MW03 and MW07 show
+AwaitRemoval(i) == fplcState = "Complete" /\ Untimed /\ Did("AwaitRemoval")
 
 \* EKS-GP-5, E-15: before the next selection both words must have been zero
 AwaitSettled(i) ==
     /\ fplcState = "Settle" /\ ~(NoWords(i) /\ Dwelt(i))
-    /\ Wait(i, T_DWELL)
+    /\ Wait(i, T_REM)
     /\ Did("AwaitSettled")
 \* EKS-GP-5, E-15, E-52
 LeaveSettle(i) ==
@@ -332,7 +343,7 @@ AwaitReturnedZeros(i) ==
     /\ fplcState = "AwaitZeros" /\ ~ZerosReturned(i)
     /\ Wait(i, T_REM)
     /\ Did("AwaitReturnedZeros")
-\* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-35, E-52
+\* EKS-8-12, EKS-8-13, EKS-8-14, EKS-8-18, E-29, E-31, E-52
 LeaveAwaitZeros(i) ==
     /\ fplcState = "AwaitZeros" /\ ZerosReturned(i)
     /\ Proceed("Idle")
@@ -355,15 +366,20 @@ FplcStep(i) ==
       [] fplcState = "AwaitSelection" -> AwaitMW03(i) \/ SeeSelection(i) \/ UnexpectedAcknowledgment(i)
       [] fplcState = "CheckSelection" ->
             AcceptSelection(i) \/ RefuseSelection(i) \/ WithdrawSelection(i) \/ UnexpectedAcknowledgment(i)
-      [] fplcState = "EchoSelection" -> PublishEcho(i) \/ UnexpectedAcknowledgment(i) \/ WithdrawSelection(i)
-      [] fplcState = "AwaitAcknowledgment" -> AwaitMW07(i) \/ SeeAcknowledgment(i) \/ WithdrawSelection(i)
+      [] fplcState = "EchoSelection" ->
+            PublishEcho(i) \/ UnexpectedAcknowledgment(i) \/ WithdrawSelection(i) \/ RefuseSelection(i)
+      [] fplcState = "AwaitAcknowledgment" ->
+            AwaitMW07(i) \/ SeeAcknowledgment(i) \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "CheckAcknowledgment" ->
             \/ AcceptAcknowledgment(i) \/ RefuseAcknowledgment(i) \/ WithdrawAcknowledgment(i)
-            \/ WithdrawSelection(i)
+            \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "Match" ->
-            MatchWords(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i) \/ WithdrawSelection(i)
+            \/ MatchWords(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i)
+            \/ WithdrawSelection(i) \/ RefuseSelection(i)
       [] fplcState = "Switch" ->
-            SwitchMode(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i) \/ WithdrawSelection(i)
+            \/ SwitchMode(i) \/ RefuseMatch(i) \/ WithdrawAcknowledgment(i)
+            \/ WithdrawSelection(i) \/ RefuseSelection(i)
+      [] fplcState = "Complete" -> AwaitRemoval(i)
       [] fplcState = "Settle" -> AwaitSettled(i) \/ LeaveSettle(i)
       [] fplcState = "Clear" -> ClearWords(i)
       [] fplcState = "AwaitZeros" -> AwaitReturnedZeros(i) \/ LeaveAwaitZeros(i)

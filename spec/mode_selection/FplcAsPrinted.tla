@@ -45,10 +45,13 @@ CheckPasses_NoLAAtSwitch(i) ==
     /\ fplcState # "Switch" => ~IsGone(i) /\ ~IsChanged(i)
 
 \* EKS-8-3, EKS-8-11, E-06, E-30: the timer of the removal is watched by the panel alone
-IsExpired_NoRemovalTimer(i) == Now(i) >= Deadline /\ fplcState \in Inserting
+IsExpired_NoRemovalTimer(i) == Now(i) >= Deadline /\ fplcState \in Timed \ Removing
+
+\* EKS-8-3, EKS-8-11, E-15: the note has no time for the return to zero between two selections
+IsExpired_NoSettleDeadline(i) == Now(i) >= Deadline /\ fplcState \in Timed \ {"Settle"}
 
 \* EKS-2-8, E-25d: the F-PLC has no reaction of its own to the expiry of step 8
-IsExpired_NoInsertionTimer(i) == Now(i) >= Deadline /\ fplcState \in Removing
+IsExpired_NoInsertionTimer(i) == Now(i) >= Deadline /\ fplcState \in Returning
 
 \* EKS-4-4, E-64: what the state waits for is tested before its timer, as the rows of Figure 4 stand
 LOCAL Awaited(i) ==
@@ -56,6 +59,7 @@ LOCAL Awaited(i) ==
       [] fplcState = "PulseZeros" -> i.vec = {}
       [] fplcState = "OneOutput" -> i.vec # {}
       [] fplcState = "AwaitZeros" -> ZerosReturned(i)
+      [] fplcState = "Settle" -> NoWords(i) /\ Dwelt(i)
       [] OTHER -> FALSE
 IsExpired_SuccessBeforeExpiry(i) == Now(i) >= Deadline /\ fplcState \in Timed /\ ~Awaited(i)
 
@@ -129,12 +133,9 @@ AcceptSelection_ActiveModeSkipped(i) ==
 ----------------------------------------------------------------------------
 (* Echo, acknowledgment, switchover.                                       *)
 
-\* EKS-2-19, E-61: a word that is no code is an error also after the selection was accepted
-WithdrawSelection_LaterNoCodeIsError(i) ==
-    /\ \/ fplcState = "CheckSelection" /\ Silent(i) /\ i.MW03 = 0
-       \/ fplcState \in Transaction /\ ~SelectionStands(i)
-    /\ IF i.MW03 # 0 /\ ModeOf(SE, i.MW03) = None THEN EnterError /\ Did("RefuseSelection")
-       ELSE EnterSettle /\ Did("WithdrawSelection")
+\* EKS-2-19, EKS-2-28, E-61: step 19 is over once the selection was accepted; what MW03 shows later takes it
+\* back, be it a code or not
+IsNoCode_CodeCheckedOnce(i) == FALSE
 
 \* EKS-2-20, E-14: the step that echoes reads MW03 once more, and takes any word of the range
 SelectionStands_SplitCheck(i) ==

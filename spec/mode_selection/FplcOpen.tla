@@ -25,7 +25,7 @@ VARIABLES
           selected,   \* then MW03 showed this mode, with MW07 still zero
           echoed,     \* then MW05 showed it
           waited      \* ticks since LA was seen (or all outputs, E-38), until one output is accepted; or
-                      \* since the removal began
+                      \* since the removal began, or Settle
 
 observer == <<cleared, pulse, selected, echoed, waited>>
 View == fplc
@@ -70,7 +70,8 @@ OpenInit ==
     /\ PRINT_GRAPH => PrintT(ToString(<<"INIT", View>>))
 
 \* The stretches that have one deadline as a whole
-Stretch(s) == IF s \in Inserting THEN "insertion" ELSE IF s \in Removing THEN "removal" ELSE "none"
+Stretch(s) == IF s \in Inserting THEN "insertion" ELSE IF s \in Removing THEN "removal"
+              ELSE IF s = "Settle" THEN "settling" ELSE "none"
 \* The observer reads the wires i of a scan, and MW05 and the state as they stood before it and after it
 LOCAL Waits(i) ==
     LET goes_on == /\ fplcState \in Timed /\ Stretch(fplcState') = Stretch(fplcState)
@@ -95,7 +96,7 @@ Observe(i) ==
 
 \* The graph tries every time in every state; the properties need only those that the state can tell apart
 LongestTime ==
-    IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Removing THEN T_REM
+    IF VECTORS = "one" THEN 2 ELSE IF fplcState \in Returning THEN T_REM
     ELSE IF fplcState \in Clocked THEN T_DWELL ELSE 0
 ASSUME PRINT_GRAPH \/ VECTORS = "one" \/ (T_ON = T_DWELL /\ T_SEQ = T_DWELL)
 Ended == VECTORS = "least" /\ mode # {}
@@ -181,12 +182,19 @@ RemovalSeenAtOnce ==
     [][(fplcState \in Holding /\ (~Scanned.LA \/ Scanned.vec # {accepted})) =>
         MW01' = 0 /\ MW05' = 0 /\ fplcState' \in {"Clear", "Error"}]_beat
 
-\* EKS-2-20, EKS-6-12: what MW05 shows stands in MW03 in the scan that shows it, and the signalled level
-\* permits it
+\* EKS-2-20, EKS-6-12, E-15: what MW05 shows stands in MW03 in the scan that shows it, or is the mode that was
+\* switched, and the signalled level permits it
 EchoNeedsSelection ==
     [][MW05' # 0 =>
         (\E a, m \in MSO :
-            MW05' = CH[m] /\ Scanned.MW03 = SE[m] /\ Scanned.vec = {a} /\ Permitted(a, m))]_beat
+            /\ MW05' = CH[m] /\ Scanned.vec = {a} /\ Permitted(a, m)
+            /\ Scanned.MW03 = SE[m] \/ (fplcState' = "Complete" /\ mode' = {m}))]_beat
+
+\* EKS-2-29, EKS-GP-5, E-15: where each insertion has one selection, the key must go before the next one
+OneSelectionWhereSet ==
+    [][SELECTIONS = "once" =>
+        /\ Switched => fplcState' = "Complete"
+        /\ fplcState = "Complete" => fplcState' \in {"Complete", "Clear", "Error"} /\ ~Switched]_beat
 
 \* EKS-2-10, EKS-4-1, EKS-4-3, E-10: no level is published without the test pulse of this insertion
 LevelNeedsPulse == [][(MW01' # 0 /\ MW01 = 0) => pulse = 2]_beat
@@ -200,6 +208,9 @@ SharedDeadlineHolds ==
     /\ fplcState = "PulseOnes" => waited < T_ON
     /\ Stretch(fplcState) = "insertion" => waited < T_SEQ \/ (T_SEQ_FROM = "ones" /\ fplcState = "PulseOnes")
     /\ Stretch(fplcState) = "removal" => waited < T_REM
+
+\* EKS-8-11, E-15: a word that does not go back to zero between two selections is reported within T_REM
+StuckWordIsReported == Stretch(fplcState) = "settling" => waited < T_REM
 
 \* EKS-KS-6, E-24: where the error mode is to drop the active mode, it does
 ErrorDropsMode == ON_ERROR = "none" /\ fplcState = "Error" => mode = {}

@@ -8,7 +8,7 @@ EXTENDS FplcOpen
 
 \* The steps that wait
 Waiting == {"Start", "Idle", "PulseOnes", "PulseZeros", "OneOutput", "AwaitSelection", "AwaitAcknowledgment",
-            "Settle", "AwaitZeros", "Error"}
+            "Complete", "Settle", "AwaitZeros", "Error"}
 \* The numbered steps one after another: of an insertion, of a selection, of a removal
 Insertion == <<"Idle", "PulseOnes", "PulseZeros", "OneOutput", "Authorize", "AwaitSelection">>
 Selection == <<"AwaitSelection", "CheckSelection", "EchoSelection", "AwaitAcknowledgment",
@@ -17,7 +17,7 @@ Removal == <<"Clear", "AwaitZeros", "Idle">>
 Next(steps) == {<<steps[n], steps[n + 1]>> : n \in 1..Len(steps) - 1}
 Order ==
     Next(Insertion) \cup Next(Selection) \cup Next(Removal)
-    \cup {<<s, s>> : s \in Waiting} \cup {<<"Start", "Idle">>, <<"Error", "Idle">>}
+    \cup {<<s, s>> : s \in Waiting} \cup {<<"Start", "Idle">>, <<"Error", "Idle">>, <<"Switch", "Complete">>}
     \cup {<<s, "Settle">> : s \in {"CheckSelection"} \cup Transaction}
     \cup {<<s, "Clear">> : s \in Inserting \cup Holding} \cup {<<s, "Error">> : s \in FplcStates}
 \* EKS-GP-3, EKS-GP-5, EKS-2-6, EKS-2-12, EKS-2-17, EKS-2-20, EKS-2-27, EKS-2-28, EKS-2-29, EKS-4-1, EKS-4-3,
@@ -42,9 +42,15 @@ AcknowledgmentNeedsEcho ==
         (fplcState \in {"AwaitSelection", "CheckSelection"} \/ (fplcState = "EchoSelection" /\ Kept)
             => ERROR')]_beat
 
-\* EKS-2-25, E-16, E-21, E-61: a selection that does not stand any more is taken back, whatever MW07 shows
+NoCode == Scanned.MW03 # 0 /\ ModeOf(SE, Scanned.MW03) = None
+\* EKS-2-25, E-16, E-21: a selection that was taken back or changed to another one is withdrawn, whatever MW07
+\* shows
 ChangedSelectionIsWithdrawn ==
-    [][Signalled /\ fplcState \in Transaction /\ ~Kept => fplcState' = "Settle" /\ mode' = mode]_beat
+    [][Signalled /\ fplcState \in Transaction /\ ~Kept /\ ~NoCode => fplcState' = "Settle" /\ mode' = mode]_beat
+\* EKS-2-19, E-61: from the check of the selection until the switchover a word in MW03 that is no code is an
+\* error, whatever MW07 shows
+NoCodeIsReported ==
+    [][Signalled /\ fplcState \in {"CheckSelection"} \cup Transaction /\ NoCode => ERROR']_beat
 
 WordIsJudged ==
     CASE Scanned.MW07 = 0 -> fplcState' = "Settle" /\ mode' = mode

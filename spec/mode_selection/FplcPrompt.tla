@@ -16,6 +16,7 @@ AllZero == ~Scanned.LA /\ Scanned.vec = {} /\ NoWord
 NoNeedlessWait ==
     [][fplcState' = fplcState =>
         CASE fplcState \in {"Start", "AwaitZeros", "Error"} -> ~(AllZero /\ Time >= T_DWELL)
+          [] fplcState = "Complete" -> Scanned.LA /\ Scanned.vec = {accepted}
           [] fplcState = "Settle" -> ~(NoWord /\ Time >= T_DWELL)
           [] fplcState = "Idle" -> ~Scanned.LA
           [] fplcState = "PulseOnes" -> Scanned.vec # MSO
@@ -47,6 +48,6 @@ InsertionNeedsKey ==
 \* it, the time too
 NothingIsKept ==
     /\ fplcState \notin Holding => accepted = None /\ authority = None
-    /\ fplcState \notin Transaction => fplcSelection = None
+    /\ fplcState \notin Chosen => fplcSelection = None
     /\ fplcState \notin Clocked \/ step = "" => fplcElapsed = 0
 =============================================================================

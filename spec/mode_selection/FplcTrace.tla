@@ -13,17 +13,18 @@ FplcRead(w) == [LA |-> w.LA, vec |-> LoggedVector(w), MW03 |-> w.MW03, MW07 |-> 
 \* The times that a scan can find on the clock of each state (EKS-2-6, EKS-4-2, EKS-8-3, E-38, E-52)
 LOCAL Clock == CASE fplcState = "PulseOnes" -> 0..T_ON - 1
                  [] fplcState \in {"PulseZeros", "OneOutput"} -> 0..T_SEQ - 1
-                 [] fplcState = "AwaitZeros" -> 0..T_REM - 1
-                 [] fplcState \in {"Start", "Settle", "Error"} -> 0..T_DWELL
+                 [] fplcState \in {"AwaitZeros", "Settle"} -> 0..T_REM - 1
+                 [] fplcState \in {"Start", "Error"} -> 0..T_DWELL
                  [] OTHER -> {0}
-LOCAL Selections == IF fplcState \in Transaction THEN {m \in MSO : Permitted(authority, m)} ELSE {None}
+LOCAL Selections == IF fplcState \in Chosen THEN {m \in MSO : Permitted(authority, m)} ELSE {None}
 \* E-25c, EKS-2-12, EKS-2-29, E-24: which memory goes with which state
 FplcAnywhere ==
-    /\ fplcState \in FplcStates
+    /\ fplcState \in FplcStates \ (IF SELECTIONS = "once" THEN {} ELSE {"Complete"})
     /\ accepted \in IF fplcState \in Holding THEN MSO ELSE {None}
     /\ authority = IF fplcState \in Holding \ {"Authorize"} THEN accepted ELSE None
     /\ fplcSelection \in Selections
     /\ mode \in IF fplcState = "Start" \/ (fplcState = "Error" /\ ON_ERROR = "none") THEN {{}}
+                ELSE IF fplcState = "Complete" THEN {{fplcSelection}}
                 ELSE {{}} \cup {{m} : m \in MSO}
     /\ fplcElapsed \in Clock
     /\ step = ""

@@ -4,9 +4,8 @@
 (* steps 8, 9, 16, and the HMI's rows of Figures 3 and 9.                  *)
 (* One step is one scan.  i = [RA, CM, touch]: ReadAuthorization and       *)
 (* CheckMSO as they stand on the bus, and the field that the user touched  *)
-(* ("" for none).                                                          *)
-(* Leaves out: the layout (data of the implementation, checked there) and  *)
-(* the display of the active mode, which decides nothing (E-25).           *)
+(* ("" for none).  ActiveMSO, the mode to display, decides nothing (E-25). *)
+(* Leaves out: the layout (data of the implementation, checked there).     *)
 (***************************************************************************)
 EXTENDS Integers, CodeTables, StepName
 
@@ -46,6 +45,8 @@ Screen == CASE hmiState = "Inhibited" -> "inhibited" [] hmiState = "Select" -> "
 Enabled == IF hmiState = "Select" THEN {m \in MSO : Permitted(offered, m)} ELSE {}
 \* EKS-2-22
 Shown == IF hmiState = "Confirm" THEN hmiSelection ELSE None
+\* EKS-8-8, EKS-8-16, E-25, A-33: the mode that a scan displays as active: what its wire brings
+Displays(i) == i.ActiveMSO
 \* The outputs by their names
 HmiOutputs == [SelectMSO |-> SelectMSO, SwitchMSO |-> SwitchMSO, screen |-> Screen, enabled |-> Enabled,
                shown |-> Shown]

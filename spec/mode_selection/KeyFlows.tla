@@ -204,10 +204,8 @@ IdleMeansZeros ==
         /\ MW01 = 0 /\ MW05 = 0 /\ ReadAuthorization = 0 /\ CheckMSO = 0
         /\ SelectMSO = 0 /\ SwitchMSO = 0 /\ MW03 = 0 /\ MW07 = 0 /\ hmiState = "Inhibited"
 
-\* EKS-8-8, EKS-8-16, E-25: what the panel displays as the active mode while no key is in: an input of its own
+\* EKS-2-29: the mode whose output is set
 ActiveMSO == IF mode = {} THEN None ELSE CHOOSE m \in mode : TRUE
-Displayed == ActiveMSO
-DisplayIsTheMode == fplcState = "Idle" => Displayed = ActiveMSO
 \* EKS-FD-1, EKS-FD-2: the contract that an assessor reads
 Contract == INSTANCE ModeSelection WITH level <- Signalled, mode <- ActiveMSO
 RefinesModeSelection == Contract!Spec

@@ -7,6 +7,7 @@
 (* such a behavior is one of GoalSpec without a goal, and after it one of  *)
 (* GoalSpec with that goal: a reading that keeps a user from a mode here   *)
 (* does so there.  It is small, so that such readings are tried one by one.*)
+(* AnyTouchSpec has a user who touches anything, on the same machine.      *)
 (* Leaves out: a user who does anything (GoalSpec).                        *)
 (***************************************************************************)
 EXTENDS KeyFlowsLive
@@ -23,6 +24,14 @@ EarnestSpec ==
     /\ EarnestInit /\ [][EarnestNext]_<<liveVars, step, took>> /\ FairPlc
     /\ WF_reader(EarnestUser /\ Same) /\ WF_panel(EarnestPanel /\ Same)
     /\ WF_fplc(PromptFplc /\ Same) /\ WF_eks(PromptEks /\ Same)
+
+----------------------------------------------------------------------------
+(* A user without a goal, who touches any field at any moment and pulls    *)
+(* the key at any moment; only the next key waits until the machine is     *)
+(* ready (E-17).                                                           *)
+PatientUser == RemoveKey \/ \E k \in LEVELS : fplcState = "Idle" /\ SwapNoticed /\ InsertKey(k)
+AnyTouchNext == (PatientUser \/ PanelRuns \/ PromptFplc \/ PromptEks \/ PlcRuns) /\ Same
+AnyTouchSpec == LiveInit /\ [][AnyTouchNext]_<<liveVars, step, took>>
 
 \* EKS-GP-4, EKS-KS-6, EKS-2-19: the error mode tells of a fault, and of nothing that an honest machine and a
 \* patient user do

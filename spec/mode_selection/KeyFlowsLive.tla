@@ -1,12 +1,14 @@
 ---------------------------- MODULE KeyFlowsLive ----------------------------
 (***************************************************************************)
 (* What must happen in the end.  Fairness: every device keeps scanning.    *)
-(* Two questions, each a specification of its own:                         *)
+(* Three questions, each a specification of its own:                       *)
 (*  GoalSpec     from any state that the honest devices can reach, a user  *)
 (*               who from now on has a goal, on a machine that from now on *)
 (*               keeps its deadlines, gets the mode.                       *)
 (*  RemovalSpec  a key that stays out leads back to Idle, whatever the     *)
 (*               user did and whatever deadline passed before.             *)
+(*  SettleSpec   between two selections the words go back to zero,         *)
+(*               whatever the user does, so its deadline meets no user.    *)
 (* Leaves out: faults (KeyFlowsRecovery); how long it takes.               *)
 (***************************************************************************)
 EXTENDS KeyFlows
@@ -69,11 +71,12 @@ GoalNext ==
 \* For a reader of a trace: any step of the two questions
 AnyNext == GoalNext \/ (Next /\ Same)
 
-\* Each of the four copies is made again and again
+\* Each of the four copies is made again and again; where the PLC decides by a word, whatever is due
 Copied(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history>> /\ Same
 FairPlc ==
     /\ WF_plc(Copied(CopyReadAuthorization(PlcInput))) /\ WF_plc(Copied(CopyMW03(PlcInput)))
     /\ WF_plc(Copied(CopyCheckMSO(PlcInput))) /\ WF_plc(Copied(CopyMW07(PlcInput)))
+    /\ ANY_ORDER \/ WF_plc(Copied(PlcScan(PlcInput)))
 
 GoalSpec ==
     /\ LiveInit /\ [][GoalNext]_<<liveVars, step, took>> /\ FairPlc
@@ -86,6 +89,13 @@ GoalReached == (goal # None) ~> (mode = {goal})
 FairDevices ==
     FairPlc /\ WF_eks(EksRuns /\ Same) /\ WF_fplc(FplcRuns /\ Same) /\ WF_panel(PanelRuns /\ Same)
 RemovalSpec == LiveInit /\ [][Next /\ Same]_<<liveVars, step, took>> /\ FairDevices
+
+\* A user who does anything, on a machine whose deadlines pass only where DeadlineIsDue: in Settle never
+SettleSpec ==
+    /\ LiveInit /\ [][(User \/ EksRuns \/ PromptFplc \/ PlcRuns \/ PanelRuns) /\ Same]_<<liveVars, step, took>>
+    /\ FairPlc /\ WF_fplc(PromptFplc /\ Same) /\ WF_panel(PanelRuns /\ Same)
+\* EKS-GP-5, E-15, E-59: no touch keeps the words from zero; a touch that came early is dropped
+SettleEnds == fplcState = "Settle" ~> fplcState # "Settle"
 
 \* EKS-8-6 to EKS-8-18, EKS-9-0, EKS-GP-4, EKS-GP-5, E-23: a key that stays out leads back to Idle, and Idle
 \* stays

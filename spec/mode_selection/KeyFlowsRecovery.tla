@@ -25,6 +25,7 @@ CopiedOn(copy) == copy /\ UNCHANGED <<reader, eks, fplc, hmi, history, goal>> /\
 FairPlcOn ==
     /\ WF_plc(CopiedOn(CopyReadAuthorization(PlcInput))) /\ WF_plc(CopiedOn(CopyMW03(PlcInput)))
     /\ WF_plc(CopiedOn(CopyCheckMSO(PlcInput))) /\ WF_plc(CopiedOn(CopyMW07(PlcInput)))
+    /\ ANY_ORDER \/ WF_plc(CopiedOn(PlcScan(PlcInput)))
 
 RecoverySpec ==
     /\ RecoveryInit /\ [][FaultNext /\ Same]_<<everything, goal>>

@@ -23,11 +23,17 @@ CopyCheckMSO_PlcChecksFirst(i) == Checked(i) /\ Turn("CopyCheckMSO", "CopyMW07")
 CopyMW07_PlcChecksFirst(i) == Checked(i) /\ Turn("CopyMW07", "CopyReadAuthorization") /\ WriteMW07(i)
 
 ----------------------------------------------------------------------------
+(* PlcOnlyCopies                                                           *)
+\* EKS-GP-2, EKS-3-1-PLC, EKS-9-1-PLC, E-08: the PLC forwards and compares nothing; both routines are the same
+\* four copies.
+StillSame_PlcOnlyCopies(i) == TRUE
+
+----------------------------------------------------------------------------
 (* PlcChecksZero                                                           *)
 \* EKS-8-10, E-33: in the removal the PLC itself checks that the selection of the panel is zero, and copies it
 \* only then.
 CopyMW03_PlcChecksZero(i) ==
-    (i.MW01 # 0 \/ i.SelectMSO = 0) /\ Turn("CopyMW03", "CopyCheckMSO") /\ WriteMW03(i)
+    (i.MW01 # 0 \/ i.SelectMSO = 0) /\ Due(i, "CopyMW03", "CopyCheckMSO") /\ WriteMW03(i)
 
 ----------------------------------------------------------------------------
 (* PlcCountsSteps                                                          *)

@@ -65,7 +65,7 @@ IdleRow == OutputRow(\h0000, F, F, T, F, F, F, F, F)
 \* TSS-0000, TSS-8401, TSS-8802, TSS-8402, TSS-8002, TSS-8804, TSS-8404, TSS-8010, TSS-8806, TSS-8406,
 \* TSS-8020, TSS-8030, TSS-8000,
 \* TSS-C000, TSS-C001, TSS-C011, TSS-C021, TSS-C031, TSS-C041, TSS-C051, TSS-C410, TSS-C010, TSS-EB-1,
-\* TSSF-05, TSSF-26
+\* TSSF-05, TSSF-30
 Rows == TLCEval([s \in States |->
     CASE s = "ParameterError"              -> OutputRow(\hC000, T, F, T, F, F, F, F, T)
       [] s = "ResetError1"                 -> OutputRow(\hC001, T, F, T, F, F, F, F, T)
@@ -125,7 +125,7 @@ LOCAL Remembers(i) == RemembersReset(i) /\ startTestBefore' = i.StartTest /\ sen
 Deactivate(i) == ~i.Activate /\ state # "Idle" /\ Released("Idle") /\ Did("Deactivate")
 \* TSS-IN-ACTIVATE, TSS-0000
 StayIdle(i) == ~i.Activate /\ state = "Idle" /\ Stay /\ Did("StayIdle")
-\* TSS-IN-ACTIVATE, TSS-8401, TSSF-25: an edge of Reset in this call acts on nothing
+\* TSS-IN-ACTIVATE, TSS-8401, TSSF-24: an edge of Reset in this call acts on nothing
 BecomeActive(i) == At("Idle", i) /\ To("Init") /\ Did("BecomeActive")
 
 \* TSS-ERR-4, TSS-C000, TSS-IN-TESTTIME, TSSF-11: the first thing that an active block looks at

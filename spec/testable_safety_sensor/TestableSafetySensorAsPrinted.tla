@@ -3,7 +3,7 @@
 (* What the text of SF_TestableSafetySensor could be taken to say, where   *)
 (* we decided otherwise: one section a reading.  Op_Reading takes the      *)
 (* place of Op in the runs that try the reading.  What the family's text   *)
-(* could be taken to say about Reset (TSSF-24, TSSF-25) stands in          *)
+(* could be taken to say about Reset (TSSF-24) stands in                   *)
 (* CyclicBlockAsPrinted.                                                   *)
 (***************************************************************************)
 EXTENDS TestableSafetySensor

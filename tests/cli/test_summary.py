@@ -42,6 +42,19 @@ def test_a_property_that_no_run_checks_is_unjudged() -> None:
     assert "no run checks it" in failures([], [line])[0]
 
 
+def test_a_line_names_each_profile_in_which_the_property_holds() -> None:
+    letter = tlc("MC_a", strength="profile letter; any input")
+    runs = [letter, tlc("MC_b", strength="profile neither; any input")]
+    (line,) = property_lines([SAFE], runs, DECLARED)
+    assert line.strength == "profile letter; any input"
+    runs.append(tlc("MC_c", strength="profile cautious; any input"))
+    (line,) = property_lines([SAFE], runs, DECLARED)
+    assert line.strength == "profile letter; any input; and in the profile cautious"
+    runs.append(tlc("MC_d", strength="profile cautious; time 0", verdict="INCONCLUSIVE", as_expected=False))
+    (line,) = property_lines([SAFE], runs, DECLARED)
+    assert line.strength == "profile cautious; time 0"
+
+
 def test_a_property_of_another_lane_is_named_and_not_counted() -> None:
     (line,) = property_lines([SAFE], [], DECLARED)
     assert (line.verdict, line.status) == (ASIDE, 0)

@@ -145,6 +145,7 @@ params = st.fixed_dictionaries(
         "T_REM_ms": st.integers(301, 900),
         "T_SEQ_FROM": st.sampled_from(["LA", "ones"]),
         "ON_ERROR": st.sampled_from(["hold", "none"]),
+        "SELECTIONS": st.sampled_from(["again", "once"]),
         "PERMITS_3": st.sampled_from([[3], [1, 3], [1, 2, 3], [0, 1, 2, 3]]),
     }
 )

@@ -173,7 +173,7 @@ def test_an_edited_certificate_is_refused(edit: Callable[[Any], None], cause: st
 
 def test_wrapping_numbers_are_no_numbers_that_stay_in_range(tmp_path: Path) -> None:
     program, place = tmp_path / "plc.st", tmp_path / "certificate"
-    text = PLC.read_text("utf-8").replace("16#11;", "16#11; count : SINT;")
+    text = PLC.read_text("utf-8").replace("BYTE := 16#11;", "BYTE := 16#11; count : SINT;")
     program.write_text(text.replace("turn := ROL(turn, 1);", "turn := ROL(turn, 1); count := count + 1;"))
     given = ["prove-program", str(program), "--target", "plc", "--certificate", str(place)]
     assert main([*given, "--wrap"]) == 0 and recheck(place).status == 0

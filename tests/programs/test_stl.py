@@ -120,7 +120,7 @@ def test_the_command_reads_with_awlsim_apart(capsys: pytest.CaptureFixture[str],
     path = changed(tmp_path, "JL    LOST", "JLX   LOST")
     assert main(["prove-program", str(path), "--target", "plc"]) == 2
     said = capsys.readouterr().err
-    assert "plc.awl:36: Cannot translate instruction: 'JLX'" in said and said.count("\n") == 1
+    assert "plc.awl:40: Cannot translate instruction: 'JLX'" in said and said.count("\n") == 1
     assert {name for name in sys.modules if name.startswith("awlsim")} == loaded
 
 

@@ -80,13 +80,18 @@ id = "OpenIsUnlocked"
 title = "an open door is not locked"
 sentence = "While the door is open the bolt is in."
 hazard = "the bolt hits the frame"
-clauses = ["DR-1-2"]
+clauses = ["DR-1-2", "DR-1-1"]
 findings = ["E-01"]
 tla = "OpenIsUnlocked"
 module = "Latch"
 kind = "invariant"
 environments = ["honest"]
 antecedent = "open_seen"
+""",
+    "spec/door/killers.toml": """
+[[by_construction]]
+property = "OpenIsUnlocked"
+reason = "no run of this door can be started"
 """,
     "spec/door/findings.toml": """
 [[finding]]

@@ -33,10 +33,10 @@ def test_a_sound_tree_gives_status_0_and_the_counts(
     assert registers_command(tree.root, "--matrix") == 0
     shown = capsys.readouterr().out
     assert (
-        "door: 4 clauses (1 with action, 1 with step, 1 with property, 1 with theorem, 1 with vector)"
+        "door: 4 clauses (1 with action, 1 with step, 2 with property, 1 with theorem, 1 with vector)"
         in shown
     )
-    assert "0 unresolved; 0 problems" in shown
+    assert "0 unresolved; 1 properties (1 by construction); 0 problems" in shown
     assert "Latch!CloseLatch +1" in shown and "latch/tour:CloseLatch +1" in shown
 
 

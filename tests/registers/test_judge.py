@@ -57,11 +57,29 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
         # clauses that nobody carries out
         (SPEC + "assumptions.toml", '["DR-1-3"]', "[]", "DR-1-3: no assumption and no property cites"),
         (SPEC + "clauses.toml", "colour decides nothing", " ", "DR-1-4: not modelled, and `because`"),
+        (
+            SPEC + "properties.toml",
+            ', "DR-1-1"]',
+            "]",
+            "DR-1-1: no property and no theorem cites this behaviour",
+        ),
+        (
+            SPEC + "findings.toml",
+            '["at once", "later"]',
+            '["at once"]',
+            "E-01: 1 readings and class wording; a hazard of the text as it stands has one reading",
+        ),
+        (SPEC + "findings.toml", '"wording"', '"hazard"', "E-01: 2 readings and class hazard; a hazard"),
         # work that no clause asks for
         (LATCH, "\\* DR-1-1\n", "\\* nothing\n", "Latch!OpenLatch: the step cites no clause and no finding"),
         (CODE, "open. DR-1-1", "open.", "power_up: the function is public and cites no clause"),
         (CODE, '"""E-01"""', '"""Shut."""', "_shut: the function implements a state and cites no clause"),
-        (SPEC + "properties.toml", '["DR-1-2"]', "[]", "OpenIsUnlocked: the property cites no clause"),
+        (
+            SPEC + "properties.toml",
+            '["DR-1-2", "DR-1-1"]',
+            "[]",
+            "OpenIsUnlocked: the property cites no clause",
+        ),
         (PROOF, '["DR-1-2"]', "[]", "the_bolt_moves: the theorem cites no clause"),
         (
             PROOF,
@@ -91,6 +109,18 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
         ),
         (SPEC + "properties.toml", '"open_seen"', '"opn_seen"', "no run has the witness 'opn_seen'; did you"),
         (SPEC + "properties.toml", '"open_seen"', '""', "names no antecedent, and `reason` does not say why"),
+        (
+            SPEC + "runs.toml",
+            'lanes = ["full"]\nenvironment = "honest"\nproperties = []',
+            'lanes = ["exhaustive"]\nenvironment = "honest"\nproperties = []',
+            "the witness 'open_seen' is reached by no run of what was decided in lane full",
+        ),
+        (
+            SPEC + "properties.toml",
+            'antecedent = "open_seen"',
+            'antecedent = "open_seen"\nreason = "none"',
+            "names an antecedent, and `reason` says why it needs none",
+        ),
         (
             SPEC + "properties.toml",
             'tla = "Open',
@@ -211,7 +241,7 @@ def test_a_clause_of_two_devices_needs_both(tree: Any) -> None:
 
 
 def test_a_property_clause_without_property_or_theorem_is_an_orphan(tree: Any) -> None:
-    tree.edit("spec/door/properties.toml", "DR-1-2", "DR-1-1")
+    tree.edit("spec/door/properties.toml", '"DR-1-2", "DR-1-1"', '"DR-1-1"')
     tree.edit(PROOF, "DR-1-2", "DR-1-1")
     assert "spec/door/clauses.toml: DR-1-2: no property and no theorem cites this property" in problems(tree)
 

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from modeproof.ground.errors import Unjudged
 from modeproof.registers import judge, load_document
 from modeproof.registers.readings import idle_reading
 
@@ -42,6 +43,7 @@ def tried(tree: Any) -> Any:
     tree.edit(SPEC + "runs.toml", '["TypeOK", "Open', '["Open')
     tree.edit(SPEC + "runs.toml", 'properties = ["Open', 'distinct = 9\ngenerated = 20\nproperties = ["Open')
     tree.write(SPEC + "runs.toml", (tree.root / SPEC / "runs.toml").read_text(encoding="utf-8") + RUNS)
+    tree.write(SPEC + "killers.toml", 'document = "door"\n')  # NEG_Latch_slam breaks the property
     tree.edit(SPEC + "findings.toml", "tries = []", 'tries = ["Slam", "Slow"]')
     tree.edit(SPEC + "findings.toml", '"NEG_Latch"', '"NEG_Latch", "NEG_Latch_slam", "MC_Latch_slow"')
     return tree
@@ -99,6 +101,52 @@ def test_each_planted_fault_is_found(tried: Any, file: str, old: str, new: str, 
     tried.edit(SPEC + file, old, new)
     found = problems(tried)
     assert any(expected in one for one in found), found
+
+
+def test_a_finding_that_says_harmless_shows_the_run(tried: Any) -> None:
+    tried.edit(SPEC + "findings.toml", 'consequence = "', 'consequence = "Slow is harmless. ')
+    assert problems(tried) == []
+    tried.edit(SPEC + "findings.toml", ', "MC_Latch_slow"', "")
+    expected = "E-01: says harmless, and no MC run with a reading is its evidence"
+    assert any(expected in line for line in problems(tried)), problems(tried)
+
+
+def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
+    old = 'generated = 20\nproperties = ["'
+    tried.edit(SPEC + "runs.toml", f"{old}Open", f'{old}TypeOK", "Open')
+    text = (tried.root / SPEC / "runs.toml").read_text(encoding="utf-8")
+    tried.write(SPEC + "runs.toml", f'{text}properties = ["TypeOK"]\n')
+    expected = "MC_Latch_slow: calls Slow harmless without asking OpenIsUnlocked; name MC_Latch in its `also`"
+    assert any(expected in one for one in problems(tried)), problems(tried)
+    tried.write(SPEC + "runs.toml", f'{text}properties = ["TypeOK"]\n[run.also]\nMC_Latch = [8, 20]\n')
+    assert problems(tried) == []
+    run = next(run for run in load_document(tried.root, "door").runs if run.of)
+    assert (run.id, run.readings, run.base) == ("MC_Latch_with_Slow", ("Slow",), "MC_Latch")
+    assert (run.distinct, run.generated, run.lanes) == (8, 20, ("full",))
+
+
+@pytest.mark.parametrize(
+    ("also", "expected"),
+    [
+        ("MC_Lach = []", "MC_Latch_slow: also: unknown run 'MC_Lach'; did you mean 'MC_Latch'"),
+        ("NEG_Latch = []", "also: NEG_Latch is no run of kind MC, LIVE, OPEN of what was decided"),
+        ("MC_Latch_slow = []", "also: MC_Latch_slow is no run of kind MC, LIVE, OPEN of what was decided"),
+        ("MC_Latch = [3]", "also: MC_Latch must be [distinct, generated], or [] until --repin writes them"),
+        ('MC_Latch = "3"', "also.MC_Latch"),
+    ],
+)
+def test_a_further_run_that_cannot_be_made_is_refused(tried: Any, also: str, expected: str) -> None:
+    text = (tried.root / SPEC / "runs.toml").read_text(encoding="utf-8")
+    tried.write(SPEC + "runs.toml", f"{text}[run.also]\n{also}\n")
+    with pytest.raises(Unjudged) as caught:
+        load_document(tried.root, "door")
+    assert expected in caught.value.message
+
+
+def test_only_a_harmless_reading_has_further_runs(tried: Any) -> None:
+    tried.edit(SPEC + "runs.toml", 'reading = "Slam"\n', 'reading = "Slam"\nalso = { MC_Latch = [] }\n')
+    with pytest.raises(Unjudged, match="NEG_Latch_slam: also belongs to an MC run with one reading"):
+        load_document(tried.root, "door")
 
 
 def test_the_same_counts_with_other_constants_say_nothing(tried: Any) -> None:

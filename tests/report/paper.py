@@ -170,6 +170,15 @@ def _figures(root: Path, name: str, kind: str, verdict: str) -> dict[str, Any]:
     return {"problems": [], "rows": [], "devices": {}, "clauses": 2}
 
 
+def second(root: Path, **changes: Any) -> str:
+    """Another run of the decided box, with its evidence; returns its id."""
+    runs = root / "spec" / "box" / "runs.toml"
+    row = '[[run]]\nid = "MC_Box_second"\nbase = "MC_Box"\nspecification = "OpenSpec"\n'
+    runs.write_text(f"{runs.read_text()}\n{row}distinct = 5\ngenerated = 11\n")
+    put(root, "MC_Box_second", **{**changes, "result": {**RESULT["MC_Box"], **changes.get("result", {})}})
+    return "MC_Box_second"
+
+
 def without(root: Path, name: str) -> None:
     """Remove a piece of evidence."""
     (root / "build" / "evidence" / "box" / f"{name}.json").unlink()

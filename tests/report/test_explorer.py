@@ -117,7 +117,11 @@ def test_words_are_decoded_by_the_tables_of_the_registers(root: Path) -> None:
 def test_properties_say_their_subject_and_whether_this_graph_was_asked(root: Path) -> None:
     found = part(gather(root))
     (one,) = found.data["devices"]["box/box"]["properties"]
-    assert (one["id"], one["of"], one["clauses"]) == ("ShutsOverDoor", "each transition", ["BX-1-2"])
+    assert (one["id"], one["of"], one["clauses"]) == (
+        "ShutsOverDoor",
+        "each transition",
+        ["BX-1-2", "BX-1-1"],
+    )
     assert json.loads(found.payload[ABOUT])["graphs"] == {"box-OPEN_Box": ["ShutsOverDoor"]}
 
 

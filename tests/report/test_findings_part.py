@@ -9,7 +9,7 @@ import pytest
 from modeproof.report.build import make
 from modeproof.report.parts import assumptions, faults, findings, readings
 from modeproof.report.sources import DIFFERS, HOLE, gather
-from tests.report.paper import change, entry, make_paper, put, without
+from tests.report.paper import RESULT, change, entry, make_paper, put, second, without
 
 FAULTS = """
 document = "box"
@@ -72,6 +72,22 @@ def test_a_reading_is_never_called_harmless_without_the_evidence(root: Path) -> 
     rows = {row["id"]: row for row in entry(readings, root)["alone"]}
     assert not rows["MC_Box_lazy"]["harmless"] and rows["MC_Box_lazy"]["word"] == "not there"
     assert make(root).status == HOLE
+
+
+def test_harmless_means_that_each_of_its_runs_holds(root: Path) -> None:
+    runs = root / "spec" / "box" / "runs.toml"
+    second(root)
+    change(runs, 'reading = "Lazy"\n', 'reading = "Lazy"\nalso = { MC_Box_second = [5, 11] }\n')
+    other = "MC_Box_second_with_Lazy"
+    for name in ("MC_Box_lazy", other):
+        put(root, name, result=RESULT["MC_Box_lazy" if name == "MC_Box_lazy" else "MC_Box"])
+    (row,) = (row for row in entry(readings, root)["alone"] if row["id"] == "MC_Box_lazy")
+    assert row["harmless"] and [one["id"] for one in row["also"]] == [other]
+    assert "harmless within the bounds of 2 runs" in make(root).html
+    put(root, other, verdict="VIOLATED", as_expected=False, reason="ShutsOverDoor is violated")
+    (row,) = (row for row in entry(readings, root)["alone"] if row["id"] == "MC_Box_lazy")
+    assert not row["harmless"] and row["holding"] == 1
+    assert "every property holds in 1 of 2 runs, so it is not called harmless here" in make(root).html
 
 
 def test_a_negative_that_holds_is_not_as_expected(root: Path) -> None:

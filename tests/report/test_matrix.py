@@ -41,7 +41,9 @@ def test_a_clause_leads_to_action_step_property_theorem_and_result(root: Path) -
 
 def test_an_orphan_stands_first_and_is_not_as_expected(root: Path) -> None:
     assert list(rows(root)) == ["BX-1-1", "BX-1-2"]
-    change(root / "spec" / "box" / "properties.toml", 'clauses = ["BX-1-2"]', 'clauses = ["BX-1-1"]')
+    change(
+        root / "spec" / "box" / "properties.toml", 'clauses = ["BX-1-2", "BX-1-1"]', 'clauses = ["BX-1-1"]'
+    )
     path = root / "proofs" / "box" / "box_safety.py"
     change(path, 'clauses=["BX-1-2"]', 'clauses=["BX-1-1"]')
     found = rows(root)

@@ -10,7 +10,7 @@ import pytest
 from modeproof.report.build import make
 from modeproof.report.parts.properties import part
 from modeproof.report.sources import DIFFERS, HOLE, gather
-from tests.report.paper import RESULT, change, make_paper, put, without
+from tests.report.paper import RESULT, change, make_paper, put, second, without
 
 
 @pytest.fixture
@@ -27,23 +27,23 @@ def shown(root: Path) -> dict[str, Any]:
 
 
 def test_a_property_has_meaning_sources_witness_and_each_engines_verdict(root: Path) -> None:
+    run = second(root)
     one = shown(root)
     assert (one["sentence"], one["hazard"]) == ("It shuts only over the door.", "It shuts on a hand.")
-    assert one["clauses"] == ["BX-1-2"]
+    assert one["clauses"] == ["BX-1-2", "BX-1-1"]
     assert one["formal"]["text"].startswith("ShutsOverDoor == [][boxState' # boxState => door']")
     assert one["witness"]["run"] == "WIT_Box" and one["witness"]["verdict"].value == "REACHED"
     row = one["environments"][0]
     assert (row["word"], row["good"], row["engines"]) == ("HOLDS", True, ["TLC", "Z3", "cvc5"])
     assert (row["run"], row["distinct"].value, row["generated"].value) == ("MC_Box", 5, 11)
     assert row["distinct"].source == "build/evidence/box/MC_Box.json"
-    assert [other["id"] for other in row["other_runs"]] == ["MC_Box_lazy"]
+    assert [other["id"] for other in row["other_runs"]] == [run], "what tries a reading is no other run"
     assert one["theorems"][0]["sentence"] == "It shuts only over the door, whatever happens."
     assert part(gather(root)).troubles == ()
 
 
 def test_a_property_without_evidence_shows_a_hole_in_its_place(root: Path) -> None:
     without(root, "MC_Box")
-    without(root, "MC_Box_lazy")
     row = shown(root)["environments"][0]
     assert (row["word"], row["good"], row["distinct"]) == ("not there", None, None)
     report = make(root)
@@ -72,9 +72,9 @@ def test_engines_that_contradict_each_other_are_not_as_expected(root: Path) -> N
 
 def test_a_run_that_fails_outweighs_one_that_holds(root: Path) -> None:
     changes = {"verdict": "VIOLATED", "as_expected": False, "reason": "ShutsOverDoor is violated"}
-    put(root, "MC_Box_lazy", result={"violated": "ShutsOverDoor"}, **changes)
+    run = second(root, result={"violated": "ShutsOverDoor"}, **changes)
     row = shown(root)["environments"][0]
-    assert (row["run"], row["word"], row["good"]) == ("MC_Box_lazy", "VIOLATED", False)
+    assert (row["run"], row["word"], row["good"]) == (run, "VIOLATED", False)
 
 
 def test_nothing_is_known_where_another_property_fell_first(root: Path) -> None:

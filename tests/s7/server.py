@@ -38,6 +38,7 @@ T_REM_ms,DB1.DBD8,TIME
 T_DWELL_ms,DB1.DBD12,TIME
 T_SEQ_FROM,DB1.DBX16.0,BOOL
 ON_ERROR,DB1.DBX16.1,BOOL
+SELECTIONS,DB1.DBX16.2,BOOL
 PERMITS_0,DB1.DBB17,BYTE
 PERMITS_1,DB1.DBB18,BYTE
 PERMITS_2,DB1.DBB19,BYTE
@@ -106,6 +107,7 @@ class Plc:
             T_DWELL_ms=dwell,
             T_SEQ_FROM="ones" if choices & 1 else "LA",
             ON_ERROR="none" if choices & 2 else "hold",
+            SELECTIONS="once" if choices & 4 else "again",
             **levels,  # type: ignore[arg-type]
         )
         self.state = fplc.power_up(params)

@@ -113,7 +113,13 @@ def suite_of(folder: Path, *rows: dict[str, Any]) -> Suite:
 @pytest.fixture
 def suite(tmp_path: Path) -> Suite:
     """Two cases, the second with parameters of its own."""
-    other = {"ON_ERROR": "none", "T_SEQ_FROM": "ones", "T_DWELL_ms": 70, "PERMITS_1": [1]}
+    other = {
+        "ON_ERROR": "none",
+        "T_SEQ_FROM": "ones",
+        "SELECTIONS": "once",
+        "T_DWELL_ms": 70,
+        "PERMITS_1": [1],
+    }
     second = [*journey(70)[:7], (0, {"MW07": f"{RE[1]:04X}"})]
     return suite_of(tmp_path, case_row(journey(500), {}), case_row(second, other))
 

@@ -176,7 +176,7 @@ def test_everyone_can_follow_a_record_at_800_pixels(opened: Opened, known: dict[
 @pytest.mark.parametrize(
     ("wanted", "said"),
     [
-        ("E-04", "E-04: code words are printed with the letter O"),
+        ("E-22", "E-22: five names for what happens on an error"),
         ("E-999", "There is no finding 'E-999' in this page."),
         ("E-01&run=NEG_other", "NEG_other is no run of it that can be played."),
     ],

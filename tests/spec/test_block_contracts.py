@@ -59,7 +59,11 @@ EDM = Trial(
 )
 ENABLE_SWITCH = Trial(
     Watched("enable_switch", "sf_enable_switch", (0, 5, 10), {"Activate": 0.97, "S_SafetyActive": 0.9}),
-    [{"DiscrepancyTimeCh1_Ch3_ms": 20}, {"DiscrepancyTimeCh1_Ch3_ms": 20, "MODE_ENDS_ERROR": True}],
+    [
+        {"DiscrepancyTimeCh1_Ch3_ms": 20},
+        {"DiscrepancyTimeCh1_Ch3_ms": 20, "MODE_ENDS_ERROR": True},
+        {"DiscrepancyTimeCh1_Ch3_ms": 20, "AUTO_RESET_ERRORS": False},
+    ],
     {
         "EnableNeedsItsConditions": [
             (
@@ -81,11 +85,10 @@ ENABLE_SWITCH = Trial(
         ],
         "IdleIsSilent": [("if not i.Activate:", "if not i.Activate and not i.Reset:")],
         "ErrorNeedsReset": [
-            ("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.Reset or i.S_AutoReset:"),
-            ("if held(i.Reset, s.reset_before) and not i.S_AutoReset:", "if False:"),
+            ("automatic = s.params.AUTO_RESET_ERRORS and i.S_AutoReset", "automatic = i.S_AutoReset")
         ],
     },
-    {},
+    {"ErrorNeedsReset": {"DiscrepancyTimeCh1_Ch3_ms": 20, "AUTO_RESET_ERRORS": False}},
 )
 GUARD_LOCKING = Trial(
     Watched(
@@ -141,7 +144,7 @@ SENSOR = Trial(
     ),
     [
         {"TestTime_ms": 20},
-        {"TestTime_ms": 20, "AUTO_RESET_ERRORS": True},
+        {"TestTime_ms": 20, "AUTO_RESET_ERRORS": False},
         {"TestTime_ms": 0},
         {"TestTime_ms": 151},
     ],
@@ -196,7 +199,10 @@ SENSOR = Trial(
             ("s.params.TestTime_ms <= TEST_TIME_MAX_MS", "s.params.TestTime_ms <= TEST_TIME_MAX_MS + 1")
         ],
     },
-    {"ParameterErrorStays": {"TestTime_ms": 151}},
+    {
+        "ParameterErrorStays": {"TestTime_ms": 151},
+        "FailedTestNeedsReset": {"TestTime_ms": 20, "AUTO_RESET_ERRORS": False},
+    },
 )
 TRIALS = {one.block.document: one for one in (EDM, ENABLE_SWITCH, GUARD_LOCKING, SENSOR)}
 

@@ -58,6 +58,23 @@ def test_missing_pins_are_added_and_nothing_else_changes(tmp_path: Path) -> None
     )
 
 
+def test_counts_of_a_further_run_go_into_its_row(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "MC_toy")
+    (root / "spec/toy/ToyAsPrinted.tla").write_text(
+        "---- MODULE ToyAsPrinted ----\nEXTENDS Toy\nUp_Slow == FALSE\n====\n"
+    )
+    path = root / "spec/toy/runs.toml"
+    path.write_text(
+        f'{path.read_text()}\n[[run]]\nid = "MC_slow"\nbase = "MC_toy"\n'
+        'reading = "Slow"\n[run.also]\nMC_toy = []\n'
+    )
+    moved = moves(root, checked(root, "MC_toy_with_Slow", outcome("MC_toy")))
+    assert [str(move) for move in moved] == ["also.MC_toy: none -> 16 of 33"]
+    apply(root, {"toy": {"MC_slow": moved}}, "first counts")
+    assert "MC_toy = [16, 33] # " in path.read_text()
+    assert moves(root, checked(root, "MC_toy_with_Slow", outcome("MC_toy"))) == ()
+
+
 def test_a_wrong_verdict_is_never_pinned(tmp_path: Path) -> None:
     root = toy_tree(tmp_path, "MC_toy", "NEG_small", distinct=12)
     with pytest.raises(Unjudged, match="VIOLATED is not what the run must show"):

@@ -17,6 +17,7 @@ from modeproof.trace.targets import find_target
 
 OBSERVER = ["resetSeen", "requestSeen", "asked", "starting", "lost", "unguarded"]
 NOTHING_SEEN = " /\\ in = 0 /\\ beat = FALSE" + "".join(f" /\\ {name} = FALSE" for name in OBSERVER)
+GUARD = "GuardLockingOpen, GuardLockingTrace"
 _CHECKS = re.compile(
     r"^(SPECIFICATION|VIEW|ACTION_CONSTRAINT|INVARIANTS|PROPERTIES|\\\*).*\n(?: .*\n)*", re.MULTILINE
 )
@@ -29,12 +30,8 @@ _CHECKS = re.compile(
         ("fplc", "OPEN_Fplc", "FplcTrace", ""),
         ("hmi", "OPEN_Hmi", "HmiTrace", ""),
         ("eks", "OPEN_Eks6", "EksOpen, EksTrace", " /\\ in = 0 /\\ beat = FALSE /\\ lasted = 0"),
-        (
-            "sf_guard_locking",
-            "OPEN_SF_GuardLocking_latched",
-            "GuardLockingOpen, GuardLockingTrace",
-            NOTHING_SEEN,
-        ),
+        ("sf_guard_locking", "OPEN_SF_GuardLocking", GUARD, NOTHING_SEEN),
+        ("sf_guard_locking", "OPEN_SF_GuardLocking_cautious", GUARD, NOTHING_SEEN),
     ],
 )
 def test_as_many_as_the_graph_has(device: str, run: str, module: str, extra: str, tmp_path: Path) -> None:

@@ -114,6 +114,13 @@ def extra(device: str, graph: DeviceGraph) -> dict[str, Lines]:
             "shown and touch not observed": without(shows_another, "shown", "touch"),
             "displays another": displays_another,
         }
+    if device == "plc":
+        rest = {"MW05": "0000", "SelectMSO": "5555", "SwitchMSO": "0000"}
+        zeros = {"MW03": "0000", "CheckMSO": "0000", "MW07": "0000"}
+        first = {"dt_ms": 1, "in": {"MW01": "1111", **rest}, "out": {**zeros, "ReadAuthorization": "1111"}}
+        checks = {"dt_ms": 1, "in": {"MW01": "2222", **rest}, "out": {**zeros, "ReadAuthorization": "2222"}}
+        only_copies = {**checks, "out": {**first["out"], "MW03": "5555"}}
+        return {"checks": [first, checks], "only copies": [first, only_copies]}
     if device == "eks":
         other_key = [
             {**line, "in": {**line["in"], "KeyID": 2**64 - 1}} if line["in"]["inserted"] else line
@@ -194,6 +201,13 @@ def test_what_was_not_observed_is_not_held_against_a_log(batches: dict[str, Batc
 @pytest.mark.deep
 def test_an_output_that_repeats_an_input_must_do_so(batches: dict[str, Batch]) -> None:
     assert batches["hmi"].extra["displays another"].accepted == 7
+
+
+@pytest.mark.deep
+def test_two_words_that_the_plc_compares_are_told_apart(batches: dict[str, Batch]) -> None:
+    checks, only_copies = (batches["plc"].extra[name] for name in ("checks", "only copies"))
+    assert (checks.verdict, only_copies.verdict, only_copies.accepted) == ("CONFORMS", "DIFFERS", 1)
+    assert isinstance(only_copies.followed, Followed) and only_copies.followed.accepted == 1
 
 
 @pytest.mark.deep

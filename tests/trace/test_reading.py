@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ from modeproof.ground.places import root
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import LONGEST_MS, without_codes
 from modeproof.trace.table import TableForm, read_table
-from modeproof.trace.targets import find_target
+from modeproof.trace.targets import find_target, targets_of
 from tests.trace.judging import LOGS, example, record
 
 FPLC = find_target(root(), "fplc")
@@ -243,3 +244,13 @@ def test_an_output_without_documented_values_is_omitted_and_named(tmp_path: Path
     left = without_codes(log, target)
     assert left.not_compared == ("MW01",) and [dict(row.outputs) for row in left.rows] == [{"ERROR": True}]
     assert "MW01" in log.observed("fplc") and "MW01" not in left.observed("fplc")
+
+
+def test_a_comparison_with_an_unknown_signal_is_refused(tmp_path: Path) -> None:
+    shutil.copytree(root() / "spec" / "mode_selection", tmp_path / "spec" / "mode_selection")
+    path = tmp_path / "spec" / "mode_selection" / "traces.toml"
+    text = path.read_text()
+    path.write_text(text.replace('compares = ["ReadAuthorization", "MW01"]', 'compares = ["MW01", "MW01"]'))
+    assert path.read_text() != text
+    with pytest.raises(Unjudged, match=r"\[\[target\]\] plc: copies: plc has no such signal 'MW01'"):
+        targets_of(tmp_path, "mode_selection")

@@ -19,6 +19,7 @@ ORDER = (
     "system",
     "charts",
     "properties",
+    "responses",
     "assumptions",
     "readings",
     "faults",

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.report.claims import LANE
@@ -76,7 +77,7 @@ def _graph(sources: Sources, document: Document, run: Run, compared: list[Eviden
         "run": run.id,
         "device": run.graph.device,
         "aside": LANE not in run.lanes,
-        "strength": run.strength,
+        "strength": strength_of(document.root, run),
         "states": None if printed is None else printed.figure("result", "graph", "states"),
         "edges": None if printed is None else printed.figure("result", "graph", "edges"),
         "command": f"modeproof conform {run.graph.device} --builtin refimpl --document {document.name}",

@@ -11,6 +11,7 @@ import zlib
 from typing import Any
 
 from modeproof.registers.citations import ids_of
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Device, Document, Property
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
@@ -83,7 +84,7 @@ def _graph(
         "run": run.id,
         "device": device.id,
         "says": device.title,
-        "strength": run.strength,
+        "strength": strength_of(document.root, run),
         "parameters": dict(run.graph.params),
         "register": document.source("runs"),
         **figures,

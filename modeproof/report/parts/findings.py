@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 from modeproof.report.claims import Result, result_of, steps_of, theorem_result, theorem_rows
@@ -18,6 +19,7 @@ MOST = 2
 CLASSES = (
     ("safety", False, "Safety, and no drawing can settle it"),
     ("safety", True, "Safety, and a drawing could settle it"),
+    ("hazard", None, "Hazard: the text has one reading, and leaves something to the machine"),
     ("availability", None, "Availability: the machine or the user is stopped"),
     ("wording", None, "Wording: no effect once it is noticed"),
 )
@@ -50,7 +52,7 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
                 if name in runs
                 else theorem_result(sources, document, name)
             )
-            rows.append(_evidence(result, runs, sentences))
+            rows.append(_evidence(document, result, runs, sentences))
         findings.append(_finding(document, finding, rows))
         if not finding.evidence and not finding.evidence_open.strip():
             what = f"{document.name}: {finding.id} names no evidence and does not say why"
@@ -98,7 +100,9 @@ def _shown(rows: list[dict[str, Any]]) -> dict[str, Any]:
     }
 
 
-def _evidence(result: Result, runs: Mapping[str, Run], sentences: Mapping[str, str]) -> dict[str, Any]:
+def _evidence(
+    document: Document, result: Result, runs: Mapping[str, Run], sentences: Mapping[str, str]
+) -> dict[str, Any]:
     run = runs.get(result.id)
     if run is None:
         return {"kind": "theorem", **result.data, "sentence": sentences.get(result.id, "")}
@@ -107,6 +111,6 @@ def _evidence(result: Result, runs: Mapping[str, Run], sentences: Mapping[str, s
         **result.data,
         "violates": run.property,
         "environment": run.environment,
-        "strength": run.strength,
+        "strength": strength_of(document.root, run),
         "steps": steps_of(result),
     }

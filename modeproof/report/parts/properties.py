@@ -5,6 +5,8 @@ from __future__ import annotations
 import textwrap
 from typing import Any
 
+from modeproof.registers.killers import load_killers, ways_to_fall
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure
@@ -27,6 +29,7 @@ def part(sources: Sources) -> Part:
 
 def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> dict[str, Any]:
     every = claims(sources, document)
+    sources.content(document.source("killers"))  # one of the files that the report rests on
     killing = campaign(sources, document.name, "spec")
     properties = [
         _property(sources, document, prop, [c for c in every if c.of is prop], killing, troubles)
@@ -49,7 +52,7 @@ def _run(sources: Sources, document: Document, run: Run) -> dict[str, Any]:
         **one.data,
         "kind": run.kind,
         "environment": run.environment,
-        "strength": run.strength,
+        "strength": strength_of(document.root, run),
         "violates": run.property,
         "expected": "" if record is None else record.record["expected"],
         "traced": record is not None and bool(record.result.get("trace")),
@@ -99,6 +102,7 @@ def _property(
         "environments": [_environment(claim) for claim in own],
         "theorems": _theorems(sources, document, own),
         "witness": witness,
+        "falls": _falls(sources, document, prop),
         "kills": _kills(killing, prop),
     }
 
@@ -177,6 +181,24 @@ def _witness(sources: Sources, document: Document, prop: Property) -> dict[str, 
     status = first.status or DIFFERS
     why = f"{first.id} has not reached {prop.antecedent}" + (f": {first.why}" if first.why else "")
     return {**answer, "run": first.id, "status": status, "why": why, "command": command}
+
+
+def _falls(sources: Sources, document: Document, prop: Property) -> dict[str, Any]:
+    """The negatives and the edits with which it falls, or why nothing breaks it."""
+    every, killers = sources.once(
+        f"killers {document.name}",
+        lambda: (
+            ways_to_fall(document, texts_of(sources, document)),
+            load_killers(document.root, document.name),
+        ),
+    )
+    falls = every[prop.id]
+    edits = [killers.edits[name] for name in falls.edits]
+    return {
+        "negatives": list(falls.negatives),
+        "edits": [{key: getattr(edit, key) for key in ("module", "old", "new", "slip")} for edit in edits],
+        "reason": falls.reason,
+    }
 
 
 def _kills(killing: Campaign | None, prop: Property) -> dict[str, Any] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document
 from modeproof.report.claims import Result, steps_of
 from modeproof.report.deviations import Deviation, deviations
@@ -41,10 +42,12 @@ def _deviation(document: Document, deviation: Deviation) -> dict[str, Any]:
         "property": None if falls is None else falls.id,
         "hazard": "" if falls is None else falls.hazard,
         "harmless": deviation.harmless,
+        "holding": deviation.holding,
+        "also": [one.data for one in deviation.also],
         "reached": _reached(deviation.result),
         "steps": steps_of(deviation.result),
         "environment": deviation.run.environment,
-        "strength": deviation.run.strength,
+        "strength": strength_of(document.root, deviation.run),
         "seconds": None
         if deviation.result.evidence is None
         else deviation.result.evidence.figure("seconds", unit="s"),

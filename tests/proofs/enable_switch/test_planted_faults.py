@@ -16,8 +16,8 @@ JUDGE, ANYWHERE = invariants.JUDGE, switch_answers.ANYWHERE
 
 _state = JUDGE.after_a_scan
 LATE = ("if time_is_over(s, i):", "if time_is_over(s, i) and not sees_stage_1(i):")
-RESET = ("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.Reset or i.S_AutoReset:")
-STATIC = ("if held(i.Reset, s.reset_before) and not i.S_AutoReset:", "if False:")
+RESET = ("if rises(i.Reset, s.reset_before) or automatic:", "if i.Reset or automatic:")
+STATIC = ("if held(i.Reset, s.reset_before) and not automatic:", "if False:")
 REMEMBERED = ("return State(s.params, control, i.Reset, 0)", "return State(s.params, control, False, 0)")
 NEVER_OVER = (
     "return s.elapsed_ms + i.dt_ms >= s.params.DiscrepancyTimeCh1_Ch3_ms",
@@ -148,10 +148,17 @@ FAULTS = [
         switch_safety.held_reset_never_resets,
         [
             (
-                "if rises(i.Reset, s.reset_before) or i.S_AutoReset:",
-                "if rises(i.Reset, s.reset_before) or i.S_AutoReset or not i.S_SafetyActive:",
+                "if rises(i.Reset, s.reset_before) or automatic:",
+                "if rises(i.Reset, s.reset_before) or automatic or not i.S_SafetyActive:",
             )
         ],
+    ),
+    Planted(
+        "ErrorNeedsEdge",
+        JUDGE,
+        "EquivalenceErrorAtStage0",
+        switch_safety.error_needs_reset,
+        [("automatic = s.params.AUTO_RESET_ERRORS and i.S_AutoReset", "automatic = i.S_AutoReset")],
     ),
     Planted(
         "OutputsFollowTheCode",
@@ -230,7 +237,7 @@ FAULTS = [
         ANYWHERE,
         "OperationErrorAtStage0",
         switch_answers.the_edge_resets,
-        [("if rises(i.Reset, s.reset_before) or i.S_AutoReset:", "if i.S_AutoReset:")],
+        [("if rises(i.Reset, s.reset_before) or automatic:", "if automatic:")],
     ),
     Planted(
         "the kind of error",

@@ -7,7 +7,14 @@ import z3
 
 from modeproof.ground.places import root
 from modeproof.registers import load_document
-from proofs.guard_locking import block_locks, block_memory, block_response, block_safety, step_paths
+from proofs.guard_locking import (
+    block_locks,
+    block_losses,
+    block_memory,
+    block_response,
+    block_safety,
+    step_paths,
+)
 from proofs.guard_locking.devices import BLOCK
 from proofs.guard_locking.invariant import JUDGE, LOCKED
 from tests.proofs.block import Planted, named, wrong_answers
@@ -82,7 +89,7 @@ FAULTS = [
         "LossNeedsReset",
         JUDGE,
         "SafetyReturn",
-        block_safety.loss_needs_reset,
+        block_losses.loss_needs_reset,
         [
             ("return Step.WAIT_FOR_OPERATOR  # AcknowledgeError", "return Step.GUARD_CLOSED_AND_LOCKED"),
             ("if rises(i.Reset, s.reset_before):", "if i.S_AutoReset:"),
@@ -107,21 +114,21 @@ FAULTS = [
         "LossIsAnError",
         JUDGE,
         LOCKED,
-        block_safety.loss_is_an_error,
+        block_losses.loss_is_an_error,
         [("return Step.SAFETY_LOST  # LoseGuard", "return Step.WAIT_FOR_OPERATOR")],
     ),
     Planted(
         "ErrorNeedsCause",
         JUDGE,
         "WaitForOperator",
-        block_safety.error_needs_cause,
+        block_losses.error_needs_cause,
         [("if not i.S_SafetyActive and not (i.S", "if not (i.S")],
     ),
     Planted(
         "ErrorEndsWithCause",
         JUDGE,
         "ResetError3",
-        block_safety.error_ends_with_cause,
+        block_losses.error_ends_with_cause,
         [("return Step.WAIT_FOR_RESET  # ReleaseReset", "return Step.WAIT_FOR_OPERATOR")],
     ),
     Planted(
@@ -169,14 +176,14 @@ FAULTS = [
         "MessageUntilReset",
         JUDGE,
         "SafetyLost",
-        block_safety.message_until_reset,
+        block_losses.message_until_reset,
         [("s.params.MESSAGE_OF_LOSS == UNTIL_RESET, 0x8014", "False, 0x8014")],
     ),
     Planted(
         "LossOfZoneNeedsNoGuard",
         JUDGE,
         "SafetyReturn",
-        block_safety.loss_of_zone_needs_no_guard,
+        block_losses.loss_of_zone_needs_no_guard,
         [("guard_too = s.guard_lost or", "guard_too = s.params.CAUSE_OF_LOSS == WHAT_WAS_LOST or")],
     ),
     Planted(
@@ -340,7 +347,7 @@ def test_a_planted_fault_is_refuted_with_an_example_that_happens(fault: Planted)
 
 
 def test_every_property_that_a_theorem_names_has_a_planted_fault() -> None:
-    proved = named(block_safety, block_locks, block_memory, block_response, step_paths)
+    proved = named(block_safety, block_losses, block_locks, block_memory, block_response, step_paths)
     assert {fault.name for fault in FAULTS} >= proved - {"EveryCallIsAnswered"}
     not_of_the_block = {"NobodyInMovingZone", "NoMotionBehindOpenDoor", "NobodyShutInByAnError"}
     known = {one.id for one in load_document(root(), "guard_locking").properties}

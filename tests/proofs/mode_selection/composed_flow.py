@@ -45,11 +45,14 @@ class Moment:
     unseen: bool = False
     low: bool = False
     switched: bool = False
+    come: int = 2
+    """How far the mode outputs have come; the display wire of a flow takes no time."""
 
 
-def beginning(**times: int) -> Moment:
+def beginning(selections: str = "again", **times: int) -> Moment:
     """Power-up; the default times of the F-PLC unless others are given."""
-    return Moment(key_flows.power_up(eks.Params(lambda data: CHECKSUM), fplc.Params(**times)))
+    params = fplc.Params(SELECTIONS=selections, **times)
+    return Moment(key_flows.power_up(eks.Params(lambda data: CHECKSUM), params))
 
 
 def in_selection(moment: Moment) -> bool:
@@ -63,7 +66,7 @@ def in_selection(moment: Moment) -> bool:
 def insert(moment: Moment, level: int) -> Moment:
     """A key goes in; what was touched before counts no more."""
     flow = key_flows.insert_key(moment.flow, key(level))
-    return Moment(flow, unseen=moment.unseen or in_selection(moment), low=moment.low)
+    return Moment(flow, unseen=moment.unseen or in_selection(moment), low=moment.low, come=moment.come)
 
 
 def remove(moment: Moment) -> Moment:
@@ -88,15 +91,17 @@ def scan(moment: Moment, device: str, dt_ms: int = 0, wires: Mapping[str, bool] 
         here = before.fplc_state
         switched = (
             here.state == fplc.Step.SWITCH
-            and after.fplc_state.state == fplc.Step.SETTLE
+            and after.fplc_state.state in (fplc.Step.SETTLE, fplc.Step.COMPLETE)
             and fplc.matches(before.plc_out.MW03, before.plc_out.MW07)
         )
         unseen = moment.unseen and in_selection(made)
-        return replace(made, switched=switched, unseen=unseen, low=before.eks_out == OFF)
+        come = moment.come if after.fplc_state.mode == here.mode else 1
+        return replace(made, switched=switched, unseen=unseen, low=before.eks_out == OFF, come=come)
     if device == "eks":
         return replace(made, low=moment.low and not after.eks_out.LA)
     if device != "hmi":
         return made
+    made = replace(made, come=2)
     old, new = before.hmi_state.state, after.hmi_state.state
     if old == hmi.Step.SELECT and new == hmi.Step.AWAIT_ECHO:
         return replace(made, touched=int(before.touch[-1]), seen=NONE, confirmed=NONE)
@@ -158,6 +163,8 @@ def as_system(moment: Moment) -> system.System:
         views.view_of(EKS, flow.eks_state, flow.eks_out),
         system.History(
             *[z3.IntVal(one) for one in (moment.touched, moment.seen, moment.confirmed)],
+            z3.IntVal(key_flows.active_mode(flow)),
+            z3.IntVal(moment.come),
             z3.BoolVal(moment.unseen),
             z3.BoolVal(moment.low),
         ),

@@ -153,6 +153,13 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         [("Step.WITHDRAWN, s.offered, NONE)", "Step.WITHDRAWN, NONE, NONE)")],
     ),
     (
+        "the display",
+        PANEL,
+        "AwaitSwitch",
+        panel_safety.displays_what_it_reads,
+        [("return after, outputs(after, inputs.ActiveMSO)", "return after, outputs(after, state.selection)")],
+    ),
+    (
         "ScreenIsTrue",
         PANEL,
         "AwaitEcho",
@@ -212,6 +219,20 @@ FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
         "CopyCheckMSO",
         plc_safety.copies_take_turns,
         [("State(s.params, Step.COPY_MW07,", "State(s.params, Step.COPY_READ_AUTHORIZATION,")],
+    ),
+    (
+        "LevelGoesFirst",
+        PLC,
+        "CopyCheckMSO",
+        plc_safety.level_goes_first,
+        [(" or state.ReadAuthorization != inputs.MW01", "")],
+    ),
+    (
+        "every copy within four scans",
+        PLC,
+        "CopyReadAuthorization",
+        plc_safety.every_copy_comes_closer,
+        [("State(s.params, Step.COPY_MW03, i.MW01", "State(s.params, Step.COPY_READ_AUTHORIZATION, i.MW01")],
     ),
     (
         "OneOutputOutsideThePulse",

@@ -177,7 +177,26 @@ FAULTS = [
             ("OneOutput", "    if elapsed >= s.params.T_SEQ_ms:\n"),
             ("Clear", "    if elapsed >= s.params.T_REM_ms:\n"),
             ("AwaitZeros", "    if elapsed >= s.params.T_REM_ms:\n"),
+            ("Settle", "    if elapsed >= s.params.T_REM_ms:\n"),
         )
+    ),
+    (
+        "OneSelectionWhereSet",
+        "Switch",
+        fplc_safety.one_selection_where_set,
+        [('if s.params.SELECTIONS == "once":', 'if s.params.SELECTIONS == "again":')],
+    ),
+    (
+        "OneSelectionWhereSet",
+        "Complete",
+        fplc_safety.one_selection_where_set,
+        [("return s  # AwaitRemoval", "return _enter_settle(s)  # AwaitRemoval")],
+    ),
+    (
+        "StuckWordIsReported",
+        "Settle",
+        _state(fplc_safety.stuck_word_is_reported),
+        [("return _enter_error(s)  # DeadlineExpired: E-15", "return _wait(s, elapsed)")],
     ),
     ("SharedDeadlineHolds", "OneOutput", _state(fplc_safety.shared_deadline_holds), [A_SCAN_LATE]),
     (
@@ -259,7 +278,23 @@ FAULTS = [
         "ChangedSelectionIsWithdrawn",
         "Match",
         fplc_order.changed_selection_is_withdrawn,
-        [("return _enter_settle(s)  # WithdrawSelection: taken", "return _enter_error(s)  # taken")],
+        [
+            (
+                "return _enter_settle(s)  # WithdrawSelection\n",
+                "return _enter_error(s) if i.MW03 == ZERO else _enter_settle(s)\n",
+            )
+        ],
+    ),
+    (
+        "NoCodeIsReported",
+        "Match",
+        fplc_order.no_code_is_reported,
+        [
+            (
+                "return _enter_error(s)  # RefuseSelection\n    return _enter_settle",
+                "return s\n    return _enter_settle",
+            )
+        ],
     ),
     (
         "AcknowledgmentIsJudged",

@@ -15,7 +15,7 @@ from refimpl.mode_selection import hmi, plc
 from tests.any_machine import LONG_MS
 
 PLC_PATHS = step_paths.every_scan_of_the_plc_takes_exactly_one_path
-PLC_WORDS = word_classes.the_plc_passes_words_on_and_decides_nothing_by_them
+PLC_WORDS = word_classes.the_plc_passes_words_on_and_decides_only_by_its_comparison
 PANEL_WORDS = word_classes.the_panel_cannot_tell_the_words_of_one_class_apart
 
 
@@ -69,13 +69,13 @@ def _plant(patch: pytest.MonkeyPatch, module: object, name: str, function: objec
 
 def test_a_plc_that_decides_by_a_word_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     _plant(monkeypatch, plc, "_copy_mw03", _swallows_ones)
-    with pytest.raises(TheoremError, match="the PLC decides by its inputs"):
+    with pytest.raises(TheoremError, match="decides by more than its comparison"):
         PLC_WORDS.queries()
 
 
 def test_a_plc_that_changes_a_word_is_refuted(monkeypatch: pytest.MonkeyPatch) -> None:
     _plant(monkeypatch, plc, "_copy_mw03", _clears_a_bit)
-    assert [name.split(":")[0] for name in _fallen(PLC_WORDS)] == ["CopyMW03"]
+    assert [name.split(":")[0] for name in _fallen(PLC_WORDS)] == ["CopyMW03, same"]
 
 
 def test_code_that_the_lint_refuses_leaves_the_theorem_unjudged(

@@ -81,7 +81,7 @@ def with_theorem(bench: Bench, build: Callable[[], Queries]) -> Bench:
             "step",
             "if state.turn == Step.COPY_READ_AUTHORIZATION",
             "if state.turn != Step.COPY_MW07 and state.turn != Step.COPY_MW03",
-            "the_plc_leaves_no_copy_out",
+            "the_plc_copies_a_new_level_before_anything_else",
         ),
     ],
 )

@@ -187,6 +187,20 @@ def test_a_loss_of_the_zone_is_reset_behind_no_guard(params: Params, open_is_eno
     assert (out.Error, out.S_UnlockGuard) == (not open_is_enough, open_is_enough)
 
 
+@pytest.mark.parametrize("params", [PARAMS, CAUTIOUS])
+@pytest.mark.parametrize("auto", [False, True])
+def test_a_request_over_the_reset_unlocks_a_locked_guard(params: Params, auto: bool) -> None:
+    """GLF-14: a standstill glitch locks a person in; who asks only after the Reset must enable first."""
+    unlocked = at(Step.GUARD_CLOSED_BUT_UNLOCKED, params, unlock_request_before=True)
+    lost, out = run(unlocked, call(S_SafetyActive=False, S_GuardLock=False), call())
+    assert out.Error and not out.S_UnlockGuard
+    asks = {"UnlockRequest": True, "S_AutoReset": auto}
+    _, out = run(lost, call(**asks), call(Reset=True, **asks), call(**asks))
+    assert out.S_UnlockGuard and not out.S_GuardLocked
+    state, _ = run(lost, call(Reset=True, S_AutoReset=auto), call(S_AutoReset=auto), call(**asks))
+    assert state.state == (Step.GUARD_CLOSED_AND_LOCKED if auto else Step.WAIT_FOR_RESET)
+
+
 def test_the_unlock_signal_ends_with_the_request_by_the_letter() -> None:
     for control in (Step.GUARD_OPEN_AND_UNLOCKED, Step.GUARD_CLOSED_BUT_UNLOCKED):
         for params, stays in ((PARAMS, False), (CAUTIOUS, True)):

@@ -40,9 +40,11 @@ IN_FLOW = (
     Step.CHECK_ACKNOWLEDGMENT,
     Step.MATCH,
     Step.SWITCH,
+    Step.COMPLETE,
     Step.SETTLE,
 )
 WITH_SELECTION = IN_FLOW[3:8]
+LATCHED = IN_FLOW[3:9]
 WITH_ACKNOWLEDGMENT = IN_FLOW[5:8]
 
 
@@ -50,7 +52,7 @@ def at(step: Step, elapsed_ms: int = 0, level: int = 3, selection: int = 2, mode
     """The state of an insertion of ``level`` that has come as far as ``step``, with ``selection`` latched."""
     accepted = level if step in IN_FLOW else -1
     authority = level if step in IN_FLOW[1:] else -1
-    latched = selection if step in WITH_SELECTION else -1
+    latched = selection if step in LATCHED else -1
     return State(PARAMS, step, accepted, authority, latched, mode, elapsed_ms)
 
 
@@ -108,12 +110,18 @@ ROWS = [
     ("RefuseMatch", at(Step.SWITCH), inputs(MW03=SE[2], MW07=SW[3]), Step.ERROR),
     ("RefuseMatch", at(Step.SWITCH), inputs(MW03=SE[2], MW07=NOT_A_CODE), Step.ERROR),
     ("SwitchMode", at(Step.SWITCH), inputs(MW03=SE[2], MW07=SW[2]), Step.SETTLE),
+    *[
+        ("AwaitRemoval", at(Step.COMPLETE), inputs(MW03=MW03, MW07=MW07, dt_ms=10**9), Step.COMPLETE)
+        for MW03 in (0, SE[1], SE[2], NOT_A_CODE)
+        for MW07 in (0, SW[2], NOT_A_CODE)
+    ],
     ("WithdrawSelection", at(Step.CHECK_SELECTION), inputs(), Step.SETTLE),
     *[
         ("WithdrawSelection", at(s), inputs(MW03=w, MW07=SW[2]), Step.SETTLE)
         for s in WITH_SELECTION
-        for w in (0, SE[1], 1)
+        for w in (0, SE[1])
     ],
+    *[("RefuseSelection", at(s), inputs(MW03=NOT_A_CODE, MW07=SW[2]), Step.ERROR) for s in WITH_SELECTION],
     *[("WithdrawAcknowledgment", at(s), inputs(MW03=SE[2]), Step.SETTLE) for s in WITH_ACKNOWLEDGMENT],
     ("UnexpectedAcknowledgment", at(Step.AWAIT_SELECTION), inputs(MW03=SE[2], MW07=SW[2]), Step.ERROR),
     ("UnexpectedAcknowledgment", at(Step.CHECK_SELECTION), inputs(MW03=0, MW07=SW[2]), Step.ERROR),
@@ -153,6 +161,7 @@ ROWS = [
     ("DeadlineExpired", at(Step.PULSE_ONES, 790), inputs(True, ALL), Step.ERROR),
     ("DeadlineExpired", at(Step.PULSE_ZEROS, 890), inputs(True, ""), Step.ERROR),
     ("DeadlineExpired", at(Step.ONE_OUTPUT, 890), inputs(True, "D"), Step.ERROR),
+    ("DeadlineExpired", at(Step.SETTLE, 690), inputs(), Step.ERROR),
     ("DeadlineExpired", at(Step.CLEAR, 690), inputs(False, ""), Step.ERROR),
     ("DeadlineExpired", at(Step.AWAIT_ZEROS, 690), inputs(False, ""), Step.ERROR),
 ]
@@ -277,7 +286,7 @@ def test_the_removal_timer_runs_from_clear_through_await_zeros() -> None:
     assert after(clear, inputs(False, "", dt_ms=77)).elapsed_ms == 77
 
 
-@pytest.mark.parametrize("step", [Step.START, Step.SETTLE, Step.ERROR])
+@pytest.mark.parametrize("step", [Step.START, Step.ERROR])
 def test_a_timer_without_a_deadline_stops_at_the_dwell(step: Step) -> None:
     assert after(at(step, 100), inputs(MW03=1, dt_ms=100)).elapsed_ms == 200
     assert after(at(step, 100), inputs(MW03=1, dt_ms=10**9)).elapsed_ms == 400
@@ -366,8 +375,8 @@ def test_step_27_lets_any_acknowledgment_word_pass_and_no_other() -> None:
 @pytest.mark.parametrize("step", list(Step))
 def test_outputs_are_the_row_of_the_state(step: Step) -> None:
     row = fplc.outputs(at(step, level=3, selection=2, mode=1))
-    assert (RE[3] if step in IN_FLOW[1:8] else 0) == row.MW01
-    assert (CH[2] if step in WITH_SELECTION[1:] else 0) == row.MW05
+    assert (RE[3] if step in IN_FLOW[1:9] else 0) == row.MW01
+    assert (CH[2] if step in LATCHED[1:] else 0) == row.MW05
     assert (row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4) == (False, True, False, False, False)
     assert (step == Step.ERROR) == row.ERROR
 
@@ -392,6 +401,17 @@ def test_the_mode_that_becomes_active_is_the_latched_selection(mode: int) -> Non
     )
     assert state.mode == mode
     assert [m == mode for m in range(5)] == [row.MSO_0, row.MSO_1, row.MSO_2, row.MSO_3, row.MSO_4]
+
+
+def test_with_one_selection_the_words_stay_until_the_key_goes() -> None:
+    once = replace(at(Step.SWITCH), params=replace(PARAMS, SELECTIONS="once"))
+    state, row = fplc.step(once, inputs(MW03=SE[2], MW07=SW[2]))
+    assert (state.state, state.selection, state.mode) == (Step.COMPLETE, 2, 2)
+    assert (RE[3], CH[2], True) == (row.MW01, row.MW05, row.MSO_2)
+    for i in (inputs(), inputs(MW03=SE[1]), inputs(MW03=SE[1], MW07=SW[1]), inputs(MW03=NOT_A_CODE)):
+        assert fplc.step(state, i) == (state, row)
+    state, row = fplc.step(state, inputs(False, ""))
+    assert (state.state, row.MW01, row.MW05, row.MSO_2) == (Step.CLEAR, 0, 0, True)
 
 
 def test_power_up_is_start_without_memory_or_active_mode() -> None:
@@ -422,7 +442,7 @@ def test_a_step_changes_only_the_memory_that_belongs_to_it(
     selection = decode(SE, i.MW03) if name == "AcceptSelection" else before.selection
     assert state.accepted == (accepted if to in IN_FLOW else -1)
     assert state.authority == (authority if to in IN_FLOW[1:] else -1)
-    assert state.selection == (selection if to in WITH_SELECTION else -1)
+    assert state.selection == (selection if to in LATCHED else -1)
     assert state.mode == (before.selection if name == "SwitchMode" else before.mode)
     assert state.params == PARAMS
 
@@ -434,7 +454,7 @@ def test_timers_restart_in_new_states_or_stop_where_not_needed(
     elapsed = 0
     if name in ("SeeOnes", "SeePulseZeros", "ClearWords") or (to == before.state and to in TIMED):
         elapsed = before.elapsed_ms + i.dt_ms
-    if to in (Step.START, Step.SETTLE, Step.ERROR):
+    if to in (Step.START, Step.ERROR):
         elapsed = min(elapsed, 400)
     assert after(before, i).elapsed_ms == elapsed
 
@@ -462,9 +482,10 @@ def test_the_parameter_drops_the_mode_in_error_not_in_removal() -> None:
 
 def test_a_mode_that_is_selected_again_needs_a_new_acknowledgment() -> None:
     state = after(at(Step.SWITCH), inputs(MW03=SE[2], MW07=SW[2]))
-    for _ in range(100):
+    for _ in range(6):
         state = after(state, inputs(MW03=SE[2], MW07=SW[2], dt_ms=100))
         assert state.state == Step.SETTLE
+    assert after(state, inputs(MW03=SE[2], MW07=SW[2], dt_ms=100)).state == Step.ERROR
 
 
 # ---------------------------------------------------------------- bad input
@@ -533,6 +554,8 @@ WRONG_PERMITS = [
         *WRONG_PERMITS,
         ("ON_ERROR", "drop"),
         ("ON_ERROR", None),
+        ("SELECTIONS", "twice"),
+        ("SELECTIONS", None),
     ],
 )
 def test_a_wrong_parameter_is_refused_by_name(field: str, value: object) -> None:

@@ -1,4 +1,4 @@
-"""The PLC copies one word a scan, in its order, unchanged, whatever the words are."""
+"""The PLC copies one word a scan, in its order, unchanged, and begins anew where MW01 has changed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_the_copies_come_one_a_scan_and_in_their_order() -> None:
     state = plc.power_up(Params())
     seen = []
     for scan in range(1, 9):
-        i = Inputs(10, 0x100 + scan, 0x200 + scan, 0x300 + scan, 0x400 + scan)
+        i = Inputs(10, 0x101 if scan < 5 else 0x105, 0x200 + scan, 0x300 + scan, 0x400 + scan)
         state, row = plc.step(state, i)
         seen.append((row.ReadAuthorization, row.MW03, row.CheckMSO, row.MW07))
     assert seen == [
@@ -58,7 +58,25 @@ def test_words_pass_unchanged_and_only_one_changes_a_scan(scans: list[Inputs]) -
             Step.COPY_CHECK_MSO: replace(before, CheckMSO=i.MW05),
             Step.COPY_MW07: replace(before, MW07=i.SwitchMSO),
         }
-        assert row == copied[turn]
+        same = before.ReadAuthorization == i.MW01
+        assert row == copied[turn if same else Step.COPY_READ_AUTHORIZATION]
+
+
+def test_a_new_level_is_copied_before_anything_else() -> None:
+    state = plc.power_up(Params())
+    for _ in range(2):
+        state, _ = plc.step(state, Inputs(10, 0, 0x205, 0x305, 0x405))
+    state, row = plc.step(state, Inputs(10, 0x105, 0x206, 0x306, 0x406))
+    assert row == Outputs(0x105, 0, 0x305, 0) and state.turn == Step.COPY_MW03
+
+
+@given(st.lists(WORDS, min_size=2, max_size=12))
+def test_a_level_that_never_rests_holds_up_the_others(levels: list[int]) -> None:
+    state = plc.power_up(Params())
+    for level in levels:
+        changed = level ^ 1 if level == state.ReadAuthorization else level
+        state, row = plc.step(state, Inputs(10, changed, 1, 2, 3))
+        assert row == Outputs(changed, 0, 0, 0) and state.turn == Step.COPY_MW03
 
 
 def test_a_wrong_input_or_state_is_refused_by_name() -> None:

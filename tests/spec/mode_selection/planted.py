@@ -167,3 +167,7 @@ def pinned(control: Finding) -> Run:
     return msgspec.structs.replace(
         control.run, distinct=counts.distinct, generated=counts.generated, graph=graph, witnesses=witnesses
     )
+
+
+KEY_FLOWS = Base("MC_KeyFlows_smoke")
+CONTRACT_ANYWHERE = Base("MC_ModeSelection_anywhere")

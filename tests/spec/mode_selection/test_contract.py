@@ -15,8 +15,17 @@ from pathlib import Path
 import msgspec
 import pytest
 
-from tests.spec.mode_selection.faults import CONTRACT_ANYWHERE
-from tests.spec.mode_selection.planted import DOCUMENT, SPEC, Fault, Finding, Trial, copy, plant, run_copy
+from tests.spec.mode_selection.planted import (
+    CONTRACT_ANYWHERE,
+    DOCUMENT,
+    SPEC,
+    Fault,
+    Finding,
+    Trial,
+    copy,
+    plant,
+    run_copy,
+)
 
 TEXT = (SPEC / "ModeSelection.tla").read_text()
 ACTIONS = ("Insert", "Signal", "Touch", "Show", "Confirm", "Switch")

@@ -22,9 +22,9 @@ from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run as DeclaredRun
 from modeproof.tlc.check import register_problems
 from modeproof.tlc.judge import Judgement, judge
-from tests.spec.mode_selection.faults import KEY_FLOWS
 from tests.spec.mode_selection.planted import (
     DOCUMENT,
+    KEY_FLOWS,
     RUNS,
     SPEC,
     Base,
@@ -312,7 +312,8 @@ def test_an_emptied_property_list_is_missed(tmp_path: Path, trials: Run) -> None
     copy(tmp_path)
     path = tmp_path / "spec" / DOCUMENT / "runs.toml"
     listed = ", ".join(f'"{name}"' for name in control.run.properties)
-    path.write_text(change(path.read_text(), ((f"properties = [{listed}]", "properties = []"),), "runs.toml"))
+    text = change(path.read_text(), ((f"properties = [{listed}]", "properties = []"),), "runs.toml")
+    path.write_text("[[run]]".join(run for run in text.split("[[run]]") if 'base = "OPEN_Plc"' not in run))
     assert "run OPEN_Plc: the property list is empty" in register_problems(tmp_path, DOCUMENT)
 
 
@@ -323,5 +324,8 @@ def test_unlisted_cfgs_and_runs_without_cfg_are_noticed(tmp_path: Path) -> None:
     (models / "OPEN_Plc.cfg").rename(models / "MC_more.cfg")
     assert set(register_problems(tmp_path, DOCUMENT)) == {
         "run OPEN_Plc: models/OPEN_Plc.cfg is missing",
+        "run NEG_Plc_only_copies: models/OPEN_Plc.cfg is missing",
+        "run NEG_Plc_atomic_copy: models/OPEN_Plc.cfg is missing",
+        "run NEG_Plc_checks_zero: models/OPEN_Plc.cfg is missing",
         "models/MC_more.cfg is in no run",
     }

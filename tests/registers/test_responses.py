@@ -1,0 +1,121 @@
+"""The register of response times: what contradicts it is found, and its sums are those of its rows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from modeproof.registers import Unjudged, judge, load_document, read_sources
+from modeproof.registers.responses import bounds, chain_bounds, section
+
+FILE = "spec/door/response.toml"
+PROOF = "proofs/door/bolt.py"
+ROWS = """
+document = "door"
+[example]
+cycle = { latch = 10 }
+times = { T_HOLD_ms = 200 }
+transfer = 5
+
+[[response]]
+id = "DRR-1"
+device = "latch"
+from = "the door opens"
+to = "the bolt is in"
+clauses = ["DR-1-1"]
+calls = 2
+times = { T_HOLD_ms = 1 }
+
+[[response]]
+id = "DRR-2"
+device = "latch"
+from = "the bolt is in"
+to = "somebody closes the door"
+clauses = ["DR-1-1"]
+unbounded = "a person is waited for"
+
+[[chain]]
+id = "DRC-1"
+title = "door to lamp"
+steps = ["DRR-1", "door DRR-1"]
+then = "the lamp"
+then_ms = 7
+"""
+
+
+def problems(tree: Any) -> list[str]:
+    tree.pin()
+    return [str(problem) for problem in judge(load_document(tree.root, "door")).problems]
+
+
+@pytest.fixture
+def timed(tree: Any) -> Any:
+    """The door with response times, and a theorem that names the one that has a bound."""
+    tree.write(FILE, ROWS)
+    tree.edit(PROOF, 'findings=["E-01"])', 'findings=["E-01"], responses=["DRR-1", "DRR-2"])')
+    return tree
+
+
+def test_the_sums_are_those_of_the_rows(timed: Any) -> None:
+    assert problems(timed) == []
+    document = load_document(timed.root, "door")
+    first, second = bounds(document, read_sources(document))
+    assert (first.formula, first.example, first.shown) == (
+        "T_HOLD + 4 C(latch)",
+        "240 ms",
+        ("the_bolt_moves",),
+    )
+    assert (second.formula, second.example) == ("none: a person is waited for", "none")
+    (chain,) = chain_bounds(document)
+    assert chain.formula == "2 T_HOLD + 4 C(latch) + 4 C(latch) + t + the lamp"
+    assert chain.example == "492 ms"
+
+
+def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
+    document = load_document(timed.root, "door")
+    text = "".join(section(document, read_sources(document)))
+    for table in text.split("\n\n"):
+        cells = {line.count("|") for line in table.splitlines() if line.startswith("|")}
+        assert len(cells) <= 1, table
+    for expected in (
+        "| DRR-1 | the door opens **to**",
+        "`the_bolt_moves`",
+        "| DRC-1 | door to lamp |",
+        "t = 5 ms",
+    ):
+        assert expected in text
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "expected"),
+    [
+        (PROOF, '"DRR-1", ', "", "DRR-1: no theorem names it; exactly one must"),
+        (PROOF, ', "DRR-2"', "", "DRR-2: no theorem names it; exactly one must"),
+        (PROOF, '"DRR-2"', '"DRR-2", "DRR-9"', "the_bolt_moves: proves the unknown response 'DRR-9'"),
+        (FILE, 'device = "latch"', 'device = "lach"', "DRR-1: unknown device 'lach'; did you mean 'latch'?"),
+        (FILE, "{ T_HOLD_ms = 1 }", "{ CODE = 1 }", "times: 'CODE' is no time among the parameters"),
+        (FILE, "times = { T_HOLD_ms = 200 }", "", "DRR-1: [example] gives no ms for T_HOLD_ms"),
+        (FILE, "{ latch = 10 }", "{ door = 10 }", "DRR-1: [example] gives no cycle for latch"),
+        (
+            FILE,
+            'unbounded = "a',
+            'calls = 1\nunbounded = "a',
+            "DRR-2: give either `calls`, or in `unbounded`",
+        ),
+        (FILE, 'unbounded = "a person is waited for"', "", "DRR-2: give either `calls`, or in `unbounded`"),
+        (FILE, '"door DRR-1"', '"DRR-2"', "DRC-1: DRR-2 has no bound, so the chain has none"),
+        (FILE, '"door DRR-1"', '"door DRR-7"', "DRC-1: steps: there is no response 'door DRR-7'"),
+        (FILE, '"DR-1-1"', '"DR-1-0"', "DRR-1: cites DR-1-0, which no register"),
+    ],
+)
+def test_a_contradiction_is_found(timed: Any, file: str, old: str, new: str, expected: str) -> None:
+    timed.edit(file, old, new)
+    found = problems(timed)
+    assert any(expected in problem for problem in found), found
+
+
+def test_a_bound_of_no_call_is_refused(timed: Any) -> None:
+    timed.edit(FILE, "calls = 2", "calls = 0")
+    with pytest.raises(Unjudged, match=r"DRR-1: calls: .*0"):
+        load_document(timed.root, "door")
