@@ -11,20 +11,11 @@ LOCAL RestartPlc ==
     /\ ReadAuthorization' = 0 /\ MW03' = 0 /\ CheckMSO' = 0 /\ MW07' = 0
     /\ UNCHANGED <<turn, reader, eks, fplc, hmi, history>>
     /\ Took(0) /\ Did("RestartPlc")
-LOCAL RestartPanel ==
-    /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
-    /\ UNCHANGED <<reader, eks, fplc, plc, history>>
-    /\ Took(0) /\ Did("RestartPanel")
 
 ----------------------------------------------------------------------------
 (* PlcRestarts                                                             *)
 \* EKS-GP-5, E-70: the PLC restarts alone, at any moment, with zeros; the others go on (breaks A-19).
 Next_PlcRestarts == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ RestartPlc
-
-----------------------------------------------------------------------------
-(* PanelRestarts                                                           *)
-\* EKS-GP-5, E-70: the panel restarts alone, at any moment, inhibited; the others go on (breaks A-19).
-Next_PanelRestarts == User \/ EksRuns \/ FplcRuns \/ PlcRuns \/ PanelRuns \/ RestartPanel
 
 ----------------------------------------------------------------------------
 (* CheckBeforeClear                                                        *)

@@ -1,8 +1,8 @@
 --------------------------- MODULE KeyFlowsRestart --------------------------
 (***************************************************************************)
-(* The F-PLC starts again by itself, at any moment, while EKS, PLC and     *)
-(* panel go on with what they have (E-56, breaks A-19).                    *)
-(* Leaves out: a restart of the PLC or the panel (E-70).                   *)
+(* The F-PLC, or the panel, starts again by itself, at any moment, while   *)
+(* the others go on with what they have (E-56, E-70; A-19).                *)
+(* Leaves out: a restart of the PLC (E-70, a reading of KeyFlows).         *)
 (***************************************************************************)
 EXTENDS KeyFlows
 
@@ -16,4 +16,13 @@ RestartFplc ==
 
 RestartNext == Next \/ RestartFplc
 RestartSpec == Init /\ [][RestartNext]_vars
+
+\* EKS-GP-5, E-70, A-19: inhibited, and what was touched is forgotten
+RestartPanel ==
+    /\ hmiState' = "Inhibited" /\ offered' = None /\ hmiSelection' = None
+    /\ UNCHANGED <<reader, eks, fplc, plc, history>>
+    /\ Took(0) /\ Did("RestartPanel")
+
+PanelRestartNext == Next \/ RestartPanel
+PanelRestartSpec == Init /\ [][PanelRestartNext]_vars
 =============================================================================
