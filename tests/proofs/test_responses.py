@@ -63,7 +63,15 @@ def test_an_answered_response_is_not_shown_to_wait_for_ever() -> None:
         return z3.And(scan.sent.SafetyDemand, stuck)
 
     assert wrong_answers(waits_without_end(JUDGE, row, demanded, lambda scan: scan.sends.Error))
-    assert not wrong_answers(waits_without_end(JUDGE, row, demanded, lambda scan: scan.sends.S_EDM_Out))
+
+
+def test_a_person_is_shown_to_be_waited_for_forever() -> None:
+    (row,) = [row for row in load_responses(root(), "edm").rows if row.id == "EDMR-06"]
+
+    def nobody(scan: Scanned) -> z3.BoolRef:
+        return z3.And(scan.sent.ResetRequest, z3.Not(scan.inputs.Reset))
+
+    assert not wrong_answers(waits_without_end(JUDGE, row, nobody, lambda scan: scan.inputs.Reset))
 
 
 def test_every_document_states_its_response_times() -> None:
