@@ -217,8 +217,9 @@ def _killers(machine: Machine, folder: Path) -> int:
     path, judge = folder / "killers.toml", Killers(machine)
     found = judge.renewed(read_killers(path), folder / "trial.toml")
     write_text(path, as_rows(found))
-    left = list(judge.problems(found))
-    print("\n".join([*left, f"{path}: {len(found)} of {len(judge.rows)} properties fall with an edit"]))
+    left = judge.problems(found)
+    said = [f"{id}: {why}" for id, why in left.items()]
+    print("\n".join([*said, f"{path}: {len(found)} of {len(judge.rows)} properties fall with an edit"]))
     return 1 if left else 0
 
 

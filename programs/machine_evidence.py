@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -32,8 +33,12 @@ def looked_at(folder: Path) -> list[str]:
     Raises Unjudged: the reader refuses a file.
     """
     machine = machine_of(folder)
-    lost = [f"{id}: the wiring has no {name!r}" for id, name in machine.lacking.items()]
-    return [*lost, *Killers(machine).problems(read_killers(folder / "killers.toml"))]
+    lost = {id: f"the wiring has no {name!r}" for id, name in machine.lacking.items()}
+    return _said(lost | Killers(machine).problems(read_killers(folder / "killers.toml")))
+
+
+def _said(problems: Mapping[str, str]) -> list[str]:
+    return [f"{id}: {why}; modeproof machine --killers" for id, why in problems.items()]
 
 
 def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dict[str, Any]:
@@ -44,7 +49,7 @@ def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dic
     began = time.process_time()
     machine = machine_of(folder, tell)
     killers = read_killers(folder / "killers.toml")
-    problems = list(Killers(machine).problems(killers))
+    problems = Killers(machine).problems(killers)
     found = machine.all(SECONDS, recheck=True)
     table = machine.wiring.table
     boxes, wires = boxes_and_wires(machine.wiring)
@@ -55,11 +60,11 @@ def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dic
         "cycle_ms": table.cycle_ms,
         "trusted": list(TRUST),
         "verdicts": [row | {"how": row["how"] * (row["verdict"] != "PROVED")} for row in verdict_rows(found)],
-        "problems": problems,
+        "problems": _said(problems),
         "order": list(table.order),
         "picture": {"boxes": boxes, "wires": wires},
         "matrix": {"safeguards": list(table.safeguards), "rows": matrix_rows(machine.wiring)},
-        "killers": [_killer(machine, killer) for killer in killers if killer.property not in str(problems)],
+        "killers": [_killer(machine, killer) for killer in killers if killer.property not in problems],
         "trial": _trial(machine, folder / "trial.toml"),
         "work": {"cpu_s": round(time.process_time() - began, 1), "proof": _proof(found)},
     }
@@ -76,7 +81,8 @@ def _killer(machine: Machine, killer: Killer) -> dict[str, Any]:
     return {
         "property": killer.property,
         "kind": edit.kind,
-        "edit": edit.id,
+        "row": killer.row,
+        "text": killer.text,
         "was": _was(machine, killer.row),
         "scans": [
             {"dt_ms": dt_ms, "in": given, "out": gives}
@@ -86,10 +92,12 @@ def _killer(machine: Machine, killer: Killer) -> dict[str, Any]:
 
 
 def _was(machine: Machine, row: str) -> str:
+    """What stands in a row; nothing for the order, of which the evidence has the whole."""
     value: Any = machine.table
     for key in row.split("."):
         value = value[key]
-    return str(value["is"] if isinstance(value, Mapping) and "is" in value else value)
+    text = value["is"] if isinstance(value, Mapping) else value
+    return "" if row == "order" else text if isinstance(text, str) else json.dumps(text)
 
 
 def _trial(machine: Machine, path: Path) -> dict[str, Any]:

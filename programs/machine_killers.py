@@ -93,15 +93,14 @@ class Killers:
             return "the scans break the property of the wiring as it is"
         return ""
 
-    def problems(self, killers: Sequence[Killer]) -> Iterator[str]:
-        """Rows that show nothing, and properties without a row."""
-        for killer in killers:
-            if why := self.doubt(killer):
-                yield f"{killer.property}: {name_of(killer)}: {why}; modeproof machine --killers"
-        there = {killer.property for killer in killers}
-        for id in self.rows:
-            if id not in there:
-                yield f"{id}: no edit of the wiring is known with which it falls; modeproof machine --killers"
+    def problems(self, killers: Sequence[Killer]) -> dict[str, str]:
+        """By property why its row shows nothing, or that it has none."""
+        there = {killer.property: killer for killer in killers}
+        found = {
+            id: f"{name_of(killer)}: {why}" for id, killer in there.items() if (why := self.doubt(killer))
+        }
+        missing = "no edit of the wiring is known with which it falls"
+        return found | {id: missing for id in self.rows if id not in there}
 
     def scans(self, killer: Killer) -> list[Scan]:
         """The scans of a row. Raises Unjudged."""
