@@ -39,12 +39,12 @@ def contradiction(place: Path, document: Document, record: Record) -> str:
 
 def doubt_on_machine(record: Record) -> str:
     """The same of evidence on a machine."""
+    if not record["as_expected"]:
+        return ""
     try:
         verdict, reason = verdict_on_machine(record["result"])
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         return f"its figures cannot be judged ({type(error).__name__}: {error})"
-    if not record["as_expected"]:
-        return ""
     return "" if record["verdict"] == verdict == "PROVED" else f"its verdicts give {verdict}: {reason}"
 
 

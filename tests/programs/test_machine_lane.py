@@ -229,7 +229,7 @@ def test_verify_ends_with_the_verdict_on_the_machine(
     assert (f"NOT AS EXPECTED  {NAME}" in said) == (verdict != "PROVED")
 
 
-def test_the_row_on_the_machine_says_that_it_is_no_document(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_machine_is_said_to_be_our_own_design() -> None:
     assert machine_line(record_of("PROVED")).endswith("machine_cell is our own design, no document")
 
 

@@ -179,7 +179,7 @@ def test_a_refuted_property_is_a_trouble_and_a_failure(root: Path) -> None:
     assert suite.find("testcase[@name='shut-first']/failure") is not None
 
 
-def test_a_wiring_that_was_refused_has_its_reason_in_the_part(root: Path) -> None:
+def test_a_refused_wiring_has_its_reason_in_the_part(root: Path) -> None:
     put_machine(root, {}, verdict="UNJUDGED", as_expected=False, reason="wiring.toml:3: no signal 'Strat'")
     assert "Strat" in page(root)
 
