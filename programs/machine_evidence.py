@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -50,6 +50,7 @@ def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dic
     machine = machine_of(folder, tell)
     killers = read_killers(folder / "killers.toml")
     problems = Killers(machine).problems(killers)
+    hidden = {*problems, *machine.lacking}
     found = machine.all(SECONDS, recheck=True)
     table = machine.wiring.table
     boxes, wires = boxes_and_wires(machine.wiring)
@@ -64,14 +65,10 @@ def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dic
         "order": list(table.order),
         "picture": {"boxes": boxes, "wires": wires},
         "matrix": {"safeguards": list(table.safeguards), "rows": matrix_rows(machine.wiring)},
-        "killers": [_killer(machine, killer) for killer in killers if killer.property not in problems],
+        "killers": [_killer(machine, killer) for killer in killers if killer.property not in hidden],
         "trial": _trial(machine, folder / "trial.toml"),
-        "work": {"cpu_s": round(time.process_time() - began, 1), "proof": _proof(found)},
+        "work": {"cpu_s": round(time.process_time() - began, 1)},
     }
-
-
-def _proof(found: Sequence[Any]) -> str:
-    return next((verdict.how for verdict in found if verdict.word == "PROVED"), "")
 
 
 def _killer(machine: Machine, killer: Killer) -> dict[str, Any]:

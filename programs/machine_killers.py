@@ -69,8 +69,8 @@ class Killers:
 
     @cached_property
     def rows(self) -> Mapping[str, Mapping[str, Any]]:
-        """The properties by their ids."""
-        return {row["id"]: row for row in self.machine.every.rows}
+        """The properties that are judged, by their ids."""
+        return {row["id"]: row for row in self.machine.questions.rows}
 
     def runner(self, edit: Edit) -> Runner:
         """What runs the edited machine. Raises Unjudged."""
@@ -95,7 +95,7 @@ class Killers:
 
     def problems(self, killers: Sequence[Killer]) -> dict[str, str]:
         """By property why its row shows nothing, or that it has none."""
-        there = {killer.property: killer for killer in killers}
+        there = {one.property: one for one in killers if one.property not in self.machine.lacking}
         found = {
             id: f"{name_of(killer)}: {why}" for id, killer in there.items() if (why := self.doubt(killer))
         }

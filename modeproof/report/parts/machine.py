@@ -82,7 +82,6 @@ def _machine(sources: Sources, piece: Evidence, kinds: Mapping[str, str]) -> dic
         "count": Figure(len(rows), piece.path),
         "proved": Figure(sum(row["verdict"] == "PROVED" for row in rows), piece.path),
         "falling": Figure(len(killers), piece.path),
-        "proof": result["work"]["proof"],
         "cpu": piece.figure("result", "work", "cpu_s", unit="s"),
         "trusted": result["trusted"],
         "tools": {
