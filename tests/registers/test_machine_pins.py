@@ -66,7 +66,7 @@ def test_other_words_and_other_observers_move_no_pin(file: Path, old: str, new: 
     assert repin_machines(file.parents[2], "nothing") == ["latch: no pin moved"]
 
 
-def test_a_property_without_a_pin_and_a_pin_of_nothing_are_named(file: Path) -> None:
+def test_missing_pins_and_pins_of_nothing_are_named(file: Path) -> None:
     file.write_text(SAFETY.replace('id = "closed"', 'id = "shut"'))
     first, second = said(file)
     assert "checked.shut: is not pinned" in first
