@@ -23,11 +23,11 @@ from modeproof.registers.typed import typed
 from programs.cell import Asked, Cell
 from programs.certificate import Obligation
 from programs.induction import System, is_inductive, named
-from programs.machine_lacking import lacking, observers_lacking, text_of
+from programs.machine_lacking import lacking, observers_lacking
 from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
 from programs.machine_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
 from programs.property import Judgement
-from programs.questions import Beside, Questions, read_questions
+from programs.questions import Beside, Questions, read_questions, words_of
 from programs.recheck import SOLVERS
 from programs.wired import Observer, Watched, cell_of
 from programs.wiring import Wiring, rows_of, wiring_of
@@ -254,7 +254,7 @@ class Machine:
         found = []
         for row in self.every.rows:
             if lost := self.lacking.get(row["id"]):
-                asked = Asked(row["id"], row["sentence"], text_of(row), None)
+                asked = Asked(row["id"], row["sentence"], words_of(row), None)
                 found.append(Verdict(asked, row, "NOT JUDGED", f"the wiring has no {lost!r}"))
         for asked, row, rule in zip(self.asked, self.questions.rows, self.rules, strict=True):
             reached = self.seen.reached[asked.id]

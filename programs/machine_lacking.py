@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from programs.questions import Questions, parsed
 from programs.standard import BLOCKS
@@ -10,7 +10,7 @@ from programs.tree import Member, Name, Place
 from programs.wired import Watched
 from programs.wiring import Wiring, leaves
 
-FORM = ("never", "always", "after", "holds", "only_if", "only_once", "within_ms")
+EXPRESSIONS = ("never", "always", "after", "holds", "only_if", "only_once")
 
 
 def observers_lacking(wiring: Wiring, watched: Watched) -> dict[str, str]:
@@ -30,16 +30,11 @@ def lacking(wiring: Wiring, watched: Watched, questions: Questions) -> dict[str,
     known = {name for name in watched.rows if name not in lost_observers}
     found: dict[str, str] = {}
     for row in questions.rows:
-        for key in FORM:
+        for key in EXPRESSIONS:
             if isinstance(text := row.get(key), str):
                 for lost in _lost(wiring, text, watched, known, questions.place(row)):
                     found.setdefault(row["id"], lost_observers.get(lost.partition(".")[0], lost))
     return found
-
-
-def text_of(row: Mapping[str, object]) -> str:
-    """A property that is not judged, in words."""
-    return " ".join(f"{key.replace('_', ' ')} {row[key]}" for key in FORM if key in row)
 
 
 def _lost(wiring: Wiring, text: str, watched: Watched, known: set[str], place: Place) -> Iterator[str]:

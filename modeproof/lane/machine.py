@@ -118,6 +118,9 @@ def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdicts. Raises Unjudged."""
     if args.record and args.trial != "":
         raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
+    others = [name for name in ("file", "properties", "use") if getattr(args, name) is not None]
+    if others and (args.evidence or args.killers):
+        raise Unjudged("machine: --evidence and --killers are about the project's own files; leave yours out")
     if args.evidence:
         with only_one(root()):
             records = [judge_machine(root(), name) for name in machines(root())]

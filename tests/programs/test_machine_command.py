@@ -185,3 +185,21 @@ def test_json_has_the_verdicts_of_all(judged: None, tmp_path: Path) -> None:
     found = json.loads(path.read_text("utf-8"))
     assert [row["verdict"] for row in found["verdicts"]] == ["PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED"]
     assert found["status"] == 1
+
+
+def test_stories_of_use_leave_out_what_the_wiring_lacks(tmp_path: Path) -> None:
+    told = machine(tmp_path, without_the_beam()).runner.stories()
+    assert "ResetGuard" in told["begin"][0]
+    assert all("S_BeamFree" not in row and "ResetBeam" not in row for rows in told.values() for row in rows)
+    assert "reach through the beam" not in told
+    assert len(told["begin"]) == len(machine(tmp_path, TEXT).runner.stories()["begin"])
+
+
+@pytest.mark.parametrize("option", ["--evidence", "--killers"])
+def test_records_of_the_project_are_made_from_its_own_files(
+    option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine = tmp_path / "my.toml"
+    mine.write_text(TEXT, "utf-8")
+    assert main(["machine", str(mine), option]) == 2
+    assert "are about the project's own files" in capsys.readouterr().err
