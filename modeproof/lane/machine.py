@@ -74,6 +74,9 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
     evidence.discard(place, name, ID)
     started = time.time()
     folder = place / "spec" / name
+    sources = [path for room in ROOMS for path in (place / room).rglob("*.py")]
+    sources += [*folder.glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
+    inputs = evidence.hashes(place, sources)  # of what is judged now
     result: dict[str, Any] = {}
     try:
         result = proofs_module("programs.machine_evidence").judged(folder)
@@ -84,8 +87,6 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
         )
     except Unjudged as error:
         verdict, reason, strength = "UNJUDGED", error.message, ""
-    sources = [path for room in ROOMS for path in (place / room).rglob("*.py")]
-    sources += [*folder.glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
     record = evidence.make(
         kind="machine",
         id=ID,
@@ -97,7 +98,7 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
         command="modeproof machine --evidence",
         started=started,
         seconds=time.time() - started,
-        inputs=evidence.hashes(place, sources),
+        inputs=inputs,
         tools=evidence.solvers(),
         result=result,
         reason=reason,
