@@ -11,7 +11,7 @@ import random
 import time
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -23,10 +23,11 @@ from modeproof.registers.typed import typed
 from programs.cell import Asked, Cell
 from programs.certificate import Obligation
 from programs.induction import System, is_inductive, named
+from programs.machine_lacking import lacking, observers_lacking
 from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
 from programs.machine_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
 from programs.property import Judgement
-from programs.questions import Beside, Questions, read_questions
+from programs.questions import Beside, Questions, read_questions, words_of
 from programs.recheck import SOLVERS
 from programs.wired import Observer, Watched, cell_of
 from programs.wiring import Wiring, rows_of, wiring_of
@@ -46,7 +47,8 @@ LIMIT_MS = 30_000
 class Verdict:
     """What came out for one property.
 
-    PROVED for every input, for ever; REFUTED by `scans`; UNKNOWN. reached: scans after which each trigger was
+    PROVED for every input, for ever; REFUTED by `scans`; UNKNOWN; NOT JUDGED, for the wiring lacks what it
+    names. reached: scans after which each trigger was
     true in a run. mended: the rows of the project's own wiring with which the same scans break nothing.
     """
 
@@ -71,6 +73,8 @@ class Machine:
     runs: int = RUNS
     triggers: Sequence[Sequence[str]] | None = None
     """The texts of what must occur for each property, where they are known; they come from the terms."""
+    leave_out: bool = False
+    """A property that names what the wiring has not is NOT JUDGED; else the file is refused."""
 
     @cached_property
     def wiring(self) -> Wiring:
@@ -83,19 +87,38 @@ class Machine:
         return tomllib.loads(self.text)
 
     @cached_property
-    def questions(self) -> Questions:
+    def every(self) -> Questions:
         """The file of properties. Raises Unjudged."""
         return read_questions(self.properties, Beside(BESIDE, ("observer",), self.wiring.table.scan_ms))
 
     @cached_property
-    def watched(self) -> Watched:
-        """Its observers. Raises Unjudged."""
-        lines = {row: number for number, row in rows_of(self.questions.text)}
-        rows = self.questions.tables.get("observer", {})
+    def lacking(self) -> Mapping[str, str]:
+        """By property that is not judged the name that the wiring has not. Raises Unjudged."""
+        return lacking(self.wiring, self.observers, self.every) if self.leave_out else {}
+
+    @cached_property
+    def questions(self) -> Questions:
+        """The properties that are judged. Raises Unjudged."""
+        rows = tuple(row for row in self.every.rows if row["id"] not in self.lacking)
+        return replace(self.every, rows=rows)
+
+    @cached_property
+    def observers(self) -> Watched:
+        """The observers of the file. Raises Unjudged."""
+        lines = {row: number for number, row in rows_of(self.every.text)}
+        rows = self.every.tables.get("observer", {})
         if not isinstance(rows, dict):
             raise Unjudged(f"{self.properties}: [observer] is a table")
         made = {name: typed(Observer, row, f"{self.properties}: {name}") for name, row in rows.items()}
         return Watched(str(self.properties), made, lines)
+
+    @cached_property
+    def watched(self) -> Watched:
+        """Those that the cell can have. Raises Unjudged."""
+        lost = observers_lacking(self.wiring, self.observers) if self.leave_out else {}
+        return replace(
+            self.observers, rows={n: row for n, row in self.observers.rows.items() if n not in lost}
+        )
 
     @cached_property
     def cell(self) -> Cell:
@@ -229,6 +252,10 @@ class Machine:
         against = self.again(lemmas, [one for one in left if holds[one.id]]) if recheck and left else ""
         proof = f"an invariant of {len(lemmas)} clauses{', judged again by z3 and cvc5' * recheck}"
         found = []
+        for row in self.every.rows:
+            if lost := self.lacking.get(row["id"]):
+                asked = Asked(row["id"], row["sentence"], words_of(row), None)
+                found.append(Verdict(asked, row, "NOT JUDGED", f"the wiring has no {lost!r}"))
         for asked, row, rule in zip(self.asked, self.questions.rows, self.rules, strict=True):
             reached = self.seen.reached[asked.id]
             if asked.id in self.seen.broken:
@@ -249,7 +276,8 @@ class Machine:
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             else:
                 found.append(Verdict(asked, row, "PROVED", proof, reached))
-        return found
+        order = [row["id"] for row in self.every.rows]
+        return sorted(found, key=lambda verdict: order.index(verdict.asked.id))
 
     def mended(self, scans: Sequence[Scan], row: Mapping[str, Any], own: Mapping[str, Any]) -> Iterator[str]:
         """The rows that are not as in `own`, and with whose text there the scans break nothing."""

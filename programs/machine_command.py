@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
-import sys
+import shlex
+import threading
 import time
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,16 +15,24 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
+from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
 from programs import certificate, machine_picture
 from programs.machine import Machine, Verdict
+from programs.machine_killers import Killers, changed, read_killers
+from programs.machine_killers import as_toml as as_rows
+from programs.machine_runs import Scan
 from programs.machine_trial import Outcome, Trial, as_toml, edits
+from programs.output import Case, junit_of
 from programs.property_command import TRUSTED
 from programs.wired import text_of, unit
 from programs.wiring import read_wiring
 
 FOLDER = Path("spec/machine_cell")
 OWN = "the project's own design after the five papers; nothing here is a claim about a paper"
+TRUST = ("the reader of wirings", *TRUSTED)
+WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED")
+NAME = "machine"
 
 
 def run(args: argparse.Namespace) -> int:
@@ -36,30 +46,69 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.picture, machine_picture.picture(wiring))
     if args.program is not None or args.picture is not None:
         return 0
+    progress = Progress(quiet=args.quiet)
     machine = Machine(
         file.read_text("utf-8"),
         str(file),
         args.properties or folder / "safety.toml",
         args.use or folder / "use.toml",
-        _tell,
+        lambda text: progress.update(NAME, text),
+        leave_out=args.properties is None,
     )
-    if args.trial is not None:
-        return _trial(machine, args.trial, folder / "trial.toml" if args.record else None)
-    started = time.process_time()
-    shipped = folder / "wiring.toml"
-    own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() else None
-    found = machine.all(args.seconds, own, args.recheck)
-    _tell("")
+    with _at_work(progress):
+        if args.killers:
+            return _killers(machine, folder)
+        if args.trial is not None:
+            return _trial(machine, args.trial, progress, folder / "trial.toml" if args.record else None)
+        started = time.process_time()
+        shipped = folder / "wiring.toml"
+        own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() else None
+        found = machine.all(args.seconds, own, args.recheck)
     seconds = time.process_time() - started
-    print("\n".join(lines_of(machine, found, seconds)))
+    print("\n".join([*lines_of(machine, found, seconds), f"  again       {_again(args)}"]))
     if args.json is not None:
         write_json(args.json, record_of(machine, found, seconds))
+    if args.junit is not None:
+        cases = [_case(machine, verdict) for verdict in found]
+        write_text(args.junit, junit_of(machine.file, cases, round(seconds, 1), "modeproof machine"))
     return status(found)
 
 
-def _tell(text: str) -> None:
-    if sys.stderr.isatty():
-        print(f"\r{text:<100}", end="", file=sys.stderr, flush=True)
+@contextlib.contextmanager
+def _at_work(progress: Progress) -> Iterator[None]:
+    """Say on standard error that the work goes on, also during a long question."""
+    over = threading.Event()
+
+    def tick() -> None:
+        while not over.wait(1):
+            progress.tick()
+
+    clock = threading.Thread(target=tick, daemon=True)
+    progress.expect(1)
+    progress.begin(NAME)
+    clock.start()
+    try:
+        yield
+    finally:
+        over.set()
+        clock.join()
+        progress.end(NAME)
+
+
+def _again(args: argparse.Namespace) -> str:
+    """The command that judges the same files again."""
+    words = ["modeproof", "machine", *([str(args.file)] if args.file else [])]
+    for option in ("properties", "use"):
+        if (path := getattr(args, option)) is not None:
+            words += [f"--{option}", str(path)]
+    return shlex.join([*words, *(["--recheck"] if args.recheck else [])])
+
+
+def _case(machine: Machine, verdict: Verdict) -> Case:
+    """A property as a test case of JUnit."""
+    said = {"property": verdict.asked.text, "hazard": verdict.row["hazard"], "how": verdict.how}
+    said |= {"wiring": machine.file, "sha256": hashlib.sha256(machine.text.encode()).hexdigest()}
+    return Case(verdict.asked.id, verdict.word, "\n".join(_verdict(machine, verdict)), said)
 
 
 def status(found: Sequence[Verdict]) -> int:
@@ -77,51 +126,51 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
     for verdict in found:
-        yield f"{verdict.word}: {verdict.asked.id}: {verdict.asked.sentence}"
-        if verdict.word == "PROVED":
-            continue
-        yield f"  property    {verdict.asked.text}"
-        yield f"  hazard      {verdict.row['hazard']}"
-        yield f"  {'trace' if verdict.scans else 'missing':<11} {verdict.how}"
-        yield from trace_of(machine, verdict)
-        for row in verdict.mended:
-            yield f"  wire        {row}"
-    counts = [f"{sum(one.word == word for one in found)} {word}" for word in ("PROVED", "REFUTED", "UNKNOWN")]
+        yield from _verdict(machine, verdict)
+    words = [verdict.word for verdict in found]
+    seen = WORDS if "NOT JUDGED" in words else WORDS[:3]
+    counts = [f"{words.count(word)} {word}" for word in seen]
     yield f"  verdicts    {', '.join(counts)}"
     if proved := [one.how for one in found if one.word == "PROVED"]:
         yield f"  by          {proved[0]}"
-    yield f"  trusted     the reader of wirings, {', '.join(TRUSTED)}"
+    yield f"  trusted     {', '.join(TRUST)}"
     yield f"  effort      {seconds:.1f} s CPU"
 
 
-def trace_of(machine: Machine, verdict: Verdict) -> Iterator[str]:
-    """The scans of a counterexample: what changes at the inputs, then at outputs and signals."""
+def _verdict(machine: Machine, verdict: Verdict) -> Iterator[str]:
+    yield f"{verdict.word}: {verdict.asked.id}: {verdict.asked.sentence}"
+    if verdict.word == "PROVED":
+        return
+    yield f"  property    {verdict.asked.text}"
+    yield f"  hazard      {verdict.row['hazard']}"
+    yield f"  {'trace' if verdict.scans else 'missing':<11} {verdict.how}"
+    for number, (dt_ms, given, gives) in enumerate(rows_of_trace(machine, verdict.scans), 1):
+        word = "wrong scan" if number == len(verdict.scans) else "scan"
+        yield f"  {f'{word} {number}':<13} after {dt_ms} ms: {given or 'the same inputs'}"
+        if gives:
+            yield f"                gives {gives}"
+    for row in verdict.mended:
+        yield f"  wire        {row}"
+
+
+def rows_of_trace(machine: Machine, scans: Sequence[Scan]) -> Iterator[tuple[int, str, str]]:
+    """The time of each scan, and what changes at the inputs, then at outputs and signals."""
     before: Mapping[str, Any] = {}
     shown: Mapping[str, Any] = {}
-    for number, (dt_ms, given, values) in enumerate(_values(machine, verdict), 1):
-        word = "wrong scan" if number == len(verdict.scans) else "scan"
-        yield f"  {f'{word} {number}':<13} after {dt_ms} ms: {_changed(before, given) or 'the same inputs'}"
-        if changes := _changed(shown, values):
-            yield f"                gives {changes}"
+    for dt_ms, given, values in _values(machine, scans):
+        yield dt_ms, changed(before, given), changed(shown, values)
         before, shown = given, values
 
 
-def _values(machine: Machine, verdict: Verdict) -> Iterator[tuple[int, Mapping[str, Any], Mapping[str, Any]]]:
+def _values(
+    machine: Machine, scans: Sequence[Scan]
+) -> Iterator[tuple[int, Mapping[str, Any], Mapping[str, Any]]]:
     table, runner = machine.wiring.table, machine.runner
     names = [*table.outputs, *table.modes, *table.signals, *(f"{name}.Q1" for name in table.block)]
     blocks = [f"{name}.{pin}" for name in table.block for pin in ("S_GuardLocked", "Error", "Q1")]
-    for (dt_ms, inputs), values in zip(verdict.scans, runner.replayed(verdict.scans), strict=True):
+    for (dt_ms, inputs), values in zip(scans, runner.replayed(scans), strict=True):
         chosen = dict.fromkeys(name for name in (*names, *blocks) if name in values)
         yield dt_ms, inputs, {name: values[name] for name in chosen}
-
-
-def _changed(before: Mapping[str, Any], values: Mapping[str, Any]) -> str:
-    """What is not as before; at first, what is not FALSE or 0. Words are hexadecimal."""
-    return ", ".join(
-        f"{name}={int(value)}" if isinstance(value, bool) else f"{name}={value:04X}"
-        for name, value in values.items()
-        if int(before.get(name, 0)) != int(value)
-    )
 
 
 def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dict[str, Any]:
@@ -133,43 +182,58 @@ def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dic
         "wiring": {machine.file: hashlib.sha256(machine.text.encode()).hexdigest()},
         "files": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in files.items()},
         "tools": certificate.tools(),
-        "trusted": ["the reader of wirings", *TRUSTED],
+        "trusted": list(TRUST),
         "scan_time_ms": list(machine.wiring.table.scan_ms),
         "status": status(found),
-        "verdicts": [
-            {
-                "id": verdict.asked.id,
-                "sentence": verdict.asked.sentence,
-                "property": verdict.asked.text,
-                "hazard": verdict.row["hazard"],
-                "cites": verdict.row["cites"],
-                "verdict": verdict.word,
-                "how": verdict.how,
-                "reached_in_scans": list(verdict.reached),
-                "wires": list(verdict.mended),
-                "trace": [{"dt_ms": dt_ms, "in": dict(given)} for dt_ms, given in verdict.scans],
-            }
-            for verdict in found
-        ],
+        "verdicts": verdict_rows(found),
         "cpu_seconds": round(seconds, 1),
     }
+
+
+def verdict_rows(found: Sequence[Verdict]) -> list[dict[str, Any]]:
+    """Each verdict as data."""
+    return [
+        {
+            "id": verdict.asked.id,
+            "sentence": verdict.asked.sentence,
+            "property": verdict.asked.text,
+            "hazard": verdict.row["hazard"],
+            "cites": verdict.row["cites"],
+            "verdict": verdict.word,
+            "how": verdict.how,
+            "reached_in_scans": list(verdict.reached),
+            "wires": list(verdict.mended),
+            "trace": [{"dt_ms": dt_ms, "in": dict(given)} for dt_ms, given in verdict.scans],
+        }
+        for verdict in found
+    ]
 
 
 # ---------------------------------------------------------------- the wiring on trial
 
 
-def _trial(machine: Machine, part: str, record: Path | None) -> int:
+def _killers(machine: Machine, folder: Path) -> int:
+    """Renew the rows of killers.toml; 1 if a property has none."""
+    path, judge = folder / "killers.toml", Killers(machine)
+    found = judge.renewed(read_killers(path), folder / "trial.toml")
+    write_text(path, as_rows(found))
+    left = judge.problems(found)
+    said = [f"{id}: {why}" for id, why in left.items()]
+    print("\n".join([*said, f"{path}: {len(found)} of {len(judge.rows)} properties fall with an edit"]))
+    return 1 if left else 0
+
+
+def _trial(machine: Machine, part: str, progress: Progress, record: Path | None) -> int:
     trial = Trial(machine)
     chosen = [edit for edit in edits(machine.text, machine.wiring) if part in f"{edit.kind}: {edit.id}"]
     if not chosen:
         raise Unjudged(f"machine: no edit has {part!r} in its name")
     found: list[Outcome] = []
     for edit in chosen:
-        _tell(edit.id)
+        machine.tell(edit.id)
         found.append(trial.of(edit))
-        _tell("")
         scans = f" in {found[-1].scans} scans" if found[-1].scans else ""
-        print(f"{found[-1].word}{scans}: {edit.kind}: {edit.id}: {', '.join(found[-1].by)}", flush=True)
+        progress.say(f"{found[-1].word}{scans}: {edit.kind}: {edit.id}: {', '.join(found[-1].by)}")
     words = [outcome.word for outcome in found]
     print(", ".join(f"{words.count(word)} {word}" for word in sorted({*words})))
     if record is not None:

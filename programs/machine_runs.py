@@ -133,14 +133,14 @@ class Runner:
         return Runner(wiring, watched, use, whole, cell, named, follows)
 
     def stories(self) -> dict[str, list[dict[str, Value]]]:
-        """What changes in each scan of each story whose inputs this cell has."""
+        """What changes in each scan of each story; an input that this cell has not is left out."""
         found = {}
         for story in self.use.story:
             rows: list[dict[str, Value]] = []
             for row in story["row"]:
-                given = {name: value for name, value in row.items() if name != "scans"}
+                given = {name: value for name, value in row.items() if name in self.cell.inputs}
                 rows += [given] * row.get("scans", 1)
-            if all(name in self.cell.inputs for row in rows for name in row):
+            if any(rows):
                 found[story["id"]] = rows
         return found
 

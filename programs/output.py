@@ -47,7 +47,9 @@ class Case:
         return {"PROVED": "system-out", "REFUTED": "failure"}.get(self.word, "error")
 
 
-def junit_of(suite: str, cases: Sequence[Case], seconds: float) -> str:
+def junit_of(
+    suite: str, cases: Sequence[Case], seconds: float, command: str = "modeproof prove-program"
+) -> str:
     """Verdicts as JUnit XML. seconds: of CPU, for all of them."""
     kinds = Counter(case.element for case in cases)
     attributes = {
@@ -58,7 +60,7 @@ def junit_of(suite: str, cases: Sequence[Case], seconds: float) -> str:
         "skipped": "0",
         "time": str(seconds),
     }
-    root = ElementTree.Element("testsuites", name="modeproof prove-program")
+    root = ElementTree.Element("testsuites", name=command)
     of = ElementTree.SubElement(root, "testsuite", attributes)
     for case in cases:
         told = {"classname": _xml(suite), "name": _xml(case.name)}

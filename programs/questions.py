@@ -143,31 +143,38 @@ def _check_row(row: Mapping[str, Any], path: Path, seen: set[str], beside: Mappi
         raise Unjudged(f"{path}: {name}: within_ms is 0 or more")
 
 
+def words_of(row: Mapping[str, Any]) -> str:
+    """A property as one text."""
+    for key in ("never", "always"):
+        if key in row:
+            return f"{key} {row[key]}"
+    if "only_if" in row:
+        return f"{row['holds']} only if {row['only_if']}"
+    if "only_once" in row:
+        return f"after {row['after']} {row['holds']} only once {row['only_once']}"
+    return f"after {row['after']} within {row['within_ms']} ms {row['holds']}"
+
+
 def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
     def read(key: str) -> tuple[str, Expression]:
         return row[key], expression(row[key], cell, place)
 
+    head = row["id"], row["sentence"], words_of(row)
     if "never" in row:
-        text, found = read("never")
+        _, found = read("never")
         parts = _both(found)
         trigger = [(shown(part), part) for part in parts] if len(parts) > 1 else []
-        return Asked(row["id"], row["sentence"], f"never {text}", Unary("NOT", found, place), tuple(trigger))
+        return Asked(*head, Unary("NOT", found, place), tuple(trigger))
     if "always" in row:
-        text, found = read("always")
-        return Asked(row["id"], row["sentence"], f"always {text}", found)
+        return Asked(*head, read("always")[1])
     what, holds = read("holds")
     if "only_if" in row:
-        text, found = read("only_if")
-        implied = Binary("OR", Unary("NOT", holds, place), found, place)
-        return Asked(row["id"], row["sentence"], f"{what} only if {text}", implied, ((what, holds),))
+        implied = Binary("OR", Unary("NOT", holds, place), read("only_if")[1], place)
+        return Asked(*head, implied, ((what, holds),))
     text, after = read("after")
     if "only_once" in row:
-        last, once = read("only_once")
-        words = f"after {text} {what} only once {last}"
-        return Asked(row["id"], row["sentence"], words, holds, ((text, after), (what, holds)), once=once)
-    limit = row["within_ms"]
-    words = f"after {text} within {limit} ms {what}"
-    return Asked(row["id"], row["sentence"], words, holds, ((text, after),), limit)
+        return Asked(*head, holds, ((text, after), (what, holds)), once=read("only_once")[1])
+    return Asked(*head, holds, ((text, after),), row["within_ms"])
 
 
 def expression(text: str, cell: Cell, place: Place) -> Expression:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Literal
 
 import msgspec
 
@@ -112,9 +112,7 @@ class Wiring:
 
     def place(self, row: str) -> Place:
         """Where a row stands; the nearest row above it where it has no line of its own."""
-        while row not in self.lines and "." in row:
-            row = row.rpartition(".")[0]
-        return Place(self.file, self.lines.get(row, 1))
+        return _place(self.file, self.lines, row)
 
     def refuse(self, row: str, text: str) -> Unjudged:
         """The refusal of a row: file, line, row, cause."""
@@ -256,7 +254,10 @@ class Wiring:
                 raise self.refuse(row, f"AND, OR and NOT take a BOOL, not a {self.type_of(part).name}")
 
 
-T = TypeVar("T")
+def _place(file: str, lines: Mapping[str, int], row: str) -> Place:
+    while row not in lines and "." in row:
+        row = row.rpartition(".")[0]
+    return Place(file, lines.get(row, 1))
 
 
 def read_wiring(path: Path) -> Wiring:
@@ -276,7 +277,12 @@ def wiring_of(text: str, file: str) -> Wiring:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise Unjudged(f"{file}: no TOML: {error}") from None
-    wiring = Wiring(file, typed(Table, table, file), lines)
+    try:
+        typed_table = typed(Table, table, file)
+    except Unjudged as error:
+        said = error.message.removeprefix(f"{file}: ")
+        raise _place(file, lines, re.split(r"[: \[]", said)[0]).refuse(said) from None
+    wiring = Wiring(file, typed_table, lines)
     _check(wiring)
     return wiring
 
@@ -390,13 +396,21 @@ def _check_matrix(wiring: Wiring) -> None:
         raise wiring.refuse("modes", "a cell has a mode")
 
 
+def leaves(tree: Expression) -> Iterator[Name | Member]:
+    """The inputs, signals and pins that an expression reads, from left to right."""
+    match tree:
+        case Name() | Member():
+            yield tree
+        case Unary(_, operand, _):
+            yield from leaves(operand)
+        case Binary(_, left, right, _):
+            yield from leaves(left)
+            yield from leaves(right)
+
+
 def names(tree: Expression) -> Iterator[str]:
     """The inputs and signals in an expression, and the blocks whose outputs it reads."""
-    match tree:
-        case Name(name, _) | Member(Name(name, _), _, _):
-            yield name
-        case Unary(_, operand, _):
-            yield from names(operand)
-        case Binary(_, left, right, _):
-            yield from names(left)
-            yield from names(right)
+    for leaf in leaves(tree):
+        of = leaf.of if isinstance(leaf, Member) else leaf
+        if isinstance(of, Name):
+            yield of.name

@@ -45,6 +45,11 @@ def documents(place: Path) -> tuple[str, ...]:
     )
 
 
+def machines(place: Path) -> tuple[str, ...]:
+    """The names of all machines: folders in `spec` with a wiring, which are no documents."""
+    return tuple(path.parent.name for path in sorted((place / "spec").glob("*/wiring.toml")))
+
+
 def chosen_documents(place: Path, names: Sequence[str] | None) -> tuple[str, ...]:
     """The documents that a command is about, in the order of `documents`: all, or those named.
 

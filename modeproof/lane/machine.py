@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import time
 from pathlib import Path
 from typing import Any
 
-from modeproof.ground.errors import Unjudged
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged, first_of
+from modeproof.ground.lock import only_one
+from modeproof.ground.places import machines, root
 from modeproof.ground.proofs import proofs_module
+from modeproof.lane.summary import machine_line
+from modeproof.report.verdicts import status_of, verdict_on_machine
+
+ID = "machine"
+ROOMS = ("programs", "proofs", "refimpl")
+"""Whose Python a verdict on a machine rests on."""
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -30,6 +40,8 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     )
     parser.add_argument("--recheck", action="store_true", help="z3 and cvc5 judge the proof again")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdicts there as well")
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdicts there as JUnit XML")
+    parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.add_argument(
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
     )
@@ -42,14 +54,82 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         help="judge edits of the wiring whose name has PART in it",
     )
     parser.add_argument("--record", action="store_true", help="with --trial: write trial.toml")
+    parser.add_argument(
+        "--killers",
+        action="store_true",
+        help="write killers.toml anew: an edit of trial.toml and its scans for each property",
+    )
+    parser.add_argument(
+        "--evidence", action="store_true", help="judge the project's own as `verify` does, and write evidence"
+    )
     parser.set_defaults(run=run)
     return parser
+
+
+def judge_machine(place: Path, name: str) -> dict[str, Any]:
+    """Judge a machine of the project's own and write its evidence; a wiring that is refused is UNJUDGED.
+
+    Raises Unjudged when the evidence cannot be written.
+    """
+    evidence.discard(place, name, ID)
+    started = time.time()
+    folder = place / "spec" / name
+    sources = [path for room in ROOMS for path in (place / room).rglob("*.py")]
+    sources += [*folder.glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
+    inputs = evidence.hashes(place, sources)  # of what is judged now
+    result: dict[str, Any] = {}
+    try:
+        result = proofs_module("programs.machine_evidence").judged(folder)
+        verdict, reason = verdict_on_machine(result)
+        low, high = result["scan_ms"]
+        strength = (
+            f"of the composed steps, for any inputs, scans of {low} to {high} ms, from power-up, for ever"
+        )
+    except Unjudged as error:
+        verdict, reason, strength = "UNJUDGED", error.message, ""
+    record = evidence.make(
+        kind="machine",
+        id=ID,
+        document=name,
+        verdict=verdict,
+        expected="PROVED",
+        as_expected=verdict == "PROVED",
+        strength=strength,
+        command="modeproof machine --evidence",
+        started=started,
+        seconds=time.time() - started,
+        inputs=inputs,
+        tools=evidence.solvers(),
+        result=result,
+        reason=reason,
+    )
+    evidence.write(place, record)
+    return record
+
+
+def troubles_of_machine(place: Path, name: str) -> str:
+    """What is wrong with it as far as is seen in a second: the reader, and that each property can fall."""
+    try:
+        return first_of(proofs_module("programs.machine_evidence").looked_at(place / "spec" / name))
+    except Unjudged as error:
+        return error.message
 
 
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdicts. Raises Unjudged."""
     if args.record and args.trial != "":
         raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
+    others = [name for name in ("file", "properties", "use") if getattr(args, name) is not None]
+    if others and (args.evidence or args.killers):
+        raise Unjudged("machine: --evidence and --killers are about the project's own files; leave yours out")
+    if args.evidence:
+        with only_one(root()):
+            records = [judge_machine(root(), name) for name in machines(root())]
+        for record in records:
+            print(machine_line(record))
+            if not record["as_expected"]:
+                print(f"NOT AS EXPECTED  {record['reason']}")
+        return max(map(status_of, records), default=2)
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:

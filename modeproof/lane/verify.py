@@ -12,12 +12,13 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
-from modeproof.ground.places import add_document_option, chosen_documents, root
+from modeproof.ground.places import add_document_option, chosen_documents, documents, machines, root
 from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
 from modeproof.lane.conformance import compare_reference, comparisons, say
+from modeproof.lane.machine import judge_machine, troubles_of_machine
 from modeproof.lane.prove import prove_documents
-from modeproof.lane.summary import failures, render, total
+from modeproof.lane.summary import failures, machine_line, render, total
 from modeproof.registers.runs import LANES, Run, load_runs
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
 from modeproof.tlc.check import check_all, register_problems, select
@@ -160,6 +161,11 @@ def verify(
             bad.append(f"{document}, {title}: UNJUDGED: {why}")
             status = 2
         everything += made
+    machine_records = [record for record in everything if record["kind"] == "machine"]
+    if lane == "full" and set(names) == set(documents(place)):
+        for name in {*machines(place)} - {record["document"] for record in machine_records}:
+            bad.append(f"{name}: UNJUDGED: nothing was done")
+            status = 2
     progress.say("")
     every_line: list[Line] = []
     for document in names:
@@ -176,6 +182,10 @@ def verify(
         every_line += lines
     if len(names) > 1:
         progress.say(total(len(names), every_line, everything, time.monotonic() - began))
+    for record in machine_records:
+        progress.say(machine_line(record))
+        status = max(status, status_of(record))
+    bad += failures(machine_records, [])
     for line in dict.fromkeys(bad):
         progress.say(f"NOT AS EXPECTED  {line}")
     progress.say(f"{'evidence':<12} build/evidence/ ({len(everything)} files)")
@@ -197,15 +207,25 @@ def stages_of_verify() -> list[tuple[str, Stage]]:
         place: Path, names: Sequence[str], lane: str, progress: Progress
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
         tasks, missing = comparisons(place, names, lane)
+        own = machines(place) if set(names) == set(documents(place)) else ()
         found: list[dict[str, Any]] = []
+        judged: list[dict[str, Any]] = []
 
         def take(record: dict[str, Any]) -> None:
-            found.append(record)
-            say(record, progress)
+            if record["kind"] == "machine":
+                judged.append(record)
+                progress.say(machine_line(record))
+            else:
+                found.append(record)
+                say(record, progress)
 
-        result = prove_documents(place, names, progress, lane=lane, beside=tasks, on_beside=take)
+        if lane == "full":  # it takes longest
+            tasks = [*((judge_machine, (place, name)) for name in own), *tasks]
+        records, troubles = prove_documents(place, names, progress, lane=lane, beside=tasks, on_beside=take)
         compared.append((found, missing))
-        return result
+        if lane != "full":
+            troubles |= {name: why for name in own if (why := troubles_of_machine(place, name))}
+        return [*records, *judged], troubles
 
     def compare(
         place: Path, names: Sequence[str], lane: str, progress: Progress

@@ -16,6 +16,7 @@ from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.citations import read_sources
 from modeproof.registers.judge import Judgement, judge, judge_tree
 from modeproof.registers.load import load_document
+from modeproof.registers.machine_pins import repin_machines
 from modeproof.registers.pins import repin
 from modeproof.registers.rows import Problem
 from modeproof.registers.tables import matrix_csv, matrix_records, matrix_text
@@ -52,6 +53,8 @@ def run(args: argparse.Namespace) -> int:
             print(
                 "\n".join(repin(document, read_sources(document), reason)) or f"{document.name}: no pin moved"
             )
+        if not args.document:
+            print("\n".join(repin_machines(root, reason)))
     progress = Progress(quiet=args.quiet)
     judgements = [judge(load_document(root, name)) for name in progress.over("registers", chosen)]
     tree = judge_tree(root)

@@ -12,6 +12,7 @@ from modeproof.registers.crosscheck import cross_check
 from modeproof.registers.document_page import check_document_page
 from modeproof.registers.killers import check_killers, ways_to_fall
 from modeproof.registers.load import load_document
+from modeproof.registers.machine_pins import check_machine_pins
 from modeproof.registers.matrix import Row, matrix_of, orphans
 from modeproof.registers.names import check_names
 from modeproof.registers.pins import check_pins
@@ -73,6 +74,7 @@ def judge_tree(root: Path) -> list[Problem]:
         *check_no_document_known(root, [document.interface for document in loaded], loaded),
         *check_pages(root, loaded),
         *check_vectors(root),
+        *check_machine_pins(root),
     ]
 
 

@@ -15,6 +15,7 @@ from modeproof.graph.equal import Comparison
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.proofs import proofs_module
 from modeproof.registers.rows import Document
+from modeproof.report.verdicts import verdict_on_machine
 from modeproof.tlc.again import doubt
 
 Record = Mapping[str, Any]
@@ -34,6 +35,17 @@ def contradiction(place: Path, document: Document, record: Record) -> str:
         return error.message
     except (LookupError, TypeError, ValueError, AttributeError) as error:
         return f"its figures cannot be judged ({type(error).__name__}: {error})"
+
+
+def doubt_on_machine(record: Record) -> str:
+    """The same of evidence on a machine."""
+    if not record["as_expected"]:
+        return ""
+    try:
+        verdict, reason = verdict_on_machine(record["result"])
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        return f"its figures cannot be judged ({type(error).__name__}: {error})"
+    return "" if record["verdict"] == verdict == "PROVED" else f"its verdicts give {verdict}: {reason}"
 
 
 def agreement_problems(rows: Sequence[Record]) -> list[str]:

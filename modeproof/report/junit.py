@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 from modeproof.registers.rows import Document
 from modeproof.report.claims import LANE, theorem_rows
-from modeproof.report.snapshot import as_it_counts
+from modeproof.report.snapshot import as_it_counts, machine_rows
 from modeproof.report.sources import DIFFERS, Evidence, Sources
 from modeproof.report.verdicts import status_of
 
@@ -59,6 +59,9 @@ def junit(sources: Sources) -> bytes:
         )
         for case in cases:
             suite.append(_element(document, case))
+    for name, piece in sources.machines.items():
+        if piece is not None:
+            root.append(_machine(name, piece))
     ElementTree.indent(root)
     content: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
     return content + b"\n"
@@ -90,6 +93,36 @@ def _element(document: Document, one: _Case) -> ElementTree.Element:
         tag = "failure" if one.status == DIFFERS else "error"
         ElementTree.SubElement(case, tag, message=_for_xml(one.message), type=tag)
     return case
+
+
+def _machine(name: str, piece: Evidence) -> ElementTree.Element:
+    """The properties of a machine of the project's own."""
+    rows = machine_rows(piece)
+    kinds = ["" if row["verdict"] == "PROVED" else _tag(row["verdict"]) for row in rows]
+    suite = ElementTree.Element(
+        "testsuite",
+        name=name,
+        tests=str(len(rows)),
+        failures=str(kinds.count("failure")),
+        errors=str(kinds.count("error")),
+        skipped="0",
+        time=f"{float(piece.record['seconds']):.3f}",
+    )
+    for row, kind in zip(rows, kinds, strict=True):
+        case = ElementTree.SubElement(
+            suite, "testcase", classname=f"{name}.machine", name=_for_xml(row["id"])
+        )
+        properties = ElementTree.SubElement(case, "properties")
+        said = {"verdict": row["verdict"], "sentence": row["sentence"], "evidence": piece.path}
+        for key, value in {**said, "sha256": piece.sha256}.items():
+            ElementTree.SubElement(properties, "property", name=key, value=_for_xml(value))
+        if kind:
+            ElementTree.SubElement(case, kind, message=_for_xml(row["how"]), type=kind)
+    return suite
+
+
+def _tag(verdict: str) -> str:
+    return "failure" if verdict == "REFUTED" else "error"
 
 
 def _cases(sources: Sources, document: Document) -> Iterator[_Case]:

@@ -17,6 +17,7 @@ PART_OF = {
     "agreement": "proofs",
     "registers": "matrix",
     "strength": "strength",
+    "machine": "machine",
 }
 
 

@@ -27,6 +27,14 @@ def as_it_counts(piece: Evidence) -> Record:
     return {**piece.record, "verdict": "UNJUDGED", "as_expected": False, "reason": reason, "strength": reason}
 
 
+def machine_rows(piece: Evidence) -> list[dict[str, Any]]:
+    """The verdict on each property of a machine; UNJUDGED where its evidence does not count."""
+    record = as_it_counts(piece)
+    stale = bool(piece.changed) or "contradicts itself" in record["reason"]
+    rows = piece.result.get("verdicts", [])
+    return [{**row, "verdict": "UNJUDGED", "how": record["reason"]} if stale else dict(row) for row in rows]
+
+
 def lines_of(sources: Sources, document: Document) -> list[Line]:
     """Each property in each environment; UNJUDGED where this lane declares a run and none has evidence."""
     rows = [PropertyRow(prop.id, prop.tla, prop.environments) for prop in document.properties]
@@ -94,6 +102,10 @@ def snapshot(sources: Sources) -> dict[str, Any]:
             }
         mutants |= {f"{name}, by {judge}": of for judge, of in mutants_of(sources, name).items()}
         pins |= {f"{name}/{run}": of for run, of in pins_of(sources, name).items()}
+    for name, piece in sources.machines.items():
+        if piece is not None:
+            verdicts |= {f"{name}: {row['id']}": row["verdict"] for row in machine_rows(piece)}
+            results[f"{name}/{piece.id}"] = {"verdict": piece.record["verdict"], "counts": {}}
     tools: dict[str, list[str]] = {}
     for piece in sources.everything():
         for tool, entry in piece.record["tools"].items():

@@ -8,16 +8,17 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.files import OURS, YOURS, read
+from modeproof.ground.evidence.files import OURS, YOURS, evidence_path, read
 from modeproof.ground.evidence.record import other_tools, result_sha256
-from modeproof.ground.places import documents
+from modeproof.ground.places import documents, machines
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
-from modeproof.report.again import contradiction
+from modeproof.report.again import contradiction, doubt_on_machine
 from modeproof.report.filing import Filing
 
 T = TypeVar("T")
@@ -108,6 +109,8 @@ class Sources:
     """What was found out about a user's programs and logs: shown, and counted for nothing."""
     filing: Filing = field(default_factory=Filing)
     """What the caller says about the report."""
+    machines: Mapping[str, Evidence | None] = field(default_factory=dict)
+    """The evidence on each machine of the project's own, which is no document. None: there is none."""
     cache: dict[str, Any] = field(default_factory=dict, compare=False, repr=False)
     """What a part worked out and another may use again."""
 
@@ -126,6 +129,7 @@ class Sources:
         """All evidence, by document and id."""
         for of_document in self.evidence.values():
             yield from of_document.values()
+        yield from filter(None, self.machines.values())
 
     @property
     def results(self) -> dict[str, str]:
@@ -185,7 +189,7 @@ def gather(root: Path, filing: Filing | None = None) -> Sources:
                 shown = path.relative_to(root).as_posix()
                 files[shown] = hashes[shown] or ""
                 try:
-                    piece, before = _piece(root, found[name], path, shown, hashes)
+                    piece, before = _piece(root, partial(contradiction, root, found[name]), path, hashes)
                 except Unjudged as error:
                     what = error.message.replace(f"{root}/", "")
                     remedy = "modeproof verify" if folder == OURS else "modeproof conform"
@@ -200,6 +204,7 @@ def gather(root: Path, filing: Filing | None = None) -> Sources:
         if not evidence[name]:
             what = f"{name}: there is no evidence in build/evidence/{name}/"
             troubles.append(Trouble(HOLE, "verdict", what, f"modeproof verify --document {name}"))
+    own = dict(_machines(root, hashes, files)) if not filing.documents else {}
     ordered = sorted(found.values(), key=lambda one: (one.about.seed, one.name))
     troubles += _stale({document.name: evidence[document.name] for document in ordered})
     return Sources(
@@ -210,14 +215,32 @@ def gather(root: Path, filing: Filing | None = None) -> Sources:
         tuple(troubles),
         {document.name: yours[document.name] for document in ordered},
         filing,
+        own,
     )
 
 
+def _machines(root: Path, hashes: _Hashes, files: dict[str, str]) -> Iterator[tuple[str, Evidence | None]]:
+    """The evidence on each machine; what was read for it is among the files from now on."""
+    for name in machines(root):
+        path = evidence_path(root, name, "machine")
+        read_files = [*sorted((root / "spec" / name).glob("*.toml")), *([path] if path.exists() else [])]
+        piece: Evidence | None = None
+        before: Sequence[str] = ()
+        if path.exists():
+            try:
+                piece, before = _piece(root, doubt_on_machine, path, hashes)
+            except Unjudged:  # its part says so
+                read_files.pop()
+        shown = [file.relative_to(root).as_posix() for file in read_files]
+        files |= {file: digest for file in (*shown, *before) if (digest := hashes[file]) is not None}
+        yield name, piece
+
+
 def _piece(
-    root: Path, document: Document, path: Path, shown: str, hashes: _Hashes
+    root: Path, doubt: Callable[[Mapping[str, Any]], str], path: Path, hashes: _Hashes
 ) -> tuple[Evidence, Sequence[str]]:
     """One piece of evidence, and the files that it rests on or made. Raises Unjudged as `read` does."""
-    record = read(path)
+    record, shown = read(path), path.relative_to(root).as_posix()
     artefacts = record["result"].get("artefacts", {})
     before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
     changed = (
@@ -226,7 +249,7 @@ def _piece(
     )
     gone = tuple(file for file in before if hashes[file] is None)
     found = result_sha256(record)
-    if why := "" if changed else contradiction(root, document, record):
+    if why := "" if changed else doubt(record):
         record |= {"as_expected": False, "reason": f"the evidence contradicts itself: {why}"}
     return Evidence(record, shown, hashes[shown] or "", found, changed, gone), tuple(before)
 

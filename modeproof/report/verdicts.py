@@ -48,7 +48,27 @@ def status_of(record: Record) -> int:
     """Exit status of one piece of evidence."""
     if record["as_expected"]:
         return 0
-    return 2 if record["verdict"] in ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED") else 1
+    return 2 if record["verdict"] in ("INCONCLUSIVE", "UNJUDGED", "UNMEASURED", "UNKNOWN") else 1
+
+
+def verdict_on_machine(result: Mapping[str, Any]) -> tuple[str, str]:
+    """The verdict on a machine from those on its properties, and why it is not PROVED.
+
+    SURVIVED: all are PROVED, and it is not seen that each can fall.
+    """
+    words = [row["verdict"] for row in result["verdicts"]]
+    bad = [f"{row['id']}: {row['verdict']}: {row['how']}" for row in result["verdicts"] if row["how"]]
+    bad += [f"{row['id']}: it was never reached" for row in result["verdicts"] if _unreached(row)]
+    first = (*bad, *result["problems"], "" if words else "no property was judged")[0:1]
+    if "REFUTED" in words:
+        return "REFUTED", next(text for text in bad if ": REFUTED: " in text)
+    if bad or set(words) != {"PROVED"}:
+        return "UNKNOWN" if {*words} <= {"PROVED", "UNKNOWN"} and words else "UNJUDGED", "".join(first)
+    return ("SURVIVED", "".join(first)) if result["problems"] else ("PROVED", "")
+
+
+def _unreached(row: Mapping[str, Any]) -> bool:
+    return row["verdict"] == "PROVED" and None in row["reached_in_scans"]
 
 
 def property_lines(

@@ -8,40 +8,10 @@ import pytest
 
 from modeproof.registers import Unjudged, judge, load_document, read_sources
 from modeproof.registers.responses import bounds, chain_bounds, section
+from tests.response_rows import response_rows
 
 FILE = "spec/door/response.toml"
 PROOF = "proofs/door/bolt.py"
-ROWS = """
-document = "door"
-[example]
-cycle = { latch = 10 }
-times = { T_HOLD_ms = 200 }
-transfer = 5
-
-[[response]]
-id = "DRR-1"
-device = "latch"
-from = "the door opens"
-to = "the bolt is in"
-clauses = ["DR-1-1"]
-calls = 2
-times = { T_HOLD_ms = 1 }
-
-[[response]]
-id = "DRR-2"
-device = "latch"
-from = "the bolt is in"
-to = "somebody closes the door"
-clauses = ["DR-1-1"]
-unbounded = "a person is waited for"
-
-[[chain]]
-id = "DRC-1"
-title = "door to lamp"
-steps = ["DRR-1", "door DRR-1"]
-then = "the lamp"
-then_ms = 7
-"""
 
 
 def problems(tree: Any) -> list[str]:
@@ -52,7 +22,7 @@ def problems(tree: Any) -> list[str]:
 @pytest.fixture
 def timed(tree: Any) -> Any:
     """The door with response times, and a theorem that names the one that has a bound."""
-    tree.write(FILE, ROWS)
+    tree.write(FILE, response_rows("door", "DR", "latch", 200))
     tree.edit(PROOF, 'findings=["E-01"])', 'findings=["E-01"], responses=["DRR-1", "DRR-2"])')
     return tree
 

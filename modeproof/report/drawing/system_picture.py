@@ -168,7 +168,7 @@ def _label(cable: Cable) -> list[Line]:
         by_type.setdefault(wire.type, []).append(wire.name)
     shown = []
     for kind, names in by_type.items():
-        words = [f"{name}," for name in names[:-1]] + [f"{names[-1]}: {kind}"]
+        words = [f"{name}," for name in names[:-1]] + [f"{names[-1]}: {kind}" if kind else names[-1]]
         shown += wrapped(words, WIDE, kind="step", size=SIGNAL)
     cites = dict.fromkeys(id for wire in cable.wires for id in wire.cites)
     return [*shown, *wrapped(cites, WIDE + 4, kind="cites", size=CLAUSE)]

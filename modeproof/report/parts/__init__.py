@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from modeproof.report.part import Maker
 
-FILED = ("summary", "functions", "findings", "limits", "reproduce")
+FILED = ("summary", "functions", "findings", "machine", "limits", "reproduce")
 """What is printed and filed; the first has the troubles of all."""
 ORDER = (
     *FILED,

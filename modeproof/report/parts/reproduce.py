@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.report.part import Part
-from modeproof.report.sources import Figure, Sources
+from modeproof.report.sources import Evidence, Figure, Sources
 from modeproof.report.vendored import packages
 
 
@@ -36,12 +36,18 @@ def part(sources: Sources) -> Part:
                         for record in evidence.values()
                     ],
                 }
-                for name, evidence in sources.evidence.items()
+                for name, evidence in _evidence(sources).items()
             ],
             "made": _made(sources),
             "packages": packages(),
         },
     )
+
+
+def _evidence(sources: Sources) -> dict[str, Mapping[str, Evidence]]:
+    """By document, and then by machine."""
+    machines = {name: {piece.id: piece} for name, piece in sources.machines.items() if piece is not None}
+    return {**sources.evidence, **machines}
 
 
 def _made(sources: Sources) -> list[dict[str, Any]]:

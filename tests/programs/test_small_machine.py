@@ -1,0 +1,163 @@
+"""A machine of one latch, judged from its file to evidence and exit status: each verdict, and why."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof.cli import main
+from modeproof.ground import evidence
+from modeproof.lane.machine import judge_machine
+from modeproof.report.verdicts import status_of
+from programs.machine import Machine
+from programs.machine_command import status
+
+WIRING = """title = "a drive behind a door"
+cycle_ms = 10
+scan_ms = [5, 50]
+order = ["running"]
+[inputs]
+Key = { type = "BOOL", from = "desk", why = "chooses the only mode" }
+Door = { type = "BOOL", from = "door", why = "it is closed" }
+Start = { type = "BOOL", from = "desk", why = "starts" }
+Stop = { type = "BOOL", from = "desk", why = "stops" }
+[modes]
+hand = { is = "Key", why = "by hand" }
+[safeguards]
+door = { is = "Door", why = "closed" }
+[matrix]
+hand = [["door"]]
+[block.running]
+of = "RS"
+why = "from start to stop"
+inputs.S = "Start"
+inputs.R1 = "Stop OR NOT safeguards_hold"
+[outputs]
+S_Drive = { is = "running.Q1", to = "drive", why = "it may move" }
+"""
+SAFETY = """[observer]
+pressed = { of = "R_TRIG", inputs.CLK = "Start" }
+moves = { of = "R_TRIG", inputs.CLK = "S_Drive" }
+"""
+USE = """[[story]]
+id = "start"
+first = true
+row = [{ Key = true, Door = true }, { Start = true }, { Start = false, scans = 3 }]
+"""
+CLOSED = ("closed", 'holds = "S_Drive"\nonly_if = "Door AND Key"')
+KILLERS = """[[killer]]
+property = "closed"
+row = "block.running.inputs.R1"
+text = "Stop"
+scans = ["10: Start=1"]
+"""
+
+
+def asked(*rows: tuple[str, str]) -> str:
+    said = 'sentence = "It is so."\nhazard = "planted"\ncites = ["A-02"]\n'
+    return SAFETY + "".join(f'[[property]]\nid = "{id}"\n{said}{text}\n' for id, text in rows)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of the machine in a tree of its own."""
+    monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
+    found = tmp_path / "spec/latch"
+    found.mkdir(parents=True)
+    for name, text in {"wiring": WIRING, "safety": asked(CLOSED), "use": USE, "killers": KILLERS}.items():
+        (found / f"{name}.toml").write_text(text, "utf-8")
+    return found
+
+
+def words(folder: Path, *rows: tuple[str, str], wiring: str = WIRING) -> dict[str, tuple[str, str]]:
+    """For each property the verdict and how it came."""
+    path = folder / "own.toml"
+    path.write_text(asked(*rows), "utf-8")
+    machine = Machine(wiring, "my.toml", path, folder / "use.toml", leave_out=True, runs=20)
+    found = machine.all(20, recheck=True)
+    assert status(found) == (1 if "REFUTED" in {one.word for one in found} else 2 if len(found) > 1 else 0)
+    return {verdict.asked.id: (verdict.word, verdict.how) for verdict in found}
+
+
+def test_each_verdict_comes_with_its_reason(folder: Path) -> None:
+    found = words(
+        folder,
+        CLOSED,
+        ("wrong", 'never = "S_Drive AND NOT Start"'),
+        ("idle", 'holds = "S_Drive AND NOT Door"\nonly_if = "Stop"'),
+        ("absent", 'never = "S_Drive AND Beam"'),
+    )
+    assert [found[id][0] for id in ("closed", "wrong", "idle", "absent")] == [
+        "PROVED",
+        "REFUTED",
+        "UNKNOWN",
+        "NOT JUDGED",
+    ]
+    assert "judged again by z3 and cvc5" in found["closed"][1]
+    assert "was never true in" in found["idle"][1]
+    assert found["absent"][1] == "the wiring has no 'Beam'"
+
+
+def test_one_property_that_is_proved_is_a_pass(folder: Path) -> None:
+    assert words(folder, CLOSED)["closed"][0] == "PROVED"
+
+
+def test_a_wire_left_out_is_refuted(folder: Path) -> None:
+    wiring = WIRING.replace("Stop OR NOT safeguards_hold", "Stop")
+    assert words(folder, CLOSED, wiring=wiring)["closed"][0] == "REFUTED"
+
+
+def test_evidence_of_it_is_as_expected(folder: Path) -> None:
+    record = judge_machine(folder.parents[1], "latch")
+    assert (record["verdict"], record["reason"]) == ("PROVED", "")
+    assert record["inputs"].keys() >= {f"spec/latch/{name}.toml" for name in ("wiring", "safety", "use")}
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize(
+    ("file", "old", "new", "verdict"),
+    [
+        ("wiring", "Stop OR NOT safeguards_hold", "Stop", "REFUTED"),
+        ("wiring", '"Stop OR NOT', '"Halt OR NOT', "UNJUDGED"),
+        ("safety", "Door AND Key", "Door AND Key OR TRUE", "SURVIVED"),
+        ("safety", 'holds = "S_Drive"', 'holds = "S_Drive AND NOT Door"', "UNKNOWN"),
+        ("safety", "Door AND Key", "Gate AND Key", "UNJUDGED"),
+        ("killers", "closed", "shut", "SURVIVED"),
+    ],
+)
+def test_a_planted_fault_turns_the_lane_red(
+    folder: Path, file: str, old: str, new: str, verdict: str
+) -> None:
+    path = folder / f"{file}.toml"
+    text = path.read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), "utf-8")
+    record = judge_machine(folder.parents[1], "latch")
+    assert (record["verdict"], record["as_expected"]) == (verdict, False)
+    assert status_of(record) == (1 if verdict in ("REFUTED", "SURVIVED") else 2)
+    assert record["reason"]
+
+
+def test_new_killers_are_sought_among_the_recorded_edits(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("programs.machine_command.FOLDER", Path("spec/latch"))
+    path = folder / "killers.toml"
+    path.write_text("", "utf-8")
+    assert main(["machine", "--killers", "--quiet"]) == 1
+    assert "closed: no edit of the wiring is known" in capsys.readouterr().out
+    row = 'kind = "part left out"\nrow = "block.running.inputs.R1"\ntext = "Stop"\nverdict = "KILLED"\n'
+    (folder / "trial.toml").write_text(f'[[edit]]\n{row}by = ["closed"]\nscans = 2\n', "utf-8")
+    assert main(["machine", "--killers", "--quiet"]) == 0
+    assert "1 of 1 properties fall with an edit" in capsys.readouterr().out
+    assert 'text = "Stop"' in path.read_text("utf-8")
+
+
+def test_the_evidence_of_another_text_is_seen_as_such(folder: Path) -> None:
+    record = judge_machine(folder.parents[1], "latch")
+    before = evidence.hashes(folder.parents[1], [folder / "wiring.toml"])
+    (folder / "wiring.toml").write_text(WIRING + "\n", "utf-8")
+    after = evidence.hashes(folder.parents[1], [folder / "wiring.toml"])
+    assert before.items() <= record["inputs"].items()
+    assert not after.items() <= record["inputs"].items()
