@@ -121,6 +121,13 @@ def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
     assert (run.distinct, run.generated, run.lanes) == (8, 20, ("full",))
 
 
+def test_a_reading_tried_in_a_live_run_alone_is_told(tried: Any) -> None:
+    for file in ("runs", "findings"):
+        tried.edit(f"{SPEC}{file}.toml", "MC_Latch_slow", "LIVE_Latch_slow")
+    expected = "Slow: LIVE_Latch_slow tries it alone, which is neither a counterexample nor an MC run"
+    assert any(expected in line for line in tried.problems()), tried.problems()
+
+
 @pytest.mark.parametrize(
     ("also", "expected"),
     [
