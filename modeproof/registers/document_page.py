@@ -10,7 +10,7 @@ import hashlib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from modeproof.registers.killers import ways_to_fall
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
 from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
-from modeproof.registers.runs import Run
+from modeproof.registers.runs import ASKING, Run
 from modeproof.registers.scores import WHAT, Score, load_scores
 
 REMEDY = "run modeproof render"
@@ -142,7 +142,8 @@ Traces, proofs and matrices are in the report: `make verify`, then `build/report
 
 def _shown(document: Document, sources: Sources) -> str:
     name = document.name
-    holding = [run for run in document.runs if run.kind in ("MC", "OPEN", "LIVE")]
+    asking = [run for run in document.runs if run.kind in ASKING]
+    holding = [run for run in asking if not run.readings]
     negatives = [run for run in document.runs if run.kind == "NEG"]
     graphs = str(sum(run.graph is not None for run in document.runs))
     witnesses = {witness for run in document.runs if run.kind == "WIT" for witness in run.witnesses}
@@ -167,6 +168,7 @@ def _shown(document: Document, sources: Sources) -> str:
             str(len(negatives)),
             f"`modeproof check --document {name} 'NEG_*'`",
         ],
+        *_harmless(document.name, asking),
         _fallen(document, sources),
         [
             "situations that do occur, so the properties are not vacuous",
@@ -194,6 +196,18 @@ def _shown(document: Document, sources: Sources) -> str:
         "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
         "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
     )
+
+
+def _harmless(document: str, asking: Sequence[Run]) -> Iterator[list[str]]:
+    """The readings that break nothing, and the runs in which they are asked."""
+    alone = [run for run in asking if len(run.readings) == 1 and not run.of]
+    if alone:
+        names = " ".join(run.id for run in alone)
+        yield [
+            "other readings that break no property, in every module and profile that can ask one",
+            f"{len(alone)} in {len(alone) + sum(bool(run.of) for run in asking)} runs",
+            f"`modeproof check --document {document} {names} '*_with_*'`",
+        ]
 
 
 def _fallen(document: Document, sources: Sources) -> list[str]:

@@ -241,7 +241,8 @@ def stamps_of(document: Document, sources: Sources, killers: Killers) -> dict[st
     """For each edit a hash of what its judgement rests on, or why it cannot be judged.
 
     It rests on the edit, the definitions that it edits, the property with all that it refers to outside the
-    steps of the devices, and the cfg. Another change of the device does not move it: the tests judge anew.
+    steps of the devices, and the cfg. Another change of the device does not move it: the tests judge one edit
+    in six again, and `--complete` all.
     """
     said = checked_texts(document, sources)
     found: dict[str, str | Unjudged] = {}
