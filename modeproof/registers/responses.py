@@ -170,14 +170,14 @@ def example_of(document: Document) -> str:
 
 
 EXPLAINED = (
-    "These times follow from the steps of the devices. C is the longest time from the beginning of one call "
-    "of a device to that of the next. A call reads its inputs when it begins, and its outputs stand when it ends, "
-    "before the next. So an answer in one call takes two cycles: one until a call sees what happened, and "
-    "one until it ends. t is the longest transfer from one device to the next, with input filters; what "
-    "lies before the first device comes on top. Each bound is typed once, in the register: the theorem takes "
-    "it from there, and refuses any other. Where there is none, the theorem shows calls that go on like that "
-    "for ever, whatever time passes. A chain is a sum of rows, with a transfer between each two: that the "
-    "devices are wired so, and how long the last part takes, is assumed."
+    "These times follow from the steps of the devices. C is the longest time from the beginning of one "
+    "call of a device to that of the next. A call reads its inputs when it begins, and its outputs stand "
+    "when it ends, before the next. So an answer in one call takes two cycles: one until a call sees what"
+    " happened, and one until it ends. t is the longest transfer from one device to the next, with input "
+    "filters; what lies before the first device comes on top. Each bound is typed once, in the register: "
+    "the theorem takes it from there, and refuses any other. Where there is none, the theorem shows calls"
+    " that go on like that for ever, whatever time passes. A chain is a sum of rows, with a transfer "
+    "between each two: that the devices are wired so, and how long the last part takes, is assumed."
 )
 """How the table is to be read."""
 
