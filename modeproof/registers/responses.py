@@ -155,7 +155,9 @@ def _ms(steps: Sequence[tuple[Response, Responses]]) -> int:
         given = {**register.example.cycle, **register.example.times}
         needed = {row.device: _cycles(row), **row.times}
         if lost := [name for name in needed if name not in given]:
-            raise Unjudged(f"[example] has no ms for {', '.join(lost)}, which {row.id} needs")
+            raise Unjudged(
+                f"[example] of {register.source} has no ms for {', '.join(lost)}, which {row.id} needs"
+            )
         total += sum(often * given[name] for name, often in needed.items())
     return total
 

@@ -279,8 +279,9 @@ _NO_EXAMPLE = Example(cycle={}, transfer=1)
 
 @dataclass(frozen=True)
 class Responses:
-    """The register of response times of a document; empty where it has none."""
+    """The register of response times of a document; empty where it has none. `source` is its file."""
 
+    source: str = ""
     rows: tuple[Response, ...] = ()
     chains: tuple[Chain, ...] = ()
     example: Example = _NO_EXAMPLE

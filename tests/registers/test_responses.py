@@ -62,8 +62,18 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
         (PROOF, '"DRR-2"', '"DRR-2", "DRR-9"', "the_bolt_moves: proves the unknown response 'DRR-9'"),
         (FILE, 'device = "latch"', 'device = "lach"', "DRR-1: unknown device 'lach'; did you mean 'latch'?"),
         (FILE, "{ T_HOLD_ms = 1 }", "{ CODE = 1 }", "times: 'CODE' is no time among the parameters"),
-        (FILE, "times = { T_HOLD_ms = 200 }", "", "DRR-1: [example] has no ms for T_HOLD_ms, which DRR-1"),
-        (FILE, "{ latch = 10 }", "{ door = 10 }", "DRR-1: [example] has no ms for latch, which DRR-1 needs"),
+        (
+            FILE,
+            "times = { T_HOLD_ms = 200 }",
+            "",
+            "DRR-1: [example] of spec/door/response.toml has no ms for T_HOLD_ms, which DRR-1",
+        ),
+        (
+            FILE,
+            "{ latch = 10 }",
+            "{ door = 10 }",
+            "DRR-1: [example] of spec/door/response.toml has no ms for latch, which DRR-1 needs",
+        ),
         (
             FILE,
             'unbounded = "a',
@@ -97,7 +107,7 @@ def test_a_register_beside_it_without_a_cycle_is_told(timed: Any) -> None:
         "spec/gate/response.toml", ROWS.replace("latch = 10", "lamp = 10").replace('"door"', '"gate"')
     )
     timed.edit(FILE, '"door DRR-1"', '"gate DRR-1"')
-    expected = f"{FILE}: DRC-1: [example] has no ms for latch, which DRR-1 needs"
+    expected = f"{FILE}: DRC-1: [example] of spec/gate/response.toml has no ms for latch, which DRR-1 needs"
     assert [problem for problem in timed.problems() if "DRC-1" in problem] == [expected]
 
 
