@@ -22,7 +22,7 @@ from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import cfg_text, replaced_by
 from modeproof.registers.pins import Digest, checked_texts, digest
 from modeproof.registers.rows import Document, Problem, Property
-from modeproof.registers.runs import Run
+from modeproof.registers.runs import ASKING, Run
 from modeproof.registers.tla import Module, closure
 from modeproof.registers.typed import Entry, Name, RunId, Text, only_keys, typed, typed_rows
 
@@ -118,7 +118,9 @@ def ways_to_fall(document: Document, sources: Sources) -> dict[str, Falls]:
 
 def _is_killer(document: Document, modules: Mapping[str, Module], run: Run, prop: Property) -> bool:
     """Whether a negative of lane full breaks this property by one replaced operator of a device alone."""
-    if run.kind != "NEG" or run.property != prop.tla or run.constants or "full" not in run.lanes:
+    base = next((other for other in document.runs if other.id == run.base), run)
+    more = run.constants or run.specification or base.kind not in ASKING
+    if run.kind != "NEG" or run.property != prop.tla or more or "full" not in run.lanes:
         return False
     try:
         replaced = [replacement.replaced for replacement in replaced_by(modules, run)]

@@ -261,6 +261,7 @@ def test_a_file_of_another_form_is_refused_in_a_line(tree: Path, wrong: str) -> 
     [
         'lanes = ["exhaustive"]\nreading = "StopBeforeTimeout"',
         'constants = { MONITORING_TIME = "3" }\nreading = "StopBeforeTimeout"',
+        'specification = "DeactivationSpec"\nreading = "StopBeforeTimeout"',
         'reading = ["StopBeforeTimeout", "RequestBeforeTimeout"]',
         'reading = "ResetByLevel"',  # two operators
     ],
