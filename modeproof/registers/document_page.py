@@ -21,7 +21,7 @@ from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_o
 from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import ASKING, Run
-from modeproof.registers.scores import WHAT, Score, load_scores
+from modeproof.registers.scores import load_scores
 
 REMEDY = "run modeproof render"
 CLASSES = {
@@ -182,7 +182,7 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof prove --document {name}`",
         ],
     ]
-    rows += [_score(score) for score in load_scores(document.root, name)]
+    rows += [score.row for score in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
@@ -260,25 +260,6 @@ def _profiles(document: Document) -> Iterator[str]:
 
 def _value(value: Any) -> str:
     return f"`{str(value).upper()}`" if isinstance(value, bool) else f"`{value}`"
-
-
-def _score(score: Score) -> list[str]:
-    edited, judge = WHAT[score.what]
-    share = f" ({100 * score.killed / score.different:.1f} %)" if score.different else ""
-    open_ones = score.survived - score.survived_explained
-    rest = [f"{score.killed} of {score.different}{share}"]
-    if score.survived:
-        explained = f"{open_ones} unexplained" if open_ones else "each explained"
-        rest.append(f"{score.survived} not noticed, {explained}")
-    if score.unmeasured:
-        rest.append(f"{score.unmeasured} unmeasured")
-    if score.earlier_text:
-        rest.append("of an earlier text")
-    return [
-        f"planted faults in {edited} that {judge} notices ({score.judged_on})",
-        "; ".join(rest),
-        f"`{score.command}`",
-    ]
 
 
 def _limits(document: Document) -> str:
