@@ -123,7 +123,9 @@ def _check_row(row: Mapping[str, Any], path: Path, seen: set[str], beside: Mappi
     seen.add(name)
     for key, kind in beside.items():
         if not isinstance(row.get(key), kind) or not row[key]:
-            raise Unjudged(f"{path}: {name}: {key} is missing, or no {kind.__name__}")
+            raise Unjudged(
+                f"{path}: {name}: {key} is missing, or no {'text' if kind is str else kind.__name__}"
+            )
     known = {"id", "sentence"}.union(*FORMS)
     for key, value in row.items():
         if key in beside:

@@ -69,7 +69,9 @@ class Theorem:
 
     def rows(self) -> tuple[Response, ...]:
         """The rows of response.toml that it proves. Raises TheoremError for an id that is not there."""
-        document = self.build.__module__.split(".")[1] if self.responses else ""
+        if not self.responses:
+            return ()
+        document = self.build.__module__.split(".")[1]
         found = {row.id: row for row in load_responses(ROOT, document).rows}
         if lost := [name for name in self.responses if name not in found]:
             raise TheoremError(f"theorem {self.name}: spec/{document}/response.toml has no {', '.join(lost)}")

@@ -10,7 +10,7 @@ import hashlib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +20,8 @@ from modeproof.registers.killers import ways_to_fall
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
 from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
-from modeproof.registers.runs import Run
-from modeproof.registers.scores import WHAT, Score, load_scores
+from modeproof.registers.runs import ASKING, Run
+from modeproof.registers.scores import load_scores
 
 REMEDY = "run modeproof render"
 CLASSES = {
@@ -142,7 +142,8 @@ Traces, proofs and matrices are in the report: `make verify`, then `build/report
 
 def _shown(document: Document, sources: Sources) -> str:
     name = document.name
-    holding = [run for run in document.runs if run.kind in ("MC", "OPEN", "LIVE")]
+    asking = [run for run in document.runs if run.kind in ASKING]
+    holding = [run for run in asking if not run.readings]
     negatives = [run for run in document.runs if run.kind == "NEG"]
     graphs = str(sum(run.graph is not None for run in document.runs))
     witnesses = {witness for run in document.runs if run.kind == "WIT" for witness in run.witnesses}
@@ -167,6 +168,7 @@ def _shown(document: Document, sources: Sources) -> str:
             str(len(negatives)),
             f"`modeproof check --document {name} 'NEG_*'`",
         ],
+        *_harmless(document.name, asking),
         _fallen(document, sources),
         [
             "situations that do occur, so the properties are not vacuous",
@@ -180,7 +182,7 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof prove --document {name}`",
         ],
     ]
-    rows += [_score(score) for score in load_scores(document.root, name)]
+    rows += [score.row for score in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
@@ -194,6 +196,18 @@ def _shown(document: Document, sources: Sources) -> str:
         "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
         "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
     )
+
+
+def _harmless(document: str, asking: Sequence[Run]) -> Iterator[list[str]]:
+    """The readings that break nothing, and the runs in which they are asked."""
+    alone = [run for run in asking if len(run.readings) == 1 and not run.of]
+    if alone:
+        names = " ".join(run.id for run in alone)
+        yield [
+            "other readings that break no property, in every module and profile that can ask one",
+            f"{len(alone)} in {len(alone) + sum(bool(run.of) for run in asking)} runs",
+            f"`modeproof check --document {document} {names} '*_with_*'`",
+        ]
 
 
 def _fallen(document: Document, sources: Sources) -> list[str]:
@@ -246,25 +260,6 @@ def _profiles(document: Document) -> Iterator[str]:
 
 def _value(value: Any) -> str:
     return f"`{str(value).upper()}`" if isinstance(value, bool) else f"`{value}`"
-
-
-def _score(score: Score) -> list[str]:
-    edited, judge = WHAT[score.what]
-    share = f" ({100 * score.killed / score.different:.1f} %)" if score.different else ""
-    open_ones = score.survived - score.survived_explained
-    rest = [f"{score.killed} of {score.different}{share}"]
-    if score.survived:
-        explained = f"{open_ones} unexplained" if open_ones else "each explained"
-        rest.append(f"{score.survived} not noticed, {explained}")
-    if score.unmeasured:
-        rest.append(f"{score.unmeasured} unmeasured")
-    if score.earlier_text:
-        rest.append("of an earlier text")
-    return [
-        f"planted faults in {edited} that {judge} notices ({score.judged_on})",
-        "; ".join(rest),
-        f"`{score.command}`",
-    ]
 
 
 def _limits(document: Document) -> str:

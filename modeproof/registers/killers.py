@@ -22,9 +22,9 @@ from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import cfg_text, replaced_by
 from modeproof.registers.pins import Digest, checked_texts, digest
 from modeproof.registers.rows import Document, Problem, Property
-from modeproof.registers.runs import Run
-from modeproof.registers.tla import Definition, Module, closure
-from modeproof.registers.typed import Entry, Name, RunId, Text, only_keys, typed
+from modeproof.registers.runs import ASKING, Run
+from modeproof.registers.tla import Module, closure
+from modeproof.registers.typed import Entry, Name, RunId, Text, only_keys, typed, typed_rows
 
 REMEDY = "judge it: modeproof mutate spec --killers --document {}"
 
@@ -95,16 +95,13 @@ def load_killers(root: Path, document: str) -> Killers:
     if data.get("document", document) != document:
         raise Unjudged(f"{file}: document is not the name of its folder, {document!r}")
     edits: dict[str, Killer] = {}
-    for number, row in enumerate(data.get("killer", ()), 1):
-        killer = typed(Killer, row, f"{file}: [[killer]] number {number}")
+    for killer in typed_rows(Killer, file, data, "killer") if "killer" in data else ():
         same = sum(other.property == killer.property for other in edits.values())
         edits[killer.property + (f"_{same + 1}" if same else "")] = killer
-    bounds = {
-        name: typed(Bounds, row, f"{file}: bounds.{name}") for name, row in data.get("bounds", {}).items()
-    }
-    rows = enumerate(data.get("by_construction", ()), 1)
-    reasons = [typed(ByConstruction, row, f"{file}: [[by_construction]] number {n}") for n, row in rows]
-    return Killers(edits, bounds, tuple(reasons))
+    bounds = typed(dict[Name, Bounds], data.get("bounds", {}), f"{file}: [bounds]")
+    key = "by_construction"
+    reasons = typed_rows(ByConstruction, file, data, key) if key in data else ()
+    return Killers(edits, bounds, reasons)
 
 
 def ways_to_fall(document: Document, sources: Sources) -> dict[str, Falls]:
@@ -121,7 +118,9 @@ def ways_to_fall(document: Document, sources: Sources) -> dict[str, Falls]:
 
 def _is_killer(document: Document, modules: Mapping[str, Module], run: Run, prop: Property) -> bool:
     """Whether a negative of lane full breaks this property by one replaced operator of a device alone."""
-    if run.kind != "NEG" or run.property != prop.tla or run.constants or "full" not in run.lanes:
+    base = next((other for other in document.runs if other.id == run.base), run)
+    more = run.constants or run.specification or base.kind not in ASKING
+    if run.kind != "NEG" or run.property != prop.tla or more or "full" not in run.lanes:
         return False
     try:
         replaced = [replacement.replaced for replacement in replaced_by(modules, run)]
@@ -159,6 +158,9 @@ def check_killers(document: Document, sources: Sources) -> list[Problem]:
         if row.property not in known:
             text = f"by construction: unknown property; {suggestion(row.property, known)}"
             problems.append(Problem(file, row.property, text))
+    asked = {killer.run for killer in killers.edits.values()}
+    spare = (name for name in killers.bounds if name not in asked)
+    problems += [Problem(file, f"bounds.{name}", "no edit is judged within these bounds") for name in spare]
     for name, now in stamps_of(document, sources, killers).items():
         known_stamp = killers.edits[name].stamp
         if isinstance(now, Unjudged):
@@ -178,7 +180,8 @@ def edited(document: Document, sources: Sources, killers: Killers, killer: Kille
     return _edit(document, sources, killers, killer)[0]
 
 
-def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer) -> tuple[str, Definition]:
+def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer) -> tuple[str, str]:
+    """The text with the edit, and that of the definitions that it edits."""
     root = run_of(document, killers, killer).module
     own = {module.name: module for module in _devices(document, sources.modules, root)}
     if killer.module not in own:
@@ -189,13 +192,16 @@ def _edit(document: Document, sources: Sources, killers: Killers, killer: Killer
         raise Unjudged(f"{killer.old!r} stands {text.count(killer.old)} times in {module.file}, not once")
     if killer.old == killer.new:
         raise Unjudged("edits nothing")
-    at = text.count("\n", 0, text.index(killer.old.lstrip())) + 1
-    before = [definition for definition in module.definitions if definition.line <= at]
+    at = text.index(killer.old) + len(killer.old) - len(killer.old.lstrip())
+    first, last = (text.count("\n", 0, end) + 1 for end in (at, at + len(killer.old.strip())))
+    before = [definition for definition in module.definitions if definition.line <= first]
     if not before:
         raise Unjudged(f"edits {module.file} outside its definitions")
-    if before[-1].name in {prop.tla for prop in document.properties}:
-        raise Unjudged(f"edits the property {before[-1].name} and not the device")
-    return text.replace(killer.old, killer.new), before[-1]
+    touched = [before[-1], *(own for own in module.definitions if first < own.line <= last)]
+    properties = {prop.tla for prop in document.properties}
+    if asked := next((definition.name for definition in touched if definition.name in properties), ""):
+        raise Unjudged(f"edits the property {asked} and not the device")
+    return text.replace(killer.old, killer.new), "\n".join(definition.body for definition in touched)
 
 
 def run_of(document: Document, killers: Killers, killer: Killer) -> Run:
@@ -224,6 +230,7 @@ def run_of(document: Document, killers: Killers, killer: Killer) -> Run:
         constants={**run.constants, **bounds.constants},
         properties=(tla,),
         property="",
+        deadlock=False,
         graph=None,
     )
 
@@ -235,14 +242,15 @@ def _is_id(name: str) -> bool:
 def stamps_of(document: Document, sources: Sources, killers: Killers) -> dict[str, str | Unjudged]:
     """For each edit a hash of what its judgement rests on, or why it cannot be judged.
 
-    It rests on the edit, the definition that it edits, the property with all that it refers to outside the
-    steps of the devices, and the cfg. Another change of the device does not move it: the tests judge anew.
+    It rests on the edit, the definitions that it edits, the property with all that it refers to outside the
+    steps of the devices, and the cfg. Another change of the device does not move it: the tests judge one edit
+    in six again, and `--complete` all.
     """
     said = checked_texts(document, sources)
     found: dict[str, str | Unjudged] = {}
     for name, killer in killers.edits.items():
         try:
-            body = _edit(document, sources, killers, killer)[1].body
+            body = _edit(document, sources, killers, killer)[1]
             run = run_of(document, killers, killer)
             words = (killer.module, killer.old, killer.new, body, said.get(run.properties[0], ""))
             found[name] = digest("\x00".join((*words, run.module, cfg_text(document.root, run))))

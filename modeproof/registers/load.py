@@ -68,6 +68,7 @@ def load_responses(root: Path, name: str) -> Responses:
         return Responses()
     table = read_register(root, name, "response", "response", "chain", "example")
     return Responses(
+        source,
         typed_rows(Response, source, table, "response"),
         typed_rows(Chain, source, table, "chain") if "chain" in table else (),
         typed(Example, table.get("example", {}), f"{source}: [example]"),

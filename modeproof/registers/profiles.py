@@ -7,7 +7,7 @@ is not declared: it follows from the constants of its cfg.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -99,7 +99,7 @@ def rows_of(document: Document) -> Iterator[tuple[Signal, Finding]]:
             yield signal, by_parameter[name]
 
 
-def check_profiles(document: Document, value_fault: Any) -> Iterator[Problem]:
+def check_profiles(document: Document, value_fault: Callable[[Signal, object], str]) -> Iterator[Problem]:
     """Each difference has a finding, a reason and a counterexample; each property, its profiles."""
     file = document.source("interface")
     shown = {signal.name: finding for signal, finding in rows_of(document)}

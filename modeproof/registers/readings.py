@@ -55,13 +55,13 @@ def check_readings(document: Document, modules: Mapping[str, Module]) -> list[Pr
 
 
 def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
-    """Every reading is tried alone in exactly one run, and named by a finding.
+    """Every reading is tried alone in exactly one run, NEG or MC, and named by a finding.
 
     A reading that joins others which replace the same operator ends with SUFFIX. A run tries it with others.
     """
     named = {name for finding in document.findings for name in finding.tries}
     for name in readings:
-        alone = [run.id for run in document.runs if run.readings == (name,) and not run.of]
+        alone = {run.id: run.kind for run in document.runs if run.readings == (name,) and not run.of}
         if name.endswith(SUFFIX):
             if not any(name in run.readings for run in document.runs):
                 yield Problem(document.source("runs"), name, "no run tries this reading")
@@ -69,6 +69,9 @@ def _tried(document: Document, readings: Sequence[str]) -> Iterator[Problem]:
             yield Problem(document.source("runs"), name, "no run tries this reading alone")
         if len(alone) > 1:
             text = f"more than one run tries this reading alone: {', '.join(alone)}"
+            yield Problem(document.source("runs"), name, text)
+        for run in (run for run, kind in alone.items() if kind not in ("NEG", "MC")):
+            text = f"{run} tries it alone, which is neither a counterexample nor an MC run"
             yield Problem(document.source("runs"), name, text)
         if name not in named:
             yield Problem(document.source("findings"), name, "no finding names this reading in `tries`")

@@ -45,40 +45,38 @@ def check_responses(document: Document, sources: Sources) -> list[Problem]:
 
 
 def _faults(document: Document, sources: Sources) -> Iterator[tuple[str, str]]:
-    found = document.responses
-    example = found.example
+    found, devices = document.responses, document.interface.devices
     for row in found.rows:
-        device = document.interface.devices.get(row.device)
-        if device is None:
-            yield (
-                row.id,
-                f"unknown device {row.device!r}; {suggestion(row.device, document.interface.devices)}",
-            )
+        if row.device not in devices:
+            yield row.id, f"unknown device {row.device!r}; {suggestion(row.device, devices)}"
             continue
+        parameters = devices[row.device].parameters
         for name in row.times:
-            if name not in device.parameters or device.parameters[name].type != "ms":
+            if name not in parameters or parameters[name].type != "ms":
                 yield row.id, f"times: {name!r} is no time among the parameters of {row.device}"
-            elif example is None or name not in example.times:
-                yield row.id, f"[example] gives no ms for {name}"
         if (row.calls is None) == (not row.unbounded.strip()):
             yield row.id, "give either `calls`, or in `unbounded` why there is no bound"
-        if row.calls is not None and (example is None or row.device not in example.cycle):
-            yield row.id, f"[example] gives no cycle for {row.device}"
+        try:
+            _bound(document, sources, row)
+        except Unjudged as error:
+            yield row.id, error.message
         proofs = theorems_of(sources, row)
         if len(proofs) != 1:
-            what = (
+            some = (
                 f"{len(proofs)} theorems name it ({', '.join(proofs)})" if proofs else "no theorem names it"
             )
-            yield row.id, f"{what}; exactly one must, with responses=[{row.id!r}]"
+            yield row.id, f"{some}; exactly one must, with responses=[{row.id!r}]"
     for chain in found.chains:
         try:
-            steps = _steps(document, chain)
+            _chain(document, chain)
         except Unjudged as error:
-            yield chain.id, str(error)
-            continue
-        for row, _ in steps:
-            if row.calls is None:
-                yield chain.id, f"{row.id} has no bound, so the chain has none"
+            yield chain.id, error.message
+        if bool(chain.then) != bool(chain.then_ms):
+            yield chain.id, "give both `then` and `then_ms`, or neither"
+    used = {row.device for row in found.rows if row.calls}.union(*(row.times for row in found.rows))
+    for name in (*found.example.cycle, *found.example.times):
+        if name not in used:
+            yield "[example]", f"no row with a bound needs {name}"
 
 
 def theorems_of(sources: Sources, row: Response) -> tuple[str, ...]:
@@ -88,7 +86,9 @@ def theorems_of(sources: Sources, row: Response) -> tuple[str, ...]:
 
 
 def _steps(document: Document, chain: Chain) -> list[tuple[Response, Responses]]:
-    """The rows of a chain, each with its register. Raises Unjudged for a name that is nowhere."""
+    """The rows of a chain, each with its register. Raises Unjudged: a name that is nowhere, a row without a
+    bound.
+    """
     found = []
     for step in chain.steps:
         name, _, row_id = step.rpartition(" ")
@@ -96,6 +96,8 @@ def _steps(document: Document, chain: Chain) -> list[tuple[Response, Responses]]
         rows = {row.id: row for row in register.rows}
         if row_id not in rows:
             raise Unjudged(f"steps: there is no response {step!r}; {suggestion(row_id, rows)}")
+        if rows[row_id].calls is None:
+            raise Unjudged(f"{row_id} has no bound, so the chain has none")
         found.append((rows[row_id], register))
     return found
 
@@ -121,10 +123,10 @@ def chain_bounds(document: Document) -> list[Bound]:
 def _chain(document: Document, chain: Chain) -> Bound:
     steps = _steps(document, chain)
     rows = [row for row, _ in steps]
-    transfers = len(rows) - 1
-    formula = f"{_formula(rows)} + {_times(transfers, 't')}"
-    example = document.responses.example
-    total = _ms(steps) + transfers * (example.transfer if example else 0) + chain.then_ms
+    formula, total = _formula(rows), _ms(steps) + chain.then_ms
+    if transfers := len(rows) - 1:
+        formula += f" + {_times(transfers, 't')}"
+        total += transfers * document.responses.example.transfer
     last = f" + {chain.then}" if chain.then else ""
     return Bound(chain.id, chain.title, "", formula + last, f"{total} ms", chain.steps)
 
@@ -147,20 +149,22 @@ def _cycles(row: Response) -> int:
 
 
 def _ms(steps: Sequence[tuple[Response, Responses]]) -> int:
-    """The example: each row with the numbers of its own register."""
+    """The example: each row with the numbers of its own register. Raises Unjudged where one is missing."""
     total = 0
     for row, register in steps:
-        assert register.example is not None
-        waited = sum(often * register.example.times[name] for name, often in row.times.items())
-        total += _cycles(row) * register.example.cycle[row.device] + waited
+        given = {**register.example.cycle, **register.example.times}
+        needed = {row.device: _cycles(row), **row.times}
+        if lost := [name for name in needed if name not in given]:
+            raise Unjudged(
+                f"[example] of {register.source} has no ms for {', '.join(lost)}, which {row.id} needs"
+            )
+        total += sum(often * given[name] for name, often in needed.items())
     return total
 
 
 def example_of(document: Document) -> str:
     """The numbers of the worked example in one line."""
     example = document.responses.example
-    if example is None:
-        return ""
     said = [f"C({device}) = {ms} ms" for device, ms in example.cycle.items()]
     said += [f"{name.removesuffix('_ms')} = {ms} ms" for name, ms in example.times.items()]
     then = {f"{chain.then} in {chain.then_ms} ms" for chain in document.responses.chains if chain.then}
@@ -168,13 +172,14 @@ def example_of(document: Document) -> str:
 
 
 EXPLAINED = (
-    "They follow from the steps of the devices. C is the longest time from the beginning of one call of a "
-    "device to that of the next. A call reads its inputs when it begins, and its outputs stand when it ends, "
-    "before the next. So an answer in one call takes two cycles: one until a call sees what happened, and "
-    "one until it ends. t is the longest transfer from one device to the next, with input filters; what "
-    "lies before the first device comes on top. Each bound is typed once, in the register: the theorem takes "
-    "it from there, and refuses any other. Where there is none, the theorem shows calls that go on like that "
-    "for ever, whatever time passes."
+    "These times follow from the steps of the devices. C is the longest time from the beginning of one "
+    "call of a device to that of the next. A call reads its inputs when it begins, and its outputs stand "
+    "when it ends, before the next. So an answer in one call takes two cycles: one until a call sees what"
+    " happened, and one until it ends. t is the longest transfer from one device to the next, with input "
+    "filters; what lies before the first device comes on top. Each bound is typed once, in the register: "
+    "the theorem takes it from there, and refuses any other. Where there is none, the theorem shows calls"
+    " that go on like that for ever, whatever time passes. A chain is a sum of rows, with a transfer "
+    "between each two: that the devices are wired so, and how long the last part takes, is assumed."
 )
 """How the table is to be read."""
 

@@ -274,13 +274,17 @@ class Example(Entry, frozen=True, kw_only=True):
     transfer: Count
 
 
+_NO_EXAMPLE = Example(cycle={}, transfer=1)
+
+
 @dataclass(frozen=True)
 class Responses:
-    """The register of response times of a document; empty where it has none."""
+    """The register of response times of a document; empty where it has none. `source` is its file."""
 
+    source: str = ""
     rows: tuple[Response, ...] = ()
     chains: tuple[Chain, ...] = ()
-    example: Example | None = None
+    example: Example = _NO_EXAMPLE
 
 
 class Matrix(Entry, frozen=True, kw_only=True):

@@ -199,7 +199,7 @@ def _derived(
     """A run that takes from its base whatever its own row does not give."""
     place = f"{source}: run {values.get('id', '?')}"
     base = values["base"]
-    if base not in rows:
+    if not isinstance(base, str) or base not in rows:
         raise Unjudged(f"{place}: unknown base {base!r}; {suggestion(str(base), rows)}")
     if "base" in rows[base]:
         raise Unjudged(f"{place}: its base {base} has a base itself; name {rows[base]['base']!r}")

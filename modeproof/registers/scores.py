@@ -47,6 +47,26 @@ class Score(Entry, frozen=True, kw_only=True):
         """The mutants that behave differently, as far as we know: only these count."""
         return self.killed + self.survived + self.unmeasured
 
+    @property
+    def row(self) -> list[str]:
+        """Its row of a table: what was planted and who is to notice it, how much was, the command."""
+        edited, judge = WHAT[self.what]
+        share = f" ({100 * self.killed / self.different:.1f} %)" if self.different else ""
+        open_ones = self.survived - self.survived_explained
+        rest = [f"{self.killed} of {self.different}{share}"]
+        if self.survived:
+            explained = f"{open_ones} unexplained" if open_ones else "each explained"
+            rest.append(f"{self.survived} not noticed, {explained}")
+        if self.unmeasured:
+            rest.append(f"{self.unmeasured} unmeasured")
+        if self.earlier_text:
+            rest.append("of an earlier text")
+        return [
+            f"planted faults in {edited} that {judge} notices ({self.judged_on})",
+            "; ".join(rest),
+            f"`{self.command}`",
+        ]
+
 
 class _Record(Entry, frozen=True, kw_only=True):
     document: str

@@ -26,7 +26,7 @@ class Deviation:
     @property
     def holding(self) -> int:
         """In how many of its runs every property holds, as it was declared."""
-        return sum(one.word == "HOLDS" and one.good is True for one in (self.result, *self.also))
+        return sum(run.word == "HOLDS" and run.good is True for run in (self.result, *self.also))
 
     @property
     def harmless(self) -> bool:
@@ -36,14 +36,14 @@ class Deviation:
 
 def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
     """The runs that try readings: those with one first, in the order of the findings."""
-    order = {one.id: place for place, one in enumerate(document.findings)}
+    order = {finding.id: place for place, finding in enumerate(document.findings)}
     found = [
         Deviation(
             run,
             run.readings,
             result_of(sources, document, run),
             tuple(finding for finding in document.findings if run.id in finding.evidence),
-            tuple(result_of(sources, document, one) for one in document.runs if run.id in one.of[:1]),
+            tuple(result_of(sources, document, other) for other in document.runs if run.id in other.of[:1]),
         )
         for run in document.runs
         if run.readings and not run.of
@@ -51,10 +51,10 @@ def deviations(sources: Sources, document: Document) -> tuple[Deviation, ...]:
     return tuple(
         sorted(
             found,
-            key=lambda one: (
-                len(one.readings),
-                min((order[each.id] for each in one.findings), default=len(order)),
-                one.run.id,
+            key=lambda tried: (
+                len(tried.readings),
+                min((order[finding.id] for finding in tried.findings), default=len(order)),
+                tried.run.id,
             ),
         )
     )

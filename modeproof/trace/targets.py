@@ -79,8 +79,7 @@ class Part:
 class Target:
     """What a log is of. `init` and `anywhere` are TLA+ texts, `constants` TLA+ with placeholders.
 
-    `anywhere` is empty when a log must begin at power-up. `copies`: of a device that
-    only copies words.
+    `anywhere` is empty when a log must begin at power-up. `copies`: of a device that only copies words.
     """
 
     document: str
@@ -151,17 +150,20 @@ def _target(
         constants=row.constants,
         parts={name: Part(devices[name], own.scan, own.row, own.view) for name, own in row.devices.items()},
         forms=forms,
-        copies=None if row.copies is None else _copies(source, row.copies, devices[next(iter(row.devices))]),
+        copies=None if row.copies is None else _copies(source, row.copies, [devices[n] for n in row.devices]),
     )
 
 
-def _copies(source: str, row: _Copies, device: Device) -> Copies:
+def _copies(source: str, row: _Copies, devices: Sequence[Device]) -> Copies:
+    if len(devices) != 1:
+        raise Unjudged(f"{source}: copies: belongs to a target of one device, not of {len(devices)}")
+    (device,) = devices
     kept, read = row.compares
-    for name, side in ((kept, device.outputs), (read, device.inputs)):
+    remembered = [name for name in device.outputs if name in device.memory]
+    for name, side in ((kept, remembered), (read, device.inputs)):
         if name not in side:
-            raise Unjudged(
-                f"{source}: copies: {device.id} has no such signal {name!r}; {suggestion(name, side)}"
-            )
+            what = "input" if side is device.inputs else "output that it remembers"
+            raise Unjudged(f"{source}: copies: {device.id} has no {what} {name!r}; {suggestion(name, side)}")
     return Copies(int(row.one, 16), int(row.other, 16), kept, read)
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.registers.citations import read_sources
+from modeproof.registers.judge import judge
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import repin
 
@@ -274,6 +275,10 @@ class Tree:
         """What properties and theorems say now is what they are to say."""
         document = load_document(self.root, "door")
         repin(document, read_sources(document), "a test")
+
+    def problems(self) -> list[str]:
+        """All that `modeproof registers` has to say of the door."""
+        return [str(problem) for problem in judge(load_document(self.root, "door")).problems]
 
     def write(self, name: str, text: str) -> None:
         """Create or replace a file."""

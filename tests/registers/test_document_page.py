@@ -127,6 +127,17 @@ def test_a_reading_that_is_tried_is_named(told: Any) -> None:
     assert "`modeproof check NEG_Latch --trace` tries the reading `Slow`." in text
 
 
+def test_a_run_with_another_reading_is_counted_apart(told: Any) -> None:
+    document = load_document(told.root, "door")
+    slow = msgspec.structs.replace(document.runs[0], id="MC_Latch_slow", base="MC_Latch", reading="Slow")
+    further = msgspec.structs.replace(slow, id="OPEN_Latch_with_Slow", of=("MC_Latch_slow", "OPEN_Latch"))
+    changed = replace(document, runs=(*document.runs, slow, further))
+    text = page(changed, read_sources(document), {"NEG_Latch": TABLE})
+    assert "within the bounds of each run | 1 in 2 runs |" in text
+    shown = "| 1 in 2 runs | `modeproof check --document door MC_Latch_slow '*_with_*'` |"
+    assert f"in every module and profile that can ask one {shown}" in text
+
+
 def test_what_changes_no_counterexample_leaves_its_table(told: Any) -> None:
     told.edit(
         "spec/door/runs.toml", 'property = "OpenIsUnlocked"', 'property = "OpenIsUnlocked"\nworkers = 2'

@@ -14,10 +14,6 @@ CODE = "refimpl/door/latch.py"
 PROOF = "proofs/door/bolt.py"
 
 
-def problems(tree: Any) -> list[str]:
-    return [str(problem) for problem in judge(load_document(tree.root, "door")).problems]
-
-
 def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
     judgement = judge(load_document(tree.root, "door"))
     assert [str(problem) for problem in judgement.problems] == []
@@ -199,7 +195,7 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
 )
 def test_each_planted_fault_is_found(tree: Any, file: str, old: str, new: str, expected: str) -> None:
     tree.edit(file, old, new)
-    found = problems(tree)
+    found = tree.problems()
     assert any(expected in problem for problem in found), found
     assert not judge(load_document(tree.root, "door")).as_expected
 
@@ -207,13 +203,13 @@ def test_each_planted_fault_is_found(tree: Any, file: str, old: str, new: str, e
 def test_a_behaviour_that_no_definition_carries_out_is_an_orphan(tree: Any) -> None:
     tree.edit(LATCH, "\\* DR-1-1, E-01", "\\* E-01")
     tree.edit(LATCH, "\\* DR-1-1\n", "\\* E-01\n")
-    assert any("DR-1-1: no TLA+ definition cites this behaviour" in one for one in problems(tree))
+    assert any("DR-1-1: no TLA+ definition cites this behaviour" in one for one in tree.problems())
 
 
 def test_a_behaviour_that_no_function_carries_out_is_an_orphan(tree: Any) -> None:
     tree.edit(CODE, "DR-1-1", "E-01")
     tree.edit(CODE, "# DR-1-1", "# E-01")
-    assert any("DR-1-1: no Python function cites this behaviour" in one for one in problems(tree))
+    assert any("DR-1-1: no Python function cites this behaviour" in one for one in tree.problems())
 
 
 def test_a_clause_of_two_devices_needs_both(tree: Any) -> None:
@@ -232,9 +228,9 @@ def test_a_clause_of_two_devices_needs_both(tree: Any) -> None:
     opened = runs[runs.index('[[run]]\nid = "OPEN_Latch"') :]
     tree.write("spec/door/runs.toml", runs + opened.replace("Latch", "Bell").replace("latch", "bell"))
     tree.pin()
-    assert problems(tree) == []
+    assert tree.problems() == []
     tree.edit("spec/door/clauses.toml", '["latch"]', '["latch", "bell"]')
-    assert problems(tree) == [
+    assert tree.problems() == [
         "spec/door/clauses.toml: DR-1-1: no TLA+ definition of bell cites this behaviour",
         "spec/door/clauses.toml: DR-1-1: no Python function of bell cites this behaviour",
     ]
@@ -243,7 +239,7 @@ def test_a_clause_of_two_devices_needs_both(tree: Any) -> None:
 def test_a_property_clause_without_property_or_theorem_is_an_orphan(tree: Any) -> None:
     tree.edit("spec/door/properties.toml", '"DR-1-2", "DR-1-1"', '"DR-1-1"')
     tree.edit(PROOF, "DR-1-2", "DR-1-1")
-    assert "spec/door/clauses.toml: DR-1-2: no property and no theorem cites this property" in problems(tree)
+    assert "spec/door/clauses.toml: DR-1-2: no property and no theorem cites this property" in tree.problems()
 
 
 def test_an_unpublished_or_unprinted_device_has_no_vectors(tree: Any) -> None:
@@ -254,13 +250,13 @@ def test_an_unpublished_or_unprinted_device_has_no_vectors(tree: Any) -> None:
 def test_a_finding_names_the_parameter_that_leaves_the_choice(tree: Any) -> None:
     tree.edit("spec/door/findings.toml", "tries = []", 'parameter = "T_HOLD"')
     assert load_document(tree.root, "door").findings[0].parameter == "T_HOLD"
-    assert problems(tree) == []
+    assert tree.problems() == []
 
 
 def test_a_negative_run_that_nothing_names_shows_nothing(tree: Any) -> None:
     tree.edit("spec/door/findings.toml", '"NEG_Latch", ', "")
     tree.edit("spec/door/assumptions.toml", '["NEG_Latch"]', '[]\nbreaks_open = "one door is one door"')
-    assert problems(tree) == [
+    assert tree.problems() == [
         "spec/door/runs.toml: NEG_Latch: no finding and no assumption names this negative run"
     ]
 
@@ -270,21 +266,21 @@ def test_a_step_that_no_run_shows_to_fire_is_found(tree: Any) -> None:
     tree.write("spec/door/runs.toml", text[: text.index('[[run]]\nid = "OPEN_Latch"')])
     tree.edit("spec/door/runs.toml", '["open_seen"]', '["open_seen", "OpenLatch"]')
     tree.pin()
-    assert problems(tree) == ["spec/door/runs.toml: no run shows that these steps of latch fire: CloseLatch"]
+    assert tree.problems() == ["spec/door/runs.toml: no run shows that these steps of latch fire: CloseLatch"]
 
 
 def test_ids_of_theorems_that_need_code_to_run_are_refused(tree: Any) -> None:
     tree.edit(PROOF, '["DR-1-2"]', '["DR-1-" + str(2)]')
     with pytest.raises(Unjudged, match="must be a literal list of ids"):
-        problems(tree)
+        tree.problems()
 
 
 def test_python_that_does_not_parse_is_refused_with_its_line(tree: Any) -> None:
     tree.edit(CODE, "def step(", "def step((")
     with pytest.raises(Unjudged, match=r"refimpl/door/latch.py: line \d+: not valid Python"):
-        problems(tree)
+        tree.problems()
 
 
 def test_no_implementation_at_all_is_a_problem(tree: Any) -> None:
     (tree.root / CODE).unlink()
-    assert "refimpl/door/latch.py: not found" in problems(tree)
+    assert "refimpl/door/latch.py: not found" in tree.problems()

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.registers import judge, load_document
+from modeproof.registers import load_document
 from modeproof.registers.profiles import NEITHER, profile_of, profiles_of, strength_of
 
 SPEC = "spec/door/"
@@ -17,6 +17,7 @@ PARAMETER = (
     'clauses = ["DR-1-1"], why = "how long it holds", because = "a hand is faster" }\n'
 )
 CFG = 'CONSTANTS T_HOLD = 2  LITERAL = {{}}  HOLD = "{}"\nSPECIFICATION Spec\n'
+SLOW = "---- MODULE LatchAsPrinted ----\nEXTENDS Latch\nCODE_Slow == 1\n====\n"
 RUN = """
 [[run]]
 id = "MC_Latch_cautious"
@@ -26,10 +27,6 @@ lanes = ["full"]
 environment = "honest"
 properties = ["TypeOK", "OpenIsUnlocked"]
 """
-
-
-def problems(tree: Any) -> list[str]:
-    return [str(problem) for problem in judge(load_document(tree.root, "door")).problems]
 
 
 @pytest.fixture
@@ -49,7 +46,7 @@ def two(tree: Any) -> Any:
 
 
 def test_sound_profiles_are_no_problem(two: Any) -> None:
-    assert problems(two) == []
+    assert two.problems() == []
 
 
 def test_the_profile_of_a_run_follows_from_its_constants(two: Any) -> None:
@@ -106,29 +103,25 @@ def test_a_document_without_a_choice_has_no_profile(tree: Any) -> None:
 )
 def test_each_planted_fault_is_found(two: Any, file: str, old: str, new: str, expected: str) -> None:
     two.edit(f"{SPEC}{file}.toml", old, new)
-    found = problems(two)
+    found = two.problems()
     assert any(expected in line for line in found), found
 
 
 def test_a_run_with_a_reading_speaks_for_no_profile(two: Any) -> None:
-    two.write(
-        SPEC + "LatchAsPrinted.tla", "---- MODULE LatchAsPrinted ----\nEXTENDS Latch\nCODE_Slow == 1\n====\n"
-    )
+    two.write(SPEC + "LatchAsPrinted.tla", SLOW)
     row = 'id = "MC_Latch_cautious"\nmodule = "Latch"\ncfg = "models/MC_Latch_cautious.cfg"'
     new = 'id = "MC_Latch_slow"\nbase = "MC_Latch"\nreading = "Slow"\nconstants = { HOLD = \'"short"\' }'
     two.edit(SPEC + "runs.toml", row, new)
-    found = problems(two)
+    found = two.problems()
     assert any("OpenIsUnlocked: no run checks it in the profile cautious" in line for line in found), found
 
 
 def test_a_harmless_reading_is_asked_in_both_profiles(two: Any) -> None:
-    two.write(
-        SPEC + "LatchAsPrinted.tla", "---- MODULE LatchAsPrinted ----\nEXTENDS Latch\nCODE_Slow == 1\n====\n"
-    )
+    two.write(SPEC + "LatchAsPrinted.tla", SLOW)
     row = '\n[[run]]\nid = "MC_Latch_slow"\nbase = "MC_Latch"\nreading = "Slow"\n'
     runs = (two.root / f"{SPEC}runs.toml").read_text(encoding="utf-8") + row
     two.write(SPEC + "runs.toml", runs)
     expected = "without asking OpenIsUnlocked; name MC_Latch_cautious in its `also`"
-    assert any(expected in line for line in problems(two)), problems(two)
+    assert any(expected in line for line in two.problems()), two.problems()
     two.write(SPEC + "runs.toml", f"{runs}[run.also]\nMC_Latch_cautious = []\n")
-    assert not any("harmless" in line for line in problems(two)), problems(two)
+    assert not any("harmless" in line for line in two.problems()), two.problems()

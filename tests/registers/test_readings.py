@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from modeproof.ground.errors import Unjudged
-from modeproof.registers import judge, load_document
+from modeproof.registers import load_document
 from modeproof.registers.readings import idle_reading
 
 SPEC = "spec/door/"
@@ -49,12 +49,8 @@ def tried(tree: Any) -> Any:
     return tree
 
 
-def problems(tree: Any) -> list[str]:
-    return [str(one) for one in judge(load_document(tree.root, "door")).problems]
-
-
 def test_sound_readings_are_no_problem(tried: Any) -> None:
-    assert problems(tried) == []
+    assert tried.problems() == []
 
 
 @pytest.mark.parametrize(
@@ -99,16 +95,16 @@ def test_sound_readings_are_no_problem(tried: Any) -> None:
 )
 def test_each_planted_fault_is_found(tried: Any, file: str, old: str, new: str, expected: str) -> None:
     tried.edit(SPEC + file, old, new)
-    found = problems(tried)
+    found = tried.problems()
     assert any(expected in one for one in found), found
 
 
 def test_a_finding_that_says_harmless_shows_the_run(tried: Any) -> None:
     tried.edit(SPEC + "findings.toml", 'consequence = "', 'consequence = "Slow is harmless. ')
-    assert problems(tried) == []
+    assert tried.problems() == []
     tried.edit(SPEC + "findings.toml", ', "MC_Latch_slow"', "")
     expected = "E-01: says harmless, and no MC run with a reading is its evidence"
-    assert any(expected in line for line in problems(tried)), problems(tried)
+    assert any(expected in line for line in tried.problems()), tried.problems()
 
 
 def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
@@ -117,12 +113,19 @@ def test_a_harmless_reading_is_asked_every_property(tried: Any) -> None:
     text = (tried.root / SPEC / "runs.toml").read_text(encoding="utf-8")
     tried.write(SPEC + "runs.toml", f'{text}properties = ["TypeOK"]\n')
     expected = "MC_Latch_slow: calls Slow harmless without asking OpenIsUnlocked; name MC_Latch in its `also`"
-    assert any(expected in one for one in problems(tried)), problems(tried)
+    assert any(expected in one for one in tried.problems()), tried.problems()
     tried.write(SPEC + "runs.toml", f'{text}properties = ["TypeOK"]\n[run.also]\nMC_Latch = [8, 20]\n')
-    assert problems(tried) == []
+    assert tried.problems() == []
     run = next(run for run in load_document(tried.root, "door").runs if run.of)
     assert (run.id, run.readings, run.base) == ("MC_Latch_with_Slow", ("Slow",), "MC_Latch")
     assert (run.distinct, run.generated, run.lanes) == (8, 20, ("full",))
+
+
+def test_a_reading_tried_in_a_live_run_alone_is_told(tried: Any) -> None:
+    for file in ("runs", "findings"):
+        tried.edit(f"{SPEC}{file}.toml", "MC_Latch_slow", "LIVE_Latch_slow")
+    expected = "Slow: LIVE_Latch_slow tries it alone, which is neither a counterexample nor an MC run"
+    assert any(expected in line for line in tried.problems()), tried.problems()
 
 
 @pytest.mark.parametrize(
@@ -151,16 +154,16 @@ def test_only_a_harmless_reading_has_further_runs(tried: Any) -> None:
 
 def test_the_same_counts_with_other_constants_say_nothing(tried: Any) -> None:
     tried.edit(SPEC + "runs.toml", "distinct = 10", 'distinct = 9\nconstants = { T_HOLD = "3" }')
-    assert problems(tried) == []
+    assert tried.problems() == []
 
 
 def test_a_shared_reading_counts_where_a_run_could_use_it(tried: Any) -> None:
     shared = AS_PRINTED.replace("Latch", "Shared").replace("_Slam", "_Wide").replace("_Slow", "_Narrow")
     tried.write("spec/common/Shared.tla", "---- MODULE Shared ----\nLOCK_1 == TRUE\nCODE == 0\n====\n")
     tried.write("spec/common/SharedAsPrinted.tla", shared)
-    assert problems(tried) == []
+    assert tried.problems() == []
     tried.edit(SPEC + "Latch.tla", "EXTENDS Naturals", "EXTENDS Naturals, Shared")
-    found = problems(tried)
+    found = tried.problems()
     assert any("Wide: no run tries this reading alone" in one for one in found), found
 
 
@@ -175,13 +178,13 @@ def test_a_negative_run_that_holds_says_which_reading_changed_nothing(tried: Any
 def test_a_reading_that_joins_others_need_not_be_tried_alone(tried: Any) -> None:
     tried.edit(SPEC + "LatchAsPrinted.tla", "CODE_Slow == 1\n", "CODE_Slow == 1\nCODE_AllAsPrinted == 1\n")
     tried.edit(SPEC + "findings.toml", '["Slam", "Slow"]', '["Slam", "Slow", "AllAsPrinted"]')
-    found = problems(tried)
+    found = tried.problems()
     assert any("AllAsPrinted: no run tries this reading" in one for one in found), found
     both = RUNS.split("[[run]]")[1].replace("_slam", "_all").replace('"Slam"', '["Slam", "AllAsPrinted"]')
     text = (tried.root / SPEC / "runs.toml").read_text(encoding="utf-8")
     tried.write(SPEC + "runs.toml", f"{text}\n[[run]]{both}")
     tried.edit(SPEC + "findings.toml", '"NEG_Latch_slam"', '"NEG_Latch_slam", "NEG_Latch_all"')
-    assert problems(tried) == []
+    assert tried.problems() == []
 
 
 REPLAY = """
@@ -212,7 +215,7 @@ def test_a_counterexample_that_cannot_be_walked_is_found(
     tried: Any, old: str, new: str, expected: str
 ) -> None:
     tried.write(SPEC + "replay.toml", REPLAY.lstrip())
-    assert problems(tried) == []
+    assert tried.problems() == []
     tried.write(SPEC + "replay.toml", REPLAY.lstrip().replace(old, new))
-    found = problems(tried)
+    found = tried.problems()
     assert any(expected in one for one in found), found

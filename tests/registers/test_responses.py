@@ -6,29 +6,26 @@ from typing import Any
 
 import pytest
 
-from modeproof.registers import Unjudged, judge, load_document, read_sources
+from modeproof.registers import Unjudged, load_document, read_sources
 from modeproof.registers.responses import bounds, chain_bounds, section
-from tests.response_rows import response_rows
+from tests.stated_times import stated_times
 
 FILE = "spec/door/response.toml"
 PROOF = "proofs/door/bolt.py"
-
-
-def problems(tree: Any) -> list[str]:
-    tree.pin()
-    return [str(problem) for problem in judge(load_document(tree.root, "door")).problems]
+ROWS = stated_times("door", "latch", "DR")
 
 
 @pytest.fixture
 def timed(tree: Any) -> Any:
     """The door with response times, and a theorem that names the one that has a bound."""
-    tree.write(FILE, response_rows("door", "DR", "latch", 200))
+    tree.write(FILE, ROWS)
     tree.edit(PROOF, 'findings=["E-01"])', 'findings=["E-01"], responses=["DRR-1", "DRR-2"])')
+    tree.pin()
     return tree
 
 
 def test_the_sums_are_those_of_the_rows(timed: Any) -> None:
-    assert problems(timed) == []
+    assert timed.problems() == []
     document = load_document(timed.root, "door")
     first, second = bounds(document, read_sources(document))
     assert (first.formula, first.example, first.shown) == (
@@ -65,8 +62,18 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
         (PROOF, '"DRR-2"', '"DRR-2", "DRR-9"', "the_bolt_moves: proves the unknown response 'DRR-9'"),
         (FILE, 'device = "latch"', 'device = "lach"', "DRR-1: unknown device 'lach'; did you mean 'latch'?"),
         (FILE, "{ T_HOLD_ms = 1 }", "{ CODE = 1 }", "times: 'CODE' is no time among the parameters"),
-        (FILE, "times = { T_HOLD_ms = 200 }", "", "DRR-1: [example] gives no ms for T_HOLD_ms"),
-        (FILE, "{ latch = 10 }", "{ door = 10 }", "DRR-1: [example] gives no cycle for latch"),
+        (
+            FILE,
+            "times = { T_HOLD_ms = 200 }",
+            "",
+            "DRR-1: [example] of spec/door/response.toml has no ms for T_HOLD_ms, which DRR-1",
+        ),
+        (
+            FILE,
+            "{ latch = 10 }",
+            "{ door = 10 }",
+            "DRR-1: [example] of spec/door/response.toml has no ms for latch, which DRR-1 needs",
+        ),
         (
             FILE,
             'unbounded = "a',
@@ -76,12 +83,16 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
         (FILE, 'unbounded = "a person is waited for"', "", "DRR-2: give either `calls`, or in `unbounded`"),
         (FILE, '"door DRR-1"', '"DRR-2"', "DRC-1: DRR-2 has no bound, so the chain has none"),
         (FILE, '"door DRR-1"', '"door DRR-7"', "DRC-1: steps: there is no response 'door DRR-7'"),
+        (FILE, "{ latch = 10 }", "{ latch = 10, door = 3 }", "[example]: no row with a bound needs door"),
+        (FILE, "{ T_HOLD_ms = 200 }", "{ T_HOLD_ms = 200, T_OFF_ms = 3 }", "with a bound needs T_OFF_ms"),
+        (FILE, 'then = "the lamp"\n', "", "DRC-1: give both `then` and `then_ms`, or neither"),
+        (FILE, "then_ms = 7\n", "", "DRC-1: give both `then` and `then_ms`, or neither"),
         (FILE, '"DR-1-1"', '"DR-1-0"', "DRR-1: cites DR-1-0, which no register"),
     ],
 )
 def test_a_contradiction_is_found(timed: Any, file: str, old: str, new: str, expected: str) -> None:
     timed.edit(file, old, new)
-    found = problems(timed)
+    found = timed.problems()
     assert any(expected in problem for problem in found), found
 
 
@@ -89,3 +100,18 @@ def test_a_bound_of_no_call_is_refused(timed: Any) -> None:
     timed.edit(FILE, "calls = 2", "calls = 0")
     with pytest.raises(Unjudged, match=r"DRR-1: calls: .*0"):
         load_document(timed.root, "door")
+
+
+def test_a_register_beside_it_without_a_cycle_is_told(timed: Any) -> None:
+    timed.write(
+        "spec/gate/response.toml", ROWS.replace("latch = 10", "lamp = 10").replace('"door"', '"gate"')
+    )
+    timed.edit(FILE, '"door DRR-1"', '"gate DRR-1"')
+    expected = f"{FILE}: DRC-1: [example] of spec/gate/response.toml has no ms for latch, which DRR-1 needs"
+    assert [problem for problem in timed.problems() if "DRC-1" in problem] == [expected]
+
+
+def test_a_chain_of_one_row_has_no_transfer(timed: Any) -> None:
+    timed.edit(FILE, '"DRR-1", "door DRR-1"', '"DRR-1"')
+    (chain,) = chain_bounds(load_document(timed.root, "door"))
+    assert (chain.formula, chain.example) == ("T_HOLD + 4 C(latch) + the lamp", "247 ms")

@@ -7,6 +7,9 @@ from typing import Any
 
 import pytest
 
+from modeproof.registers.citations import read_sources
+from modeproof.registers.killers import load_killers, stamps_of
+from modeproof.registers.load import load_document
 from modeproof.report.build import make
 from modeproof.report.parts.properties import part
 from modeproof.report.sources import DIFFERS, HOLE, gather
@@ -134,3 +137,21 @@ def test_the_runs_table_has_every_declared_run_with_its_command(root: Path) -> N
     assert rows["NEG_Box_eager"]["traced"] and rows["NEG_Box_eager"]["steps"].value == 1
     assert rows["NEG_Box_hasty"]["verdict"] is None and not rows["NEG_Box_hasty"]["traced"]
     assert rows["NEG_Box_hasty"]["command"] == "modeproof check box/NEG_Box_hasty"
+
+
+def test_an_edit_is_shown_and_says_where_it_was_not_judged(root: Path) -> None:
+    file = root / "spec/box/killers.toml"
+    place = 'property = "ShutsOverDoor"\nrun = "MC_Box"\nmodule = "Box"\n'
+    row = f"[[killer]]\n{place}old = 'Ready(i) == i.door \\/ ~Needed'\nnew = 'Ready(i) == TRUE'\n"
+    file.write_text(row)
+    (told,) = part(gather(root)).troubles
+    assert (told.status, told.what) == (HOLE, "box: an edit of ShutsOverDoor was not judged on this text")
+    assert "? not judged on this text" in make(root).html
+    document = load_document(root, "box")
+    stamps = stamps_of(document, read_sources(document), load_killers(root, "box"))
+    file.write_text(f'{row}stamp = "{stamps["ShutsOverDoor"]}"\n')
+    assert part(gather(root)).troubles == ()
+    assert (
+        "one edit: <code>Ready(i) == i.door \\/ ~Needed</code> becomes <code>Ready(i) == TRUE</code> in Box"
+        in make(root).html
+    )

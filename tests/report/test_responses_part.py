@@ -9,14 +9,14 @@ import pytest
 from modeproof.report.parts.responses import part
 from modeproof.report.sources import HOLE, gather
 from tests.report.paper import change, make_paper
-from tests.response_rows import response_rows
+from tests.stated_times import stated_times
 
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
     """The box with response times, and its theorem names them."""
     root = make_paper(tmp_path)
-    (root / "spec" / "box" / "response.toml").write_text(response_rows("box", "BX", "box", 7))
+    (root / "spec" / "box" / "response.toml").write_text(stated_times("box", "box", "BX"))
     change(root / "proofs" / "box" / "box_safety.py", '["E-01"],', '["E-01"], responses=["BXR-1", "BXR-2"],')
     return root
 
@@ -25,10 +25,10 @@ def test_each_row_has_its_time_and_its_theorem(root: Path) -> None:
     found = part(gather(root))
     (document,) = found.data["documents"]
     first, second = document["rows"]
-    assert (first.formula, first.example) == ("T_HOLD + 4 C(box)", "47 ms")
+    assert (first.formula, first.example) == ("T_HOLD + 4 C(box)", "240 ms")
     assert (second.formula, second.example) == ("none: a person is waited for", "none")
     assert first.shown == second.shown == ("it_shuts_over_the_door_only",)
-    assert [chain.example for chain in document["chains"]] == ["106 ms"]
+    assert [chain.example for chain in document["chains"]] == ["492 ms"]
     assert found.troubles == ()
 
 

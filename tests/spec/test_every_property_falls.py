@@ -17,7 +17,7 @@ from modeproof.ground.places import documents, root
 from modeproof.ground.progress import Progress
 from modeproof.lane.verify import check_registers
 from modeproof.registers.citations import Sources, read_sources
-from modeproof.registers.killers import check_killers, load_killers, run_of, stamps_of, ways_to_fall
+from modeproof.registers.killers import check_killers, edited, load_killers, run_of, stamps_of, ways_to_fall
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import check_pins, repin
 from modeproof.registers.tla import Definition, closure
@@ -204,6 +204,10 @@ WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
         re.compile(r"old = 'state = \"Idle\" -> 0'"),
         "old = 'IdleShowsNothing =='",
     ),
+    "bounds.spare: no edit is judged within these bounds": (
+        re.compile(r"\Z"),
+        '\n[bounds.spare]\nrun = "MC_SF_EDM_arbitrary"\n',
+    ),
     "falls with MissedPickUpIsAnError": (
         re.compile(r"\Z"),
         '\n[[by_construction]]\nproperty = "IdleShowsNothing"\nreason = "none"\n',
@@ -223,10 +227,41 @@ def test_a_row_of_no_use_is_refused(told: str, tree: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("old", "named"),
+    [
+        ("\n    /\\ ~Error ", "CodeTellsTheRow"),  # an earlier line has it with other spaces before it
+        (r"AwaitReleaseInError\(i\)\)\n\n(?:.*\n)*?OutputNeedsAll ==", "OutputNeedsAll"),  # it ends there
+    ],
+)
+def test_an_edit_that_reaches_a_property_is_refused(old: str, named: str) -> None:
+    text = (root() / "spec/edm/EDM.tla").read_text()
+    found = old if old in text else re.search(old, text)[0]  # type: ignore[index]
+    killer = msgspec.structs.replace(KILLERS["edm"].edits["IdleShowsNothing"], old=found)
+    with pytest.raises(Unjudged, match=f"edits the property {named} and not the device"):
+        edited(DOCUMENTS["edm"], SOURCES["edm"], KILLERS["edm"], killer)
+
+
+def test_a_killer_is_asked_for_its_property_alone() -> None:
+    document = DOCUMENTS["edm"]
+    runs = tuple(msgspec.structs.replace(run, deadlock=True) for run in document.runs)
+    killer = KILLERS["edm"].edits["IdleShowsNothing"]
+    run = run_of(replace(document, runs=runs), KILLERS["edm"], killer)
+    assert (run.properties, run.property, run.deadlock) == (("IdleShowsNothing",), "", False)
+
+
+@pytest.mark.parametrize("wrong", ["bounds = 3", "killer = 3", "killer = [3]", "by_construction = 3"])
+def test_a_file_of_another_form_is_refused_in_a_line(tree: Path, wrong: str) -> None:
+    (tree / "spec/edm/killers.toml").write_text(wrong)
+    with pytest.raises(Unjudged, match=r"^spec/edm/killers.toml: .*must be a"):
+        load_killers(tree, "edm")
+
+
+@pytest.mark.parametrize(
     "row",
     [
         'lanes = ["exhaustive"]\nreading = "StopBeforeTimeout"',
         'constants = { MONITORING_TIME = "3" }\nreading = "StopBeforeTimeout"',
+        'specification = "DeactivationSpec"\nreading = "StopBeforeTimeout"',
         'reading = ["StopBeforeTimeout", "RequestBeforeTimeout"]',
         'reading = "ResetByLevel"',  # two operators
     ],

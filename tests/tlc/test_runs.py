@@ -129,6 +129,7 @@ def test_all_properties_of_the_base_check_a_harmless_reading(tmp_path: Path) -> 
     ("text", "words"),
     [
         (derived(base="MC_tyo"), "run NEG_sinks: unknown base 'MC_tyo'; did you mean 'MC_toy'?"),
+        (derived(base="x").replace('"x"', "[3]"), "run NEG_sinks: unknown base [3]; allowed: MC_toy"),
         (derived(base="NEG_first") + derived("NEG_first"), "its base NEG_first has a base itself"),
         (derived(more='property = "Small"'), "its base MC_toy does not check Small"),
         (derived(more='properties = ["TypeOK", "Small"]\nproperty = "TypeOK"'), "does not check Small"),

@@ -246,11 +246,33 @@ def test_an_output_without_documented_values_is_omitted_and_named(tmp_path: Path
     assert "MW01" in log.observed("fplc") and "MW01" not in left.observed("fplc")
 
 
-def test_a_comparison_with_an_unknown_signal_is_refused(tmp_path: Path) -> None:
+COPIES = 'copies = { one = "33CC", other = "0001", compares = ["ReadAuthorization", "MW01"] }\n'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        (
+            '["ReadAuthorization", "MW01"]',
+            '["MW01", "MW01"]',
+            "plc: copies: plc has no output that it remembers",
+        ),
+        ('["ReadAuthorization", "MW01"]', '["MW03", "MW03"]', "plc: copies: plc has no input 'MW03'"),
+        ('id = "hmi"\n', f'id = "hmi"\n{COPIES}', "hmi: copies: hmi has no output that it remembers"),
+        (
+            'id = "key_flows"\n',
+            f'id = "key_flows"\n{COPIES}',
+            "key_flows: copies: belongs to a target of one",
+        ),
+    ],
+)
+def test_a_comparison_that_no_device_makes_is_refused(
+    tmp_path: Path, old: str, new: str, expected: str
+) -> None:
     shutil.copytree(root() / "spec" / "mode_selection", tmp_path / "spec" / "mode_selection")
     path = tmp_path / "spec" / "mode_selection" / "traces.toml"
     text = path.read_text()
-    path.write_text(text.replace('compares = ["ReadAuthorization", "MW01"]', 'compares = ["MW01", "MW01"]'))
-    assert path.read_text() != text
-    with pytest.raises(Unjudged, match=r"\[\[target\]\] plc: copies: plc has no such signal 'MW01'"):
+    assert COPIES in text and old in text
+    path.write_text(text.replace(old, new))
+    with pytest.raises(Unjudged, match=rf"\[\[target\]\] {expected}"):
         targets_of(tmp_path, "mode_selection")

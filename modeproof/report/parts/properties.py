@@ -5,7 +5,8 @@ from __future__ import annotations
 import textwrap
 from typing import Any
 
-from modeproof.registers.killers import load_killers, ways_to_fall
+from modeproof.ground.errors import Unjudged
+from modeproof.registers.killers import Falls, Killers, load_killers, stamps_of, ways_to_fall
 from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
@@ -102,7 +103,7 @@ def _property(
         "environments": [_environment(claim) for claim in own],
         "theorems": _theorems(sources, document, own),
         "witness": witness,
-        "falls": _falls(sources, document, prop),
+        "falls": _falls(sources, document, prop, troubles),
         "kills": _kills(killing, prop),
     }
 
@@ -183,22 +184,29 @@ def _witness(sources: Sources, document: Document, prop: Property) -> dict[str, 
     return {**answer, "run": first.id, "status": status, "why": why, "command": command}
 
 
-def _falls(sources: Sources, document: Document, prop: Property) -> dict[str, Any]:
+def _falls(sources: Sources, document: Document, prop: Property, troubles: list[Trouble]) -> dict[str, Any]:
     """The negatives and the edits with which it falls, or why nothing breaks it."""
-    every, killers = sources.once(
-        f"killers {document.name}",
-        lambda: (
-            ways_to_fall(document, texts_of(sources, document)),
-            load_killers(document.root, document.name),
-        ),
-    )
+    texts = texts_of(sources, document)
+
+    def read() -> tuple[dict[str, Falls], Killers, dict[str, str | Unjudged]]:
+        killers = load_killers(document.root, document.name)
+        return ways_to_fall(document, texts), killers, stamps_of(document, texts, killers)
+
+    every, killers, stamps = sources.once(f"killers {document.name}", read)
     falls = every[prop.id]
-    edits = [killers.edits[name] for name in falls.edits]
-    return {
-        "negatives": list(falls.negatives),
-        "edits": [{key: getattr(edit, key) for key in ("module", "old", "new", "slip")} for edit in edits],
-        "reason": falls.reason,
-    }
+    edits = [
+        {
+            **{key: getattr(killers.edits[name], key) for key in ("module", "old", "new", "slip")},
+            "judged": killers.edits[name].stamp == stamps[name],
+        }
+        for name in falls.edits
+    ]
+    if not all(edit["judged"] for edit in edits):
+        what = f"{document.name}: an edit of {prop.id} was not judged on this text"
+        troubles.append(
+            Trouble(HOLE, ID, what, f"modeproof mutate spec --killers --document {document.name}")
+        )
+    return {"negatives": list(falls.negatives), "edits": edits, "reason": falls.reason}
 
 
 def _kills(killing: Campaign | None, prop: Property) -> dict[str, Any] | None:

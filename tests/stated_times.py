@@ -1,15 +1,12 @@
-"""A register of response times of a toy document: a row with a bound, one without, and a chain."""
+"""The text of a response.toml for a toy document: a row with a bound, one without, and a chain."""
 
 from __future__ import annotations
 
-
-def response_rows(document: str, prefix: str, device: str, hold_ms: int) -> str:
-    """The file. prefix: of the ids, and of its clause; device: what has the parameter T_HOLD_ms."""
-    return f"""
+ROWS = """
 document = "{document}"
 [example]
 cycle = {{ {device} = 10 }}
-times = {{ T_HOLD_ms = {hold_ms} }}
+times = {{ T_HOLD_ms = 200 }}
 transfer = 5
 
 [[response]]
@@ -36,3 +33,8 @@ steps = ["{prefix}R-1", "{document} {prefix}R-1"]
 then = "the lamp"
 then_ms = 7
 """
+
+
+def stated_times(document: str, device: str, prefix: str) -> str:
+    """The rows of a document whose clause ids begin with `prefix`."""
+    return ROWS.format(document=document, device=device, prefix=prefix)
