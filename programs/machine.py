@@ -151,19 +151,22 @@ class Machine:
 
     def lemmas(self, seconds: float) -> list[z3.BoolRef]:
         """Invariants, found from the runs. seconds: of CPU; then there are none."""
-        first = sample_of(
-            self.cell, reference.power_up(self.runner.cell), {r.id: r.start() for r in self.rules}
-        )
-        seen = [sample_of(self.cell, state, memory) for state, memory in self.seen.samples]
+        first = self.sample(self.runner.power_up(), {rule.id: rule.start() for rule in self.rules})
+        seen = [self.sample(state, memory) for state, memory in self.seen.samples]
         found = Candidates(self.cell, self.system, [first, *seen])
         found.find()
         self.tell(f"{len(found.clauses)} candidates of invariants")
         try:
-            return found.thinned(time.process_time() + seconds, self._on(random.Random(1)))
+            return found.thinned(time.process_time() + seconds, self.on(random.Random(1)))
         except TimeoutError:
             return []
 
-    def _on(self, choose: random.Random) -> Callable[[Sample], Iterator[Sample]]:
+    def sample(self, state: Any, memory: Mapping[str, tuple[bool, int]]) -> Sample:
+        """A state of the runner with what the rules remember, by the names of the terms."""
+        return sample_of(self.cell, state, memory)
+
+    def on(self, choose: random.Random) -> Callable[[Sample], Iterator[Sample]]:
+        """What runs on from a sample with any inputs."""
         start = reference.power_up(self.runner.cell)
 
         def on(sample: Sample) -> Iterator[Sample]:
@@ -174,7 +177,7 @@ class Machine:
             for dt_ms, state, values in self.runner.on(state_of(self.cell, start, sample), 8, choose):
                 for rule in self.rules:
                     _, memory[rule.id] = rule.after(memory[rule.id], values, dt_ms)
-                yield sample_of(self.cell, state, memory)
+                yield self.sample(state, memory)
 
         return on
 

@@ -14,7 +14,8 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.kit.files import write_json, write_text
-from programs import certificate, machine_picture
+from modeproof.registers.vector_files import ROOM
+from programs import certificate, machine_picture, machine_vectors
 from programs.machine import Machine, Verdict
 from programs.machine_trial import Outcome, Trial, as_toml, edits
 from programs.property_command import TRUSTED
@@ -34,6 +35,16 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
+    if args.publish or args.vectors is not None:
+        room = root() / ROOM / machine_vectors.TARGET
+        for path, said in machine_vectors.write(
+            args.vectors or room, file, args.use or folder / "use.toml", root(), _tell
+        ):
+            _tell("")
+            print(f"{path}: {said}", flush=True)
+        if args.publish:
+            machine_vectors.seal(root())
+        return 0
     if args.program is not None or args.picture is not None:
         return 0
     machine = Machine(

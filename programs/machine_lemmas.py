@@ -131,7 +131,7 @@ class Candidates:
             if path != other and (other not in remembered or path < other):
                 for left, right in itertools.product(both[path], both[other]):
                     self.either(left, right)
-        kept = [path for path in latches if path.endswith(".Q1")]
+        kept = [path for path in latches if not path.endswith(" waits")]
         for (path, other), third in itertools.product(itertools.combinations(kept, 2), single):
             if third not in (path, other):
                 for three in itertools.product(both[path], both[other], both[third]):
@@ -243,7 +243,7 @@ def _distinct(system: System, samples: Sequence[Sample]) -> list[Sample]:
 
 
 def _latch(path: str) -> bool:
-    return path.endswith((".Q1", " waits"))
+    return path.endswith((".Q1", " waits")) or "." not in path
 
 
 def _few(path: str, samples: Sequence[Sample]) -> bool:

@@ -33,6 +33,15 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
     )
+    parser.add_argument(
+        "--vectors",
+        type=Path,
+        metavar="FOLDER",
+        help="write test vectors of the machine there, for `conform`",
+    )
+    parser.add_argument(
+        "--publish", action="store_true", help="write those of the shipped wiring to vectors/"
+    )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
     parser.add_argument(
         "--trial",
@@ -50,6 +59,8 @@ def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdicts. Raises Unjudged."""
     if args.record and args.trial != "":
         raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
+    if args.publish and (args.file, args.use, args.vectors) != (None, None, None):
+        raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
