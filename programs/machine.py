@@ -71,6 +71,13 @@ class Machine:
     runs: int = RUNS
     triggers: Sequence[Sequence[str]] | None = None
     """The texts of what must occur for each property, where they are known; they come from the terms."""
+    leaves: bool = False
+    """Whether a value might leave its type, as far as the invariants show; then nothing is PROVED."""
+
+    @property
+    def files(self) -> Mapping[str, str]:
+        """The files of a program of one's own, with their SHA-256."""
+        return {}
 
     @cached_property
     def wiring(self) -> Wiring:
@@ -190,7 +197,11 @@ class Machine:
             return {one.id: False for one in asked}
         solver = z3.Solver()
         solver.set("timeout", LIMIT_MS)
-        solver.add(self.system.within, self.system.assumed, self.system.inside, *lemmas)
+        solver.add(self.system.within, self.system.assumed, *lemmas)
+        self.leaves = solver.check(z3.Not(self.system.inside)) != z3.unsat
+        if self.leaves:
+            return {one.id: False for one in asked}
+        solver.add(self.system.inside)
         return {one.id: solver.check(self.bad[one.id]) == z3.unsat for one in asked}
 
     def questions_again(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> list[Obligation]:
@@ -201,10 +212,12 @@ class Machine:
         scan = [system.within, system.assumed, system.inside, *lemmas]
         moves = [new == system.after[path] for path, new in then.items()]
         survive = [z3.substitute(lemma, *where) for lemma in (system.within, *lemmas)]
+        types = [] if z3.is_true(z3.simplify(system.inside)) else [system.inside]
         return [
             _owed("start.smt2", [system.first], lemmas),
             _owed("scan.smt2", [*scan, *moves], survive),
             _owed("properties.smt2", scan, [z3.Not(self.bad[one.id]) for one in asked]),
+            *(_owed("types.smt2", [system.within, system.assumed, *lemmas], [part]) for part in types),
         ]
 
     # ------------------------------------------------------------ verdicts
@@ -241,7 +254,8 @@ class Machine:
                 how = f"{len(scans)} scans, the shortest that were found"
                 found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
             elif not holds[asked.id]:
-                how = f"no invariant was found, and nothing breaks it in {self.seen.scans:,} scans of runs"
+                why = "a value may leave its type" if self.leaves else "no invariant was found"
+                how = f"{why}, and nothing breaks it in {self.seen.scans:,} scans of runs"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             elif against:
                 how = f"the proof is not confirmed: {against}"

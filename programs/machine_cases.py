@@ -84,7 +84,7 @@ class Cases:
         table, pins = self.wiring.table, reference.power_up(self.runner.cell).pins
         texts = {name: name for name in table.modes}
         texts |= {name: wire.text for name, wire in table.safeguards.items()}
-        on = [f"{block}.{pin}" for block in table.order for pin in ("Q1", "Error")]
+        on = [f"{block}.{pin}" for block in table.order for pin in ("Q1", "Error", "ResetRequest")]
         texts |= {pin: pin for pin in on if pin in pins}
         texts |= {name: row.text for name, row in table.outputs.items()}
         return {name: signal(text, self.runner.named) for name, text in texts.items()}

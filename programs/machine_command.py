@@ -17,6 +17,7 @@ from modeproof.kit.files import write_json, write_text
 from modeproof.registers.vector_files import ROOM
 from programs import certificate, machine_picture, machine_vectors
 from programs.machine import Machine, Verdict
+from programs.machine_program import ProgramMachine
 from programs.machine_trial import Outcome, Trial, as_toml, edits
 from programs.property_command import TRUSTED
 from programs.wired import text_of, unit
@@ -47,19 +48,22 @@ def run(args: argparse.Namespace) -> int:
         return 0
     if args.program is not None or args.picture is not None:
         return 0
-    machine = Machine(
+    given = (
         file.read_text("utf-8"),
         str(file),
         args.properties or folder / "safety.toml",
         args.use or folder / "use.toml",
         _tell,
     )
+    machine = Machine(*given)
+    if args.source:
+        machine = ProgramMachine(*given, sources=args.source, unit=args.unit)
     if args.trial is not None:
         return _trial(machine, args.trial, folder / "trial.toml" if args.record else None)
     started = time.process_time()
     shipped = folder / "wiring.toml"
     own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() else None
-    found = machine.all(args.seconds, own, args.recheck)
+    found = machine.all(args.seconds, None if args.source else own, args.recheck)
     _tell("")
     seconds = time.process_time() - started
     print("\n".join(lines_of(machine, found, seconds)))
@@ -83,7 +87,8 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     """What is printed: a line for each property that is PROVED, more for the others."""
     table = machine.wiring.table
     yield f"machine {table.title}"
-    yield f"  wiring      {machine.file}"
+    yield from (f"  program     {file}" for file in machine.files)
+    yield f"  wiring      {machine.file}{' (what the names mean)' * bool(machine.files)}"
     yield f"  properties  {machine.properties} ({OWN})"
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
@@ -141,6 +146,7 @@ def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dic
     return {
         "command": "machine",
         "basis": OWN,
+        "program": dict(machine.files),
         "wiring": {machine.file: hashlib.sha256(machine.text.encode()).hexdigest()},
         "files": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in files.items()},
         "tools": certificate.tools(),

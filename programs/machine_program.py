@@ -1,8 +1,8 @@
 """A machine as a program of one's own: the properties of a wiring, judged of its source.
 
-The wiring says what the names mean: inputs, outputs, the instances of the documents' blocks, the modes and the
-activation matrix. What is true of the program is found out from the program alone: its terms, and runs of its
-source. How it wires its blocks is its own affair.
+The wiring says what the names mean: inputs, outputs, the instances of the documents' blocks, the modes and
+the activation matrix. What is true of the program is found out from the program alone: its terms, and runs of
+its source. How it wires its blocks is its own affair.
 """
 
 from __future__ import annotations
@@ -51,6 +51,11 @@ class ProgramRunner(Runner):
         outputs = {name: kept[name.upper()] for name in self.wiring.table.outputs}
         return state, {**inputs, **outputs, **values}
 
+    def kept(self, state: Any) -> dict[str, Any]:
+        """The memory by the names of the terms."""
+        values = memory_of(state)
+        return {path: values[path] for path in self.program.slots}
+
 
 @dataclass
 class ProgramMachine(Machine):
@@ -63,6 +68,11 @@ class ProgramMachine(Machine):
     def source(self) -> Source:
         """The source. Raises Unjudged with file, line and cause."""
         return read_sources(list(self.sources))
+
+    @property
+    def files(self) -> Mapping[str, str]:
+        """The files of the source, with their SHA-256."""
+        return self.source.files
 
     @cached_property
     def own(self) -> Unit:
@@ -124,7 +134,7 @@ class ProgramMachine(Machine):
 
     def sample(self, state: Any, memory: Mapping[str, tuple[bool, int]]) -> Sample:
         """As `Machine.sample`, of the interpreter."""
-        found = dict(memory_of(state) if isinstance(state, Interpreter) else state)
+        found = self.runner.kept(state) if isinstance(state, Interpreter) else dict(state)
         found |= {f"{id} waits": waits for id, (waits, _) in memory.items()}
         return found | {f"{id} since": since for id, (_, since) in memory.items()}
 

@@ -141,6 +141,10 @@ class Runner:
         after, _ = reference.step(self.cell, state, inputs, dt_ms)
         return after, reference.values_after(self.cell, after, inputs)
 
+    def kept(self, state: Any) -> Any:
+        """A state that later scans do not change."""
+        return state
+
     def stories(self) -> dict[str, list[dict[str, Value]]]:
         """What changes in each scan of each story whose inputs this cell has."""
         found = {}
@@ -323,7 +327,7 @@ def look(
                     if (found[number] is None or len(scans) < found[number]) and trigger(values):  # type: ignore[operator]
                         found[number] = len(scans)
             if keep and seen.scans % keep == 0:
-                seen.samples.append((state, dict(memory)))
+                seen.samples.append((runner.kept(state), dict(memory)))
         if enough(seen):
             break
     return seen

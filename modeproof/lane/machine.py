@@ -34,6 +34,14 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
     )
     parser.add_argument(
+        "--source",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="judge this program (ST, SCL, PLCopen XML, statement list); WIRING says what its names mean",
+    )
+    parser.add_argument("--unit", metavar="NAME", help="of --source: the program that is the machine")
+    parser.add_argument(
         "--vectors",
         type=Path,
         metavar="FOLDER",
@@ -61,6 +69,10 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
     if args.publish and (args.file, args.use, args.vectors) != (None, None, None):
         raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
+    if args.unit is not None and not args.source:
+        raise Unjudged("machine: --unit belongs to --source")
+    if args.source and any((args.trial is not None, args.publish, args.vectors, args.picture, args.program)):
+        raise Unjudged("machine: --source judges a program; the other outputs are made from a wiring alone")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
