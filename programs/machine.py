@@ -160,13 +160,18 @@ class Machine:
         """Invariants, found from the runs. seconds: of CPU; then there are none."""
         first = self.sample(self.runner.power_up(), {rule.id: rule.start() for rule in self.rules})
         seen = [self.sample(state, memory) for state, memory in self.seen.samples]
-        found = Candidates(self.cell, self.system, [first, *seen])
-        found.find()
+        found = self.candidates([first, *seen])
         self.tell(f"{len(found.clauses)} candidates of invariants")
         try:
             return found.thinned(time.process_time() + seconds, self.on(random.Random(1)))
         except TimeoutError:
             return []
+
+    def candidates(self, samples: Sequence[Sample]) -> Candidates:
+        """What is true in all samples."""
+        found = Candidates(self.cell, self.system, samples)
+        found.find()
+        return found
 
     def sample(self, state: Any, memory: Mapping[str, tuple[bool, int]]) -> Sample:
         """A state of the runner with what the rules remember, by the names of the terms."""

@@ -139,6 +139,25 @@ class Candidates:
         self._timed(flags)
         self._at_first(places)
 
+    def find_pairs(self, prefix: str) -> None:
+        """Those that pair a value with the one of the same name behind a prefix, and values alike."""
+        state = self.system.state
+        flags = {path: self.fact(state[path], _true(path)) for path in self.bools}
+        places = {
+            (path, (value,)): self.fact(state[path] == value, _among(path, (value,)))
+            for path in self.controls
+            for value in sorted({sample[path] for sample in self.samples})
+        }
+        for path in self.bools:
+            self.always(flags[path])
+            self.always(self.denied(flags[path]))
+        for path in (*self.bools, *self.numbers):
+            if (other := f"{prefix}{path}") in state:
+                self.always(self.fact(state[path] == state[other], _alike(path, other)))
+        for path in self.controls:
+            self._only_seen(path)
+        self._equal(flags, places)
+
     def _at_first(self, places: Mapping[Any, tuple[int, int]]) -> None:
         """What is as at power-up in one part is so in another."""
         starts = [
@@ -226,6 +245,10 @@ def _true(path: str) -> Callable[[Sample], bool]:
 
 def _among(path: str, values: Collection[int]) -> Callable[[Sample], bool]:
     return lambda sample: sample[path] in values
+
+
+def _alike(path: str, other: str) -> Callable[[Sample], bool]:
+    return lambda sample: bool(sample[path] == sample[other])
 
 
 def _ordered(path: str, other: str) -> Callable[[Sample], bool]:

@@ -38,6 +38,8 @@ class ProgramRunner(Runner):
     program: Cell
     pins: Mapping[str, tuple[str, str]]
     """Of each pin that a property may name, the instance and the pin in the program."""
+    shown: Sequence[str] = ()
+    """Variables that a property may name besides."""
 
     def power_up(self) -> Interpreter:
         """The interpreter at power-up. A scan changes it."""
@@ -48,7 +50,7 @@ class ProgramRunner(Runner):
         state.scan(inputs, dt_ms)
         kept = state.memory.values
         values = {name: kept[block].values[pin] for name, (block, pin) in self.pins.items()}
-        outputs = {name: kept[name.upper()] for name in self.wiring.table.outputs}
+        outputs = {name: kept[name.upper()] for name in (*self.wiring.table.outputs, *self.shown)}
         return state, {**inputs, **outputs, **values}
 
     def kept(self, state: Any) -> dict[str, Any]:

@@ -76,7 +76,7 @@ def test_the_program_by_hand_conforms_to_the_vectors(name: str) -> None:
 
 def test_a_mistake_in_the_program_differs(tmp_path: Path) -> None:
     path = edited(tmp_path, "edm(Activate := TRUE", "edm(Activate := newMode > 0")
-    suite = open_suite(ROOT / "vectors/machine_cell/mistakes.jsonl.gz")
+    suite = open_suite(ROOT / "vectors/machine_cell/sequences.jsonl.gz")
     assert run_suite(suite, lambda: InTheInterpreter(path), plan=Plan(most=1, effort=0)).word == DIFFERS
 
 

@@ -52,8 +52,9 @@ def differs(text: str, names: tuple[str, ...] = NAMES) -> str:
     return ""
 
 
-def test_the_shipped_reference_conforms_as_an_adapter() -> None:
-    one = suite("mistakes")
+@pytest.mark.parametrize("name", ["mistakes", pytest.param("sequences", marks=pytest.mark.deep)])
+def test_the_shipped_reference_conforms_as_an_adapter(name: str) -> None:
+    one = suite(name)
     assert run_suite(one, lambda: Adapter(ADAPTER)).word == CONFORMS
 
 
