@@ -17,7 +17,8 @@ from modeproof.kit.files import write_json, write_text
 from modeproof.registers.vector_files import ROOM
 from programs import certificate, machine_picture, machine_vectors
 from programs.machine import Machine, Verdict
-from programs.machine_program import ProgramMachine
+from programs.machine_equal import Equality
+from programs.machine_program import ProgramMachine, ProgramRunner
 from programs.machine_trial import Outcome, Trial, as_toml, edits
 from programs.property_command import TRUSTED
 from programs.wired import text_of, unit
@@ -57,7 +58,8 @@ def run(args: argparse.Namespace) -> int:
     )
     machine = Machine(*given)
     if args.source:
-        machine = ProgramMachine(*given, sources=args.source, unit=args.unit)
+        kind = Equality if args.equal else ProgramMachine
+        machine = kind(*given, sources=args.source, unit=args.unit)
     if args.trial is not None:
         return _trial(machine, args.trial, folder / "trial.toml" if args.record else None)
     started = time.process_time()
@@ -88,8 +90,9 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     table = machine.wiring.table
     yield f"machine {table.title}"
     yield from (f"  program     {file}" for file in machine.files)
-    yield f"  wiring      {machine.file}{' (what the names mean)' * bool(machine.files)}"
-    yield f"  properties  {machine.properties} ({OWN})"
+    equal = isinstance(machine, Equality)
+    yield f"  wiring      {machine.file}{' (what the names mean)' * bool(machine.files and not equal)}"
+    yield f"  properties  {'each output is as the wiring gives it' if equal else machine.properties} ({OWN})"
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
     for verdict in found:
@@ -125,6 +128,7 @@ def trace_of(machine: Machine, verdict: Verdict) -> Iterator[str]:
 def _values(machine: Machine, verdict: Verdict) -> Iterator[tuple[int, Mapping[str, Any], Mapping[str, Any]]]:
     table, runner = machine.wiring.table, machine.runner
     names = [*table.outputs, *table.modes, *table.signals, *(f"{name}.Q1" for name in table.block)]
+    names += runner.shown if isinstance(runner, ProgramRunner) else []
     blocks = [f"{name}.{pin}" for name in table.block for pin in ("S_GuardLocked", "Error", "Q1")]
     for (dt_ms, inputs), values in zip(verdict.scans, runner.replayed(verdict.scans), strict=True):
         chosen = dict.fromkeys(name for name in (*names, *blocks) if name in values)
@@ -142,7 +146,8 @@ def _changed(before: Mapping[str, Any], values: Mapping[str, Any]) -> str:
 
 def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dict[str, Any]:
     """The verdicts as JSON."""
-    files = {str(path): path for path in (machine.properties, machine.use)}
+    asked = () if isinstance(machine, Equality) else (machine.properties,)
+    files = {str(path): path for path in (*asked, machine.use)}
     return {
         "command": "machine",
         "basis": OWN,

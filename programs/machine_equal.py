@@ -19,6 +19,8 @@ from programs.questions import Questions
 from programs.tree import BOOL, Assign, Binary, Name, Unit, Variable
 from programs.wired import unit as wired_unit
 
+RUNS = 40
+"""Random runs: each scan of both is run, so it takes twice as long."""
 PREFIX, SAME = "WIRED_", "SAME_"
 """Before the names of the wiring's own values, and before those that say whether an output is the same."""
 
@@ -26,6 +28,8 @@ PREFIX, SAME = "WIRED_", "SAME_"
 @dataclass
 class Equality(ProgramMachine):
     """A program and a wiring."""
+
+    runs: int = RUNS
 
     @cached_property
     def questions(self) -> Questions:
@@ -67,7 +71,8 @@ class Equality(ProgramMachine):
         """What runs both."""
         found = super().runner
         assert isinstance(found, ProgramRunner)
-        return replace(found, shown=tuple(f"{SAME}{name}" for name in self.wiring.table.outputs))
+        outputs = self.wiring.table.outputs
+        return replace(found, shown=[f"{before}{name}" for name in outputs for before in (SAME, PREFIX)])
 
     def candidates(self, samples: Sequence[Sample]) -> Candidates:
         """Relations between the two memories."""

@@ -40,6 +40,11 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="FILE",
         help="judge this program (ST, SCL, PLCopen XML, statement list); WIRING says what its names mean",
     )
+    parser.add_argument(
+        "--equal",
+        action="store_true",
+        help="with --source: every output is what WIRING gives, in the place of the properties",
+    )
     parser.add_argument("--unit", metavar="NAME", help="of --source: the program that is the machine")
     parser.add_argument(
         "--vectors",
@@ -69,8 +74,8 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
     if args.publish and (args.file, args.use, args.vectors) != (None, None, None):
         raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
-    if args.unit is not None and not args.source:
-        raise Unjudged("machine: --unit belongs to --source")
+    if not args.source and (args.unit is not None or args.equal):
+        raise Unjudged("machine: --unit and --equal belong to --source")
     if args.source and any((args.trial is not None, args.publish, args.vectors, args.picture, args.program)):
         raise Unjudged("machine: --source judges a program; the other outputs are made from a wiring alone")
     try:

@@ -13,6 +13,7 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.kit.judge import CONFORMS, DIFFERS, Plan, run_suite
 from modeproof.kit.vectors import EXACT, open_suite
+from programs.machine_equal import Equality
 from programs.machine_program import ProgramMachine
 from programs.run import Machine as Interpreter
 
@@ -68,20 +69,24 @@ class InTheInterpreter:
         pass
 
 
-@pytest.mark.parametrize("name", ["mistakes", pytest.param("sequences", marks=pytest.mark.deep)])
+@pytest.mark.deep
+@pytest.mark.parametrize("name", ["mistakes", pytest.param("sequences", marks=pytest.mark.long)])
 def test_the_program_by_hand_conforms_to_the_vectors(name: str) -> None:
     suite = open_suite(ROOT / f"vectors/machine_cell/{name}.jsonl.gz")
     assert run_suite(suite, lambda: InTheInterpreter(BY_HAND)).word == CONFORMS
 
 
+@pytest.mark.deep
 def test_a_mistake_in_the_program_differs(tmp_path: Path) -> None:
-    path = edited(tmp_path, "edm(Activate := TRUE", "edm(Activate := newMode > 0")
+    path = edited(tmp_path, "guard.S_GuardLocked AND beam.S_OSSD_Out", "guard.S_GuardLocked")
     suite = open_suite(ROOT / "vectors/machine_cell/sequences.jsonl.gz")
     assert run_suite(suite, lambda: InTheInterpreter(path), plan=Plan(most=1, effort=0)).word == DIFFERS
 
 
+@pytest.mark.deep
 @pytest.mark.parametrize(
-    "what", [pytest.param(what, marks=[pytest.mark.deep] if at else []) for at, what in enumerate(MISTAKES)]
+    "what",
+    [pytest.param(what, marks=[pytest.mark.long] if at > 1 else []) for at, what in enumerate(MISTAKES)],
 )
 def test_a_mistake_in_the_program_breaks_its_property(what: str, tmp_path: Path) -> None:
     old, new, falls = MISTAKES[what]
@@ -139,7 +144,30 @@ def test_a_value_that_leaves_its_type_proves_nothing(tmp_path: Path) -> None:
     assert verdict.how.startswith("a value may leave its type")
 
 
+def beside(path: Path, runs: int) -> Equality:
+    return Equality(WIRING, "w.toml", FOLDER / "safety.toml", FOLDER / "use.toml", runs=runs, sources=[path])
+
+
 @pytest.mark.deep
+def test_a_program_that_is_wired_otherwise_is_not_equal(tmp_path: Path) -> None:
+    path = edited(tmp_path, "Lamp := edm.Error OR", "Lamp := ")
+    broken = beside(path, 40).look(lambda seen: bool(seen.broken)).broken
+    assert set(broken) == {"Lamp-as-wired"}
+
+
+@pytest.mark.deep
+def test_runs_show_no_difference_of_the_program_by_hand() -> None:
+    assert not beside(BY_HAND, 2).look().broken
+
+
+@pytest.mark.long
+def test_every_output_of_the_program_by_hand_is_proved_to_be_as_wired(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["machine", "--source", str(BY_HAND), "--equal", "--recheck"]) == 0
+    assert "7 PROVED, 0 REFUTED, 0 UNKNOWN" in capsys.readouterr().out
+
+
 @pytest.mark.long
 def test_every_property_is_proved_of_the_program_by_hand(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["machine", "--source", str(BY_HAND), "--recheck"]) == 0
