@@ -75,6 +75,13 @@ class Machine:
     """The texts of what must occur for each property, where they are known; they come from the terms."""
     leave_out: bool = False
     """A property that names what the wiring has not is NOT JUDGED; else the file is refused."""
+    leaves: bool = False
+    """Whether a value might leave its type, as far as the invariants show; then nothing is PROVED."""
+
+    @property
+    def files(self) -> Mapping[str, str]:
+        """The files of a program of one's own, with their SHA-256."""
+        return {}
 
     @cached_property
     def wiring(self) -> Wiring:
@@ -174,19 +181,27 @@ class Machine:
 
     def lemmas(self, seconds: float) -> list[z3.BoolRef]:
         """Invariants, found from the runs. seconds: of CPU; then there are none."""
-        first = sample_of(
-            self.cell, reference.power_up(self.runner.cell), {r.id: r.start() for r in self.rules}
-        )
-        seen = [sample_of(self.cell, state, memory) for state, memory in self.seen.samples]
-        found = Candidates(self.cell, self.system, [first, *seen])
-        found.find()
+        first = self.sample(self.runner.power_up(), {rule.id: rule.start() for rule in self.rules})
+        seen = [self.sample(state, memory) for state, memory in self.seen.samples]
+        found = self.candidates([first, *seen])
         self.tell(f"{len(found.clauses)} candidates of invariants")
         try:
-            return found.thinned(time.process_time() + seconds, self._on(random.Random(1)))
+            return found.thinned(time.process_time() + seconds, self.on(random.Random(1)))
         except TimeoutError:
             return []
 
-    def _on(self, choose: random.Random) -> Callable[[Sample], Iterator[Sample]]:
+    def candidates(self, samples: Sequence[Sample]) -> Candidates:
+        """What is true in all samples."""
+        found = Candidates(self.cell, self.system, samples)
+        found.find()
+        return found
+
+    def sample(self, state: Any, memory: Mapping[str, tuple[bool, int]]) -> Sample:
+        """A state of the runner with what the rules remember, by the names of the terms."""
+        return sample_of(self.cell, state, memory)
+
+    def on(self, choose: random.Random) -> Callable[[Sample], Iterator[Sample]]:
+        """What runs on from a sample with any inputs."""
         start = reference.power_up(self.runner.cell)
 
         def on(sample: Sample) -> Iterator[Sample]:
@@ -197,7 +212,7 @@ class Machine:
             for dt_ms, state, values in self.runner.on(state_of(self.cell, start, sample), 8, choose):
                 for rule in self.rules:
                     _, memory[rule.id] = rule.after(memory[rule.id], values, dt_ms)
-                yield sample_of(self.cell, state, memory)
+                yield self.sample(state, memory)
 
         return on
 
@@ -210,7 +225,11 @@ class Machine:
             return {one.id: False for one in asked}
         solver = z3.Solver()
         solver.set("timeout", LIMIT_MS)
-        solver.add(self.system.within, self.system.assumed, self.system.inside, *lemmas)
+        solver.add(self.system.within, self.system.assumed, *lemmas)
+        self.leaves = solver.check(z3.Not(self.system.inside)) != z3.unsat
+        if self.leaves:
+            return {one.id: False for one in asked}
+        solver.add(self.system.inside)
         return {one.id: solver.check(self.bad[one.id]) == z3.unsat for one in asked}
 
     def questions_again(self, lemmas: Sequence[z3.BoolRef], asked: Sequence[Asked]) -> list[Obligation]:
@@ -221,10 +240,12 @@ class Machine:
         scan = [system.within, system.assumed, system.inside, *lemmas]
         moves = [new == system.after[path] for path, new in then.items()]
         survive = [z3.substitute(lemma, *where) for lemma in (system.within, *lemmas)]
+        types = [] if z3.is_true(z3.simplify(system.inside)) else [system.inside]
         return [
             _owed("start.smt2", [system.first], lemmas),
             _owed("scan.smt2", [*scan, *moves], survive),
             _owed("properties.smt2", scan, [z3.Not(self.bad[one.id]) for one in asked]),
+            *(_owed("types.smt2", [system.within, system.assumed, *lemmas], [part]) for part in types),
         ]
 
     # ------------------------------------------------------------ verdicts
@@ -265,7 +286,8 @@ class Machine:
                 how = f"{len(scans)} scans, the shortest that were found"
                 found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
             elif not holds[asked.id]:
-                how = f"no invariant was found, and nothing breaks it in {self.seen.scans:,} scans of runs"
+                why = "a value may leave its type" if self.leaves else "no invariant was found"
+                how = f"{why}, and nothing breaks it in {self.seen.scans:,} scans of runs"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
             elif against:
                 how = f"the proof is not confirmed: {against}"

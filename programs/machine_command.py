@@ -9,7 +9,8 @@ import shlex
 import threading
 import time
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +18,13 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
-from programs import certificate, machine_picture
+from modeproof.registers.vector_files import ROOM
+from programs import certificate, machine_picture, machine_vectors
 from programs.machine import Machine, Verdict
+from programs.machine_equal import Equality
 from programs.machine_killers import Killers, changed, read_killers
 from programs.machine_killers import as_toml as as_rows
+from programs.machine_program import ProgramMachine, ProgramRunner
 from programs.machine_runs import Scan
 from programs.machine_trial import Outcome, Trial, as_toml, edits
 from programs.output import Case, junit_of
@@ -44,10 +48,15 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
+    progress = Progress(quiet=args.quiet)
+    if args.publish or args.vectors is not None:
+        return _vectors(args, file, args.use or folder / "use.toml", progress)
     if args.program is not None or args.picture is not None:
         return 0
-    progress = Progress(quiet=args.quiet)
-    machine = Machine(
+    kind: Callable[..., Machine] = Machine
+    if args.source:
+        kind = partial(Equality if args.equal else ProgramMachine, sources=args.source, unit=args.unit)
+    machine = kind(
         file.read_text("utf-8"),
         str(file),
         args.properties or folder / "safety.toml",
@@ -62,7 +71,7 @@ def run(args: argparse.Namespace) -> int:
             return _trial(machine, args.trial, progress, folder / "trial.toml" if args.record else None)
         started = time.process_time()
         shipped = folder / "wiring.toml"
-        own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() else None
+        own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() and not args.source else None
         found = machine.all(args.seconds, own, args.recheck)
     seconds = time.process_time() - started
     print("\n".join([*lines_of(machine, found, seconds), f"  again       {_again(args)}"]))
@@ -72,6 +81,18 @@ def run(args: argparse.Namespace) -> int:
         cases = [_case(machine, verdict) for verdict in found]
         write_text(args.junit, junit_of(machine.file, cases, round(seconds, 1), "modeproof machine"))
     return status(found)
+
+
+def _vectors(args: argparse.Namespace, file: Path, use: Path, progress: Progress) -> int:
+    """Write the vectors of a wiring: the published ones, or those of one's own."""
+    folder = args.vectors or root() / ROOM / machine_vectors.TARGET
+    with _at_work(progress):
+        written = machine_vectors.write(folder, file, use, root(), lambda text: progress.update(NAME, text))
+        said = [f"{path}: {text}" for path, text in written]
+    print("\n".join(said))
+    if args.publish:
+        machine_vectors.seal(root())
+    return 0
 
 
 @contextlib.contextmanager
@@ -101,7 +122,12 @@ def _again(args: argparse.Namespace) -> str:
     for option in ("properties", "use"):
         if (path := getattr(args, option)) is not None:
             words += [f"--{option}", str(path)]
-    return shlex.join([*words, *(["--recheck"] if args.recheck else [])])
+    if args.source:
+        words += ["--source", *map(str, args.source)]
+    if args.unit is not None:
+        words += ["--unit", args.unit]
+    words += [f"--{option}" for option in ("equal", "recheck") if getattr(args, option)]
+    return shlex.join(words)
 
 
 def _case(machine: Machine, verdict: Verdict) -> Case:
@@ -121,8 +147,10 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     """What is printed: a line for each property that is PROVED, more for the others."""
     table = machine.wiring.table
     yield f"machine {table.title}"
-    yield f"  wiring      {machine.file}"
-    yield f"  properties  {machine.properties} ({OWN})"
+    yield from (f"  program     {file}" for file in machine.files)
+    equal = isinstance(machine, Equality)
+    yield f"  wiring      {machine.file}{' (what the names mean)' * bool(machine.files and not equal)}"
+    yield f"  properties  {'each output is as the wiring gives it' if equal else machine.properties} ({OWN})"
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
     for verdict in found:
@@ -167,6 +195,7 @@ def _values(
 ) -> Iterator[tuple[int, Mapping[str, Any], Mapping[str, Any]]]:
     table, runner = machine.wiring.table, machine.runner
     names = [*table.outputs, *table.modes, *table.signals, *(f"{name}.Q1" for name in table.block)]
+    names += runner.shown if isinstance(runner, ProgramRunner) else []
     blocks = [f"{name}.{pin}" for name in table.block for pin in ("S_GuardLocked", "Error", "Q1")]
     for (dt_ms, inputs), values in zip(scans, runner.replayed(scans), strict=True):
         chosen = dict.fromkeys(name for name in (*names, *blocks) if name in values)
@@ -175,10 +204,12 @@ def _values(
 
 def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dict[str, Any]:
     """The verdicts as JSON."""
-    files = {str(path): path for path in (machine.properties, machine.use)}
+    asked = () if isinstance(machine, Equality) else (machine.properties,)
+    files = {str(path): path for path in (*asked, machine.use)}
     return {
         "command": "machine",
         "basis": OWN,
+        "program": dict(machine.files),
         "wiring": {machine.file: hashlib.sha256(machine.text.encode()).hexdigest()},
         "files": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in files.items()},
         "tools": certificate.tools(),

@@ -131,13 +131,32 @@ class Candidates:
             if path != other and (other not in remembered or path < other):
                 for left, right in itertools.product(both[path], both[other]):
                     self.either(left, right)
-        kept = [path for path in latches if path.endswith(".Q1")]
+        kept = [path for path in latches if not path.endswith(" waits")]
         for (path, other), third in itertools.product(itertools.combinations(kept, 2), single):
             if third not in (path, other):
                 for three in itertools.product(both[path], both[other], both[third]):
                     self._one_of(three)
         self._timed(flags)
         self._at_first(places)
+
+    def find_pairs(self, prefix: str) -> None:
+        """Those that pair a value with the one of the same name behind a prefix, and values alike."""
+        state = self.system.state
+        flags = {path: self.fact(state[path], _true(path)) for path in self.bools}
+        places = {
+            (path, (value,)): self.fact(state[path] == value, _among(path, (value,)))
+            for path in self.controls
+            for value in sorted({sample[path] for sample in self.samples})
+        }
+        for path in self.bools:
+            self.always(flags[path])
+            self.always(self.denied(flags[path]))
+        for path in (*self.bools, *self.numbers):
+            if (other := f"{prefix}{path}") in state:
+                self.always(self.fact(state[path] == state[other], _alike(path, other)))
+        for path in self.controls:
+            self._only_seen(path)
+        self._equal(flags, places)
 
     def _at_first(self, places: Mapping[Any, tuple[int, int]]) -> None:
         """What is as at power-up in one part is so in another."""
@@ -228,6 +247,10 @@ def _among(path: str, values: Collection[int]) -> Callable[[Sample], bool]:
     return lambda sample: sample[path] in values
 
 
+def _alike(path: str, other: str) -> Callable[[Sample], bool]:
+    return lambda sample: bool(sample[path] == sample[other])
+
+
 def _ordered(path: str, other: str) -> Callable[[Sample], bool]:
     return lambda sample: bool(sample[path] <= sample[other])
 
@@ -243,7 +266,7 @@ def _distinct(system: System, samples: Sequence[Sample]) -> list[Sample]:
 
 
 def _latch(path: str) -> bool:
-    return path.endswith((".Q1", " waits"))
+    return path.endswith((".Q1", " waits")) or "." not in path
 
 
 def _few(path: str, samples: Sequence[Sample]) -> bool:

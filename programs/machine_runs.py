@@ -132,6 +132,19 @@ class Runner:
             raise Unjudged(f"{wiring.file}: {error}") from None
         return Runner(wiring, watched, use, whole, cell, named, follows)
 
+    def power_up(self) -> Any:
+        """The state before the first scan."""
+        return reference.power_up(self.cell)
+
+    def scan(self, state: Any, inputs: Inputs, dt_ms: int) -> tuple[Any, dict[str, Value]]:
+        """The state after a scan, and all values then."""
+        after, _ = reference.step(self.cell, state, inputs, dt_ms)
+        return after, reference.values_after(self.cell, after, inputs)
+
+    def kept(self, state: Any) -> Any:
+        """A state that later scans do not change."""
+        return state
+
     def stories(self) -> dict[str, list[dict[str, Value]]]:
         """What changes in each scan of each story; an input that this cell has not is left out."""
         found = {}
@@ -144,14 +157,14 @@ class Runner:
                 found[story["id"]] = rows
         return found
 
-    def random_run(self, seed: int, scans: int = SCANS) -> Iterator[tuple[Scan, reference.State, Inputs]]:
+    def random_run(self, seed: int, scans: int = SCANS) -> Iterator[tuple[Scan, Any, Inputs]]:
         """A run from power-up: each scan, the state and all values after it."""
         choose = random.Random(seed)
         low, high = self.wiring.table.scan_ms
         times = [low, self.wiring.table.cycle_ms, high]
         inputs: dict[str, Value] = {name: kind == "WORD" and 0 for name, kind in self.cell.inputs.items()}
         inputs |= {name: value for name, value in self.use.rest.items() if name in inputs}
-        state, values = reference.power_up(self.cell), dict[str, Value]()
+        state, values = self.power_up(), dict[str, Value]()
         stories, told = self.stories(), list[dict[str, Value]]()
         then = {
             story["id"]: [name for name in story.get("then", ()) if name in stories]
@@ -186,13 +199,10 @@ class Runner:
                 if not stuck[name]:
                     del stuck[name]
             dt_ms = choose.choice(times) if choose.random() < 0.2 else usual
-            state, _ = reference.step(self.cell, state, inputs, dt_ms)
-            values = reference.values_after(self.cell, state, inputs)
+            state, values = self.scan(state, inputs, dt_ms)
             yield (dt_ms, dict(inputs)), state, values
 
-    def on(
-        self, state: reference.State, scans: int, choose: random.Random
-    ) -> Iterator[tuple[int, reference.State, Inputs]]:
+    def on(self, state: Any, scans: int, choose: random.Random) -> Iterator[tuple[int, Any, Inputs]]:
         """A run with any inputs from a state on: the time, the state and all values after each scan."""
         words = sorted(
             {
@@ -215,22 +225,21 @@ class Runner:
                 if choose.random() < likely:
                     inputs[name] = not inputs[name] if kind == "BOOL" else choose.choice(words or [0])
             dt_ms = choose.choice(self.wiring.table.scan_ms)
-            state, _ = reference.step(self.cell, state, inputs, dt_ms)
-            yield dt_ms, state, reference.values_after(self.cell, state, inputs)
+            state, values = self.scan(state, inputs, dt_ms)
+            yield dt_ms, state, values
 
     def replayed(self, scans: Sequence[Scan]) -> Iterator[Inputs]:
         """All values after each of these scans from power-up."""
-        state = reference.power_up(self.cell)
+        state = self.power_up()
         for dt_ms, inputs in scans:
-            state, _ = reference.step(self.cell, state, inputs, dt_ms)
-            yield reference.values_after(self.cell, state, inputs)
+            state, values = self.scan(state, inputs, dt_ms)
+            yield values
 
     def broken(self, scans: Sequence[Scan], rule: Rule) -> int | None:
         """The number of the first scan after which a property is false; None: it is true after all."""
-        state, memory = reference.power_up(self.cell), rule.start()
+        state, memory = self.power_up(), rule.start()
         for number, (dt_ms, inputs) in enumerate(scans, 1):
-            state, _ = reference.step(self.cell, state, inputs, dt_ms)
-            values = reference.values_after(self.cell, state, inputs)
+            state, values = self.scan(state, inputs, dt_ms)
             wrong, memory = rule.after(memory, values, dt_ms)
             if wrong:
                 return number
@@ -289,7 +298,7 @@ class Seen:
     broken: dict[str, list[Scan]] = field(default_factory=dict)
     reached: dict[str, list[int | None]] = field(default_factory=dict)
     """For each trigger of a property the scans of the shortest run in which it was true."""
-    samples: list[tuple[reference.State, Mapping[str, tuple[bool, int]]]] = field(default_factory=list)
+    samples: list[tuple[Any, Mapping[str, tuple[bool, int]]]] = field(default_factory=list)
     scans: int = 0
 
 
@@ -318,7 +327,7 @@ def look(
                     if (found[number] is None or len(scans) < found[number]) and trigger(values):  # type: ignore[operator]
                         found[number] = len(scans)
             if keep and seen.scans % keep == 0:
-                seen.samples.append((state, dict(memory)))
+                seen.samples.append((runner.kept(state), dict(memory)))
         if enough(seen):
             break
     return seen

@@ -85,7 +85,7 @@ def unit(wiring: Wiring, watched: Watched = NONE) -> Unit:
         if seen.of.upper() not in BLOCKS or {*seen.inputs} != {*BLOCKS[seen.of.upper()][0]} - {"PT"}:
             raise watched.place(name).refuse(f"observer.{name}: R_TRIG, F_TRIG, SR or RS with all its inputs")
         declare(name, Instance(seen.of), "var", watched.place(name))
-    statements = (*_scan(wiring), *_observed(watched))
+    statements = (*_scan(wiring), *observed(watched))
     return Unit("Machine", "program", variables, statements, Place(wiring.file, 1))
 
 
@@ -128,7 +128,7 @@ def _call(wiring: Wiring, name: str) -> Call:
     return Call(Name(name, place), tuple(inputs), (), place)
 
 
-def _observed(watched: Watched) -> Iterator[Statement]:
+def observed(watched: Watched) -> Iterator[Statement]:
     for name, seen in watched.rows.items():
         place = watched.place(name)
         pins = tuple((pin, parsed(text, place)) for pin, text in seen.inputs.items())

@@ -13,7 +13,7 @@ import sys
 from collections.abc import Callable, Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal
@@ -22,6 +22,13 @@ from modeproof.kit.vectors import EXACT, Case, Suite
 REFERENCE = "refimpl"
 """The package of the reference implementations: beside ours, in a checkout and in the packed kit."""
 _REMEMBERED = 20_000
+
+
+class _Loaded(Protocol):
+    code: Any
+
+
+P = TypeVar("P", bound=_Loaded)
 
 
 class Builtin:
@@ -160,10 +167,15 @@ def package_files(package: str | None) -> dict[str, str]:
 
 def own_reference(suite: Suite) -> Builtin:
     """The reference implementation of a target. Raises Unjudged where there is none beside the kit."""
+    return beside_kit(lambda: Builtin(REFERENCE, suite))
+
+
+def beside_kit(start: Callable[[], P]) -> P:
+    """A program of the package beside the kit. Raises Unjudged where it comes from elsewhere."""
     beside = str(Path(__file__).parents[2])
     if beside not in sys.path:
         sys.path.append(beside)
-    program = Builtin(REFERENCE, suite)
+    program = start()
     if not str(getattr(program.code, "__file__", "")).startswith(beside):
         raise Unjudged(f"the package {REFERENCE} beside the kit was expected, not {program.code.__file__}")
     return program

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program, split_command
-from modeproof.kit.builtin import Builtin, package_files
+from modeproof.kit.builtin import package_files
 from modeproof.kit.bundle import Bundle
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.judge import EXIT, Difference, Options, Plan, Verdict, run_suite
@@ -35,7 +35,8 @@ from modeproof.kit.text import (
     write_json,
     write_text,
 )
-from modeproof.kit.vectors import EXACT, MONITOR, SETTLED, Suite, open_suite
+from modeproof.kit.vectors import EXACT, FILE_NAME, MONITOR, SETTLED, Suite, open_suite
+from modeproof.kit.wired import program_of
 
 TEST_RIG = "--i-know-this-is-a-test-rig"
 
@@ -77,7 +78,9 @@ def add_parser(
         metavar="NAME",
         help=f"test suite, may be repeated; {FAST}: all that end soon",
     )
-    parser.add_argument("--vectors", type=Path, metavar="FILE", help="vector file instead of --suite")
+    parser.add_argument(
+        "--vectors", type=Path, metavar="FILE", help="vector file, or a folder of them, instead of --suite"
+    )
     parser.add_argument("--case", metavar="ID", help="only this case")
     parser.add_argument("--scans", metavar="LIST", help="only these scans of it, as a verdict names them")
     parser.add_argument(
@@ -163,7 +166,7 @@ def run_kit(args: argparse.Namespace) -> int:
     """Run `conform` with the kit alone: by a file, or by the vectors that are in the kit."""
     try:
         if args.vectors is not None:
-            suites = [open_vectors(args)]
+            suites = open_vectors(args)
         else:
             suites = Bundle.own().suites(args.target, args.suite or [FAST], args.relation)
         verdicts = judge(args, in_profile(args, suites))
@@ -188,12 +191,16 @@ def greet(args: argparse.Namespace, outputs: Container[str]) -> None:
             raise Unjudged(f"hello: {error}") from None
 
 
-def open_vectors(args: argparse.Namespace) -> Suite:
-    """The file that --vectors names. Raises Unjudged where it is of another target."""
-    suite = open_suite(args.vectors)
-    if suite.target != args.target:
-        raise Unjudged(f"{args.vectors}: vectors of {suite.target}, not of {args.target}")
-    return suite
+def open_vectors(args: argparse.Namespace) -> list[Suite]:
+    """The file that --vectors names, or all of a folder. Raises Unjudged where one is of another target."""
+    files = [args.vectors]
+    if args.vectors.is_dir() and not (files := sorted(args.vectors.glob(FILE_NAME.format(suite="*")))):
+        raise Unjudged(f"{args.vectors}: no vector file in this folder")
+    suites = [open_suite(file) for file in files]
+    for suite in suites:
+        if suite.target != args.target:
+            raise Unjudged(f"{suite.path}: vectors of {suite.target}, not of {args.target}")
+    return suites
 
 
 def judge(args: argparse.Namespace, suites: Sequence[Suite]) -> list[Verdict]:
@@ -351,7 +358,7 @@ def starter(args: argparse.Namespace, suite: Suite) -> Callable[[], Program]:
             raise Unjudged("--s7: a PLC is one program; --jobs is for adapters")
         # The adapter gives up first, with better words than "no answer".
         return lambda: Adapter(s7_adapter(args, suite), 3 * args.timeout + 5)
-    return lambda: Builtin(args.builtin, suite)
+    return lambda: program_of(args.builtin, suite)
 
 
 def s7_adapter(args: argparse.Namespace, suite: Suite) -> list[str]:
@@ -383,7 +390,7 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
     words.append(_program_words(args))
     if args.document:
         words.append(f"--document {args.document}")
-    words.append(f"--vectors {quoted(str(args.vectors))}" if args.vectors else f"--suite {suite.name}")
+    words.append(f"--vectors {quoted(str(suite.path))}" if args.vectors else f"--suite {suite.name}")
     for name, value, usual in (
         ("relation", args.relation, EXACT),
         ("latency", args.latency, None),

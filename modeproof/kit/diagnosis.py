@@ -24,8 +24,13 @@ def state_name(suite: Suite, case: Case, state: int) -> str:
 
 
 def step_there(suite: Suite, case: Case, at: int) -> str:
-    """Which step leads from which state to which in a scan of the case; `at` counts from 0."""
+    """Which step leads from which state to which in a scan of the case; `at` counts from 0.
+
+    Nothing where the specification's state is not known.
+    """
     scan = case.scans[at]
+    if scan.to < 0:
+        return ""
     before = case.scans[at - 1].to if at else case.initial
     states = [state_name(suite, case, state) for state in (before, scan.to)]
     where = states[0] if states[0] == states[1] else " to ".join(states)

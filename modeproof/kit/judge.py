@@ -19,7 +19,7 @@ from modeproof.kit.diagnosis import timing
 from modeproof.kit.errors import Unjudged, suggestion
 from modeproof.kit.relation import Failure, Hello, Options, Session, read_hello
 from modeproof.kit.shrink import Part, Shrinker, cut, read_part
-from modeproof.kit.vectors import EXACT, MONITOR, Case, Scan, Suite
+from modeproof.kit.vectors import EXACT, MONITOR, WIRING, Case, Scan, Suite
 from modeproof.kit.verdict import CONFORMS, DIFFERS, EXIT, PROTOCOL, UNJUDGED, Difference, Plan, Verdict
 
 __all__ = ["CONFORMS", "DIFFERS", "EXIT", "UNJUDGED", "Difference", "Hello", "Options", "Plan", "Verdict"]
@@ -396,7 +396,7 @@ def _shrunk(suite: Suite, session: Session, found: Difference, failure: Failure,
         return _with(suite, found, whole, None)
     if plan.part is not None or plan.effort <= 0:
         return _with(suite, found, whole, None)
-    anything = plan.options.relation == MONITOR
+    anything = plan.options.relation == MONITOR or WIRING in suite.header
     best = Shrinker(suite, found.case, failure.at, fails, reference(suite), anything).run()
     confirmed = best != whole
     if not confirmed:

@@ -5,7 +5,8 @@ A part begins in the power-up state, with a shortest way that the header knows t
 in the same state. The graph counts time in ticks, so the same state need not be the same time: before a part
 is tried, the reference implementation must give all that the part expects. Without it scans are left out only
 where the header knows a way to each state, for then all times are those of the graph. Where only safety
-properties are judged any scans may be left out, since nothing is expected.
+properties are judged any scans may be left out, since nothing is expected; so they may of a whole machine,
+for its reference says anew what to expect.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.vectors import Case, Scan, Suite, case_id, changes
+from modeproof.kit.vectors import WIRING, Case, Scan, Suite, case_id, changes
+from modeproof.kit.wired import expected
 
 _PART = re.compile(r"~?\d+|\d+-\d+")
 
@@ -68,6 +70,8 @@ def cut(suite: Suite, case: Case, part: Part) -> Case:
         scans = (*suite.way(case, case.scans[part.way].to), *scans)
     if scans == case.scans:
         return case
+    if WIRING in suite.header and part.kept[-1] + 1 != len(part.kept):
+        scans = expected(suite, scans)
     return replace(
         case,
         id=case_id(suite.target, case.params, changes(scans)),

@@ -245,7 +245,8 @@ def _way(found: Difference, suite: Suite | None) -> list[str]:
             lines.append(f"  request {n}, to be refused: {text}")
             continue
         inputs = _changed(before, scan.inputs)
-        there = "" if suite is None else f"  | {step_there(suite, case, n - 1)}"
+        there = "" if suite is None else step_there(suite, case, n - 1)
+        there = f"  | {there}" if there else ""
         lines.append(f"  scan {n}: +{scan.dt_ms} ms, {inputs}{'' if scan.compared else ' (settling)'}{there}")
         before = scan.inputs
     return lines

@@ -40,6 +40,8 @@ COMPACT = ".compact"
 """The suffix of a member of an archive that is in the form of modeproof.kit.compact."""
 FILE_NAME = "{suite}.jsonl.gz"
 """How the file of a suite is called in the folder of its target."""
+WIRING = "wiring"
+"""In the header of vectors of a whole machine: how its blocks are wired, from which the reference is made."""
 LONGEST_LINE = 1 << 26
 """Bytes; the longest published line has a fortieth of it."""
 _ODD = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError, RecursionError)

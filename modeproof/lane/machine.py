@@ -45,6 +45,28 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
     )
+    parser.add_argument(
+        "--source",
+        nargs="+",
+        type=Path,
+        metavar="FILE",
+        help="judge this program (ST, SCL, PLCopen XML, statement list); WIRING says what its names mean",
+    )
+    parser.add_argument(
+        "--equal",
+        action="store_true",
+        help="with --source: every output is what WIRING gives, in the place of the properties",
+    )
+    parser.add_argument("--unit", metavar="NAME", help="of --source: the program that is the machine")
+    parser.add_argument(
+        "--vectors",
+        type=Path,
+        metavar="FOLDER",
+        help="write test vectors of the machine there, for `conform`",
+    )
+    parser.add_argument(
+        "--publish", action="store_true", help="write those of the shipped wiring to vectors/"
+    )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
     parser.add_argument(
         "--trial",
@@ -130,6 +152,12 @@ def run(args: argparse.Namespace) -> int:
             if not record["as_expected"]:
                 print(f"NOT AS EXPECTED  {record['reason']}")
         return max(map(status_of, records), default=2)
+    if args.publish and (args.file, args.use, args.vectors) != (None, None, None):
+        raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
+    if not args.source and (args.unit is not None or args.equal):
+        raise Unjudged("machine: --unit and --equal belong to --source")
+    if args.source and any((args.trial is not None, args.publish, args.vectors, args.picture, args.program)):
+        raise Unjudged("machine: --source judges a program; the other outputs are made from a wiring alone")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:

@@ -20,8 +20,11 @@ from modeproof.registers.rows import Problem
 ROOM = "vectors"
 SUMS = "SHA256SUMS"
 REMEDY = "run modeproof vectors publish"
-DECIDING = ("interface.toml", "classes.toml", "contracts.toml", "sequences.toml")
+REMEDY_MACHINE = "run modeproof machine --publish"
+DECIDING = ("interface.toml", "classes.toml", "contracts.toml", "sequences.toml", "wiring.toml", "use.toml")
 """Registers that decide what a vector holds, besides the specification. Others give its sentences."""
+CODE = "refimpl/"
+"""Where the code lies that decides it for a whole machine, of which there is no graph."""
 _ERRORS = (OSError, EOFError, ValueError, zlib.error, LookupError, TypeError, AttributeError)
 """What reading a file that is none of vectors may raise."""
 
@@ -54,7 +57,7 @@ def read_vectors(packed: bytes) -> VectorFile:
 
 def drift(sources: Mapping[str, str], digest: Callable[[str], str]) -> Iterator[str]:
     """The first source of a file that has changed, if any has; `digest` gives the SHA-256 of a file now."""
-    deciding = [name for name in sources if name.startswith("spec/") and _decides(name)]
+    deciding = [name for name in sources if _decides(name)]
     if not deciding:
         yield "does not say which specification it was made from"
     for name in deciding:
@@ -71,15 +74,39 @@ def check_vectors(root: Path) -> list[Problem]:
         return _sha256(root / name)
 
     room = root / ROOM
-    paths = sorted(room.glob("*/*.jsonl.gz"))
+    paths = published_files(root)
     listed = _sums(root)
     names = {path.relative_to(room).as_posix() for path in paths}
     lost = [Problem(f"{ROOM}/{name}", "", "is not there") for name in sorted(set(listed) - names)]
     return lost + [
-        Problem(path.relative_to(root).as_posix(), "", f"{text}; {REMEDY}")
+        Problem(path.relative_to(root).as_posix(), "", f"{text}; {remedy(path)}")
         for path in paths
         for text in _faults(path, listed.get(path.relative_to(room).as_posix()), digest)
     ]
+
+
+def published_files(root: Path, target: str = "*") -> list[Path]:
+    """The published files of a target, or of all."""
+    return sorted((root / ROOM).glob(f"{target}/*.jsonl.gz"))
+
+
+def suite_name(path: Path) -> str:
+    """The suite of a published file."""
+    return path.name.removesuffix(".jsonl.gz")
+
+
+def of_machine(path: Path) -> bool:
+    """Whether a file holds vectors of a whole machine, whose header has its wiring."""
+    try:
+        with gzip.open(path, "rb") as lines:
+            return "wiring" in json.loads(next(lines, b""))
+    except _ERRORS:
+        return False
+
+
+def remedy(path: Path) -> str:
+    """What brings a published file up to date."""
+    return REMEDY_MACHINE if of_machine(path) else REMEDY
 
 
 def published(root: Path, target: str, suite: str) -> Path | None:
@@ -128,7 +155,9 @@ def _no_file(error: BaseException) -> str:
 
 
 def _decides(name: str) -> bool:
-    return name.endswith(".tla") or name.rsplit("/", 1)[1] in DECIDING
+    if name.startswith("spec/"):
+        return name.endswith(".tla") or name.rsplit("/", 1)[1] in DECIDING
+    return name.startswith(CODE)
 
 
 def _sha256(path: Path) -> str:

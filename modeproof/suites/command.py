@@ -26,11 +26,11 @@ from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.judge import EXIT
 from modeproof.kit.profile import ALL, LETTER
 from modeproof.kit.text import as_record, joint_word, write_json
-from modeproof.kit.vectors import EXACT, SETTLED, Suite, open_suite
+from modeproof.kit.vectors import EXACT, SETTLED, WIRING, Suite, open_suite
 from modeproof.kit.verdict import Verdict
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
-from modeproof.registers.vector_files import published
+from modeproof.registers.vector_files import of_machine, published, published_files, remedy, suite_name
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
@@ -44,6 +44,8 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
 def run(args: argparse.Namespace) -> int:
     """Run `conform`; the exit status is that of the verdict."""
     try:
+        if suites := machine_suites(root(), args):
+            return EXIT[joint_word(kit_command.judge(args, kit_command.in_profile(args, suites)))]
         if args.builtin is not None and args.suite is None and args.vectors is None:
             return _builtin(args)
         return _program(args)
@@ -62,7 +64,7 @@ def _program(args: argparse.Namespace) -> int:
     if args.vectors is not None:
         if args.suite:
             raise Unjudged("--vectors names one file, and --suite others: give one of them")
-        suites = [kit_command.open_vectors(args)]
+        suites = kit_command.open_vectors(args)
     else:
         with only_one(place):
             suites = _suites(place, document, device, args)
@@ -170,6 +172,29 @@ def _record(
         result={**about, **as_record(verdict), "says": suite.says},
         reason="" if verdict.status == 0 else verdict.reason or "the program differs",
     )
+
+
+def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
+    """The suites asked for, if the target is a whole machine: it has vectors and no register.
+
+    Raises Unjudged where they are of another text.
+    """
+    if args.vectors is not None:
+        suites = kit_command.open_vectors(args)
+        return suites if all(WIRING in suite.header for suite in suites) else []
+    files = [path for path in published_files(place, args.target) if of_machine(path)]
+    names = [suite_name(path) for path in files]
+    asked = [name for name in args.suite or () if name != kit_command.FAST]
+    if files and (strange := [name for name in asked if name not in names]):
+        raise Unjudged(f"no suite {strange[0]!r}; {suggestion(strange[0], [kit_command.FAST, *names])}")
+    chosen = [path for path, name in zip(files, names, strict=True) if not asked or name in asked]
+    for path in chosen:
+        if published(place, args.target, suite_name(path)) is None:
+            raise Unjudged(f"{path.relative_to(place)} is of another text; {remedy(path)}")
+    found = [open_suite(path) for path in chosen]
+    if chosen and not (found := [suite for suite in found if args.relation in suite.relations]):
+        raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
+    return found
 
 
 def _suites(place: Path, document: str, device: Device, args: argparse.Namespace) -> list[Suite]:

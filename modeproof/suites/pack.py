@@ -1,8 +1,8 @@
 """Packs the kit into one file that needs nothing but Python: modeproof.kit, modeproof.s7,
 the reference implementations and vectors.
 
-Inside are the fast suites of every published target. The same inputs give the same bytes: no dates, names in
-order.
+Inside are the fast suites of every published target, and what is published of a whole machine. The same
+inputs give the same bytes: no dates, names in order.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from modeproof.kit.builtin import REFERENCE
 from modeproof.kit.bundle import CONTENTS, FOLDER
 from modeproof.kit.compact import compact, same
 from modeproof.kit.vectors import COMPACT, open_suite, read_lines
+from modeproof.registers.vector_files import of_machine, published_files, suite_name
 from modeproof.suites.build import suite_file
 from modeproof.suites.kinds import SUITES
 
@@ -62,23 +63,34 @@ def pack(place: Path, targets: Mapping[str, str], path: Path, every: bool = Fals
                 if about.always:
                     raise Unjudged(f"{target}: suite {name} is not built; `modeproof vectors build` does it")
                 continue
-            suite = open_suite(file)
-            ending, data = _smaller(file)
-            inside[name] = {
-                "file": f"{target}/{name}{ending}",
-                "bytes": len(data),
-                "relations": list(suite.relations),
-                "pace": suite.header["pace"],
-                "cases": suite.case_count,
-                "scans": suite.scan_count,
-                "guarantees": suite.header["guarantees"],
-            }
-            members[f"{FOLDER}/{inside[name]['file']}"] = data
+            inside[name] = _inside(file, target, name, members)
         contents["targets"][target] = inside
         contents["left_out"][target] = outside
+    for file in published_files(place):
+        if of_machine(file):
+            target, name = file.parent.name, suite_name(file)
+            of_target = contents["targets"].setdefault(target, {})
+            of_target[name] = _inside(file, target, name, members)
     members[f"{FOLDER}/{CONTENTS}"] = json.dumps(contents, indent=1, sort_keys=True).encode()
     _write(path, members)
     return contents
+
+
+def _inside(file: Path, target: str, name: str, members: dict[str, bytes]) -> dict[str, Any]:
+    """The row of a vector file in the list of contents; the file is put to the members."""
+    suite = open_suite(file)
+    ending, data = _smaller(file)
+    row = {
+        "file": f"{target}/{name}{ending}",
+        "bytes": len(data),
+        "relations": list(suite.relations),
+        "pace": suite.header["pace"],
+        "cases": suite.case_count,
+        "scans": suite.scan_count,
+        "guarantees": suite.header["guarantees"],
+    }
+    members[f"{FOLDER}/{row['file']}"] = data
+    return row
 
 
 def _smaller(source: Path) -> tuple[str, bytes]:

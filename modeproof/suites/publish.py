@@ -14,7 +14,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.kit.vectors import FILE_NAME, read_lines
-from modeproof.registers.vector_files import ROOM, SUMS, sums_text
+from modeproof.registers.vector_files import ROOM, SUMS, of_machine, sums_text
 from modeproof.suites.build import suite_file
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
@@ -57,7 +57,7 @@ def publish(place: Path, targets: Mapping[str, str], whole: bool = True) -> Publ
             written.append(shown)
     removed = []
     for path in sorted((place / ROOM).rglob(FILE_NAME.format(suite="*"))):
-        if path not in wanted.values() and (whole or path.parent.name in targets):
+        if path not in wanted.values() and (whole or path.parent.name in targets) and not of_machine(path):
             path.unlink()
             removed.append(path.relative_to(place).as_posix())
     write_whole(place / ROOM / SUMS, sums_text(place / ROOM).encode())

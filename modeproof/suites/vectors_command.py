@@ -129,7 +129,7 @@ def _pack(place: Path, args: argparse.Namespace) -> int:
     for target, suites in contents["targets"].items():
         sizes = [f"{name} {row['bytes']:,}" for name, row in suites.items()]
         print(f"{target}: {', '.join(sizes)} bytes")
-        for name, why in contents["left_out"][target].items():
+        for name, why in contents["left_out"].get(target, {}).items():
             print(f"    without {name}: {why}")
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     print(f"{path}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
-import io
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -14,8 +12,8 @@ from typing import Any
 from modeproof.graph.columns import merge_columns
 from modeproof.graph.device import DeviceGraph
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.ground.evidence.files import write_whole
-from modeproof.kit.vectors import KIND, MONITOR, PACKED, VERSION, id_of_text
+from modeproof.ground.evidence.files import write_lines
+from modeproof.kit.vectors import KIND, MONITOR, VERSION, id_of_text
 from modeproof.registers.profiles import profiles_of
 from modeproof.registers.rows import Device
 from modeproof.suites.contract import declare, declare_parameters
@@ -24,8 +22,6 @@ from modeproof.suites.rows import Pieces, Rows, changed
 from modeproof.suites.script import Script
 
 ADAPTER = "adapter"
-PACKING = 9
-"""How hard gzip tries."""
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
 _SORTED = json.JSONEncoder(sort_keys=True, separators=(",", ":")).encode
 
@@ -93,7 +89,7 @@ def write_suite(
         raise NoCases(f"{devices[0].device.id} {suite}: the suite would have no cases")
     header = writer.header(dict(sources or {}), contract)
     header["texts"] = _cited_texts(header, texts or {})
-    _write_lines(path, [_line(header), *writer.cases])
+    write_lines(path, [_line(header), *writer.cases])
     return writer.stats()
 
 
@@ -291,14 +287,3 @@ def _cited_texts(header: Mapping[str, Any], texts: Mapping[str, str]) -> dict[st
 
 def _line(row: Mapping[str, Any]) -> str:
     return _ENCODE(row) + "\n"
-
-
-def _write_lines(path: Path, lines: Sequence[str]) -> None:
-    content = "".join(lines).encode()
-    if path.suffix == PACKED:
-        held = io.BytesIO()
-        # No name, date or system (gzip.compress names the system), so the same lines give the same bytes.
-        with gzip.GzipFile("", "wb", PACKING, held, mtime=0) as packed:
-            packed.write(content)
-        content = held.getvalue()
-    write_whole(path, content)

@@ -20,6 +20,7 @@ from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
+from modeproof.trace import machine
 from modeproof.trace.exact import Scans
 from modeproof.trace.judge import Graphs, Judgement, judge_logs, why_not
 from modeproof.trace.lines import read_lines
@@ -74,6 +75,9 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--codes", action="store_true", help="compare outputs too whose values the document does not give"
     )
+    parser.add_argument(
+        "--wiring", metavar="FILE", type=Path, help="of a whole machine: yours, not the shipped one"
+    )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
@@ -82,6 +86,10 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run `trace`; the exit status is that of the verdict."""
     place = root()
+    if machine.is_machine(place, args.target):
+        return machine.run(args, place, read_log)
+    if args.wiring is not None:
+        raise Unjudged(f"--wiring is for a whole machine, and {args.target} is none")
     target = find_target(place, args.target, args.document)
     try:
         log = read_log(args, target)

@@ -6,8 +6,10 @@ A file appears whole or not at all: it is written beside its place, flushed to t
 
 from __future__ import annotations
 
+import gzip
+import io
 import json
-from collections.abc import Mapping, Set
+from collections.abc import Iterable, Mapping, Set
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -64,6 +66,18 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
         files.write_whole(path, content, mode)
     except OSError as error:
         raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None
+
+
+def write_lines(path: Path, lines: Iterable[str]) -> None:
+    """Write a text, packed by gzip where the name ends so; the same lines give the same bytes."""
+    content = "".join(lines).encode()
+    if path.suffix == ".gz":
+        held = io.BytesIO()
+        # No name, date or system (gzip.compress names the system).
+        with gzip.GzipFile("", "wb", 9, held, mtime=0) as packed:
+            packed.write(content)
+        content = held.getvalue()
+    write_whole(path, content)
 
 
 def discard(place: Path, document: str, id: str, folder: str = OURS) -> None:

@@ -1,0 +1,135 @@
+"""Vectors of a whole machine: the reference conforms, mistakes of the wiring differ, drift is noticed."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from modeproof.cli import main
+from modeproof.kit.adapter import Adapter
+from modeproof.kit.judge import CONFORMS, DIFFERS, Plan, run_suite
+from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.wired import Wired
+from modeproof.registers.vector_files import check_vectors
+from modeproof.suites.lint import lint
+from programs.machine_trial import edits
+from programs.wiring import wiring_of
+
+ROOT = Path(__file__).parents[2]
+FOLDER = ROOT / "spec/machine_cell"
+TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
+ROOM = ROOT / "vectors/machine_cell"
+NAMES = ("sequences", "faults", "sic", "mistakes")
+ADAPTER = f"{sys.executable} {ROOT}/examples/adapters/machine_adapter.py"
+ON_THE_PAGE = [
+    line.split("`")[1]
+    for line in (ROOT / "docs/wire-your-machine.md").read_text("utf-8").splitlines()
+    if line.startswith("| `") and line.count("|") == 5
+]
+
+
+def suite(name: str) -> Suite:
+    return open_suite(ROOM / f"{name}.jsonl.gz")
+
+
+def wired(text: str) -> Wired:
+    return Wired("refimpl", "machine_cell", tomllib.loads(text))
+
+
+def differs(text: str, names: tuple[str, ...] = NAMES) -> str:
+    """The first suite by which a wiring differs; nothing where it conforms."""
+    for name in names:
+        one = suite(name)
+        verdict = run_suite(one, lambda: wired(text), plan=Plan(most=1, effort=0))
+        if verdict.word == DIFFERS:
+            return name
+        assert verdict.word == CONFORMS, verdict.reason
+    return ""
+
+
+@pytest.mark.parametrize("name", ["mistakes", pytest.param("sequences", marks=pytest.mark.deep)])
+def test_the_shipped_reference_conforms_as_an_adapter(name: str) -> None:
+    one = suite(name)
+    assert run_suite(one, lambda: Adapter(ADAPTER)).word == CONFORMS
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("name", NAMES)
+def test_the_wired_reference_gives_what_every_suite_expects(name: str) -> None:
+    one = suite(name)
+    assert run_suite(one, lambda: wired(TEXT)).word == CONFORMS
+
+
+def test_a_crossed_wire_differs_with_scan_and_inputs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine = tmp_path / "my.toml"
+    mine.write_text(
+        TEXT.replace('S_OutControl = "running.Q1"', 'S_OutControl = "guard.S_GuardLocked"'), "utf-8"
+    )
+    args = ["conform", "machine_cell", "--adapter", f"{ADAPTER} {mine}", "--suite", "sequences", "--quiet"]
+    assert main([*args, "--differences", "1", "--json", str(tmp_path / "verdict.json")]) == 1
+    said = capsys.readouterr().out
+    assert "S_DriveEnable        false                true" in said
+    found = json.loads((tmp_path / "verdict.json").read_text("utf-8"))["difference"]
+    scans = found["shortest"]["scans"]
+    assert found["shortest_confirmed"]
+    assert len(scans) < found["scan"]
+    again = next(line for line in said.splitlines() if line.startswith("again:"))
+    assert "--scans" in again
+
+
+@pytest.mark.parametrize("id", ON_THE_PAGE[:3])
+def test_a_mistake_on_the_page_differs(id: str) -> None:
+    assert differs(edited(id))
+
+
+@pytest.mark.deep
+def test_every_mistake_on_the_page_differs() -> None:
+    assert len(ON_THE_PAGE) >= 15
+    assert not [id for id in ON_THE_PAGE if not differs(edited(id))]
+
+
+def edited(id: str) -> str:
+    return next(edit.after for edit in edits(TEXT, wiring_of(TEXT, "w")) if edit.id == id)
+
+
+def test_headers_say_what_is_not_shown() -> None:
+    for name in NAMES:
+        one = suite(name)
+        assert "no model checker walked a graph of the whole machine" in one.says["does_not_show"]
+        assert one.header["wiring"] == tomllib.loads(TEXT)
+        assert {case.basis for case in one.cases()} == {"design"}
+
+
+def test_published_files_are_small_and_lint_passes() -> None:
+    paths = [ROOM / f"{name}.jsonl.gz" for name in NAMES]
+    assert sorted(ROOM.glob("*")) == sorted(paths)
+    assert sum(path.stat().st_size for path in paths) < 300_000
+    assert [problem for path in paths for problem in lint(path)] == []
+
+
+@pytest.mark.parametrize("source", ["spec/machine_cell/wiring.toml", "refimpl/edm/sf_edm.py"])
+def test_vectors_of_another_wiring_are_no_longer_used(
+    source: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for folder in ("spec/machine_cell", "vectors/machine_cell", "refimpl"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    shutil.copy(ROOT / "vectors/SHA256SUMS", tmp_path / "vectors")
+    ours = [one for one in check_vectors(tmp_path) if one.file.startswith("vectors/machine_cell")]
+    assert ours == []
+    with (tmp_path / source).open("a") as file:
+        file.write("# changed\n")
+    problems = [str(one) for one in check_vectors(tmp_path) if one.file.startswith("vectors/machine_cell")]
+    assert len(problems) == 4
+    assert f"{source} has changed; run modeproof machine --publish" in problems[0]
+
+
+def test_an_unknown_suite_of_the_machine_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["conform", "machine_cell", "--builtin", "refimpl", "--suite", "tour"]) == 2
+    assert "no suite 'tour'; allowed: fast, faults, mistakes, sequences, sic" in capsys.readouterr().err
