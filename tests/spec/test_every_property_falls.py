@@ -249,7 +249,7 @@ def test_a_killer_is_asked_for_its_property_alone() -> None:
     assert (run.properties, run.property, run.deadlock) == (("IdleShowsNothing",), "", False)
 
 
-def test_a_property_that_no_cfg_asks_is_not_said_to_hold() -> None:
+def test_a_property_that_no_cfg_asks_is_unjudged() -> None:
     run = run_of(DOCUMENTS["edm"], KILLERS["edm"], KILLERS["edm"].edits["StopAtOnce"])
     for name in ("Nothing", "EnablesAgain"):
         with pytest.raises(Unjudged, match=f"its cfg does not check {name}"):
