@@ -39,19 +39,22 @@ def judge_killer(document: Document, sources: Sources, killer: Killer, tools: To
 def run_with(document: Document, run: Run, texts: Mapping[str, str], tools: Toolchain) -> Judgement:
     """What TLC says of a run of `run_of`, with these texts in the place of the modules of these names.
 
-    Raises Unjudged when it says nothing.
+    Raises Unjudged when it says nothing, or the cfg does not ask every property of the run.
     """
+    cfg = cfg_text(document.root, run)
+    asked = parse_cfg(cfg, run.config)
+    if lost := [name for name in run.properties if name not in asked.checked]:
+        raise Unjudged(f"{document.name}: {run.id}: its cfg does not check {', '.join(lost)}")
     rooms = build(document.root) / "tlc" / document.name
     rooms.mkdir(parents=True, exist_ok=True)
     with children.room("killer.", rooms) as folder:
-        cfg = cfg_text(document.root, run)
         for name, text in {**texts, ROOT: root_module(ROOT, run.module, ())}.items():
             (folder / f"{name}.tla").write_text(text, encoding="utf-8")
         (folder / f"{ROOT}.cfg").write_text(cfg, encoding="utf-8")
         id = folder.name.replace(".", "_")
         by_hand = msgspec.structs.replace(run, id=id, module=ROOT, cfg=f"{ROOT}.cfg", base="", workers=1)
         outcome = run_tlc(document.root, by_hand, tools, made_in=folder)
-        found = judge(by_hand, parse_cfg(cfg, by_hand.cfg), hashlib.sha256(cfg.encode()).hexdigest(), outcome)
+        found = judge(by_hand, asked, hashlib.sha256(cfg.encode()).hexdigest(), outcome)
         (rooms / f"{id}.log").unlink(missing_ok=True)
     if not found.judged:
         raise Unjudged(f"{document.name}: {', '.join(run.properties)}: {found.reason}")

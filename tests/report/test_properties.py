@@ -139,7 +139,7 @@ def test_the_runs_table_has_every_declared_run_with_its_command(root: Path) -> N
     assert rows["NEG_Box_hasty"]["command"] == "modeproof check box/NEG_Box_hasty"
 
 
-def test_an_edit_is_shown_and_says_where_it_was_not_judged(root: Path) -> None:
+def test_an_edit_says_where_it_was_not_judged(root: Path) -> None:
     file = root / "spec/box/killers.toml"
     place = 'property = "ShutsOverDoor"\nrun = "MC_Box"\nmodule = "Box"\n'
     row = f"[[killer]]\n{place}old = 'Ready(i) == i.door \\/ ~Needed'\nnew = 'Ready(i) == TRUE'\n"

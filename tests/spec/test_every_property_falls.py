@@ -249,6 +249,13 @@ def test_a_killer_is_asked_for_its_property_alone() -> None:
     assert (run.properties, run.property, run.deadlock) == (("IdleShowsNothing",), "", False)
 
 
+def test_a_property_that_no_cfg_asks_is_unjudged() -> None:
+    run = run_of(DOCUMENTS["edm"], KILLERS["edm"], KILLERS["edm"].edits["StopAtOnce"])
+    for name in ("Nothing", "EnablesAgain"):
+        with pytest.raises(Unjudged, match=f"its cfg does not check {name}"):
+            run_with(DOCUMENTS["edm"], msgspec.structs.replace(run, properties=(name,)), {}, find_toolchain())
+
+
 @pytest.mark.parametrize("wrong", ["bounds = 3", "killer = 3", "killer = [3]", "by_construction = 3"])
 def test_a_file_of_another_form_is_refused_in_a_line(tree: Path, wrong: str) -> None:
     (tree / "spec/edm/killers.toml").write_text(wrong)
