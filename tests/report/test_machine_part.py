@@ -16,75 +16,8 @@ from modeproof.report.filing import Filing
 from modeproof.report.junit import junit
 from modeproof.report.parts import machine
 from modeproof.report.sources import DIFFERS, HOLE, gather
+from tests.report.box_machine import RESULT, ROW, add_machine, put_machine
 from tests.report.paper import make_whole
-
-PAGE = "# Wiring\n\n## What this does not show\n\n- No person is in the model.\n\n## More\n\nother words\n"
-ROW: dict[str, Any] = {
-    "id": "shut-first",
-    "sentence": "It is shut before it moves.",
-    "property": "move only if shut",
-    "hazard": "A <b>hand</b> is caught.",
-    "cites": ["BX-1-2", "E-01", "XX-9"],
-    "verdict": "PROVED",
-    "how": "",
-    "reached_in_scans": [4],
-    "wires": [],
-    "trace": [],
-}
-RESULT: dict[str, Any] = {
-    "basis": "our own design",
-    "title": "a box that moves",
-    "scan_ms": [5, 50],
-    "cycle_ms": 10,
-    "trusted": ["the reader of wirings"],
-    "verdicts": [ROW],
-    "problems": [],
-    "order": ["box"],
-    "picture": {
-        "boxes": [
-            {"id": "from_desk", "title": "desk", "outside": True},
-            {"id": "box", "title": "SF_Box", "outside": False},
-        ],
-        "wires": [{"source": "from_desk", "target": "box", "names": ["Start", "Stop"]}],
-    },
-    "matrix": {"safeguards": ["lid"], "rows": [{"mode": "slow", "sets": ["1"], "why": "by hand"}]},
-    "killers": [
-        {
-            "property": "shut-first",
-            "kind": "bridged",
-            "row": "block.box.inputs.Lid",
-            "text": "TRUE",
-            "was": "Lid",
-            "scans": [{"dt_ms": 5, "in": "Start=1", "out": "move=1"}],
-        }
-    ],
-    "trial": {
-        "edits": 9,
-        "judged": 7,
-        "of_another_wiring": 0,
-        "counts": {"KILLED": 6, "SURVIVED": 1},
-        "falls": {"shut-first": 6},
-        "left": [{"edit": "order = box last", "kind": "order", "verdict": "SURVIVED", "why": ""}],
-    },
-    "work": {"cpu_s": 1.5},
-}
-
-
-def put_machine(root: Path, result: dict[str, Any] = RESULT, **changes: Any) -> None:
-    record = evidence.make(
-        kind="machine",
-        id="machine",
-        document="cell",
-        verdict="PROVED",
-        expected="PROVED",
-        as_expected=True,
-        command="modeproof machine --evidence",
-        started=0.0,
-        seconds=2.0,
-        inputs=evidence.hashes(root, [root / "spec/cell/wiring.toml"]),
-        result=result,
-    )
-    evidence.write(root, record | changes)
 
 
 @pytest.fixture
@@ -92,10 +25,7 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The box, and a machine of its own with evidence."""
     monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
     make_whole(tmp_path)
-    (tmp_path / "spec/cell").mkdir()
-    (tmp_path / "spec/cell/wiring.toml").write_text("title = 'a box that moves'\n")
-    (tmp_path / "docs/wire-your-machine.md").write_text(PAGE)
-    put_machine(tmp_path)
+    add_machine(tmp_path)
     return tmp_path
 
 

@@ -11,6 +11,7 @@ from playwright.sync_api import Browser
 
 from modeproof.report.build import make
 from tests.report.box_graph import add_graph
+from tests.report.box_machine import add_machine
 from tests.report.box_vectors import put_vectors
 from tests.report.browser.opened import Opened, open_page
 from tests.report.paper import make_paper, put, without
@@ -22,6 +23,7 @@ def box_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     root = make_paper(tmp_path_factory.mktemp("box"))
     add_graph(root)
     put_vectors(root)
+    add_machine(root)
     put(root, "MC_Box_lazy", verdict="VIOLATED", expected="HOLDS", as_expected=False, reason="it falls")
     without(root, "WIT_Box")
     return write(root / "report.html", make(root).html)
