@@ -102,6 +102,81 @@ def edited(id: str) -> str:
     return next(edit.after for edit in edits(TEXT, wiring_of(TEXT, "w")) if edit.id == id)
 
 
+SMALL = """title = "one contactor"
+cycle_ms = 10
+scan_ms = [5, 50]
+order = ["edm"]
+[inputs]
+Start = { type = "BOOL", from = "desk", why = "held to run" }
+Reset = { type = "BOOL", from = "desk", why = "resets" }
+S_Contactor = { type = "BOOL", from = "contactor", why = "TRUE is dropped out" }
+[modes]
+on = { is = "Start", why = "the only one" }
+[safeguards]
+none = { is = "TRUE", why = "none is needed" }
+[matrix]
+on = [["none"]]
+[block.edm]
+of = "SF_EDM"
+why = "the contactor"
+[block.edm.inputs]
+Activate = "TRUE"
+S_OutControl = "Start"
+S_EDM1 = "S_Contactor"
+S_EDM2 = "S_Contactor"
+S_StartReset = "FALSE"
+Reset = "Reset"
+[block.edm.parameters]
+MonitoringTime = 200
+[outputs]
+S_Drive = { is = "edm.S_EDM_Out", to = "contactor", why = "picks up" }
+Lamp = { is = "edm.Error", to = "desk", why = "an error" }
+"""
+USE = """[rest]
+S_Contactor = true
+[follows]
+S_Contactor = "NOT S_Drive"
+[[story]]
+id = "run"
+first = true
+row = [{ Reset = true }, { Reset = false }, { Start = true, scans = 5 }, { Start = false }]
+"""
+
+
+def test_vectors_of_an_own_wiring_are_written_and_judge(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine, use, wrong = (tmp_path / name for name in ("my.toml", "use.toml", "wrong.toml"))
+    mine.write_text(SMALL, "utf-8")
+    use.write_text(USE, "utf-8")
+    wrong.write_text(SMALL.replace("MonitoringTime = 200", "MonitoringTime = 2000"), "utf-8")
+    folder = tmp_path / "vectors"
+    assert main(["machine", str(mine), "--use", str(use), "--vectors", str(folder)]) == 0
+    assert {path.name.split(".")[0] for path in folder.glob("*")} >= {"sequences", "faults", "sic"}
+    for file, status in ((mine, 0), (wrong, 1)):
+        args = [
+            "conform",
+            "machine_cell",
+            "--adapter",
+            f"{ADAPTER} {file}",
+            "--vectors",
+            str(folder),
+            "--quiet",
+        ]
+        assert main(args) == status
+    said = capsys.readouterr().out
+    assert "edits show" in said or "no case is needed" in said
+
+
+def test_published_vectors_are_only_of_the_shipped_wiring(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine = tmp_path / "my.toml"
+    mine.write_text(SMALL, "utf-8")
+    assert main(["machine", str(mine), "--publish"]) == 2
+    assert "--vectors FOLDER writes those of yours" in capsys.readouterr().err
+
+
 def test_headers_say_what_is_not_shown() -> None:
     for name in NAMES:
         one = suite(name)
