@@ -18,6 +18,7 @@ from modeproof.ground.lock import only_one
 from modeproof.ground.places import build, root
 from modeproof.kit.text import write_json
 from modeproof.kit.vectors import FILE_NAME, Case, Suite, open_suite, read_lines
+from modeproof.registers.vector_files import of_machine, published_files
 from modeproof.suites.build import find_target, make_graphs, published, ready_suite, suite_file
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
@@ -162,7 +163,7 @@ def _digest(path: Path) -> str:
 
 def _files(place: Path, args: argparse.Namespace) -> list[Path]:
     """The vector files of the targets and suites asked for. Raises Unjudged when one of them has none."""
-    files = sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}"))
+    files = _known(place)
     suites = [FILE_NAME.format(suite=name) for name in args.suite or ()]
     found = [
         path
@@ -178,10 +179,16 @@ def _files(place: Path, args: argparse.Namespace) -> list[Path]:
     return found
 
 
+def _known(place: Path) -> list[Path]:
+    """All vector files: those that were built, and those of machines, which are published alone."""
+    built = sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}"))
+    return [*built, *(path for path in published_files(place) if of_machine(path))]
+
+
 def _lint(place: Path, args: argparse.Namespace) -> int:
     status = EXIT_AS_EXPECTED
     for path in _files(place, args):
-        name = path.relative_to(build(place)).as_posix()
+        name = path.relative_to(build(place) if path.is_relative_to(build(place)) else place).as_posix()
         problems = lint(path)
         print(f"{'NOT' if problems else 'ok '} {name}", flush=True)
         for problem in problems[:20]:
@@ -242,7 +249,7 @@ def _show(place: Path, args: argparse.Namespace) -> int:
 
 
 def _find(place: Path, id: str) -> tuple[Suite, Case]:
-    for path in sorted((build(place) / "vectors").glob(f"*/*/{FILE_NAME.format(suite='*')}")):
+    for path in _known(place):
         if not any(line.startswith(f'{{"id":"{id}"'.encode()) for line in read_lines(path)):
             continue
         suite = open_suite(path)
