@@ -14,7 +14,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.kit.files import write_json, write_text
-from programs import certificate, machine_picture
+from programs import certificate, machine_picture, machine_tlc
 from programs.machine import Machine, Verdict
 from programs.machine_trial import Outcome, Trial, as_toml, edits
 from programs.property_command import TRUSTED
@@ -34,7 +34,9 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
-    if args.program is not None or args.picture is not None:
+    if args.model is not None:
+        write_text(args.model, machine_tlc.model_of(wiring, folder))
+    if args.program is not None or args.picture is not None or args.model is not None:
         return 0
     machine = Machine(
         file.read_text("utf-8"),

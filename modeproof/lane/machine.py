@@ -9,6 +9,7 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.proofs import proofs_module
+from modeproof.lane import machine_tlc
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -34,6 +35,14 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         "--program", type=Path, metavar="FILE", help="write the machine as Structured Text there"
     )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
+    parser.add_argument("--model", type=Path, metavar="FILE", help="write the wiring as a TLA+ module there")
+    parser.add_argument(
+        "--tlc",
+        nargs="?",
+        const="",
+        metavar="PART",
+        help="TLC judges the blocks' contracts, and the wiring over them: runs with PART in their name",
+    )
     parser.add_argument(
         "--trial",
         nargs="?",
@@ -54,4 +63,6 @@ def run(args: argparse.Namespace) -> int:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
+    if args.tlc is not None:
+        return machine_tlc.run(args)
     return int(proofs_module("programs.machine_command").run(args))

@@ -1,0 +1,128 @@
+"""The runs of TLC for a machine: module, cfg and what is expected, from spec/machine_cell/tlc.toml."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from modeproof.registers.typed import Count, Entry, Text, typed
+from programs.machine_model import As, Asked, Block, Model, asked_of, read_blocks
+from programs.wiring import Wiring, read_wiring
+
+
+class Row(Entry, frozen=True, kw_only=True):
+    """A row of tlc.toml; the file says what each key means."""
+
+    id: Text
+    keeps: str = ""
+    needs: str = ""
+    permits: str = ""
+    assumes: tuple[Text, ...] = ()
+    properties: tuple[Text, ...] = ()
+    anything: tuple[Text, ...] = ()
+    at_once: tuple[Text, ...] = ()
+    whole: tuple[Text, ...] = ()
+    distinct: Count | None = None
+    generated: Count | None = None
+
+
+class Rows(Entry, frozen=True, kw_only=True):
+    """The file."""
+
+    run: tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Task:
+    """What TLC is to run: the files by their names, the invariants and temporal formulas that it checks."""
+
+    id: str
+    files: Mapping[str, str]
+    checks: tuple[str, ...]
+    breaks: bool
+    """Whether it must be refuted."""
+    distinct: int | None
+    generated: int | None
+
+
+def tasks(file: Path | None, folder: Path, properties: Path | None = None) -> Iterator[Task]:
+    """The runs for a wiring (None: the shipped one). Raises Unjudged."""
+    wiring = read_wiring(file or folder / "wiring.toml")
+    safety = properties or folder / "safety.toml"
+    blocks = read_blocks(folder / "blocks.toml")
+    path = folder / "tlc.toml"
+    try:
+        rows = typed(Rows, tomllib.loads(path.read_text("utf-8")), str(path)).run
+        table = tomllib.loads(safety.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise Unjudged(f"{path}: cannot be read: {error}") from None
+    for row in rows:
+        if row.keeps or row.needs:
+            yield _kept(row, blocks[(row.keeps or row.needs).upper()])
+        else:
+            yield _cell(row, wiring, blocks, table, str(safety))
+
+
+def model_of(wiring: Wiring, folder: Path) -> str:
+    """The module of a wiring over the contracts of its blocks, with every property that has no time."""
+    table = tomllib.loads((folder / "safety.toml").read_text("utf-8"))
+    asked = asked_of(table, "safety.toml")
+    model = Model(wiring, read_blocks(folder / "blocks.toml"), table.get("observer", {}), asked)
+    return model.text("MachineCell", (f"{wiring.table.title}, over the contracts of its blocks.", *MADE))
+
+
+ANYTHING: As = "anything"
+AT_ONCE: As = "at_once"
+WHOLE: As = "whole"
+MADE = ("Made by `modeproof machine --model FILE` from a wiring. Our own design: no claim about a paper.",)
+
+
+def _cell(
+    row: Row, wiring: Wiring, blocks: Mapping[str, Block], table: Mapping[str, Any], safety: str
+) -> Task:
+    asked: list[Asked] = asked_of(table, safety, row.properties)
+    stand: dict[str, As] = {}
+    stand |= dict.fromkeys(row.anything, ANYTHING)
+    stand |= dict.fromkeys(row.at_once, AT_ONCE)
+    stand |= dict.fromkeys(row.whole, WHOLE)
+    for name in (*stand, *row.assumes):
+        if name not in wiring.table.block:
+            raise wiring.refuse("block", f"tlc.toml: {row.id} speaks of a block {name!r}, which is not there")
+    model = Model(wiring, blocks, table.get("observer", {}), asked, stand)
+    checks = [*(f"Assumes_{name}" for name in row.assumes), *(one.name for one in asked)]
+    cfg = f"CONSTANT Words = {{0}}\nSPECIFICATION Spec\nINVARIANTS {' '.join(checks)}\n"
+    files = {"Cell.tla": model.text("Cell"), "Cell.cfg": cfg}
+    return Task(row.id, files, tuple(checks), False, row.distinct, row.generated)
+
+
+def _kept(row: Row, block: Block) -> Task:
+    variables = ", ".join(block.variables)
+    permitted = "C!Assumes(Row, i) /\\ " if row.keeps else f"{row.permits or 'TRUE'} /\\ "
+    lines = [
+        "---- MODULE Kept ----",
+        f"EXTENDS {block.name}Shows",
+        "VARIABLES in, beat",
+        f"C == INSTANCE {block.name}Contract",
+        'Init == Starts /\\ step = "" /\\ beat = FALSE /\\ in = <<>>',
+        f"Next == \\E i \\in Inputs : {permitted}Call(i) /\\ in' = i /\\ beat' = ~beat",
+        f"Spec == Init /\\ [][Next]_<<{variables}, step, in, beat>>",
+        f"View == <<{variables}>>",
+        "HasARow == Row \\in C!Rows /\\ (in = <<>> => Row = C!Start)",
+        "Keeps == [][C!Guarantees(Row, in', Row')]_beat",
+        f"Besides == [][{block.besides or 'TRUE'}]_beat",
+        "====",
+    ]
+    checks = ("HasARow", "Keeps", "Besides") if row.keeps else ("Keeps",)
+    # a cfg has no place for a function, so each constant gets its value by a definition
+    given = {name: f"Value_{name}" for name in block.constants}
+    values = [f"Value_{name} == {value}" for name, value in block.constants.items()]
+    lines[2:2] = values
+    cfg = ["CONSTANT RECORD_STEPS = FALSE", *(f"CONSTANT {name} <- {value}" for name, value in given.items())]
+    cfg += ["SPECIFICATION Spec", "VIEW View"]
+    cfg += [f"{'INVARIANT' if name == 'HasARow' else 'PROPERTY'} {name}" for name in checks]
+    files = {"Kept.tla": "\n".join(lines) + "\n", "Kept.cfg": "\n".join(cfg) + "\n"}
+    return Task(row.id, files, checks, bool(row.needs), row.distinct, row.generated)
