@@ -140,8 +140,12 @@ class Model:
         observers: Mapping[str, Mapping[str, Any]],
         asked: Sequence[Asked],
         stand: Mapping[str, As] | None = None,
+        held: Mapping[str, str] | None = None,
     ) -> None:
-        """`stand` says how a block stands in it, where it is not by its contract. Raises Unjudged."""
+        """`stand` says how a block stands in it, where it is not by its contract; `held` are inputs that keep
+        a value. Raises Unjudged.
+        """
+        self.held = held or {}
         self.wiring, self.asked, self.observers = wiring, asked, observers
         table = wiring.table
         self.blocks: dict[str, Block] = {}
@@ -386,6 +390,11 @@ class Model:
         yield "Next == " + " \\/ ".join(f"Step{step.number}" for step in self.steps)
         yield "Spec == Init /\\ [][Next]_vars"
         yield ""
+        if whole and self.held:
+            same = ", ".join(f"{name} <- {name}" for name in whole)
+            yield "\\* The same with the contracts of the blocks that are whole here"
+            yield f"Over == INSTANCE {module}Over WITH {same}"
+            yield "IsOverContracts == Over!Spec"
         yield "\\* What each contract assumes is true wherever the block is called"
         for name in self.blocks:
             yield f'Assumes_{name} == "{name}" \\notin broken'
@@ -458,6 +467,8 @@ class Model:
         return f"[{', '.join(f'{pin} |-> {row}.{pin}' for pin in sorted(self.seen[name]))}]"
 
     def _values(self, name: str) -> str:
+        if name in self.held:
+            return f"{{{self.held[name]}}}"
         return "BOOLEAN" if self.wiring.table.inputs[name].type == "BOOL" else "Words"
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Count, Entry, Text, typed
 from programs.machine_model import As, Asked, Block, Model, asked_of, read_blocks
+from programs.machine_runs import read_use
 from programs.wiring import Wiring, read_wiring
 
 
@@ -26,6 +27,8 @@ class Row(Entry, frozen=True, kw_only=True):
     anything: tuple[Text, ...] = ()
     at_once: tuple[Text, ...] = ()
     whole: tuple[Text, ...] = ()
+    free: tuple[Text, ...] | None = None
+    words: Text = "{0}"
     distinct: Count | None = None
     generated: Count | None = None
 
@@ -49,12 +52,14 @@ class Task:
     generated: int | None
 
 
-def tasks(file: Path | None, folder: Path, properties: Path | None = None) -> Iterator[Task]:
+def tasks(
+    file: Path | None, folder: Path, properties: Path | None = None, use: Path | None = None
+) -> Iterator[Task]:
     """The runs for a wiring (None: the shipped one). Raises Unjudged."""
     wiring = read_wiring(file or folder / "wiring.toml")
     safety = properties or folder / "safety.toml"
     blocks = read_blocks(folder / "blocks.toml")
-    path = folder / "tlc.toml"
+    path, rest = folder / "tlc.toml", read_use(use or folder / "use.toml").rest
     try:
         rows = typed(Rows, tomllib.loads(path.read_text("utf-8")), str(path)).run
         table = tomllib.loads(safety.read_text("utf-8"))
@@ -64,7 +69,7 @@ def tasks(file: Path | None, folder: Path, properties: Path | None = None) -> It
         if row.keeps or row.needs:
             yield _kept(row, blocks[(row.keeps or row.needs).upper()])
         else:
-            yield _cell(row, wiring, blocks, table, str(safety))
+            yield _cell(row, wiring, blocks, table, str(safety), rest)
 
 
 def model_of(wiring: Wiring, folder: Path) -> str:
@@ -82,7 +87,12 @@ MADE = ("Made by `modeproof machine --model FILE` from a wiring. Our own design:
 
 
 def _cell(
-    row: Row, wiring: Wiring, blocks: Mapping[str, Block], table: Mapping[str, Any], safety: str
+    row: Row,
+    wiring: Wiring,
+    blocks: Mapping[str, Block],
+    table: Mapping[str, Any],
+    safety: str,
+    rest: Mapping[str, Any],
 ) -> Task:
     asked: list[Asked] = asked_of(table, safety, row.properties)
     stand: dict[str, As] = {}
@@ -92,11 +102,25 @@ def _cell(
     for name in (*stand, *row.assumes):
         if name not in wiring.table.block:
             raise wiring.refuse("block", f"tlc.toml: {row.id} speaks of a block {name!r}, which is not there")
-    model = Model(wiring, blocks, table.get("observer", {}), asked, stand)
+    held = {} if row.free is None else _held(wiring, rest, row.free)
+    observers = table.get("observer", {})
+    model = Model(wiring, blocks, observers, asked, stand, held)
     checks = [*(f"Assumes_{name}" for name in row.assumes), *(one.name for one in asked)]
-    cfg = f"CONSTANT Words = {{0}}\nSPECIFICATION Spec\nINVARIANTS {' '.join(checks)}\n"
+    cfg = f"CONSTANT Words = {row.words}\nSPECIFICATION Spec\nINVARIANTS {' '.join(checks)}\n"
     files = {"Cell.tla": model.text("Cell"), "Cell.cfg": cfg}
+    if row.whole and row.free is not None:
+        over = {name: how for name, how in stand.items() if how != WHOLE}
+        files["CellOver.tla"] = Model(wiring, blocks, observers, asked, over, held).text("CellOver")
+        files["Cell.cfg"] += "PROPERTY IsOverContracts\n"
+        checks.append("IsOverContracts")
     return Task(row.id, files, tuple(checks), False, row.distinct, row.generated)
+
+
+def _held(wiring: Wiring, rest: Mapping[str, Any], free: tuple[str, ...]) -> dict[str, str]:
+    """The inputs that are not free, each with its value at rest as TLA+."""
+    values = {name: rest.get(name, False) for name, row in wiring.table.inputs.items() if row.type == "BOOL"}
+    values |= {name: 0 for name, row in wiring.table.inputs.items() if row.type == "WORD"}
+    return {name: str(value).upper() for name, value in values.items() if name not in free}
 
 
 def _kept(row: Row, block: Block) -> Task:

@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> int:
     """
     place = root()
     spec = place / "spec" / FOLDER
-    made = list(proofs_module("programs.machine_tlc").tasks(args.file, spec, args.properties))
+    made = list(proofs_module("programs.machine_tlc").tasks(args.file, spec, args.properties, args.use))
     chosen = [task for task in made if args.tlc in task.id]
     if not chosen:
         raise Unjudged(f"machine: no run of TLC has {args.tlc!r} in its name")

@@ -53,7 +53,7 @@ MISTAKES = {
     ),
     "an error keeps the request": (
         'R1 = "NOT a_mode OR mode_changes OR fault"',
-        'R1 = "NOT a_mode OR mode_changes"',
+        'R1 = "NOT a_mode OR mode_changes OR fplc.ERROR"',
         "start",
         "Assumes_edm",
     ),
