@@ -10,7 +10,8 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Count, Entry, Text, typed
-from programs.machine_model import As, Asked, Block, Model, asked_of, read_blocks
+from programs.machine_model import As, Asked, Block, asked_of, read_blocks
+from programs.machine_module import Module
 from programs.machine_runs import read_use
 from programs.wiring import Wiring, read_wiring
 
@@ -28,6 +29,8 @@ class Row(Entry, frozen=True, kw_only=True):
     at_once: tuple[Text, ...] = ()
     whole: tuple[Text, ...] = ()
     free: tuple[Text, ...] | None = None
+    rests: str = ""
+    helped: str = ""
     words: Text = "{0}"
     distinct: Count | None = None
     generated: Count | None = None
@@ -66,7 +69,9 @@ def tasks(
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
     for row in rows:
-        if row.keeps or row.needs:
+        if row.rests:
+            yield _rested(row, blocks[row.rests.upper()])
+        elif row.keeps or row.needs:
             yield _kept(row, blocks[(row.keeps or row.needs).upper()])
         else:
             yield _cell(row, wiring, blocks, table, str(safety), rest)
@@ -76,10 +81,12 @@ def model_of(wiring: Wiring, folder: Path) -> str:
     """The module of a wiring over the contracts of its blocks, with every property that has no time."""
     table = tomllib.loads((folder / "safety.toml").read_text("utf-8"))
     asked = asked_of(table, "safety.toml")
-    model = Model(wiring, read_blocks(folder / "blocks.toml"), table.get("observer", {}), asked)
+    model = Module(wiring, read_blocks(folder / "blocks.toml"), table.get("observer", {}), asked)
     return model.text("MachineCell", (f"{wiring.table.title}, over the contracts of its blocks.", *MADE))
 
 
+CALLS = 8
+"""After so many calls a block that nobody touches rests."""
 ANYTHING: As = "anything"
 AT_ONCE: As = "at_once"
 WHOLE: As = "whole"
@@ -104,13 +111,14 @@ def _cell(
             raise wiring.refuse("block", f"tlc.toml: {row.id} speaks of a block {name!r}, which is not there")
     held = {} if row.free is None else _held(wiring, rest, row.free)
     observers = table.get("observer", {})
-    model = Model(wiring, blocks, observers, asked, stand, held)
-    checks = [*(f"Assumes_{name}" for name in row.assumes), *(one.name for one in asked)]
+    model = Module(wiring, blocks, observers, asked, stand, held, row.helped)
+    checks = [*(f"Assumes_{name}" for name in row.assumes), *(rule.name for rule in asked)]
+    checks += ["GoalIsReached"] if row.helped else []
     cfg = f"CONSTANT Words = {row.words}\nSPECIFICATION Spec\nINVARIANTS {' '.join(checks)}\n"
     files = {"Cell.tla": model.text("Cell"), "Cell.cfg": cfg}
     if row.whole and row.free is not None:
         over = {name: how for name, how in stand.items() if how != WHOLE}
-        files["CellOver.tla"] = Model(wiring, blocks, observers, asked, over, held).text("CellOver")
+        files["CellOver.tla"] = Module(wiring, blocks, observers, asked, over, held).text("CellOver")
         files["Cell.cfg"] += "PROPERTY IsOverContracts\n"
         checks.append("IsOverContracts")
     return Task(row.id, files, tuple(checks), False, row.distinct, row.generated)
@@ -121,6 +129,23 @@ def _held(wiring: Wiring, rest: Mapping[str, Any], free: tuple[str, ...]) -> dic
     values = {name: rest.get(name, False) for name, row in wiring.table.inputs.items() if row.type == "BOOL"}
     values |= {name: 0 for name, row in wiring.table.inputs.items() if row.type == "WORD"}
     return {name: str(value).upper() for name, value in values.items() if name not in free}
+
+
+def _rested(row: Row, block: Block) -> Task:
+    variables = ", ".join(block.variables)
+    lines = [
+        "---- MODULE Rested ----",
+        f"EXTENDS {block.name}Shows",
+        "VARIABLE calls",
+        f"C == INSTANCE {block.name}Contract",
+        'Init == Starts /\\ step = "" /\\ calls = 0',
+        "AnyCall == calls = 0 /\\ (\\E i \\in Inputs : C!Assumes(Row, i) /\\ Call(i)) /\\ UNCHANGED calls",
+        f"RestCall == calls < {CALLS} /\\ (\\E i \\in RestInputs : Call(i)) /\\ calls' = calls + 1",
+        f"Spec == Init /\\ [][AnyCall \\/ RestCall]_<<{variables}, step, calls>>",
+        f"ComesToRest == calls = {CALLS} => Rests",
+        "====",
+    ]
+    return _task(row, block, lines, ("ComesToRest",), False)
 
 
 def _kept(row: Row, block: Block) -> Task:
@@ -141,12 +166,16 @@ def _kept(row: Row, block: Block) -> Task:
         "====",
     ]
     checks = ("HasARow", "Keeps", "Besides") if row.keeps else ("Keeps",)
-    # a cfg has no place for a function, so each constant gets its value by a definition
-    given = {name: f"Value_{name}" for name in block.constants}
-    values = [f"Value_{name} == {value}" for name, value in block.constants.items()]
-    lines[2:2] = values
-    cfg = ["CONSTANT RECORD_STEPS = FALSE", *(f"CONSTANT {name} <- {value}" for name, value in given.items())]
-    cfg += ["SPECIFICATION Spec", "VIEW View"]
-    cfg += [f"{'INVARIANT' if name == 'HasARow' else 'PROPERTY'} {name}" for name in checks]
-    files = {"Kept.tla": "\n".join(lines) + "\n", "Kept.cfg": "\n".join(cfg) + "\n"}
-    return Task(row.id, files, checks, bool(row.needs), row.distinct, row.generated)
+    return _task(row, block, lines, checks, bool(row.needs))
+
+
+def _task(row: Row, block: Block, lines: list[str], checks: tuple[str, ...], breaks: bool) -> Task:
+    """A run of one block. A cfg has no place for a function, so each constant gets its value by a name."""
+    name = lines[0].split()[2]
+    values = [f"Value_{key} == {value}" for key, value in block.constants.items()]
+    cfg = ["CONSTANT RECORD_STEPS = FALSE", *(f"CONSTANT {key} <- Value_{key}" for key in block.constants)]
+    cfg += ["SPECIFICATION Spec", *(["VIEW View"] if "Keeps" in checks else [])]
+    cfg += [f"{'PROPERTY' if check in ('Keeps', 'Besides') else 'INVARIANT'} {check}" for check in checks]
+    text = "\n".join([*lines[:2], *values, *lines[2:]])
+    files = {f"{name}.tla": f"{text}\n", f"{name}.cfg": "\n".join(cfg) + "\n"}
+    return Task(row.id, files, checks, breaks, row.distinct, row.generated)

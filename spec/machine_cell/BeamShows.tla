@@ -17,4 +17,14 @@ Row ==
 Inputs ==
     [Activate : BOOLEAN, S_OSSD_In : BOOLEAN, StartTest : BOOLEAN, NoExternalTest : BOOLEAN,
      S_StartReset : BOOLEAN, S_AutoReset : BOOLEAN, Reset : BOOLEAN, dt : 0..TEST_TIME]
+
+\* Nobody touches it, the beam is free, for a tick a call; and where that leads
+RestInputs ==
+    {[Activate |-> TRUE, S_OSSD_In |-> TRUE, StartTest |-> FALSE, NoExternalTest |-> TRUE,
+      S_StartReset |-> FALSE, S_AutoReset |-> FALSE, Reset |-> FALSE, dt |-> 1]}
+Rests ==
+    /\ state \in {"Init", "WaitForReset1", "ESPEFreeNoTest", "ESPEFreeTestOk", "WaitForReset2", "TestError1C410"}
+    /\ resetBefore = FALSE /\ startTestBefore = FALSE /\ sensorBefore = TRUE /\ elapsed = 0
+    /\ startInhibit \in BOOLEAN
+    /\ SensorTypeOK
 =============================================================================

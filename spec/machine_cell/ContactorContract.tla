@@ -23,7 +23,7 @@ Edge(was, i) == i.Reset /\ ~was.reset
 \* EDM-IN-CONTROL-2: on only while it is asked for
 AtOnce(i, now) == now.S_EDM_Out => i.S_OutControl
 Guarantees(was, i, now) ==
-    /\ AtOnce(i, now) /\ now.reset = i.Reset /\ now.asked = i.S_OutControl
+    /\ now.reset = i.Reset /\ now.asked = i.S_OutControl /\ AtOnce(i, now)
     \* EDM-IN-EDM-2, EDM-IN-CONTROL-3, EDMA-06: it switches on when somebody begins to ask, and finds both
     \* contactors dropped out; a reset alone never does
     /\ ~was.S_EDM_Out /\ now.S_EDM_Out => ~was.asked /\ ~was.waits /\ i.S_EDM1 /\ i.S_EDM2

@@ -30,4 +30,10 @@ WithinAuthorization(i) ==
         \E m, level \in MSO :
             /\ mode' = {m} /\ Permitted(level, m)
             /\ <<i.A, i.B, i.C, i.D, i.STR>> = [n \in 1..5 |-> n = level + 1]
+
+\* The key is out and every word zero, for a tick a call; and where that leads
+RestInputs == {[LA |-> FALSE, MW03 |-> 0, MW07 |-> 0, dt |-> 1] @@ Vector({})}
+Rests ==
+    /\ fplcState = "Idle" /\ accepted = None /\ authority = None /\ fplcSelection = None /\ fplcElapsed = 0
+    /\ mode \in {{}, {0}, {1}, {2}, {3}, {4}}
 =============================================================================

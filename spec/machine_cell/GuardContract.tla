@@ -24,7 +24,7 @@ AtOnce(i, now) ==
     \* GL-IN-UNLOCKREQUEST, GL-IN-SAFETYACTIVE, GLF-04: unlocked only while it is asked for and the zone is safe
     /\ now.S_UnlockGuard => i.UnlockRequest /\ i.S_SafetyActive
 Guarantees(was, i, now) ==
-    /\ AtOnce(i, now) /\ now.reset = i.Reset
+    /\ now.reset = i.Reset /\ AtOnce(i, now)
     \* GL-IN-AUTORESET, GL-WARN-3: and only by a reset, which no error or open door precedes
     /\ ~was.S_GuardLocked /\ now.S_GuardLocked => Edge(was, i) /\ ~was.Error /\ ~was.S_UnlockGuard
     \* GL-OUT-ERROR, GLF-07, GLF-13: an error ends by an edge of Reset, or by letting go a Reset that was stuck

@@ -22,7 +22,7 @@ Stage2(i) == Stage(i, FALSE, FALSE, FALSE)
 \* ES-STAGE-1, ES-SEQ-1: it enables only in the middle position, in a mode where it may
 AtOnce(i, now) == now.S_EnableSwitchOut => Stage1(i) /\ i.S_SafetyActive
 Guarantees(was, i, now) ==
-    /\ AtOnce(i, now) /\ now.reset = i.Reset
+    /\ now.reset = i.Reset /\ AtOnce(i, now)
     \* ES-ORDER-2, ESF-02: and only out of stage 0
     /\ ~was.S_EnableSwitchOut /\ now.S_EnableSwitchOut => was.may
     /\ now.may => Stage0(i) \/ (was.may /\ ~Stage1(i) /\ ~Stage2(i))

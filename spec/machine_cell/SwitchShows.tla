@@ -17,4 +17,10 @@ Row ==
 Inputs ==
     [Activate : BOOLEAN, S_SafetyActive : BOOLEAN, S_EnableSwitchCh1 : BOOLEAN, S_EnableSwitchCh2 : BOOLEAN,
      S_EnableSwitchCh3 : BOOLEAN, S_AutoReset : BOOLEAN, Reset : BOOLEAN, dt : 0..DiscrepancyTimeCh1_Ch3]
+
+\* The switch is released and nobody resets, in a mode where it enables and in others; and where that leads
+RestInputs ==
+    {[Activate |-> TRUE, S_SafetyActive |-> active, S_EnableSwitchCh1 |-> FALSE, S_EnableSwitchCh2 |-> TRUE,
+      S_EnableSwitchCh3 |-> FALSE, S_AutoReset |-> FALSE, Reset |-> FALSE, dt |-> 1] : active \in BOOLEAN}
+Rests == state \in {"BasicMode", "SafeMode", "Stage0"} \cup Released /\ resetBefore = FALSE /\ elapsed = 0
 =============================================================================

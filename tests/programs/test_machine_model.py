@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import shutil
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import pytest
 from modeproof.cli import main
 from modeproof.lane.machine_tlc import judged
 from modeproof.tlc.judge import HOLDS, VIOLATED
-from programs.machine_tlc import model_of, tasks
+from programs.machine_tlc import Task, model_of, tasks
 from programs.wiring import wiring_of
 
 ROOT = Path(__file__).parents[2]
@@ -84,7 +85,7 @@ FAULTS = {
 }
 
 
-def task(id: str, file: Path | None = None):
+def task(id: str, file: Path | None = None) -> Task:
     [found] = [made for made in tasks(file, FOLDER) if made.id == id]
     return found
 
@@ -94,20 +95,35 @@ def test_the_kept_module_is_made_from_the_wiring() -> None:
     assert made == (FOLDER / "MachineCell.tla").read_text("utf-8")
 
 
-@pytest.mark.parametrize(
-    "id", [pytest.param(id, marks=[pytest.mark.deep] if at else []) for at, id in enumerate(FAULTS)]
-)
-def test_a_block_keeps_its_contract_and_a_faulty_one_does_not(tmp_path: Path, id: str) -> None:
-    found, _ = judged(ROOT, task(id), True)
-    assert (found.verdict, found.as_expected) == (HOLDS, True)
-    shutil.copytree(ROOT / "spec", tmp_path / "spec", ignore=shutil.ignore_patterns("*.toml", "*.cfg"))
+def with_fault(place: Path, id: str) -> None:
+    """A copy of the specifications in which one block has one edit."""
+    shutil.copytree(ROOT / "spec", place / "spec", ignore=shutil.ignore_patterns("*.toml", "*.cfg"))
     name, old, new = FAULTS[id]
-    path = tmp_path / "spec" / name
+    path = place / "spec" / name
     text = path.read_text("utf-8")
     assert text.count(old) == 1
     path.write_text(text.replace(old, new), "utf-8")
+
+
+@pytest.mark.parametrize(
+    "id", [pytest.param(id, marks=[pytest.mark.deep] if at else []) for at, id in enumerate(FAULTS)]
+)
+def test_a_faulty_block_breaks_the_contract_that_it_keeps(tmp_path: Path, id: str) -> None:
+    found, _ = judged(ROOT, task(id), True)
+    assert (found.verdict, found.as_expected) == (HOLDS, True)
+    with_fault(tmp_path, id)
     found, outcome = judged(tmp_path, task(id), True)
     assert found.verdict == VIOLATED
+    assert outcome.log.trace
+
+
+@pytest.mark.deep
+def test_a_faulty_block_in_the_cell_leaves_the_contracts(tmp_path: Path) -> None:
+    with_fault(tmp_path, "keeps_contactors")
+    made = dataclasses.replace(task("whole_five"), checks=("IsOverContracts",))
+    cfg = re.sub(r"INVARIANTS.*", "", made.files["Cell.cfg"])
+    found, outcome = judged(tmp_path, dataclasses.replace(made, files={**made.files, "Cell.cfg": cfg}), True)
+    assert (found.verdict, found.violated) == (VIOLATED, "IsOverContracts")
     assert outcome.log.trace
 
 
@@ -118,8 +134,12 @@ def test_a_block_needs_what_its_contract_assumes(block: str) -> None:
     assert (found.verdict, found.as_expected) == (VIOLATED, True)
 
 
+SLOW = ("no start button", "an error keeps the request")
+
+
 @pytest.mark.parametrize(
-    "what", [pytest.param(what, marks=[pytest.mark.deep] if at else []) for at, what in enumerate(MISTAKES)]
+    "what",
+    [pytest.param(what, marks=[pytest.mark.long if what in SLOW else pytest.mark.deep]) for what in MISTAKES],
 )
 def test_tlc_refutes_a_mistake_of_wiring(tmp_path: Path, what: str) -> None:
     old, new, run, falls = MISTAKES[what]
@@ -132,10 +152,30 @@ def test_tlc_refutes_a_mistake_of_wiring(tmp_path: Path, what: str) -> None:
 
 
 @pytest.mark.deep
-@pytest.mark.parametrize("id", ["unlock", "open_door", "beam"])
+@pytest.mark.parametrize("id", ["unlock", "beam", "whole_five"])
 def test_the_shipped_cell_holds_over_contracts(id: str) -> None:
     found, _ = judged(ROOT, task(id), True)
     assert (found.verdict, found.as_expected) == (HOLDS, True)
+
+
+@pytest.mark.deep
+def test_a_door_without_a_reset_is_a_dead_end(tmp_path: Path) -> None:
+    mine = tmp_path / "my.toml"
+    mine.write_text(TEXT.replace('Reset = "ResetGuard"', 'Reset = "FALSE"'), "utf-8")
+    found, _ = judged(ROOT, task("back_to_each_mode", mine), False)
+    assert (found.verdict, found.violated) == (VIOLATED, "GoalIsReached")
+
+
+def test_the_page_has_the_runs_and_their_states() -> None:
+    page = (ROOT / "docs/wire-your-machine.md").read_text("utf-8")
+    rows = dict(re.findall(r"^\|.*?`(\w+)` \|.*?([\d,]+) \|$", page, re.MULTILINE))
+    made = {run.id: run for run in tasks(None, FOLDER)}
+    for id, run in made.items():
+        assert run.breaks or run.distinct, id
+        assert f"`{id}`" in page or id.startswith("needs_")
+    assert len(rows) > 12
+    assert {id: f"{made[id].distinct:,}" for id in rows} == rows
+    assert f"{made['back_to_each_mode'].distinct:,} states" in page
 
 
 @pytest.mark.deep
