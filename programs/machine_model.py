@@ -258,7 +258,6 @@ class Model:
             bad = self.expression(step, rule.bad)
             if rule.once is not None and rule.after is not None:
                 waits = f"{rule.name}_waits"
-                text = f"({waits} \\/ {self.expression(step, rule.after)}) /\\ ~{self.expression(step, rule.once)}"
                 armed, ends = self.expression(step, rule.after), self.expression(step, rule.once)
                 step.after[waits] = step.let(f"new_{waits}", f"({waits} \\/ {armed}) /\\ ~{ends}")
                 bad = f"(new_{waits} /\\ {bad})"
