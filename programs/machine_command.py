@@ -19,7 +19,7 @@ from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
 from modeproof.registers.vector_files import ROOM
-from programs import certificate, machine_picture, machine_vectors
+from programs import certificate, machine_picture, machine_tlc, machine_vectors
 from programs.machine import Machine, Verdict
 from programs.machine_equal import Equality
 from programs.machine_killers import Killers, changed, read_killers
@@ -48,10 +48,12 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
+    if args.model is not None:
+        write_text(args.model, machine_tlc.model_of(wiring, folder))
     progress = Progress(quiet=args.quiet)
     if args.publish or args.vectors is not None:
         return _vectors(args, file, args.use or folder / "use.toml", progress)
-    if args.program is not None or args.picture is not None:
+    if not (args.program is args.picture is args.model is None):
         return 0
     kind: Callable[..., Machine] = Machine
     if args.source:

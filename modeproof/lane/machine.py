@@ -13,6 +13,7 @@ from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import machines, root
 from modeproof.ground.proofs import proofs_module
+from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of, verdict_on_machine
 
@@ -68,6 +69,14 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         "--publish", action="store_true", help="write those of the shipped wiring to vectors/"
     )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
+    parser.add_argument("--model", type=Path, metavar="FILE", help="write the wiring as a TLA+ module there")
+    parser.add_argument(
+        "--tlc",
+        nargs="?",
+        const="",
+        metavar="PART",
+        help="TLC judges the blocks' contracts, and the wiring over them: runs with PART in their name",
+    )
     parser.add_argument(
         "--trial",
         nargs="?",
@@ -162,4 +171,6 @@ def run(args: argparse.Namespace) -> int:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
+    if args.tlc is not None:
+        return machine_tlc.run(args)
     return int(proofs_module("programs.machine_command").run(args))

@@ -130,19 +130,20 @@ def run_tlc(
     on_lines: Callable[[int], None] | None = None,
     made_in: Path | None = None,
     watch: Callable[[bytes], bool] | None = None,
+    also: Sequence[Path] = (),
 ) -> Outcome:
     """Run TLC on `run` and read its log to the end.
 
     Module and cfg lie in the document's folder of the specification; those of a run with a base are made, and
     those that were made for a run that no register declares lie in `made_in`; the document's modules are
-    found all the same. `watch` gets each printed line of a
+    found all the same, and those in the folders `also`. `watch` gets each printed line of a
     run that is not of kind OPEN, in the place of the set of lines; once it says True the run is stopped.
 
     The framed log is kept at build/tlc/<document>/<run>.log. The printed lines of an OPEN run are written to
     build/graphs/<document>/<run>.txt, which appears only when the log is complete. Raises Unjudged when TLC
     cannot be started or the disk is full.
     """
-    quick = made_in is not None
+    quick = made_in is not None and not also
     if run.base:
         made_in, run = make(place, run)
     own = place / "spec" / run.document
@@ -152,7 +153,7 @@ def run_tlc(
             raise Unjudged(f"{run.name}: {needed.relative_to(place)} is missing")
     logs = build(place) / "tlc" / run.document
     graph = build(place) / "graphs" / run.document / f"{run.id}.txt"
-    places = [path for path in (own, place / "spec" / "common") if path != folder and path.is_dir()]
+    places = [path for path in (own, *also, place / "spec" / "common") if path != folder and path.is_dir()]
     try:
         logs.mkdir(parents=True, exist_ok=True)
         for stale in logs.glob(f"{run.id}.????????"):  # of a run that was killed
