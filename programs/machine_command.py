@@ -16,7 +16,7 @@ from modeproof.ground.places import root
 from modeproof.kit.files import write_json, write_text
 from programs import certificate, machine_picture
 from programs.machine import Machine, Verdict
-from programs.machine_trial import Outcome, Trial, as_toml, edits
+from programs.machine_trial import Outcome, Trial, as_toml, basis_of, edits, read_record
 from programs.property_command import TRUSTED
 from programs.wired import text_of, unit
 from programs.wiring import read_wiring
@@ -159,19 +159,30 @@ def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dic
 
 
 def _trial(machine: Machine, part: str, record: Path | None) -> int:
-    trial = Trial(machine)
-    chosen = [edit for edit in edits(machine.text, machine.wiring) if part in f"{edit.kind}: {edit.id}"]
+    """Judge the edits; with a record, those that it does not have, and write it after each."""
+    trial, every = Trial(machine), list(edits(machine.text, machine.wiring))
+    chosen = [edit for edit in every if part in f"{edit.kind}: {edit.id}"]
     if not chosen:
         raise Unjudged(f"machine: no edit has {part!r} in its name")
-    found: list[Outcome] = []
-    for edit in chosen:
-        _tell(edit.id)
-        found.append(trial.of(edit))
-        _tell("")
-        scans = f" in {found[-1].scans} scans" if found[-1].scans else ""
-        print(f"{found[-1].word}{scans}: {edit.kind}: {edit.id}: {', '.join(found[-1].by)}", flush=True)
-    words = [outcome.word for outcome in found]
+    basis = basis_of(machine) if record is not None else {}
+    known = read_record(record.read_text("utf-8"), basis) if record is not None and record.exists() else {}
+    found = {
+        edit.id: Outcome(edit, row["verdict"], row["by"], row.get("scans", 0))
+        for edit in chosen
+        if (row := known.get(edit.id)) is not None
+    }
+    for judge in (trial.run, trial.prove, trial.of):  # what takes long comes last
+        for edit in chosen:
+            _tell(edit.id)
+            if edit.id in found or (outcome := judge(edit)) is None:
+                continue
+            _tell("")
+            found[edit.id] = outcome
+            scans = f" in {outcome.scans} scans" if outcome.scans else ""
+            print(f"{outcome.word}{scans}: {edit.kind}: {edit.id}: {', '.join(outcome.by)}", flush=True)
+            if record is not None:
+                done = [found[edit.id] for edit in chosen if edit.id in found]
+                write_text(record, as_toml(done, len(every), basis))
+    words = [outcome.word for outcome in found.values()]
     print(", ".join(f"{words.count(word)} {word}" for word in sorted({*words})))
-    if record is not None:
-        write_text(record, as_toml(found, len(chosen)))
     return 1 if "SURVIVED" in words else 0
