@@ -7,6 +7,7 @@ SURVIVED: neither.
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import itertools
 import json
@@ -21,6 +22,8 @@ from typing import Any
 import z3
 
 from modeproof.ground.errors import Unjudged
+from programs import machine_runs, wired
+from programs import wiring as wiring_module
 from programs.houdini import Houdini
 from programs.machine import Machine
 from programs.machine_runs import Seen
@@ -29,6 +32,7 @@ from programs.terms import names_in
 from programs.tree import BOOL, TIME, Binary, Expression, Literal, Unary
 from programs.wiring import Wiring, names
 from refimpl.machine_cell import cell as reference
+from refimpl.machine_cell import expression, standard
 
 FEW_RUNS, MORE_RUNS = 100, 130
 """Before a proof is tried, and before a witness is given up."""
@@ -348,13 +352,27 @@ def _names(term: z3.BoolRef) -> set[str]:
 
 
 def basis_of(machine: Machine) -> dict[str, str]:
-    """What outcomes rest on, as hashes: what the files say but for words about it, and the code."""
+    """What outcomes rest on, as hashes: what the files say, and the code of a scan and of the runs.
+
+    Words about it do not count, nor does the search for a proof: z3 judges what it finds.
+    """
     tables = {"wiring": machine.table, "properties": tomllib.loads(machine.questions.text)}
     tables["use"] = tomllib.loads(machine.use.read_text("utf-8"))
     said = {name: json.dumps(_without_words(table), sort_keys=True) for name, table in tables.items()}
-    folders = (Path(__file__).parent, Path(reference.__file__).parents[1])
-    files = [path for folder in folders for path in sorted(folder.rglob("*.py"))]
-    said["code"] = "".join(path.read_text("utf-8") for path in files)
+    modules = [
+        *reference.DEVICES.values(),
+        reference,
+        expression,
+        standard,
+        machine_runs,
+        wired,
+        wiring_module,
+    ]
+    trees = [ast.parse(Path(str(module.__file__)).read_text("utf-8")) for module in modules]
+    for node in (node for tree in trees for node in ast.walk(tree)):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = None  # a docstring
+    said["code"] = "".join(map(ast.dump, trees))
     return {name: hashlib.sha256(text.encode()).hexdigest()[:16] for name, text in said.items()}
 
 

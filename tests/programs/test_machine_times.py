@@ -97,6 +97,12 @@ def test_the_page_says_how_fast_as_the_properties_do() -> None:
             assert "never" in SAFETY[id] or "only_if" in SAFETY[id]
 
 
+def test_the_page_names_every_property() -> None:
+    part = PAGE.partition("## What is proved")[2].partition("\n## ")[0]
+    lines = re.findall(r"^\| .* \| (.*) \|$", part, re.MULTILINE)
+    assert {id for line in lines for id in re.findall("`(.*?)`", line)} == set(SAFETY)
+
+
 @pytest.mark.parametrize("id", DEMANDS)
 def test_the_time_on_the_page_does_occur(id: str) -> None:
     shipped = machine()
