@@ -36,7 +36,7 @@ from refimpl.machine_cell import cell as reference
 
 BESIDE = {"hazard": str, "cites": list}
 """What a property of a machine has besides."""
-RUNS = 160
+RUNS = 240
 TRIES = 250
 """Runs that may be made to shorten one counterexample."""
 LIMIT_MS = 30_000
@@ -151,9 +151,9 @@ class Machine:
         rows = zip(self.questions.rows, texts, strict=True)
         return [rule_of(row, triggers, self.runner.named) for row, triggers in rows]
 
-    def look(self, enough: Callable[[Seen], bool] = lambda seen: False) -> Seen:
-        """Runs with plain values."""
-        return look(self.runner, self.rules, range(self.runs), enough, keep=1)
+    def look(self, enough: Callable[[Seen], bool] = lambda seen: False, known: int = 0) -> Seen:
+        """Runs with plain values, without those that are known."""
+        return look(self.runner, self.rules, range(known, self.runs), enough, keep=1)
 
     @cached_property
     def seen(self) -> Seen:

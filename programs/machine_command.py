@@ -26,7 +26,7 @@ from programs.machine_killers import Killers, changed, read_killers
 from programs.machine_killers import as_toml as as_rows
 from programs.machine_program import ProgramMachine, ProgramRunner
 from programs.machine_runs import Scan
-from programs.machine_trial import Outcome, Trial, as_toml, edits
+from programs.machine_trial import Outcome, Trial, as_toml, basis_of, edits, read_record
 from programs.output import Case, junit_of
 from programs.property_command import TRUSTED
 from programs.wired import text_of, unit
@@ -257,18 +257,29 @@ def _killers(machine: Machine, folder: Path) -> int:
 
 
 def _trial(machine: Machine, part: str, progress: Progress, record: Path | None) -> int:
-    trial = Trial(machine)
-    chosen = [edit for edit in edits(machine.text, machine.wiring) if part in f"{edit.kind}: {edit.id}"]
+    """Judge the edits; with a record, those that it does not have, and write it after each."""
+    trial, every = Trial(machine), list(edits(machine.text, machine.wiring))
+    chosen = [edit for edit in every if part in f"{edit.kind}: {edit.id}"]
     if not chosen:
         raise Unjudged(f"machine: no edit has {part!r} in its name")
-    found: list[Outcome] = []
-    for edit in chosen:
-        machine.tell(edit.id)
-        found.append(trial.of(edit))
-        scans = f" in {found[-1].scans} scans" if found[-1].scans else ""
-        progress.say(f"{found[-1].word}{scans}: {edit.kind}: {edit.id}: {', '.join(found[-1].by)}")
-    words = [outcome.word for outcome in found]
+    basis = basis_of(machine) if record is not None else {}
+    known = read_record(record.read_text("utf-8"), basis) if record is not None and record.exists() else {}
+    found = {
+        edit.id: Outcome(edit, row["verdict"], row["by"], row.get("scans", 0))
+        for edit in chosen
+        if (row := known.get(edit.id)) is not None
+    }
+    for judge in (trial.run, trial.prove, trial.of):  # what takes long comes last
+        for edit in chosen:
+            machine.tell(edit.id)
+            if edit.id in found or (outcome := judge(edit)) is None:
+                continue
+            found[edit.id] = outcome
+            scans = f" in {outcome.scans} scans" if outcome.scans else ""
+            progress.say(f"{outcome.word}{scans}: {edit.kind}: {edit.id}: {', '.join(outcome.by)}")
+            if record is not None:
+                done = [found[edit.id] for edit in chosen if edit.id in found]
+                write_text(record, as_toml(done, len(every), basis))
+    words = [outcome.word for outcome in found.values()]
     print(", ".join(f"{words.count(word)} {word}" for word in sorted({*words})))
-    if record is not None:
-        write_text(record, as_toml(found, len(chosen)))
     return 1 if "SURVIVED" in words else 0

@@ -6,10 +6,12 @@ spec/machine_cell/use.toml says how a cell is used, so that runs get somewhere.
 
 from __future__ import annotations
 
+import itertools
 import random
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -157,22 +159,69 @@ class Runner:
                 found[story["id"]] = rows
         return found
 
+    @cached_property
+    def tours(self) -> list[tuple[int, list[dict[str, Value]]]]:
+        """Scan time and rows of the tours: each story that likes to begin, and what likes to follow it.
+
+        Of what follows that, one story each; then a fresh start, or another beginning. Each comes with the
+        shortest and with the longest scans. Last from each beginning to the next.
+        """
+        known, times = self.stories(), self.wiring.table.scan_ms
+        then = {
+            story["id"]: [name for name in dict.fromkeys(story.get("then", ())) if name in known]
+            for story in self.use.story
+        }
+        first = [story["id"] for story in self.use.story if story.get("first") and story["id"] in known]
+        found = []
+        for at, name in enumerate(first):
+            for begin in then[name]:
+                for number, last in enumerate(then[begin]):
+                    other = first[(at + 1 + number % max(1, len(first) - 1)) % len(first)]
+                    pair = [(times[0], begin), (times[1], other)], [(times[1], begin), (times[0], other)]
+                    for dt_ms, end in pair[number % 2]:
+                        found.append((dt_ms, [name, begin, last, end]))
+        random.Random(1).shuffle(found)  # so that one that breaks something comes early
+        for number, names in enumerate(itertools.pairwise((*first, *reversed(first)))):
+            found.append((times[number % 2], [part for name in names for part in (name, *then[name][:1])]))
+        return [(dt_ms, [row for name in names for row in known[name]]) for dt_ms, names in found]
+
+    def runs(self, seed: int) -> Iterator[tuple[Scan, Any, Inputs]]:
+        """The tours, and then random runs."""
+        if seed < len(self.tours):
+            dt_ms, told = self.tours[seed]
+            return self.run(random.Random(seed), len(told), list(told), (0.0, 1.0, dt_ms))
+        return self.random_run(seed)
+
     def random_run(self, seed: int, scans: int = SCANS) -> Iterator[tuple[Scan, Any, Inputs]]:
-        """A run from power-up: each scan, the state and all values after it."""
+        """A run with stories by chance, and with inputs that change by chance or are stuck."""
         choose = random.Random(seed)
+        wild, honest = choose.choice((0.0, 0.01, 0.03, 0.1)), choose.choice((1.0, 0.98, 0.8))
+        return self.run(choose, scans, [], (wild, honest, choose.choice(self.wiring.table.scan_ms)))
+
+    def run(
+        self,
+        choose: random.Random,
+        scans: int,
+        told: list[dict[str, Value]],
+        likely: tuple[float, float, int],
+    ) -> Iterator[tuple[Scan, Any, Inputs]]:
+        """A run from power-up: each scan, the state and all values after it.
+
+        told: what changes in the first scans. likely: how often an input changes by chance, how often one
+        follows as it should, the usual scan time.
+        """
+        wild, honest, usual = likely
         low, high = self.wiring.table.scan_ms
         times = [low, self.wiring.table.cycle_ms, high]
         inputs: dict[str, Value] = {name: kind == "WORD" and 0 for name, kind in self.cell.inputs.items()}
         inputs |= {name: value for name, value in self.use.rest.items() if name in inputs}
         state, values = self.power_up(), dict[str, Value]()
-        stories, told = self.stories(), list[dict[str, Value]]()
+        stories, toured = self.stories(), bool(told)
         then = {
             story["id"]: [name for name in story.get("then", ()) if name in stories]
             for story in self.use.story
         }
         following = [story["id"] for story in self.use.story if story.get("first") and story["id"] in stories]
-        wild, honest = choose.choice((0.0, 0.01, 0.03, 0.1)), choose.choice((1.0, 0.98, 0.8))
-        usual = choose.choice((low, high))
         stuck: dict[str, int] = {}
         for _ in range(scans):
             if not told and stories and choose.random() < (0.8 if following else 0.5):
@@ -185,9 +234,13 @@ class Runner:
                 if values and choose.random() < honest:
                     inputs[name] = source(values)
             for pattern in self.use.pattern:
-                if choose.random() < 0.06 and all(name in inputs for name in pattern["inputs"]):
+                if (
+                    not toured
+                    and choose.random() < 0.06
+                    and all(name in inputs for name in pattern["inputs"])
+                ):
                     inputs |= zip(pattern["inputs"], choose.choice(pattern["rows"]), strict=True)
-            for name, kind in self.cell.inputs.items():
+            for name, kind in self.cell.inputs.items() if wild else ():
                 if choose.random() < wild:
                     inputs[name] = not inputs[name] if kind == "BOOL" else choose.choice((0, 1, 0x0FF0))
             inputs |= told.pop(0) if told else {}
@@ -198,7 +251,7 @@ class Runner:
                 stuck[name] -= 1
                 if not stuck[name]:
                     del stuck[name]
-            dt_ms = choose.choice(times) if choose.random() < 0.2 else usual
+            dt_ms = choose.choice(times) if not toured and choose.random() < 0.2 else usual
             state, values = self.scan(state, inputs, dt_ms)
             yield (dt_ms, dict(inputs)), state, values
 
@@ -297,7 +350,7 @@ class Seen:
 
     broken: dict[str, list[Scan]] = field(default_factory=dict)
     reached: dict[str, list[int | None]] = field(default_factory=dict)
-    """For each trigger of a property the scans of the shortest run in which it was true."""
+    """For each trigger of a property the scans of the first run in which it was true."""
     samples: list[tuple[Any, Mapping[str, tuple[bool, int]]]] = field(default_factory=list)
     scans: int = 0
 
@@ -311,21 +364,27 @@ def look(
 ) -> Seen:
     """Random runs, until it is enough. keep: every so many scans are kept as a sample; 0: none."""
     seen = Seen(reached={rule.id: [None] * len(rule.triggers) for rule in rules})
+    missed = [(rule.id, number, made) for rule in rules for number, made in enumerate(rule.triggers)]
+    plain = [rule for rule in rules if rule.once is None and rule.within_ms is None]
+    watching = [rule for rule in rules if rule.once is not None or rule.within_ms is not None]
     for seed in runs:
         memory = {rule.id: rule.start() for rule in rules}
         scans: list[Scan] = []
-        for scan, state, values in runner.random_run(seed):
+        for scan, state, values in runner.runs(seed):
             scans.append(scan)
             seen.scans += 1
-            for rule in rules:
+            broken = [rule.id for rule in plain if not rule.holds(values)]
+            for rule in watching:
                 wrong, memory[rule.id] = rule.after(memory[rule.id], values, scan[0])
-                known = seen.broken.get(rule.id)
-                if wrong and (known is None or len(scans) < len(known)):
-                    seen.broken[rule.id] = list(scans)
-                found = seen.reached[rule.id]
-                for number, trigger in enumerate(rule.triggers):
-                    if (found[number] is None or len(scans) < found[number]) and trigger(values):  # type: ignore[operator]
-                        found[number] = len(scans)
+                if wrong:
+                    broken.append(rule.id)
+            for id in broken:
+                if id not in seen.broken or len(scans) < len(seen.broken[id]):
+                    seen.broken[id] = list(scans)
+            if found := [part for part in missed if part[2](values)]:
+                for id, number, _ in found:
+                    seen.reached[id][number] = len(scans)
+                missed = [part for part in missed if part not in found]
             if keep and seen.scans % keep == 0:
                 seen.samples.append((runner.kept(state), dict(memory)))
         if enough(seen):

@@ -7,27 +7,34 @@ SURVIVED: neither.
 
 from __future__ import annotations
 
+import ast
+import hashlib
 import itertools
 import json
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import z3
 
 from modeproof.ground.errors import Unjudged
+from programs import machine_runs, wired
+from programs import wiring as wiring_module
 from programs.houdini import Houdini
 from programs.machine import Machine
 from programs.machine_runs import Seen
 from programs.questions import parsed, shown
 from programs.terms import names_in
 from programs.tree import BOOL, TIME, Binary, Expression, Literal, Unary
-from programs.wiring import Wiring
+from programs.wiring import Wiring, names
+from refimpl.machine_cell import cell as reference
+from refimpl.machine_cell import expression, standard
 
-FEW_RUNS, MORE_RUNS = 25, 240
+FEW_RUNS, MORE_RUNS = 100, 130
 """Before a proof is tried, and before a witness is given up."""
 TRIES = 60
 """Runs that may be made to shorten what breaks a property."""
@@ -215,6 +222,8 @@ class Trial:
     """Judges edits of one machine."""
 
     machine: Machine
+    looked: set[str] = field(default_factory=set)
+    """The edits of which runs say nothing."""
 
     @cached_property
     def lemmas(self) -> list[z3.BoolRef]:
@@ -226,27 +235,51 @@ class Trial:
         """The composed program as it is."""
         return {path: term.sexpr() for path, term in self.machine.system.after.items()}
 
-    def of(self, edit: Edit) -> Outcome:
-        """What becomes of an edit."""
+    def run(self, edit: Edit) -> Outcome | None:
+        """What becomes of an edit, from runs and the order of calls alone; None: that takes a proof."""
+        if edit.id in self.looked:
+            return None
         try:
             edited = self.edited(edit)
         except Unjudged as error:
             return Outcome(edit, "REFUSED", [error.message])
-        if edit.kind == "order" and self._same(edited):
+        if edit.kind == "order" and reads_of(edited.wiring) == reads_of(self.machine.wiring):
             return Outcome(edit, "HARMLESS", ["the same program"])
-        if (found := self.killed(edit, edited)) is not None:
+        seen = edited.look(lambda seen: bool(seen.broken))
+        if seen.broken:
+            return self._killed(edit, edited, seen)
+        if idle := self._idle(edited, seen):
+            return Outcome(edit, "KILLED", idle)
+        self.looked.add(edit.id)
+        return None
+
+    def prove(self, edit: Edit) -> Outcome | None:
+        """The same with the invariants of the machine as it is; None: that takes a search for others."""
+        if (found := self.run(edit)) is not None:
             return found
+        edited = self.edited(edit)
         if self._same(edited):
             return Outcome(edit, "HARMLESS", ["the same program"])
-        if not self._proved(edited, self._kept(edited)):
-            edited.runs = self.machine.runs
-            if (found := self.killed(edit, edited)) is not None:
-                return found
-            if not self._proved(edited, edited.lemmas(SECONDS)):
-                return Outcome(edit, "SURVIVED", [])
-        if idle := self._idle(edited):
-            return Outcome(edit, "KILLED", idle)
-        return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
+        known = set(map(str, edited.system.state.values()))
+        facts = [lemma for lemma in self.lemmas if _names(lemma) <= known]
+        if self._proved(edited, facts) or self._proved(edited, _kept(edited, facts)):
+            return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
+        return None
+
+    def of(self, edit: Edit) -> Outcome:
+        """What becomes of an edit, with more runs and a search for invariants where they are needed."""
+        if (found := self.prove(edit)) is not None:
+            return found
+        edited = self.edited(edit)
+        edited.runs = self.machine.runs
+        seen = edited.look(lambda seen: bool(seen.broken), FEW_RUNS)
+        if seen.broken:
+            return self._killed(edit, edited, seen)
+        edited = self.edited(edit)  # the invariants come from all runs
+        edited.runs = self.machine.runs
+        if self._proved(edited, edited.lemmas(SECONDS)):
+            return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
+        return Outcome(edit, "SURVIVED", [])
 
     def edited(self, edit: Edit) -> Machine:
         """The machine with the edit. Raises Unjudged."""
@@ -260,57 +293,109 @@ class Trial:
         """Whether the edited program is the same."""
         return {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms
 
-    def killed(self, edit: Edit, edited: Machine) -> Outcome | None:
-        """The outcome, if runs break a property."""
-        broken = edited.look(lambda seen: bool(seen.broken)).broken
-        if not broken:
-            return None
+    @staticmethod
+    def _killed(edit: Edit, edited: Machine, seen: Seen) -> Outcome:
+        """The outcome, where runs break a property."""
         rules = {rule.id: rule for rule in edited.rules}
-        name = min(broken, key=lambda id: len(broken[id]))
-        scans = edited.runner.shortened(broken[name], rules[name], TRIES)
-        fallen = [name, *(id for id in rules if id != name and id in broken)]
+        name = min(seen.broken, key=lambda id: len(seen.broken[id]))
+        scans = edited.runner.shortened(seen.broken[name], rules[name], TRIES)
+        fallen = [name, *(id for id in rules if id != name and id in seen.broken)]
         return Outcome(edit, "KILLED", fallen, len(scans))
 
     @staticmethod
-    def _idle(edited: Machine) -> list[str]:
-        """The properties of which some trigger was not reached in the runs."""
-
-        def enough(seen: Seen) -> bool:
-            return all(None not in reached for reached in seen.reached.values())
-
-        edited.runs = MORE_RUNS
-        reached = edited.look(enough).reached
-        return [f"the witness of {id}" for id, scans in reached.items() if None in scans]
-
-    def _kept(self, edited: Machine) -> list[z3.BoolRef]:
-        """Those invariants of the machine as it is that are so of the edited one."""
-        facts = [
-            lemma for lemma in self.lemmas if _names(lemma) <= set(map(str, edited.system.state.values()))
-        ]
-        clauses: list[tuple[int, ...]] = [(number, number) for number in range(1, len(facts) + 1)]
-        houdini = Houdini(edited.system, facts=facts, clauses=clauses, singly=True)
-        try:
-            houdini.thin(float("inf"))
-        except TimeoutError:
-            return []
-        return houdini.lemmas()
+    def _idle(edited: Machine, seen: Seen) -> list[str]:
+        """The properties of which some trigger was not reached in these runs, nor in more."""
+        missed = {id for id, scans in seen.reached.items() if None in scans}
+        if missed:
+            edited.runs = MORE_RUNS
+            reached = edited.look(lambda more: False, FEW_RUNS).reached
+            for id in [*missed]:
+                both = zip(seen.reached[id], reached[id], strict=True)
+                if all(before is not None or after is not None for before, after in both):
+                    missed.remove(id)
+        found = [f"the witness of {id}" for id in seen.reached if id in missed]
+        return found if len(found) < 5 else [*found[:3], f"{len(found) - 3} other witnesses"]
 
     @staticmethod
     def _proved(edited: Machine, lemmas: Sequence[z3.BoolRef]) -> bool:
         return bool(lemmas) and all(edited.shown(lemmas, edited.asked).values())
 
 
+def _kept(edited: Machine, facts: Sequence[z3.BoolRef]) -> list[z3.BoolRef]:
+    """Those facts that are invariants of an edited machine."""
+    clauses: list[tuple[int, ...]] = [(number, number) for number in range(1, len(facts) + 1)]
+    houdini = Houdini(edited.system, facts=list(facts), clauses=clauses, singly=True)
+    try:
+        houdini.thin(float("inf"))
+    except TimeoutError:
+        return []
+    return houdini.lemmas()
+
+
+def reads_of(wiring: Wiring) -> set[tuple[str, str, bool]]:
+    """Which block reads which, and whether that one was called before it: all that an order says."""
+    order, found = wiring.table.order, set()
+    for name in order:
+        left, known = [*wiring.sources[name].values()], set[str]()
+        while left:
+            for part in set(names(left.pop())) - known:
+                known.add(part)
+                if part in wiring.signals:
+                    left.append(wiring.signals[part])
+                elif part in wiring.table.block:
+                    found.add((name, part, order.index(part) < order.index(name)))
+    return found
+
+
 def _names(term: z3.BoolRef) -> set[str]:
     return set(names_in([term]))
 
 
-def as_toml(outcomes: Sequence[Outcome], count: int) -> str:
-    """The outcomes as data. count: of all edits that there are."""
+def basis_of(machine: Machine) -> dict[str, str]:
+    """What outcomes rest on, as hashes: what the files say, and the code of a scan and of the runs.
+
+    Words about it do not count, nor does the search for a proof: z3 judges what it finds.
+    """
+    tables = {"wiring": machine.table, "properties": tomllib.loads(machine.questions.text)}
+    tables["use"] = tomllib.loads(machine.use.read_text("utf-8"))
+    said = {name: json.dumps(_without_words(table), sort_keys=True) for name, table in tables.items()}
+    modules = [
+        *reference.DEVICES.values(),
+        reference,
+        expression,
+        standard,
+        machine_runs,
+        wired,
+        wiring_module,
+    ]
+    trees = [ast.parse(Path(str(module.__file__)).read_text("utf-8")) for module in modules]
+    for node in (node for tree in trees for node in ast.walk(tree)):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = None  # a docstring
+    said["code"] = "".join(map(ast.dump, trees))
+    return {name: hashlib.sha256(text.encode()).hexdigest()[:16] for name, text in said.items()}
+
+
+def _without_words(table: Any) -> Any:
+    if isinstance(table, list):
+        return [_without_words(part) for part in table]
+    if not isinstance(table, dict):
+        return table
+    words = ("why", "title", "sentence", "hazard", "cites")
+    return {key: _without_words(value) for key, value in table.items() if key not in words}
+
+
+def as_toml(outcomes: Sequence[Outcome], count: int, basis: Mapping[str, str]) -> str:
+    """The outcomes as data. count: of all edits that there are; basis: what they rest on."""
     lines = [
         "# The wiring on trial: what became of one edit of wiring.toml at a time.",
         "# Made by `modeproof machine --trial --record`. Our own design: no claim about a paper.",
         "# scans: of the shortest way from power-up that was found",
         f"# {len(outcomes)} of {count} edits were judged; of the others nothing is said.",
+        "# basis: hashes of what the outcomes rest on; an outcome is taken over as long as they are the same",
+        "",
+        "[basis]",
+        *(f"{name} = {json.dumps(value)}" for name, value in basis.items()),
         "",
     ]
     for outcome in outcomes:
@@ -327,6 +412,9 @@ def as_toml(outcomes: Sequence[Outcome], count: int) -> str:
     return "\n".join(lines)
 
 
-def read_record(text: str) -> Mapping[str, Mapping[str, Any]]:
-    """The recorded outcomes by the names of the edits."""
-    return {f"{row['row']} = {row['text']}": row for row in tomllib.loads(text).get("edit", [])}
+def read_record(text: str, basis: Mapping[str, str] | None = None) -> Mapping[str, Mapping[str, Any]]:
+    """The recorded outcomes by the names of the edits; none if they rest on something else than `basis`."""
+    table = tomllib.loads(text)
+    if basis is not None and table.get("basis") != basis:
+        return {}
+    return {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}

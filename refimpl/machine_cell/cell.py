@@ -18,7 +18,7 @@ from refimpl.edm import sf_edm
 from refimpl.enable_switch import sf_enable_switch
 from refimpl.errors import InputError, ParameterError, check_bool, check_int, check_word
 from refimpl.guard_locking import sf_guard_locking
-from refimpl.machine_cell.expression import Signal, Value, signal
+from refimpl.machine_cell.expression import Signal, Value, signal, signals
 from refimpl.machine_cell.standard import STEPS, Memory
 from refimpl.mode_selection import fplc
 from refimpl.testable_safety_sensor import sf_testable_safety_sensor
@@ -41,18 +41,21 @@ class Block:
 
     start: Any
     call: Call
-    reads: Mapping[str, Signal]
+    reads: Callable[[Mapping[str, Value]], Mapping[str, Value]]
     writes: Mapping[str, Value]
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A wiring: the type of each input (BOOL or WORD), the blocks in the order of calls, the outputs."""
+    """A wiring: the type of each input (BOOL or WORD), the blocks in the order of calls, the outputs.
+
+    ``shows``: what every signal and every output shows, all at once.
+    """
 
     inputs: Mapping[str, str]
     blocks: Mapping[str, Block]
     outputs: Mapping[str, Signal]
-    signals: Mapping[str, Signal]
+    shows: Callable[[Mapping[str, Value]], dict[str, Value]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +74,12 @@ def load(path: Path) -> Cell:
 def made_of(table: Mapping[str, Any]) -> Cell:
     """The cell of a wiring. Raises ParameterError for what it cannot be made of."""
     named = {name: row["is"] for name, row in table.get("signals", {}).items()} | from_matrix(table)
+    outputs = {name: row["is"] for name, row in table["outputs"].items()}
     return Cell(
         {name: row["type"] for name, row in table["inputs"].items()},
         {name: _block(table["block"][name], named) for name in table["order"]},
-        {name: signal(row["is"], named) for name, row in table["outputs"].items()},
-        {name: signal(text, named) for name, text in named.items()},
+        {name: signal(text, named) for name, text in outputs.items()},
+        signals({**named, **outputs}, named),
     )
 
 
@@ -117,8 +121,7 @@ def step(cell: Cell, state: State, inputs: Mapping[str, Value], dt_ms: int) -> t
     _check(cell, inputs, dt_ms)
     memory, values = dict(state.memory), {**inputs, **state.pins}
     for name, block in cell.blocks.items():
-        read = {pin: source(values) for pin, source in block.reads.items()}
-        memory[name], written = block.call(memory[name], read, dt_ms)
+        memory[name], written = block.call(memory[name], block.reads(values), dt_ms)
         for pin, value in written.items():
             values[f"{name}.{pin}"] = value
     outputs = {name: source(values) for name, source in cell.outputs.items()}
@@ -128,8 +131,7 @@ def step(cell: Cell, state: State, inputs: Mapping[str, Value], dt_ms: int) -> t
 def values_after(cell: Cell, state: State, inputs: Mapping[str, Value]) -> dict[str, Value]:
     """What every input, pin, signal and output shows at the end of the scan that left ``state``."""
     values = {**inputs, **state.pins}
-    shown = {name: source(values) for name, source in (*cell.signals.items(), *cell.outputs.items())}
-    return values | shown
+    return values | cell.shows(values)
 
 
 def _check(cell: Cell, inputs: Mapping[str, Value], dt_ms: int) -> None:
@@ -141,7 +143,7 @@ def _check(cell: Cell, inputs: Mapping[str, Value], dt_ms: int) -> None:
 
 
 def _block(row: Mapping[str, Any], named: Mapping[str, str]) -> Block:
-    reads = {pin: signal(text, named) for pin, text in row["inputs"].items()}
+    reads = signals(row["inputs"], named)
     kind, given = row["of"].upper(), row.get("parameters", {})
     if kind in STEPS:
         pins = {"Q1": False} if kind in ("SR", "RS") else {"Q": False, **({"ET": 0} if kind == "TON" else {})}

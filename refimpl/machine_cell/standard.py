@@ -24,16 +24,19 @@ class Memory:
     elapsed_ms: int = 0
 
 
+_BEFORE = (Memory(), Memory(before=True))
+
+
 def r_trig(memory: Memory, pins: Pins, dt_ms: int) -> tuple[Memory, Pins]:
     """Q for one call when CLK rises."""
     clock = bool(pins["CLK"])
-    return Memory(before=clock), {"Q": clock and not memory.before}
+    return _BEFORE[clock], {"Q": clock and not memory.before}
 
 
 def f_trig(memory: Memory, pins: Pins, dt_ms: int) -> tuple[Memory, Pins]:
     """Q for one call when CLK falls; none in the first call."""
     clock = bool(pins["CLK"])
-    return Memory(before=clock), {"Q": memory.before and not clock}
+    return _BEFORE[clock], {"Q": memory.before and not clock}
 
 
 def sr(memory: Memory, pins: Pins, dt_ms: int) -> tuple[Memory, Pins]:
