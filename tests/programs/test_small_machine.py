@@ -139,19 +139,31 @@ def test_a_planted_fault_turns_the_lane_red(
     assert record["reason"]
 
 
-def test_new_killers_are_sought_among_the_recorded_edits(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("recorded", [pytest.param(False, marks=pytest.mark.deep), True])
+def test_an_edit_with_which_a_property_falls_is_found(
+    recorded: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("programs.machine_command.FOLDER", Path("spec/latch"))
     path = folder / "killers.toml"
     path.write_text("", "utf-8")
-    assert main(["machine", "--killers", "--quiet"]) == 1
-    assert "closed: no edit of the wiring is known" in capsys.readouterr().out
     row = 'kind = "part left out"\nrow = "block.running.inputs.R1"\ntext = "Stop"\nverdict = "KILLED"\n'
-    (folder / "trial.toml").write_text(f'[[edit]]\n{row}by = ["closed"]\nscans = 2\n', "utf-8")
+    if recorded:
+        (folder / "trial.toml").write_text(f'[[edit]]\n{row}by = ["closed"]\nscans = 2\n', "utf-8")
     assert main(["machine", "--killers", "--quiet"]) == 0
     assert "1 of 1 properties fall with an edit" in capsys.readouterr().out
-    assert 'text = "Stop"' in path.read_text("utf-8")
+    assert ('text = "Stop"' in path.read_text("utf-8")) or not recorded
+    assert 'property = "closed"' in path.read_text("utf-8")
+
+
+def test_a_property_that_nothing_breaks_is_named(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("programs.machine_command.FOLDER", Path("spec/latch"))
+    (folder / "safety.toml").write_text(asked(("said", 'always = "Key OR NOT Key"')), "utf-8")
+    assert main(["machine", "--killers", "--quiet"]) == 1
+    said = capsys.readouterr().out
+    assert "said: no edit of the wiring is known with which it falls" in said
+    assert "0 of 1 properties fall with an edit" in said
 
 
 def test_the_evidence_of_another_text_is_seen_as_such(folder: Path) -> None:
