@@ -122,6 +122,7 @@ def test_a_proof_of_nothing_is_not_as_expected(
     assert verdict_on_machine({"verdicts": [], "problems": []})[0] == "UNJUDGED"
 
 
+@pytest.mark.deep
 def test_an_edited_verdict_contradicts_its_rows(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     judged_as(monkeypatch, stop_stops="REFUTED")
     record = judge_machine(tree, NAME)
@@ -238,6 +239,7 @@ def test_evidence_of_a_verdict_that_is_none_is_refused() -> None:
         evidence.write(Path("/nowhere"), record_of("PROVED") | {"verdict": "PROVEN"})
 
 
+@pytest.mark.deep
 def test_evidence_is_json_with_the_scans_of_each_mistake(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     judged_as(monkeypatch)
     judge_machine(tree, NAME)
