@@ -11,14 +11,14 @@ import json
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Entry, Text, typed
 from programs.machine import Machine
-from programs.machine_runs import Runner, Scan, look, rule_of
+from programs.machine_runs import Runner, Scan, Seen, look, rule_of
 from programs.machine_trial import Edit, edits, read_record
 from refimpl.machine_cell.expression import Value
 
@@ -118,29 +118,46 @@ class Killers:
                 raise Unjudged(f"{killer.property}: {line!r} is no scan of this machine") from None
         return found
 
-    def sought(self, id: str, recorded: Mapping[str, Mapping[str, Any]]) -> tuple[Edit, list[Scan]] | None:
-        """An edit with which a property falls, of those that are recorded to break it, and its scans."""
-        names = [name for name, row in recorded.items() if id in row["by"] and row.get("scans")]
-        for name in sorted(names, key=lambda name: (recorded[name]["by"][0] != id, recorded[name]["scans"])):
-            if (edit := self.edits.get(name)) is None:
+    def sought(self, ids: Sequence[str], names: Sequence[str]) -> dict[str, Killer]:
+        """For properties an edit of these with which each falls, as far as runs find one, and its scans."""
+        found: dict[str, Killer] = {}
+        for name in names:
+            left = [id for id in ids if id not in found]
+            if not left or (edit := self.edits.get(name)) is None:
                 continue
-            runner = self.runner(edit)
-            rule = rule_of(self.rows[id], [], runner.named)
-            broken = look(runner, [rule], range(RUNS), lambda seen: bool(seen.broken)).broken
-            if broken:
-                return edit, runner.shortened(broken[id], rule, TRIES)
-        return None
+            self.machine.tell(f"{len(left)} without an edit, {name}")
+            try:
+                runner = self.runner(edit)
+            except Unjudged:
+                continue
+            rules = {id: rule_of(self.rows[id], [], runner.named) for id in left}
+            runs = look(runner, list(rules.values()), range(RUNS), partial(_all, len(rules)))
+            for id, scans in runs.broken.items():
+                short = list(lines_of(runner.shortened(scans, rules[id], TRIES)))
+                killer = Killer(property=id, row=edit.row, text=edit.text, scans=short)
+                if not self.doubt(killer):
+                    found[id] = killer
+        return found
 
     def renewed(self, killers: Sequence[Killer], recorded: Path) -> list[Killer]:
-        """The rows that still show something, and new ones for the other properties where there are any."""
+        """The rows that still show something, and new ones for the other properties where there are any.
+
+        First an edit is sought that was in the row or that is recorded to break the property, then any.
+        """
         good = {killer.property: killer for killer in killers if not self.doubt(killer)}
         record = read_record(recorded.read_text("utf-8")) if recorded.exists() else {}
         for id in self.rows:
-            self.machine.tell(id)
-            if id not in good and (found := self.sought(id, record)) is not None:
-                edit, scans = found
-                good[id] = Killer(property=id, row=edit.row, text=edit.text, scans=list(lines_of(scans)))
+            if id not in good:
+                names = [name for name, row in record.items() if id in row["by"] and row.get("scans")]
+                names.sort(key=lambda name: (record[name]["by"][0] != id, record[name]["scans"]))
+                was = [name_of(killer) for killer in killers if killer.property == id]
+                good |= self.sought([id], [*was, *names])
+        good |= self.sought([id for id in self.rows if id not in good], list(self.edits))
         return [good[id] for id in self.rows if id in good]
+
+
+def _all(count: int, seen: Seen) -> bool:
+    return len(seen.broken) == count
 
 
 def lines_of(scans: Sequence[Scan]) -> Iterator[str]:

@@ -88,7 +88,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--killers",
         action="store_true",
-        help="write killers.toml anew: an edit of trial.toml and its scans for each property",
+        help="write killers.toml anew: for each property an edit with which it falls, and the scans",
     )
     parser.add_argument(
         "--evidence", action="store_true", help="judge the project's own as `verify` does, and write evidence"

@@ -18,7 +18,7 @@ from modeproof.ground.places import documents, machines
 from modeproof.ground.progress import Progress
 from modeproof.lane.machine import judge_machine, troubles_of_machine
 from modeproof.lane.summary import machine_line
-from modeproof.lane.verify import verify
+from modeproof.lane.verify import stages_of_verify, verify
 from modeproof.report.again import doubt_on_machine
 from modeproof.report.verdicts import status_of, verdict_on_machine
 from programs.cell import Asked
@@ -122,6 +122,7 @@ def test_a_proof_of_nothing_is_not_as_expected(
     assert verdict_on_machine({"verdicts": [], "problems": []})[0] == "UNJUDGED"
 
 
+@pytest.mark.deep
 def test_an_edited_verdict_contradicts_its_rows(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     judged_as(monkeypatch, stop_stops="REFUTED")
     record = judge_machine(tree, NAME)
@@ -238,6 +239,7 @@ def test_evidence_of_a_verdict_that_is_none_is_refused() -> None:
         evidence.write(Path("/nowhere"), record_of("PROVED") | {"verdict": "PROVEN"})
 
 
+@pytest.mark.deep
 def test_evidence_is_json_with_the_scans_of_each_mistake(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     judged_as(monkeypatch)
     judge_machine(tree, NAME)
@@ -245,3 +247,33 @@ def test_evidence_is_json_with_the_scans_of_each_mistake(tree: Path, monkeypatch
     row = next(row for row in record["result"]["killers"] if row["property"] == "unlock-held")
     assert row["was"] == "UnlockButton"
     assert all(set(scan) == {"dt_ms", "in", "out"} for scan in row["scans"])
+
+
+@pytest.mark.parametrize(
+    ("lane", "names", "tasks", "troubles"),
+    [
+        ("full", documents(ROOT), 1, {}),
+        ("full", ("edm",), 0, {}),
+        ("smoke", documents(ROOT), 0, {NAME: "planted"}),
+        ("smoke", ("edm",), 0, {}),
+    ],
+)
+def test_the_full_lane_of_all_documents_has_the_machine(
+    lane: str, names: Sequence[str], tasks: int, troubles: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[Any] = []
+
+    def prove(*_: Any, beside: list[Any], on_beside: Any, **__: Any) -> tuple[list[Any], dict[str, str]]:
+        asked.extend(beside)
+        for _task in beside:
+            on_beside(record_of("PROVED"))
+        return [], {}
+
+    monkeypatch.setattr("modeproof.lane.verify.comparisons", lambda *_: ([], {}))
+    monkeypatch.setattr("modeproof.lane.verify.prove_documents", prove)
+    monkeypatch.setattr("modeproof.lane.verify.troubles_of_machine", lambda *_: "planted")
+    stage = dict(stages_of_verify())["proofs"]
+    records, found = stage(ROOT, names, lane, Progress(quiet=True))
+    assert asked == [(judge_machine, (ROOT, NAME))] * tasks
+    assert [record["document"] for record in records] == [NAME] * tasks
+    assert found == troubles

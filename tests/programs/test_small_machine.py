@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
-from modeproof.ground import evidence
 from modeproof.lane.machine import judge_machine
 from modeproof.report.verdicts import status_of
 from programs.machine import Machine
@@ -99,10 +98,12 @@ def test_each_verdict_comes_with_its_reason(folder: Path) -> None:
     assert found["absent"][1] == "the wiring has no 'Beam'"
 
 
+@pytest.mark.deep
 def test_one_property_that_is_proved_is_a_pass(folder: Path) -> None:
     assert words(folder, CLOSED)["closed"][0] == "PROVED"
 
 
+@pytest.mark.deep
 def test_a_wire_left_out_is_refuted(folder: Path) -> None:
     wiring = WIRING.replace("Stop OR NOT safeguards_hold", "Stop")
     assert words(folder, CLOSED, wiring=wiring)["closed"][0] == "REFUTED"
@@ -139,25 +140,28 @@ def test_a_planted_fault_turns_the_lane_red(
     assert record["reason"]
 
 
-def test_new_killers_are_sought_among_the_recorded_edits(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("recorded", [pytest.param(False, marks=pytest.mark.deep), True])
+def test_an_edit_with_which_a_property_falls_is_found(
+    recorded: bool, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("programs.machine_command.FOLDER", Path("spec/latch"))
     path = folder / "killers.toml"
     path.write_text("", "utf-8")
-    assert main(["machine", "--killers", "--quiet"]) == 1
-    assert "closed: no edit of the wiring is known" in capsys.readouterr().out
     row = 'kind = "part left out"\nrow = "block.running.inputs.R1"\ntext = "Stop"\nverdict = "KILLED"\n'
-    (folder / "trial.toml").write_text(f'[[edit]]\n{row}by = ["closed"]\nscans = 2\n', "utf-8")
+    if recorded:
+        (folder / "trial.toml").write_text(f'[[edit]]\n{row}by = ["closed"]\nscans = 2\n', "utf-8")
     assert main(["machine", "--killers", "--quiet"]) == 0
     assert "1 of 1 properties fall with an edit" in capsys.readouterr().out
-    assert 'text = "Stop"' in path.read_text("utf-8")
+    assert ('text = "Stop"' in path.read_text("utf-8")) or not recorded
+    assert 'property = "closed"' in path.read_text("utf-8")
 
 
-def test_the_evidence_of_another_text_is_seen_as_such(folder: Path) -> None:
-    record = judge_machine(folder.parents[1], "latch")
-    before = evidence.hashes(folder.parents[1], [folder / "wiring.toml"])
-    (folder / "wiring.toml").write_text(WIRING + "\n", "utf-8")
-    after = evidence.hashes(folder.parents[1], [folder / "wiring.toml"])
-    assert before.items() <= record["inputs"].items()
-    assert not after.items() <= record["inputs"].items()
+def test_a_property_that_nothing_breaks_is_named(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("programs.machine_command.FOLDER", Path("spec/latch"))
+    (folder / "safety.toml").write_text(asked(("said", 'always = "Key OR NOT Key"')), "utf-8")
+    assert main(["machine", "--killers", "--quiet"]) == 1
+    said = capsys.readouterr().out
+    assert "said: no edit of the wiring is known with which it falls" in said
+    assert "0 of 1 properties fall with an edit" in said
