@@ -71,6 +71,7 @@ class Machine:
     runs: int = RUNS
     triggers: Sequence[Sequence[str]] | None = None
     """The texts of what must occur for each property, where they are known; they come from the terms."""
+    tries: int = TRIES
     leaves: bool = False
     """Whether a value might leave its type, as far as the invariants show; then nothing is PROVED."""
 
@@ -254,7 +255,7 @@ class Machine:
             reached = self.seen.reached[asked.id]
             if asked.id in self.seen.broken:
                 self.tell(f"scans that break {asked.id}")
-                scans = self.runner.shortened(self.seen.broken[asked.id], rule, TRIES)
+                scans = self.runner.shortened(self.seen.broken[asked.id], rule, self.tries)
                 mended = list(self.mended(scans, row, own)) if own is not None else []
                 how = f"{len(scans)} scans, the shortest that were found"
                 found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))
