@@ -75,6 +75,7 @@ class Machine:
     """The texts of what must occur for each property, where they are known; they come from the terms."""
     leave_out: bool = False
     """A property that names what the wiring has not is NOT JUDGED; else the file is refused."""
+    tries: int = TRIES
     leaves: bool = False
     """Whether a value might leave its type, as far as the invariants show; then nothing is PROVED."""
 
@@ -281,7 +282,7 @@ class Machine:
             reached = self.seen.reached[asked.id]
             if asked.id in self.seen.broken:
                 self.tell(f"scans that break {asked.id}")
-                scans = self.runner.shortened(self.seen.broken[asked.id], rule, TRIES)
+                scans = self.runner.shortened(self.seen.broken[asked.id], rule, self.tries)
                 mended = list(self.mended(scans, row, own)) if own is not None else []
                 how = f"{len(scans)} scans, the shortest that were found"
                 found.append(Verdict(asked, row, "REFUTED", how, reached, scans, mended))

@@ -21,8 +21,8 @@ from programs.wired import unit as wired_unit
 
 RUNS = 40
 """Random runs: each scan of both is run, so it takes twice as long."""
-PREFIX, SAME = "WIRED_", "SAME_"
-"""Before the names of the wiring's own values, and before those that say whether an output is the same."""
+PREFIX, DIFFERS = "WIRED_", "DIFFERS_"
+"""Before the names of the wiring's own values, and before those that say whether an output differs."""
 
 
 @dataclass
@@ -40,7 +40,7 @@ class Equality(ProgramMachine):
                 "sentence": f"{name} is after every scan what the wiring gives.",
                 "hazard": "The program does what nobody proved of the wiring.",
                 "cites": [],
-                "always": f"{SAME}{name}",
+                "never": f"{DIFFERS}{name}",
             }
             for name in self.wiring.table.outputs
         )
@@ -59,9 +59,11 @@ class Equality(ProgramMachine):
             variables[f"{PREFIX}{key}"] = replace(variable, name=f"{PREFIX}{variable.name}", section=section)
         body = [*own.body, *(_renamed(statement, mine) for statement in other.body)]
         for name in wiring.table.outputs:
-            variables[f"{SAME}{name}".upper()] = Variable(f"{SAME}{name}", BOOL, "var", True, own.place)
+            variables[f"{DIFFERS}{name}".upper()] = Variable(f"{DIFFERS}{name}", BOOL, "var", None, own.place)
             sides = Name(name, own.place), Name(f"{PREFIX}{name}", own.place)
-            body.append(Assign(Name(f"{SAME}{name}", own.place), Binary("=", *sides, own.place), own.place))
+            body.append(
+                Assign(Name(f"{DIFFERS}{name}", own.place), Binary("<>", *sides, own.place), own.place)
+            )
         whole: Unit = replace(own, variables=variables, body=tuple(body))
         units = {**self.source.units, own.name.upper(): whole}
         return Cell.of(replace(self.source, units=units), whole, wiring.table.scan_ms)
@@ -71,8 +73,7 @@ class Equality(ProgramMachine):
         """What runs both."""
         found = super().runner
         assert isinstance(found, ProgramRunner)
-        outputs = self.wiring.table.outputs
-        return replace(found, shown=[f"{before}{name}" for name in outputs for before in (SAME, PREFIX)])
+        return replace(found, shown=[f"{DIFFERS}{name}" for name in self.wiring.table.outputs])
 
     def candidates(self, samples: Sequence[Sample]) -> Candidates:
         """Relations between the two memories."""

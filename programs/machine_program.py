@@ -30,6 +30,9 @@ from programs.wired import observed
 from programs.wiring import STANDARD, Wiring, names
 from refimpl.machine_cell.expression import Value
 
+TRIES = 60
+"""Runs that may be made to shorten one counterexample: a scan of the source takes ten times as long."""
+
 
 @dataclass(frozen=True)
 class ProgramRunner(Runner):
@@ -65,6 +68,7 @@ class ProgramMachine(Machine):
 
     sources: Sequence[Path] = field(kw_only=True)
     unit: str | None = field(default=None, kw_only=True)
+    tries: int = TRIES
 
     @cached_property
     def source(self) -> Source:
