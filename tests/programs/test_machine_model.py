@@ -46,6 +46,24 @@ MISTAKES = {
         "modes",
         "ModeChangeStops",
     ),
+    "the switch is active by its mode": (
+        '[block.enable.inputs]\nActivate = "TRUE"',
+        '[block.enable.inputs]\nActivate = "enable_in_use"',
+        "switch",
+        "Assumes_enable",
+    ),
+    "one reset for door and desk": (
+        'Reset = "ResetGuard"',
+        'Reset = "Reset"',
+        "door_resets",
+        "DoorNeedsReset",
+    ),
+    "a start that is held": (
+        "start_edge.Q AND ready AND NOT ready_begins.Q",
+        "Start AND ready",
+        "letting_go",
+        "LettingGoStops",
+    ),
     "no start button": (
         "start_edge.Q AND ready AND NOT ready_begins.Q",
         "ready AND NOT ready_begins.Q",
@@ -134,7 +152,12 @@ def test_a_block_needs_what_its_contract_assumes(block: str) -> None:
     assert (found.verdict, found.as_expected) == (VIOLATED, True)
 
 
-SLOW = ("no start button", "an error keeps the request")
+SLOW = (
+    "one reset for door and desk",
+    "a start that is held",
+    "no start button",
+    "an error keeps the request",
+)
 
 
 @pytest.mark.parametrize(
