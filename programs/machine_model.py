@@ -78,7 +78,7 @@ class Asked:
 
 
 def asked_of(table: Mapping[str, Any], file: str, wanted: Sequence[str] | None = None) -> list[Asked]:
-    """The properties of a file without those that have a time; only those that are wanted, if any are."""
+    """The properties of a file without those that have a time, or those that are wanted. Raises Unjudged."""
     place = Place(file, 1)
     found = []
     for row in table["property"]:
@@ -94,6 +94,9 @@ def asked_of(table: Mapping[str, Any], file: str, wanted: Sequence[str] | None =
             bad = row["holds"]
         both = [parsed(row[key], place) if key in row else None for key in ("after", "only_once")]
         found.append(Asked(row["id"], parsed(bad, place), *both))
+    for name in wanted or ():
+        if name not in {rule.id for rule in found}:
+            raise Unjudged(f"{file}: no property {name!r} without a time, and a run of TLC asks for it")
     return found
 
 
