@@ -104,6 +104,11 @@ def _edits(text: str, wiring: Wiring) -> Iterator[Edit]:
     for name, output in table.outputs.items():
         for new in _weaker(output.text, wiring, f"outputs.{name}"):
             yield at("part left out", f"outputs.{name}", new)
+        block = table.block.get(output.text.partition(".")[0])
+        for source in sorted({*block.inputs.values()} - {"TRUE", "FALSE"}) if block else ():
+            tree = parsed(source, wiring.place(f"outputs.{name}"))
+            if wiring.type_of(tree) is wiring.type_of(wiring.shown[name]) is BOOL:
+                yield at("block left out", f"outputs.{name}", source)
     yield from _of_matrix(text, wiring)
     for (name, mode), (other, there) in itertools.permutations(table.modes.items(), 2):
         yield at("modes not exclusive", f"modes.{name}", f"{mode.text} OR {there.text}")
@@ -242,7 +247,7 @@ class Trial:
         try:
             edited = self.edited(edit)
         except Unjudged as error:
-            return Outcome(edit, "REFUSED", [error.message])
+            return Outcome(edit, "REFUSED", [error.message.replace(self.machine.file, "wiring.toml")])
         if edit.kind == "order" and reads_of(edited.wiring) == reads_of(self.machine.wiring):
             return Outcome(edit, "HARMLESS", ["the same program"])
         seen = edited.look(lambda seen: bool(seen.broken))
@@ -254,10 +259,14 @@ class Trial:
         return None
 
     def prove(self, edit: Edit) -> Outcome | None:
-        """The same with the invariants of the machine as it is; None: that takes a search for others."""
+        """The same with more runs and the invariants of the machine as it is; None: that takes others."""
         if (found := self.run(edit)) is not None:
             return found
         edited = self.edited(edit)
+        edited.runs = self.machine.runs
+        seen = edited.look(lambda seen: bool(seen.broken), FEW_RUNS)
+        if seen.broken:
+            return self._killed(edit, edited, seen)
         if self._same(edited):
             return Outcome(edit, "HARMLESS", ["the same program"])
         known = set(map(str, edited.system.state.values()))
@@ -267,15 +276,10 @@ class Trial:
         return None
 
     def of(self, edit: Edit) -> Outcome:
-        """What becomes of an edit, with more runs and a search for invariants where they are needed."""
+        """What becomes of an edit, with a search for invariants where it is needed."""
         if (found := self.prove(edit)) is not None:
             return found
         edited = self.edited(edit)
-        edited.runs = self.machine.runs
-        seen = edited.look(lambda seen: bool(seen.broken), FEW_RUNS)
-        if seen.broken:
-            return self._killed(edit, edited, seen)
-        edited = self.edited(edit)  # the invariants come from all runs
         edited.runs = self.machine.runs
         if self._proved(edited, edited.lemmas(SECONDS)):
             return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
@@ -413,8 +417,16 @@ def as_toml(outcomes: Sequence[Outcome], count: int, basis: Mapping[str, str]) -
 
 
 def read_record(text: str, basis: Mapping[str, str] | None = None) -> Mapping[str, Mapping[str, Any]]:
-    """The recorded outcomes by the names of the edits; none if they rest on something else than `basis`."""
+    """The recorded outcomes by the names of the edits; with a basis, those that still rest on it.
+
+    Scans that break a property, a refusal and a proof do so however a cell is used. What runs did not reach
+    is asked again when the file that guides them is another.
+    """
     table = tomllib.loads(text)
-    if basis is not None and table.get("basis") != basis:
+    rows = {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}
+    if basis is None or (known := table.get("basis", {})) == basis:
+        return rows
+    if {**known, "use": ""} != {**basis, "use": ""}:
         return {}
-    return {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}
+    lasting = ("HARMLESS", "REFUSED")
+    return {id: row for id, row in rows.items() if row["verdict"] in lasting or "scans" in row}
