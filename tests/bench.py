@@ -151,7 +151,7 @@ def main() -> int:
         show(f"replay {run.id}", "scans", measure(replay(run)))
     biggest = max(runs, key=lambda run: graph_file(place, run).stat().st_size)
     show(f"read {biggest.id}", "lines", measure(read_lines(biggest)))
-    suite = open_suite(place / "examples/faulty/vectors/brief.jsonl.gz")
+    suite = open_suite(place / "vectors/fplc/brief.jsonl.gz")
     interface = load_interface(place, suite.document)
     modes = [int(mode) for mode in interface.constants["MODES"]]
     suite = replace(suite, parameters=declare_parameters(interface.devices[suite.target], modes))

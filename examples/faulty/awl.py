@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
-from examples.faulty.run import HERE, Fault, load_faults, vectors  # noqa: E402
+from examples.faulty.run import HERE, WHOLE, Fault, load_faults, vectors  # noqa: E402
 from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
 from modeproof.kit.judge import Plan, Verdict, run_suite  # noqa: E402
@@ -52,8 +52,9 @@ def write(folder: Path, fault: Fault | None = None) -> Path:
 
 def suite_of(fault: Fault) -> Suite:
     """The pack's vectors that show the fault; the fast suite where none does."""
-    suite = "brief" if fault.reason else fault.suite
-    return open_suite(vectors("plc-brief" if target_of(fault) == "plc" else suite))
+    if target_of(fault) == "plc":
+        return open_suite(ROOT / "vectors" / "plc" / f"{WHOLE}.jsonl.gz")
+    return open_suite(vectors(WHOLE if fault.reason else fault.suite))
 
 
 def judge(program: Path, suite: Suite, timeout_s: float = TIMEOUT_S, plan: Plan | None = None) -> Verdict:

@@ -165,7 +165,9 @@ def build_all(folder: Path, faults: Iterable[Fault], program: Program = FPLC) ->
 
 
 def vectors(suite: str, program: Program = FPLC) -> Path:
-    """The pack's own vectors of a suite."""
+    """The vectors of a suite: `brief` as it is published, of the others what the pack needs of them."""
+    if suite == WHOLE:
+        return ROOT / "vectors" / program.target / f"{WHOLE}.jsonl.gz"
     return program.vectors / f"{suite}.jsonl.gz"
 
 
@@ -260,20 +262,17 @@ def row(fault: Fault, verdict: Verdict) -> str:
 
 
 def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path, program: Program = FPLC) -> None:
-    """Take the pack's vectors from the suites in `source`: `brief` as it is, of the others what catches a
-    fault.
+    """Take the pack's vectors from the suites in `source`: what catches a fault that `brief` does not.
 
     Raises Unjudged when a suite is not there.
     """
-    chosen = used(faults)
+    chosen = used(faults)[1:]
     for name in chosen:
         if not (source / f"{name}.jsonl.gz").is_file():
             command = f"modeproof conform {program.target} --suite {name} .."
             raise Unjudged(f"{source}: no {name}.jsonl.gz; `{command}` makes it")
     program.vectors.mkdir(exist_ok=True)
-    whole = "".join(line.decode() for line in read_lines(source / f"{WHOLE}.jsonl.gz"))
-    _write(vectors(WHOLE, program), whole.splitlines())
-    for name in chosen[1:]:
+    for name in chosen:
         those = [fault for fault in faults if fault.suite == name]
         _write(vectors(name, program), _beginnings(source / f"{name}.jsonl.gz", those, made))
 

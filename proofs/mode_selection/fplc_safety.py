@@ -438,7 +438,9 @@ def one_selection_where_set(scan: Scanned) -> Obligation:
         return once, z3.BoolVal(scan.becomes("Complete", "Clear", "Error") and not switched(scan))
     if not switched(scan):
         return None
-    return TRUE, once if scan.becomes("Complete") else z3.And(z3.Not(once), z3.BoolVal(scan.becomes("Settle")))
+    if scan.becomes("Complete"):
+        return TRUE, once
+    return TRUE, z3.And(z3.Not(once), z3.BoolVal(scan.becomes("Settle")))
 
 
 @theorem(clauses=["EKS-2-29", "EKS-GP-5"], findings=["E-15"], properties=["OneSelectionWhereSet"], slow=True)

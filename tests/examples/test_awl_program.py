@@ -30,6 +30,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FAULTS = load_faults(PACK)
 CAUGHT = [fault for fault in FAULTS if not fault.reason]
 COMMAND = [sys.executable, str(ADAPTER), "fplc"]
+PLC_BRIEF = ROOT / "vectors" / "plc" / "brief.jsonl.gz"
 
 
 @pytest.fixture(scope="module")
@@ -114,10 +115,12 @@ def test_nothing_but_programs_of_their_own_import_the_simulator() -> None:
 
 
 @pytest.mark.sampled
-@pytest.mark.parametrize("name", ["brief", "plc-brief", "words", "tour"])
-def test_the_programs_conform(name: str) -> None:
+@pytest.mark.parametrize(
+    "path", [PLC_BRIEF, *map(vectors, ("brief", "words", "tour"))], ids=["plc", "brief", "words", "tour"]
+)
+def test_the_programs_conform(path: Path) -> None:
     """To all of `brief`; of `words` and `tour` to what catches a program of the C pack."""
-    suite = open_suite(vectors(name))
+    suite = open_suite(path)
     verdict = judge(AWL / f"{suite.target}.awl", suite)
     assert (verdict.word, verdict.reason, verdict.scans) == ("CONFORMS", "", suite.scan_count)
 

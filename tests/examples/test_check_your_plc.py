@@ -24,14 +24,14 @@ SHOWN = [text for kind, text in FENCED if not kind]
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder beside the checkout, as the page has it, and in place of `make kit`, which needs the
-    graphs, a kit with the suite `brief` of the faulty pack.
+    graphs, a kit with the published suite `brief`.
     """
     (tmp_path / "modeproof").symlink_to(ROOT)
     work = tmp_path / "my plc"
     work.mkdir()
     packed = suite_file(tmp_path / "place", "mode_selection", "fplc", "brief")
     packed.parent.mkdir(parents=True)
-    shutil.copyfile(ROOT / "examples" / "faulty" / "vectors" / "brief.jsonl.gz", packed)
+    shutil.copyfile(ROOT / "vectors" / "fplc" / "brief.jsonl.gz", packed)
     monkeypatch.setattr(packing, "SUITES", {"brief": packing.SUITES["brief"]})
     packing.pack(tmp_path / "place", {"fplc": "mode_selection"}, work / packing.NAME)
     return work
