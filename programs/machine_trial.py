@@ -107,7 +107,7 @@ def _edits(text: str, wiring: Wiring) -> Iterator[Edit]:
         block = table.block.get(output.text.partition(".")[0])
         for source in sorted({*block.inputs.values()} - {"TRUE", "FALSE"}) if block else ():
             tree = parsed(source, wiring.place(f"outputs.{name}"))
-            if wiring.type_of(tree) == wiring.type_of(wiring.shown[name]):
+            if wiring.type_of(tree) is wiring.type_of(wiring.shown[name]) is BOOL:
                 yield at("block left out", f"outputs.{name}", source)
     yield from _of_matrix(text, wiring)
     for (name, mode), (other, there) in itertools.permutations(table.modes.items(), 2):
@@ -417,8 +417,16 @@ def as_toml(outcomes: Sequence[Outcome], count: int, basis: Mapping[str, str]) -
 
 
 def read_record(text: str, basis: Mapping[str, str] | None = None) -> Mapping[str, Mapping[str, Any]]:
-    """The recorded outcomes by the names of the edits; none if they rest on something else than `basis`."""
+    """The recorded outcomes by the names of the edits; with a basis, those that still rest on it.
+
+    Scans that break a property, a refusal and a proof do so however a cell is used. What runs did not reach
+    is asked again when the file that guides them is another.
+    """
     table = tomllib.loads(text)
-    if basis is not None and table.get("basis") != basis:
+    rows = {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}
+    if basis is None or (known := table.get("basis", {})) == basis:
+        return rows
+    if {**known, "use": ""} != {**basis, "use": ""}:
         return {}
-    return {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}
+    lasting = ("HARMLESS", "REFUSED")
+    return {id: row for id, row in rows.items() if row["verdict"] in lasting or "scans" in row}

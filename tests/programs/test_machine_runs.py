@@ -63,7 +63,7 @@ def states_seen() -> tuple[reference.State, ...]:
 
 @pytest.mark.sampled
 @pytest.mark.parametrize("mode", MODES)
-def test_from_each_state_seen_the_user_gets_back_to_each_mode(mode: str) -> None:
+def test_from_states_seen_the_user_gets_back_to_each_mode(mode: str) -> None:
     runner = plain().runner
     assert len(states_seen()) > 150
     for state in random.Random(7).sample(states_seen(), 40):
