@@ -104,8 +104,8 @@ def _edits(text: str, wiring: Wiring) -> Iterator[Edit]:
     for name, output in table.outputs.items():
         for new in _weaker(output.text, wiring, f"outputs.{name}"):
             yield at("part left out", f"outputs.{name}", new)
-        block = table.block.get(output.text.partition(".")[0])
-        for source in sorted({*block.inputs.values()} - {"TRUE", "FALSE"}) if block else ():
+        feeder = table.block.get(output.text.partition(".")[0])
+        for source in sorted({*feeder.inputs.values()} - {"TRUE", "FALSE"}) if feeder else ():
             tree = parsed(source, wiring.place(f"outputs.{name}"))
             if wiring.type_of(tree) is wiring.type_of(wiring.shown[name]) is BOOL:
                 yield at("block left out", f"outputs.{name}", source)

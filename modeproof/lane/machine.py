@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of, verdict_on_machine
 
 ID = "machine"
+MODELS = "tlc.toml"
 ROOMS = ("programs", "proofs", "refimpl")
 """Whose Python a verdict on a machine rests on."""
 
@@ -107,10 +109,12 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
     folder = place / "spec" / name
     sources = [path for room in ROOMS for path in (place / room).rglob("*.py")]
     sources += [*folder.glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
+    sources += [*(place / "spec").glob("*/*.tla")] if (folder / MODELS).exists() else []
     inputs = evidence.hashes(place, sources)  # of what is judged now
     result: dict[str, Any] = {}
     try:
         result = proofs_module("programs.machine_evidence").judged(folder)
+        result["models"] = list(_models(place, folder))
         verdict, reason = verdict_on_machine(result)
         low, high = result["scan_ms"]
         strength = (
@@ -136,6 +140,24 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
     )
     evidence.write(place, record)
     return record
+
+
+def _models(place: Path, folder: Path) -> Iterator[dict[str, Any]]:
+    """The runs of TLC: that each block keeps its contract, and the cell over them. Raises Unjudged."""
+    tasks = proofs_module("programs.machine_tlc").tasks(None, folder) if (folder / MODELS).exists() else ()
+    for task in tasks:
+        verdict, outcome = machine_tlc.judged(place, task, shipped=True)
+        counts = outcome.log.counts
+        yield {
+            "run": task.id,
+            "verdict": verdict.verdict,
+            "as_expected": verdict.as_expected,
+            "judged": verdict.judged,
+            "reason": verdict.reason,
+            "checks": list(task.checks),
+            "distinct": counts.distinct if counts else None,
+            "generated": counts.generated if counts else None,
+        }
 
 
 def troubles_of_machine(place: Path, name: str) -> str:

@@ -114,7 +114,10 @@ def machine_line(record: Record) -> str:
     good = sum(row["verdict"] == "PROVED" for row in rows)
     words = f"{good} of {len(rows)} PROVED by Z3, re-checked by cvc5" if rows else record["verdict"]
     falls = len(record["result"].get("killers", []))
+    models = record["result"].get("models", [])
+    kept = sum(row["as_expected"] for row in models)
     line = f"{'machine':<12} {words}, {record['seconds']:.1f} s; {falls} of {len(rows)} fall with an edit"
+    line += f"; {kept} of {len(models)} runs of TLC as expected" if models else ""
     return f"{line}; {record['document']} is our own design, no document"
 
 

@@ -59,11 +59,18 @@ def verdict_on_machine(result: Mapping[str, Any]) -> tuple[str, str]:
     words = [row["verdict"] for row in result["verdicts"]]
     bad = [f"{row['id']}: {row['verdict']}: {row['how']}" for row in result["verdicts"] if row["how"]]
     bad += [f"{row['id']}: it was never reached" for row in result["verdicts"] if _unreached(row)]
+    models = [row for row in result.get("models", ()) if not row["as_expected"]]
+    bad += [f"run {row['run']}: {row['verdict']}: {row['reason']}" for row in models]
     first = (*bad, *result["problems"], "" if words else "no property was judged")[0:1]
     if "REFUTED" in words:
         return "REFUTED", next(text for text in bad if ": REFUTED: " in text)
+    if any(row["judged"] for row in models):
+        return "DIFFERS", next(text for text in bad if text.startswith("run "))
     if bad or set(words) != {"PROVED"}:
-        return "UNKNOWN" if {*words} <= {"PROVED", "UNKNOWN"} and words else "UNJUDGED", "".join(first)
+        return "UNKNOWN" if not models and {*words} <= {
+            "PROVED",
+            "UNKNOWN",
+        } and words else "UNJUDGED", "".join(first)
     return ("SURVIVED", "".join(first)) if result["problems"] else ("PROVED", "")
 
 

@@ -6,8 +6,8 @@ CONSTANT Words    \* the words that are tried
 VARIABLES
     at,        \* the step of the scan that comes next
     broken,    \* what was found broken in the step before
-    fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, SqueezingStops_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits
-vars == <<at, broken, fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, SqueezingStops_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+    fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits
+vars == <<at, broken, fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 fplc_is == INSTANCE FPLCContract
 guard_is == INSTANCE GuardContract
 beam_is == INSTANCE BeamContract
@@ -59,6 +59,7 @@ Init ==
     /\ setup_new_CLK = FALSE
     /\ intervention_new_CLK = FALSE
     /\ service_new_CLK = FALSE
+    /\ nobody_inside_Q1 = FALSE
     /\ drive_starts_CLK = FALSE
     /\ drive_stops_CLK = FALSE
     /\ unlock_begins_CLK = FALSE
@@ -66,7 +67,9 @@ Init ==
     /\ start_due_Q1 = FALSE
     /\ reset_due_Q1 = FALSE
     /\ LettingGoStops_waits = FALSE
+    /\ LettingGoStopsOpen_waits = FALSE
     /\ SqueezingStops_waits = FALSE
+    /\ SqueezingStopsOpen_waits = FALSE
     /\ DoorNeedsReset_waits = FALSE
     /\ BeamNeedsReset_waits = FALSE
     /\ DoorErrorStays_waits = FALSE
@@ -82,7 +85,7 @@ Step1 ==
              fplc_is!Guarantees(fplc, i, row) /\ fplc' = row
        /\ broken' = IF fplc_is!Assumes(fplc, i) THEN {} ELSE {"fplc"}
        /\ LA' = new_LA
-       /\ UNCHANGED <<guard, beam, enable, edm, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, SqueezingStops_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<guard, beam, enable, edm, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step2 ==
     /\ at = 2 /\ at' = 3
@@ -119,7 +122,7 @@ Step2 ==
        /\ S_GuardBolt' = new_S_GuardBolt
        /\ UnlockButton' = new_UnlockButton
        /\ ResetGuard' = new_ResetGuard
-       /\ UNCHANGED <<fplc, beam, enable, edm, LA, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, SqueezingStops_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<fplc, beam, enable, edm, LA, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step3 ==
     /\ at = 3 /\ at' = 4
@@ -130,7 +133,7 @@ Step3 ==
        /\ broken' = IF beam_is!Assumes(beam, i) THEN {} ELSE {"beam"}
        /\ S_BeamFree' = new_S_BeamFree
        /\ ResetBeam' = new_ResetBeam
-       /\ UNCHANGED <<fplc, guard, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, SqueezingStops_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<fplc, guard, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step4 ==
     /\ at = 4 /\ at' = 5
@@ -148,7 +151,7 @@ Step4 ==
        /\ S_Enable2' = new_S_Enable2
        /\ S_Enable3' = new_S_Enable3
        /\ Reset' = new_Reset
-       /\ UNCHANGED <<fplc, guard, beam, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, SqueezingStops_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<fplc, guard, beam, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step5 ==
     /\ at = 5 /\ at' = 1
@@ -190,6 +193,7 @@ Step5 ==
           \E new_intervention_new_Q \in {new_intervention_new_CLK /\ ~intervention_new_CLK} :
           \E new_service_new_CLK \in {service} :
           \E new_service_new_Q \in {new_service_new_CLK /\ ~service_new_CLK} :
+          \E new_nobody_inside_Q1 \in {~~(S_GuardClosed /\ S_GuardBolt) /\ (((new_guard_reset_Q /\ S_GuardClosed) /\ S_GuardBolt) \/ nobody_inside_Q1)} :
           \E S_DriveEnable \in {(edm').S_EDM_Out} :
           \E new_drive_starts_CLK \in {S_DriveEnable} :
           \E new_drive_starts_Q \in {new_drive_starts_CLK /\ ~drive_starts_CLK} :
@@ -210,18 +214,24 @@ Step5 ==
           \E bad_SafeguardsOfTheMode \in {(S_DriveEnable /\ ~safeguards_hold)} :
           \E bad_AutomaticClosed \in {((S_DriveEnable /\ automatic) /\ ~(S_GuardClosed /\ S_GuardBolt))} :
           \E bad_OpenOnlyHeld \in {((S_DriveEnable /\ ~(S_GuardClosed /\ S_GuardBolt)) /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3))} :
+          \E bad_PersonInside \in {((S_DriveEnable /\ ~new_nobody_inside_Q1) /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3))} :
           \E bad_SetupHeld \in {((S_DriveEnable /\ setup) /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3))} :
           \E bad_ServiceHeld \in {((S_DriveEnable /\ service) /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3))} :
           \E bad_ManualProtected \in {((S_DriveEnable /\ manual) /\ ~((S_GuardClosed /\ S_GuardBolt) \/ ((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))} :
           \E bad_InterventionProtected \in {((S_DriveEnable /\ intervention) /\ ~((S_GuardClosed /\ S_GuardBolt) \/ ((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))} :
-          \E bad_DarkStopsAtOnce \in {(((S_DriveEnable /\ ((automatic \/ intervention) \/ service)) /\ ~S_BeamFree) /\ ~(beam.S_OSSD_Out /\ ~beam.TestPossible))} :
+          \E bad_DarkStopsAtOnce \in {(((S_DriveEnable /\ ~S_BeamFree) /\ (((automatic \/ intervention) \/ service) \/ (manual /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))) /\ ~(beam.S_OSSD_Out /\ ~beam.TestPossible))} :
           \E S_SlowSpeed \in {~guard.S_GuardLocked} :
           \E bad_OpenIsSlow \in {((S_DriveEnable /\ ~(S_GuardClosed /\ S_GuardBolt)) /\ ~S_SlowSpeed)} :
           \E bad_StopStops \in {(S_DriveEnable /\ new_Stop)} :
           \E new_LettingGoStops_waits \in {(LettingGoStops_waits \/ (setup /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3))) /\ ~new_start_press_Q} :
           \E bad_LettingGoStops \in {(new_LettingGoStops_waits /\ (S_DriveEnable /\ setup))} :
+          \E new_LettingGoStopsOpen_waits \in {(LettingGoStopsOpen_waits \/ (~(S_GuardClosed /\ S_GuardBolt) /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3))) /\ ~new_start_press_Q} :
+          \E bad_LettingGoStopsOpen \in {(new_LettingGoStopsOpen_waits /\ (S_DriveEnable /\ ~(S_GuardClosed /\ S_GuardBolt)))} :
           \E new_SqueezingStops_waits \in {(SqueezingStops_waits \/ (((setup /\ ~S_Enable1) /\ ~S_Enable2) /\ ~S_Enable3)) /\ ~((~S_Enable1 /\ S_Enable2) /\ ~S_Enable3)} :
           \E bad_SqueezingStops \in {(new_SqueezingStops_waits /\ (S_DriveEnable /\ setup))} :
+          \E enable_in_use \in {(((manual \/ setup) \/ intervention) \/ service)} :
+          \E new_SqueezingStopsOpen_waits \in {(SqueezingStopsOpen_waits \/ (((enable_in_use /\ ~S_Enable1) /\ ~S_Enable2) /\ ~S_Enable3)) /\ ~((~S_Enable1 /\ S_Enable2) /\ ~S_Enable3)} :
+          \E bad_SqueezingStopsOpen \in {(new_SqueezingStopsOpen_waits /\ (S_DriveEnable /\ ~(S_GuardClosed /\ S_GuardBolt)))} :
           \E bad_ResetThenStart \in {(S_DriveEnable /\ (new_reset_due_Q1 \/ new_start_due_Q1))} :
           \E new_DoorNeedsReset_waits \in {(DoorNeedsReset_waits \/ ~S_GuardClosed) /\ ~new_guard_reset_Q} :
           \E bad_DoorNeedsReset \in {(new_DoorNeedsReset_waits /\ (S_DriveEnable /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))} :
@@ -233,6 +243,7 @@ Step5 ==
           \E bad_LockedInMotion \in {((S_UnlockGuard /\ S_DriveEnable) /\ automatic)} :
           \E bad_UnlockHeld \in {(S_UnlockGuard /\ ~UnlockButton)} :
           \E bad_WeldedPreventsStart \in {(new_drive_starts_Q /\ ~(S_Contactor1 /\ S_Contactor2))} :
+          \E bad_ContactorErrorStops \in {(S_DriveEnable /\ (edm').Error)} :
           \E new_DoorErrorStays_waits \in {(DoorErrorStays_waits \/ (guard.Error /\ ~ResetGuard)) /\ ~new_guard_reset_Q} :
           \E bad_DoorErrorStays \in {(new_DoorErrorStays_waits /\ ~guard.Error)} :
           \E new_BeamErrorStays_waits \in {(BeamErrorStays_waits \/ (beam.Error /\ ~ResetBeam)) /\ ~new_beam_reset_Q} :
@@ -241,7 +252,7 @@ Step5 ==
           \E bad_SwitchErrorStays \in {(new_SwitchErrorStays_waits /\ ~enable.Error)} :
           \E new_ContactorErrorStays_waits \in {(ContactorErrorStays_waits \/ ((edm').Error /\ ~Reset)) /\ ~new_desk_reset_Q} :
           \E bad_ContactorErrorStays \in {(new_ContactorErrorStays_waits /\ ~(edm').Error)} :
-          /\ broken' = IF edm_is!Assumes(edm, i) THEN (IF bad_OneMode THEN {"one-mode"} ELSE {}) \cup (IF bad_ModeNeedsKey THEN {"mode-needs-key"} ELSE {}) \cup (IF bad_NoModeNoMotion THEN {"no-mode-no-motion"} ELSE {}) \cup (IF bad_ModeChangeStops THEN {"mode-change-stops"} ELSE {}) \cup (IF bad_KeyErrorStops THEN {"key-error-stops"} ELSE {}) \cup (IF bad_SafeguardsOfTheMode THEN {"safeguards-of-the-mode"} ELSE {}) \cup (IF bad_AutomaticClosed THEN {"automatic-closed"} ELSE {}) \cup (IF bad_OpenOnlyHeld THEN {"open-only-held"} ELSE {}) \cup (IF bad_SetupHeld THEN {"setup-held"} ELSE {}) \cup (IF bad_ServiceHeld THEN {"service-held"} ELSE {}) \cup (IF bad_ManualProtected THEN {"manual-protected"} ELSE {}) \cup (IF bad_InterventionProtected THEN {"intervention-protected"} ELSE {}) \cup (IF bad_DarkStopsAtOnce THEN {"dark-stops-at-once"} ELSE {}) \cup (IF bad_OpenIsSlow THEN {"open-is-slow"} ELSE {}) \cup (IF bad_StopStops THEN {"stop-stops"} ELSE {}) \cup (IF bad_LettingGoStops THEN {"letting-go-stops"} ELSE {}) \cup (IF bad_SqueezingStops THEN {"squeezing-stops"} ELSE {}) \cup (IF bad_ResetThenStart THEN {"reset-then-start"} ELSE {}) \cup (IF bad_DoorNeedsReset THEN {"door-needs-reset"} ELSE {}) \cup (IF bad_BeamNeedsReset THEN {"beam-needs-reset"} ELSE {}) \cup (IF bad_StuckStart THEN {"stuck-start"} ELSE {}) \cup (IF bad_ResetNeverStarts THEN {"reset-never-starts"} ELSE {}) \cup (IF bad_UnlockAtRest THEN {"unlock-at-rest"} ELSE {}) \cup (IF bad_LockedInMotion THEN {"locked-in-motion"} ELSE {}) \cup (IF bad_UnlockHeld THEN {"unlock-held"} ELSE {}) \cup (IF bad_WeldedPreventsStart THEN {"welded-prevents-start"} ELSE {}) \cup (IF bad_DoorErrorStays THEN {"door-error-stays"} ELSE {}) \cup (IF bad_BeamErrorStays THEN {"beam-error-stays"} ELSE {}) \cup (IF bad_SwitchErrorStays THEN {"switch-error-stays"} ELSE {}) \cup (IF bad_ContactorErrorStays THEN {"contactor-error-stays"} ELSE {}) ELSE {"edm"}
+          /\ broken' = IF edm_is!Assumes(edm, i) THEN (IF bad_OneMode THEN {"one-mode"} ELSE {}) \cup (IF bad_ModeNeedsKey THEN {"mode-needs-key"} ELSE {}) \cup (IF bad_NoModeNoMotion THEN {"no-mode-no-motion"} ELSE {}) \cup (IF bad_ModeChangeStops THEN {"mode-change-stops"} ELSE {}) \cup (IF bad_KeyErrorStops THEN {"key-error-stops"} ELSE {}) \cup (IF bad_SafeguardsOfTheMode THEN {"safeguards-of-the-mode"} ELSE {}) \cup (IF bad_AutomaticClosed THEN {"automatic-closed"} ELSE {}) \cup (IF bad_OpenOnlyHeld THEN {"open-only-held"} ELSE {}) \cup (IF bad_PersonInside THEN {"person-inside"} ELSE {}) \cup (IF bad_SetupHeld THEN {"setup-held"} ELSE {}) \cup (IF bad_ServiceHeld THEN {"service-held"} ELSE {}) \cup (IF bad_ManualProtected THEN {"manual-protected"} ELSE {}) \cup (IF bad_InterventionProtected THEN {"intervention-protected"} ELSE {}) \cup (IF bad_DarkStopsAtOnce THEN {"dark-stops-at-once"} ELSE {}) \cup (IF bad_OpenIsSlow THEN {"open-is-slow"} ELSE {}) \cup (IF bad_StopStops THEN {"stop-stops"} ELSE {}) \cup (IF bad_LettingGoStops THEN {"letting-go-stops"} ELSE {}) \cup (IF bad_LettingGoStopsOpen THEN {"letting-go-stops-open"} ELSE {}) \cup (IF bad_SqueezingStops THEN {"squeezing-stops"} ELSE {}) \cup (IF bad_SqueezingStopsOpen THEN {"squeezing-stops-open"} ELSE {}) \cup (IF bad_ResetThenStart THEN {"reset-then-start"} ELSE {}) \cup (IF bad_DoorNeedsReset THEN {"door-needs-reset"} ELSE {}) \cup (IF bad_BeamNeedsReset THEN {"beam-needs-reset"} ELSE {}) \cup (IF bad_StuckStart THEN {"stuck-start"} ELSE {}) \cup (IF bad_ResetNeverStarts THEN {"reset-never-starts"} ELSE {}) \cup (IF bad_UnlockAtRest THEN {"unlock-at-rest"} ELSE {}) \cup (IF bad_LockedInMotion THEN {"locked-in-motion"} ELSE {}) \cup (IF bad_UnlockHeld THEN {"unlock-held"} ELSE {}) \cup (IF bad_WeldedPreventsStart THEN {"welded-prevents-start"} ELSE {}) \cup (IF bad_ContactorErrorStops THEN {"contactor-error-stops"} ELSE {}) \cup (IF bad_DoorErrorStays THEN {"door-error-stays"} ELSE {}) \cup (IF bad_BeamErrorStays THEN {"beam-error-stays"} ELSE {}) \cup (IF bad_SwitchErrorStays THEN {"switch-error-stays"} ELSE {}) \cup (IF bad_ContactorErrorStays THEN {"contactor-error-stays"} ELSE {}) ELSE {"edm"}
           /\ reset_edge_CLK' = new_reset_edge_CLK
           /\ armed_Q1' = new_armed_Q1
           /\ start_edge_CLK' = new_start_edge_CLK
@@ -256,6 +267,7 @@ Step5 ==
           /\ setup_new_CLK' = new_setup_new_CLK
           /\ intervention_new_CLK' = new_intervention_new_CLK
           /\ service_new_CLK' = new_service_new_CLK
+          /\ nobody_inside_Q1' = new_nobody_inside_Q1
           /\ drive_starts_CLK' = new_drive_starts_CLK
           /\ drive_stops_CLK' = new_drive_starts_CLK
           /\ unlock_begins_CLK' = new_unlock_begins_CLK
@@ -263,7 +275,9 @@ Step5 ==
           /\ start_due_Q1' = new_start_due_Q1
           /\ reset_due_Q1' = new_reset_due_Q1
           /\ LettingGoStops_waits' = new_LettingGoStops_waits
+          /\ LettingGoStopsOpen_waits' = new_LettingGoStopsOpen_waits
           /\ SqueezingStops_waits' = new_SqueezingStops_waits
+          /\ SqueezingStopsOpen_waits' = new_SqueezingStopsOpen_waits
           /\ DoorNeedsReset_waits' = new_DoorNeedsReset_waits
           /\ BeamNeedsReset_waits' = new_BeamNeedsReset_waits
           /\ DoorErrorStays_waits' = new_DoorErrorStays_waits
@@ -308,6 +322,7 @@ KeyErrorStops == "key-error-stops" \notin broken
 SafeguardsOfTheMode == "safeguards-of-the-mode" \notin broken
 AutomaticClosed == "automatic-closed" \notin broken
 OpenOnlyHeld == "open-only-held" \notin broken
+PersonInside == "person-inside" \notin broken
 SetupHeld == "setup-held" \notin broken
 ServiceHeld == "service-held" \notin broken
 ManualProtected == "manual-protected" \notin broken
@@ -316,7 +331,9 @@ DarkStopsAtOnce == "dark-stops-at-once" \notin broken
 OpenIsSlow == "open-is-slow" \notin broken
 StopStops == "stop-stops" \notin broken
 LettingGoStops == "letting-go-stops" \notin broken
+LettingGoStopsOpen == "letting-go-stops-open" \notin broken
 SqueezingStops == "squeezing-stops" \notin broken
+SqueezingStopsOpen == "squeezing-stops-open" \notin broken
 ResetThenStart == "reset-then-start" \notin broken
 DoorNeedsReset == "door-needs-reset" \notin broken
 BeamNeedsReset == "beam-needs-reset" \notin broken
@@ -326,6 +343,7 @@ UnlockAtRest == "unlock-at-rest" \notin broken
 LockedInMotion == "locked-in-motion" \notin broken
 UnlockHeld == "unlock-held" \notin broken
 WeldedPreventsStart == "welded-prevents-start" \notin broken
+ContactorErrorStops == "contactor-error-stops" \notin broken
 DoorErrorStays == "door-error-stays" \notin broken
 BeamErrorStays == "beam-error-stays" \notin broken
 SwitchErrorStays == "switch-error-stays" \notin broken

@@ -104,6 +104,10 @@ def _machine(sources: Sources, piece: Evidence, kinds: Mapping[str, str]) -> dic
             }
             for row in rows
         ],
+        "models": [
+            {**row, "checks": len(row["checks"]), "distinct": Figure(row["distinct"], piece.path)}
+            for row in result.get("models", ())
+        ],
         "mistakes": [{**row, "count": Figure(len(row["scans"]), piece.path)} for row in result["killers"]],
         "trial": {
             "edits": Figure(trial["edits"], piece.path),
