@@ -69,10 +69,13 @@ def tasks(
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
     for row in rows:
+        name = row.rests or row.keeps or row.needs
+        if name and name.upper() not in blocks:
+            raise Unjudged(f"{path}: {row.id}: no block {name!r} in blocks.toml")
         if row.rests:
-            yield _rested(row, blocks[row.rests.upper()])
-        elif row.keeps or row.needs:
-            yield _kept(row, blocks[(row.keeps or row.needs).upper()])
+            yield _rested(row, blocks[name.upper()])
+        elif name:
+            yield _kept(row, blocks[name.upper()])
         else:
             yield _cell(row, wiring, blocks, table, str(safety), rest)
 

@@ -63,6 +63,7 @@ def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         kept = [row for row in rows if any(f'= "{id}"\n' in row for id in KEPT)]
         assert len(kept) == len(KEPT)
         path.write_text(head + "".join(kept), "utf-8")
+    (tmp_path / "spec" / NAME / "tlc.toml").unlink()  # its runs ask for properties that are not kept
     monkeypatch.setenv("MODEPROOF_ROOT", str(tmp_path))
     monkeypatch.setattr("modeproof.lane.machine.evidence.hashes", lambda place, paths: {"x": "0" * 64})
     return tmp_path
@@ -94,6 +95,36 @@ def test_the_evidence_has_verdicts_matrix_and_mistakes(tree: Path, monkeypatch: 
     assert all(row["scans"] for row in result["killers"])
     assert machine_line(record).startswith(f"machine      {len(result['verdicts'])} of ")
     assert doubt_on_machine(record) == ""
+
+
+CONTRACT = """[[run]]
+id = "keeps_contactors"
+keeps = "SF_EDM"
+distinct = 61
+generated = 1753
+"""
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize(
+    ("old", "new", "verdict", "reason"),
+    [
+        ("61", "61", "PROVED", ""),
+        ("61", "62", "DIFFERS", "run keeps_contactors: HOLDS: distinct states: 61, pinned 62"),
+        ('keeps = "SF_EDM"', 'needs = "SF_EDM"', "PROVED", ""),  # it breaks its contract, as it should
+        ('keeps = "SF_EDM"', 'needs = "SF_EDM"\npermits = "C!Assumes(Row, i)"', "DIFFERS", "run keeps_"),
+    ],
+)
+def test_the_runs_of_tlc_are_part_of_the_verdict(
+    tree: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str, verdict: str, reason: str
+) -> None:
+    judged_as(monkeypatch)
+    (tree / "spec" / NAME / "tlc.toml").write_text(CONTRACT.replace(old, new), "utf-8")
+    record = judge_machine(tree, NAME)
+    assert (record["verdict"], record["as_expected"]) == (verdict, verdict == "PROVED")
+    assert record["reason"].startswith(reason)
+    assert [row["run"] for row in record["result"]["models"]] == ["keeps_contactors"]
+    assert f"{int(verdict == 'PROVED')} of 1 runs of TLC as expected" in machine_line(record)
 
 
 @pytest.mark.parametrize(
