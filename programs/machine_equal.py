@@ -6,7 +6,7 @@ output. Relations between the two memories are found from runs, and a solver dro
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -32,8 +32,8 @@ class Equality(ProgramMachine):
     runs: int = RUNS
 
     @cached_property
-    def questions(self) -> Questions:
-        """One for each output."""
+    def every(self) -> Questions:
+        """One question for each output."""
         rows = tuple(
             {
                 "id": f"{name}-as-wired",
@@ -45,6 +45,11 @@ class Equality(ProgramMachine):
             for name in self.wiring.table.outputs
         )
         return Questions(self.wiring.table.scan_ms, rows, self.file, "")
+
+    @cached_property
+    def lacking(self) -> Mapping[str, str]:
+        """Nothing: the questions are made from the wiring."""
+        return {}
 
     @cached_property
     def cell(self) -> Cell:

@@ -148,6 +148,15 @@ def beside(path: Path, runs: int) -> Equality:
     return Equality(WIRING, "w.toml", FOLDER / "safety.toml", FOLDER / "use.toml", runs=runs, sources=[path])
 
 
+def test_every_output_is_asked_about_as_by_the_command() -> None:
+    machine = beside(BY_HAND, 1)
+    machine.leave_out = True  # as where no file of properties is given
+    assert [row["id"] for row in machine.questions.rows] == [
+        f"{name}-as-wired" for name in machine.wiring.table.outputs
+    ]
+    assert machine.watched.rows == {}
+
+
 @pytest.mark.deep
 def test_a_program_that_is_wired_otherwise_is_not_equal(tmp_path: Path) -> None:
     path = edited(tmp_path, "Lamp := edm.Error OR", "Lamp := ")
