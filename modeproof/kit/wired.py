@@ -63,8 +63,12 @@ class Wired:
     def on(self, state: Any, inputs: Mapping[str, Any]) -> list[str]:
         """The signals and latches that are on after a scan with these inputs; words are numbers."""
         values = self.code.values_after(self.cell, state, inputs)
-        names = (*self.cell.signals, *(pin for pin in state.pins if pin.endswith((".Q1", ".Error"))))
-        return [name for name in names if values[name] is True]
+        others = {
+            *inputs,
+            *self.cell.outputs,
+            *(pin for pin in state.pins if not pin.endswith((".Q1", ".Error"))),
+        }
+        return [name for name, value in values.items() if value is True and name not in others]
 
     def close(self) -> None:
         """Nothing is held."""

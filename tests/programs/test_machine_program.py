@@ -170,7 +170,7 @@ def test_runs_show_no_difference_of_the_program_by_hand() -> None:
 
 
 @pytest.mark.long
-def test_every_output_of_the_program_by_hand_is_proved_to_be_as_wired(
+def test_every_output_of_the_program_by_hand_is_as_wired(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["machine", "--source", str(BY_HAND), "--equal", "--recheck"]) == 0

@@ -207,6 +207,7 @@ def test_the_packed_kit_judges_the_machine_alone(tmp_path: Path) -> None:
         ADAPTER,
         "--suite",
         "mistakes",
+        "--quiet",
     ]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
