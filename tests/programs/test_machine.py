@@ -65,7 +65,7 @@ def plain(text: str, runs: int) -> Machine:
 )
 def test_a_mistake_of_wiring_breaks_its_property(what: str) -> None:
     text, falls = mistaken(what)
-    machine = plain(text, 80)
+    machine = plain(text, 400)
     broken = machine.look(lambda seen: falls in seen.broken).broken
     assert falls in broken
     rule = next(rule for rule in machine.rules if rule.id == falls)
@@ -191,7 +191,7 @@ def test_a_recorded_kill_happens_again(at: int) -> None:
     ]
     id, row = killed[at % len(killed)]
     edit = next(edit for edit in edits(TEXT, wiring_of(TEXT, "wiring.toml")) if edit.id == id)
-    broken = plain(edit.after, 25).look(lambda seen: bool(seen.broken)).broken
+    broken = plain(edit.after, 400).look(lambda seen: bool(seen.broken)).broken
     assert set(broken) & set(row["by"])
 
 
