@@ -10,10 +10,10 @@ STAMP := .venv/requirements.lock
 AWLSIM := .venv/awlsim.lock
 GRAMMAR := .venv/grammar.lock
 
-verify: $(STAMP)
+verify: $(STAMP) $(GRAMMAR)
 	@$(PY) -m modeproof verify
 
-smoke: $(STAMP)
+smoke: $(STAMP) $(GRAMMAR)
 	@$(PY) -m modeproof verify --lane smoke
 
 # Two processes; tests that share what is made once are in one of them (tests/groups.py). The first tier sees every kind of
