@@ -11,6 +11,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root as repository_root
 from modeproof.registers.tools import load_tools
 from modeproof.report.build import make
+from modeproof.report.conditions import judged
 from modeproof.report.parts.confidence import part
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, gather
 from tests.report.paper import RESULT, change, declare_graph, make_paper, put
@@ -198,3 +199,15 @@ def test_judgements_have_public_references_and_covered_ones_have_checks() -> Non
     problems = load_tools(repository_root()).problems
     assert {one.tool for one in problems} == {"tlc", "z3", "cvc5", "java", "python"}
     assert all(one.holds for one in problems if one.judgement == "covered")
+
+
+def test_what_texts_say_of_our_tools_stands_today() -> None:
+    sources = gather(repository_root())
+    told = {
+        f"{problem.id}: {condition.name}": judged(sources, condition)
+        for problem in load_tools(repository_root()).problems
+        for condition in problem.holds
+        if condition.name in ("word_absent", "cfg_absent", "text_absent")
+    }
+    assert len(told) > 4
+    assert not {name: one.found for name, one in told.items() if one.good is not True}
