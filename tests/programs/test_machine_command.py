@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import re
+import shlex
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -132,9 +133,10 @@ def test_the_last_line_says_how_to_run_it_again(
 ) -> None:
     mine = tmp_path / "my cell.toml"
     mine.write_text(TEXT, "utf-8")
+    used = shlex.quote(str(FOLDER / "use.toml"))
     main(["machine", str(mine), "--use", str(FOLDER / "use.toml"), "--recheck"])
     last = capsys.readouterr().out.splitlines()[-1]
-    assert last == f"  again       modeproof machine '{mine}' --use {FOLDER / 'use.toml'} --recheck"
+    assert last == f"  again       modeproof machine '{mine}' --use {used} --recheck"
 
 
 def test_progress_is_on_standard_error_and_can_be_left_out(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import shutil
 import subprocess
 import sys
@@ -26,7 +27,7 @@ FOLDER = ROOT / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
 ROOM = ROOT / "vectors/machine_cell"
 NAMES = ("sequences", "faults", "sic", "mistakes")
-ADAPTER = f"{sys.executable} {ROOT}/examples/adapters/machine_adapter.py"
+ADAPTER = [sys.executable, str(ROOT / "examples/adapters/machine_adapter.py")]
 ON_THE_PAGE = [
     line.split("`")[1]
     for line in (ROOT / "docs/wire-your-machine.md").read_text("utf-8").splitlines()
@@ -56,7 +57,7 @@ def differs(text: str, names: tuple[str, ...] = NAMES) -> str:
 @pytest.mark.parametrize("name", ["mistakes", pytest.param("sequences", marks=pytest.mark.deep)])
 def test_the_shipped_reference_conforms_as_an_adapter(name: str) -> None:
     one = suite(name)
-    assert run_suite(one, lambda: Adapter(ADAPTER)).word == CONFORMS
+    assert run_suite(one, lambda: Adapter(shlex.join(ADAPTER))).word == CONFORMS
 
 
 @pytest.mark.deep
@@ -73,7 +74,15 @@ def test_a_crossed_wire_differs_with_scan_and_inputs(
     mine.write_text(
         TEXT.replace('S_OutControl = "running.Q1"', 'S_OutControl = "guard.S_GuardLocked"'), "utf-8"
     )
-    args = ["conform", "machine_cell", "--adapter", f"{ADAPTER} {mine}", "--suite", "sequences", "--quiet"]
+    args = [
+        "conform",
+        "machine_cell",
+        "--adapter",
+        shlex.join([*ADAPTER, str(mine)]),
+        "--suite",
+        "sequences",
+        "--quiet",
+    ]
     assert main([*args, "--differences", "1", "--json", str(tmp_path / "verdict.json")]) == 1
     said = capsys.readouterr().out
     assert "S_DriveEnable        false                true" in said
@@ -158,7 +167,7 @@ def test_vectors_of_an_own_wiring_are_written_and_judge(
             "conform",
             "machine_cell",
             "--adapter",
-            f"{ADAPTER} {file}",
+            shlex.join([*ADAPTER, str(file)]),
             "--vectors",
             str(folder),
             "--quiet",
@@ -204,7 +213,7 @@ def test_the_packed_kit_judges_the_machine_alone(tmp_path: Path) -> None:
         "conform",
         "machine_cell",
         "--adapter",
-        ADAPTER,
+        shlex.join(ADAPTER),
         "--suite",
         "mistakes",
         "--quiet",
