@@ -53,7 +53,7 @@ class System:
                     known.add(path)
                     waiting.append(self.after[path])
         kept = {path: term for path, term in self.state.items() if path in known}
-        parts = _conjuncts(self.within)
+        parts = conjuncts(self.within)
         names = {str(term) for term in kept.values()}
         within = z3.And([z3.BoolVal(True), *(part for part in parts if names_in([part]) <= names)])
         return System(
@@ -311,7 +311,8 @@ def named(term: Any, number: object) -> Any:
     return z3.Const(f"{term}@{number}", term.sort())
 
 
-def _conjuncts(term: Any) -> list[Any]:
+def conjuncts(term: Any) -> list[Any]:
+    """The parts of an AND of ANDs; a term that is none is its only part."""
     if z3.is_and(term):
-        return [part for child in term.children() for part in _conjuncts(child)]
+        return [part for child in term.children() for part in conjuncts(child)]
     return [term]

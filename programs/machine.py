@@ -22,7 +22,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import typed
 from programs.cell import Asked, Cell
 from programs.certificate import Obligation
-from programs.induction import System, is_inductive, named
+from programs.induction import System, conjuncts, is_inductive, named
 from programs.machine_lacking import lacking, observers_lacking
 from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
 from programs.machine_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
@@ -240,7 +240,7 @@ class Machine:
         where = [(term, then[path]) for path, term in system.state.items()]
         scan = [system.within, system.assumed, system.inside, *lemmas]
         moves = [new == system.after[path] for path, new in then.items()]
-        survive = [z3.substitute(lemma, *where) for lemma in (system.within, *lemmas)]
+        survive = [z3.substitute(lemma, *where) for lemma in (*conjuncts(system.within), *lemmas)]
         types = [] if z3.is_true(z3.simplify(system.inside)) else [system.inside]
         return [
             _owed("start.smt2", [system.first], lemmas),

@@ -25,8 +25,9 @@ from programs.machine_equal import Equality
 from programs.machine_killers import Killers, changed, read_killers
 from programs.machine_killers import as_toml as as_rows
 from programs.machine_program import ProgramMachine, ProgramRunner
+from programs.machine_record import as_toml, basis_of, read_record
 from programs.machine_runs import Scan
-from programs.machine_trial import Outcome, Trial, as_toml, basis_of, edits, read_record
+from programs.machine_trial import Outcome, Trial, edits
 from programs.output import Case, junit_of
 from programs.property_command import TRUSTED
 from programs.wired import text_of, unit

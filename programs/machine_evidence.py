@@ -13,7 +13,8 @@ from programs.machine import Machine
 from programs.machine_command import OWN, TRUST, rows_of_trace, verdict_rows
 from programs.machine_killers import Killer, Killers, name_of, read_killers
 from programs.machine_picture import boxes_and_wires, matrix_rows
-from programs.machine_trial import edits, read_record
+from programs.machine_record import read_record
+from programs.machine_trial import edits
 
 SECONDS = 240
 """Of CPU, for the invariants."""

@@ -18,8 +18,9 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Entry, Text, typed
 from programs.machine import Machine
+from programs.machine_record import read_record
 from programs.machine_runs import Runner, Scan, Seen, look, rule_of
-from programs.machine_trial import Edit, edits, read_record
+from programs.machine_trial import Edit, edits
 from refimpl.machine_cell.expression import Value
 
 RUNS = 60

@@ -117,6 +117,9 @@ class Candidates:
         for path in self.controls:
             self._only_seen(path)
         self._equal(flags, places)
+        for (path, kind), (other, there) in itertools.combinations(places, 2):
+            if path != other and _beside(path) == _beside(other) != "":
+                self.either(self.denied(places[path, kind]), self.denied(places[other, there]))
         latches = [path for path in self.bools if _latch(path)]
         single = list({flags[path][1]: path for path in reversed(self.bools)}.values())
         for path, (control, kind) in itertools.product(self.bools, places):
@@ -267,6 +270,12 @@ def _distinct(system: System, samples: Sequence[Sample]) -> list[Sample]:
 
 def _latch(path: str) -> bool:
     return path.endswith((".Q1", " waits")) or "." not in path
+
+
+def _beside(path: str) -> str:
+    """The block to which a number belongs that is no control state; nothing for a control state."""
+    above, _, name = path.rpartition(".")
+    return "" if name == CONTROL else above
 
 
 def _few(path: str, samples: Sequence[Sample]) -> bool:

@@ -7,23 +7,17 @@ SURVIVED: neither.
 
 from __future__ import annotations
 
-import ast
-import hashlib
 import itertools
 import json
 import re
-import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs import machine_runs, wired
-from programs import wiring as wiring_module
 from programs.houdini import Houdini
 from programs.machine import Machine
 from programs.machine_runs import Seen
@@ -31,8 +25,6 @@ from programs.questions import parsed, shown
 from programs.terms import names_in
 from programs.tree import BOOL, TIME, Binary, Expression, Literal, Unary
 from programs.wiring import Wiring, names
-from refimpl.machine_cell import cell as reference
-from refimpl.machine_cell import expression, standard
 
 FEW_RUNS, MORE_RUNS = 100, 130
 """Before a proof is tried, and before a witness is given up."""
@@ -269,8 +261,7 @@ class Trial:
             return self._killed(edit, edited, seen)
         if self._same(edited):
             return Outcome(edit, "HARMLESS", ["the same program"])
-        known = set(map(str, edited.system.state.values()))
-        facts = [lemma for lemma in self.lemmas if _names(lemma) <= known]
+        facts = self._facts(edited)
         if self._proved(edited, facts) or self._proved(edited, _kept(edited, facts)):
             return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
         return None
@@ -281,9 +272,16 @@ class Trial:
             return found
         edited = self.edited(edit)
         edited.runs = self.machine.runs
-        if self._proved(edited, edited.lemmas(SECONDS)):
+        if self._proved(edited, _weakened(edited, self._facts(edited))) or self._proved(
+            edited, edited.lemmas(SECONDS)
+        ):
             return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
         return Outcome(edit, "SURVIVED", [])
+
+    def _facts(self, edited: Machine) -> list[z3.BoolRef]:
+        """The invariants of the machine as it is that an edited one can be asked about."""
+        known = set(map(str, edited.system.state.values()))
+        return [lemma for lemma in self.lemmas if _names(lemma) <= known]
 
     def edited(self, edit: Edit) -> Machine:
         """The machine with the edit. Raises Unjudged."""
@@ -327,13 +325,31 @@ class Trial:
 
 def _kept(edited: Machine, facts: Sequence[z3.BoolRef]) -> list[z3.BoolRef]:
     """Those facts that are invariants of an edited machine."""
-    clauses: list[tuple[int, ...]] = [(number, number) for number in range(1, len(facts) + 1)]
+    return _last(edited, facts, [(number, number) for number in range(1, len(facts) + 1)])
+
+
+def _last(edited: Machine, facts: Sequence[z3.BoolRef], clauses: list[tuple[int, ...]]) -> list[z3.BoolRef]:
+    """The clauses over facts that are invariants of an edited machine."""
     houdini = Houdini(edited.system, facts=list(facts), clauses=clauses, singly=True)
     try:
         houdini.thin(float("inf"))
     except TimeoutError:
         return []
     return houdini.lemmas()
+
+
+def _weakened(edited: Machine, facts: Sequence[z3.BoolRef]) -> list[z3.BoolRef]:
+    """The invariants of an edited machine that say: this fact, or that flag."""
+    flags = [term for term in edited.system.state.values() if z3.is_bool(term)]
+    firm = {fact.get_id() for fact in _kept(edited, facts)}
+    clauses: list[tuple[int, ...]] = []
+    for number, fact in enumerate(facts, 1):
+        if fact.get_id() in firm:
+            clauses.append((number, number))
+            continue
+        for flag in range(len(facts) + 1, len(facts) + len(flags) + 1):
+            clauses += [(number, flag), (number, -flag)]
+    return _last(edited, [*facts, *flags], clauses)
 
 
 def reads_of(wiring: Wiring) -> set[tuple[str, str, bool]]:
@@ -353,80 +369,3 @@ def reads_of(wiring: Wiring) -> set[tuple[str, str, bool]]:
 
 def _names(term: z3.BoolRef) -> set[str]:
     return set(names_in([term]))
-
-
-def basis_of(machine: Machine) -> dict[str, str]:
-    """What outcomes rest on, as hashes: what the files say, and the code of a scan and of the runs.
-
-    Words about it do not count, nor does the search for a proof: z3 judges what it finds.
-    """
-    tables = {"wiring": machine.table, "properties": tomllib.loads(machine.questions.text)}
-    tables["use"] = tomllib.loads(machine.use.read_text("utf-8"))
-    said = {name: json.dumps(_without_words(table), sort_keys=True) for name, table in tables.items()}
-    modules = [
-        *reference.DEVICES.values(),
-        reference,
-        expression,
-        standard,
-        machine_runs,
-        wired,
-        wiring_module,
-    ]
-    trees = [ast.parse(Path(str(module.__file__)).read_text("utf-8")) for module in modules]
-    for node in (node for tree in trees for node in ast.walk(tree)):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
-            node.value.value = None  # a docstring
-    said["code"] = "".join(map(ast.dump, trees))
-    return {name: hashlib.sha256(text.encode()).hexdigest()[:16] for name, text in said.items()}
-
-
-def _without_words(table: Any) -> Any:
-    if isinstance(table, list):
-        return [_without_words(part) for part in table]
-    if not isinstance(table, dict):
-        return table
-    words = ("why", "title", "sentence", "hazard", "cites")
-    return {key: _without_words(value) for key, value in table.items() if key not in words}
-
-
-def as_toml(outcomes: Sequence[Outcome], count: int, basis: Mapping[str, str]) -> str:
-    """The outcomes as data. count: of all edits that there are; basis: what they rest on."""
-    lines = [
-        "# The wiring on trial: what became of one edit of wiring.toml at a time.",
-        "# Made by `modeproof machine --trial --record`. Our own design: no claim about a paper.",
-        "# scans: of the shortest way from power-up that was found",
-        f"# {len(outcomes)} of {count} edits were judged; of the others nothing is said.",
-        "# basis: hashes of what the outcomes rest on; an outcome is taken over as long as they are the same",
-        "",
-        "[basis]",
-        *(f"{name} = {json.dumps(value)}" for name, value in basis.items()),
-        "",
-    ]
-    for outcome in outcomes:
-        lines += [
-            "[[edit]]",
-            f"kind = {json.dumps(outcome.edit.kind)}",
-            f"row = {json.dumps(outcome.edit.row)}",
-            f"text = {json.dumps(outcome.edit.text)}",
-            f"verdict = {json.dumps(outcome.word)}",
-            f"by = {json.dumps(list(outcome.by))}",
-            *([f"scans = {outcome.scans}"] if outcome.scans else []),
-            "",
-        ]
-    return "\n".join(lines)
-
-
-def read_record(text: str, basis: Mapping[str, str] | None = None) -> Mapping[str, Mapping[str, Any]]:
-    """The recorded outcomes by the names of the edits; with a basis, those that still rest on it.
-
-    Scans that break a property, a refusal and a proof do so however a cell is used. What runs did not reach
-    is asked again when the file that guides them is another.
-    """
-    table = tomllib.loads(text)
-    rows = {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}
-    if basis is None or (known := table.get("basis", {})) == basis:
-        return rows
-    if {**known, "use": ""} != {**basis, "use": ""}:
-        return {}
-    lasting = ("HARMLESS", "REFUSED")
-    return {id: row for id, row in rows.items() if row["verdict"] in lasting or "scans" in row}

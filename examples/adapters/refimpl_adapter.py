@@ -103,20 +103,25 @@ class Target:
         values = {name: from_wire(name, declared[name], value) for name, value in params.items()}
         return self.code.power_up(checked(self.code.Params, values, ParameterError))
 
-    def scan(self, state: Any, entry: dict[str, Any]) -> tuple[Any, dict[str, object]]:
-        """One scan from ``state``; every input must be there and no other."""
-        if state is None:
-            raise ValueError("scan before reset")
-        if set(entry) != {"dt_ms", "in"}:
-            raise ValueError(f"a scan has dt_ms and in, got {' '.join(entry)}")
+    def step(self, state: Any, dt_ms: Any, inputs: dict[str, Any]) -> tuple[Any, dict[str, object]]:
+        """The state after a scan and the outputs; every input must be there and no other."""
         declared = self.device["inputs"]
-        values = {"dt_ms": entry["dt_ms"]}
-        for name, value in entry["in"].items():
+        values = {"dt_ms": dt_ms}
+        for name, value in inputs.items():
             if name not in declared:
                 raise InputError(name, value, f"nothing (no such input of {self.name})")
             values[name] = from_wire(name, declared[name], value)
         state, out = self.code.step(state, checked(self.code.Inputs, values))
         wire = {name: to_wire(signal, getattr(out, name)) for name, signal in self.device["outputs"].items()}
+        return state, wire
+
+    def scan(self, state: Any, entry: dict[str, Any]) -> tuple[Any, dict[str, object]]:
+        """One scan from ``state``. Raises on whatever is no scan."""
+        if state is None:
+            raise ValueError("scan before reset")
+        if set(entry) != {"dt_ms", "in"}:
+            raise ValueError(f"a scan has dt_ms and in, got {' '.join(entry)}")
+        state, wire = self.step(state, entry["dt_ms"], entry["in"])
         return state, {"out": wire}
 
     def answer(self, message: dict[str, Any]) -> dict[str, object]:
@@ -144,11 +149,8 @@ class Target:
         raise ValueError(f"cannot serve {op} {message}; protocol 1, target {self.name} only")
 
 
-def main(arguments: list[str]) -> None:
+def serve(target: Target) -> None:
     """Answer line by line until "bye" or the end of the input."""
-    if len(arguments) != 1:
-        raise SystemExit("usage: python refimpl_adapter.py TARGET")
-    target = Target(arguments[0])
     sys.stdin.reconfigure(encoding="utf-8", errors="replace")  # type: ignore[union-attr]
     reply: dict[str, object] = {}
     while reply is not BYE and (line := sys.stdin.readline()):
@@ -160,4 +162,6 @@ def main(arguments: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    if len(sys.argv) != 2:
+        raise SystemExit("usage: python refimpl_adapter.py TARGET")
+    serve(Target(sys.argv[1]))

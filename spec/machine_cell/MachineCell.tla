@@ -6,8 +6,8 @@ CONSTANT Words    \* the words that are tried
 VARIABLES
     at,        \* the step of the scan that comes next
     broken,    \* what was found broken in the step before
-    fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits
-vars == <<at, broken, fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+    fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, opening_reset_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, reset_due_Q1, reset_done_CLK, start_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits
+vars == <<at, broken, fplc, guard, beam, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, opening_reset_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, reset_due_Q1, reset_done_CLK, start_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 fplc_is == INSTANCE FPLCContract
 guard_is == INSTANCE GuardContract
 beam_is == INSTANCE BeamContract
@@ -60,18 +60,19 @@ Init ==
     /\ intervention_new_CLK = FALSE
     /\ service_new_CLK = FALSE
     /\ nobody_inside_Q1 = FALSE
+    /\ opening_reset_Q1 = FALSE
     /\ drive_starts_CLK = FALSE
     /\ drive_stops_CLK = FALSE
     /\ unlock_begins_CLK = FALSE
     /\ protected_again_CLK = FALSE
-    /\ start_due_Q1 = FALSE
     /\ reset_due_Q1 = FALSE
+    /\ reset_done_CLK = FALSE
+    /\ start_due_Q1 = FALSE
     /\ LettingGoStops_waits = FALSE
     /\ LettingGoStopsOpen_waits = FALSE
     /\ SqueezingStops_waits = FALSE
     /\ SqueezingStopsOpen_waits = FALSE
     /\ DoorNeedsReset_waits = FALSE
-    /\ BeamNeedsReset_waits = FALSE
     /\ DoorErrorStays_waits = FALSE
     /\ BeamErrorStays_waits = FALSE
     /\ SwitchErrorStays_waits = FALSE
@@ -85,7 +86,7 @@ Step1 ==
              fplc_is!Guarantees(fplc, i, row) /\ fplc' = row
        /\ broken' = IF fplc_is!Assumes(fplc, i) THEN {} ELSE {"fplc"}
        /\ LA' = new_LA
-       /\ UNCHANGED <<guard, beam, enable, edm, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<guard, beam, enable, edm, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, opening_reset_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, reset_due_Q1, reset_done_CLK, start_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step2 ==
     /\ at = 2 /\ at' = 3
@@ -122,7 +123,7 @@ Step2 ==
        /\ S_GuardBolt' = new_S_GuardBolt
        /\ UnlockButton' = new_UnlockButton
        /\ ResetGuard' = new_ResetGuard
-       /\ UNCHANGED <<fplc, beam, enable, edm, LA, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<fplc, beam, enable, edm, LA, S_BeamFree, ResetBeam, S_Enable1, S_Enable2, S_Enable3, Reset, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, opening_reset_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, reset_due_Q1, reset_done_CLK, start_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step3 ==
     /\ at = 3 /\ at' = 4
@@ -133,7 +134,7 @@ Step3 ==
        /\ broken' = IF beam_is!Assumes(beam, i) THEN {} ELSE {"beam"}
        /\ S_BeamFree' = new_S_BeamFree
        /\ ResetBeam' = new_ResetBeam
-       /\ UNCHANGED <<fplc, guard, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<fplc, guard, enable, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_Enable1, S_Enable2, S_Enable3, Reset, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, opening_reset_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, reset_due_Q1, reset_done_CLK, start_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step4 ==
     /\ at = 4 /\ at' = 5
@@ -151,11 +152,11 @@ Step4 ==
        /\ S_Enable2' = new_S_Enable2
        /\ S_Enable3' = new_S_Enable3
        /\ Reset' = new_Reset
-       /\ UNCHANGED <<fplc, guard, beam, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, start_due_Q1, reset_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, BeamNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
+       /\ UNCHANGED <<fplc, guard, beam, edm, LA, S_GuardClosed, S_GuardBolt, UnlockButton, ResetGuard, S_BeamFree, ResetBeam, S_Standstill, S_Contactor1, S_Contactor2, manual_begins_CLK, manual_begins_Q, automatic_begins_CLK, automatic_begins_Q, setup_begins_CLK, setup_begins_Q, intervention_begins_CLK, intervention_begins_Q, service_begins_CLK, service_begins_Q, reset_edge_CLK, armed_Q1, start_edge_CLK, ready_begins_CLK, running_Q1, desk_reset_CLK, guard_reset_CLK, beam_reset_CLK, start_press_CLK, manual_new_CLK, automatic_new_CLK, setup_new_CLK, intervention_new_CLK, service_new_CLK, nobody_inside_Q1, opening_reset_Q1, drive_starts_CLK, drive_stops_CLK, unlock_begins_CLK, protected_again_CLK, reset_due_Q1, reset_done_CLK, start_due_Q1, LettingGoStops_waits, LettingGoStopsOpen_waits, SqueezingStops_waits, SqueezingStopsOpen_waits, DoorNeedsReset_waits, DoorErrorStays_waits, BeamErrorStays_waits, SwitchErrorStays_waits, ContactorErrorStays_waits>>
 
 Step5 ==
     /\ at = 5 /\ at' = 1
-    /\ \E new_Start \in BOOLEAN, new_Stop \in BOOLEAN :
+    /\ \E new_Start \in BOOLEAN, new_Stop \in BOOLEAN, new_STR \in BOOLEAN, new_D \in BOOLEAN, new_C \in BOOLEAN, new_B \in BOOLEAN, new_A \in BOOLEAN :
        \E new_reset_edge_CLK \in {Reset} :
        \E new_reset_edge_Q \in {new_reset_edge_CLK /\ ~reset_edge_CLK} :
        \E manual \in {fplc.MSO_0} :
@@ -194,6 +195,7 @@ Step5 ==
           \E new_service_new_CLK \in {service} :
           \E new_service_new_Q \in {new_service_new_CLK /\ ~service_new_CLK} :
           \E new_nobody_inside_Q1 \in {~~(S_GuardClosed /\ S_GuardBolt) /\ (((new_guard_reset_Q /\ S_GuardClosed) /\ S_GuardBolt) \/ nobody_inside_Q1)} :
+          \E new_opening_reset_Q1 \in {~(~S_BeamFree /\ ~beam.S_OSSD_Out) /\ (new_beam_reset_Q \/ opening_reset_Q1)} :
           \E S_DriveEnable \in {(edm').S_EDM_Out} :
           \E new_drive_starts_CLK \in {S_DriveEnable} :
           \E new_drive_starts_Q \in {new_drive_starts_CLK /\ ~drive_starts_CLK} :
@@ -203,11 +205,14 @@ Step5 ==
           \E new_unlock_begins_Q \in {new_unlock_begins_CLK /\ ~unlock_begins_CLK} :
           \E new_protected_again_CLK \in {safeguards_hold} :
           \E new_protected_again_Q \in {new_protected_again_CLK /\ ~protected_again_CLK} :
-          \E new_start_due_Q1 \in {(((reset_due_Q1 \/ ~safeguards_hold) \/ new_protected_again_Q) \/ new_Stop) \/ (start_due_Q1 /\ ~new_start_press_Q)} :
           \E new_reset_due_Q1 \in {(((((((~a_mode \/ new_manual_new_Q) \/ new_automatic_new_Q) \/ new_setup_new_Q) \/ new_intervention_new_Q) \/ new_service_new_Q) \/ (edm').Error) \/ fplc.ERROR) \/ (reset_due_Q1 /\ ~new_desk_reset_Q)} :
+          \E new_reset_done_CLK \in {new_reset_due_Q1} :
+          \E new_reset_done_Q \in {reset_done_CLK /\ ~new_reset_done_CLK} :
+          \E new_start_due_Q1 \in {((((new_reset_due_Q1 \/ new_reset_done_Q) \/ ~safeguards_hold) \/ new_protected_again_Q) \/ new_Stop) \/ (start_due_Q1 /\ ~new_start_press_Q)} :
           \E two_modes \in {((((((((((manual /\ automatic) \/ (manual /\ setup)) \/ (manual /\ intervention)) \/ (manual /\ service)) \/ (automatic /\ setup)) \/ (automatic /\ intervention)) \/ (automatic /\ service)) \/ (setup /\ intervention)) \/ (setup /\ service)) \/ (intervention /\ service))} :
           \E bad_OneMode \in {(a_mode /\ ~~two_modes)} :
           \E bad_ModeNeedsKey \in {(((((new_manual_new_Q \/ new_automatic_new_Q) \/ new_setup_new_Q) \/ new_intervention_new_Q) \/ new_service_new_Q) /\ ~LA)} :
+          \E bad_ModeWithinLevel \in {(((((new_manual_new_Q \/ new_automatic_new_Q) \/ new_setup_new_Q) \/ new_intervention_new_Q) \/ new_service_new_Q) /\ ~((((new_STR \/ (~service /\ new_D)) \/ (((manual \/ automatic) \/ setup) /\ new_C)) \/ ((manual \/ automatic) /\ new_B)) \/ (manual /\ new_A)))} :
           \E bad_NoModeNoMotion \in {(S_DriveEnable /\ ~a_mode)} :
           \E bad_ModeChangeStops \in {(((((new_manual_new_Q \/ new_automatic_new_Q) \/ new_setup_new_Q) \/ new_intervention_new_Q) \/ new_service_new_Q) /\ ~~S_DriveEnable)} :
           \E bad_KeyErrorStops \in {(S_DriveEnable /\ fplc.ERROR)} :
@@ -235,8 +240,7 @@ Step5 ==
           \E bad_ResetThenStart \in {(S_DriveEnable /\ (new_reset_due_Q1 \/ new_start_due_Q1))} :
           \E new_DoorNeedsReset_waits \in {(DoorNeedsReset_waits \/ ~S_GuardClosed) /\ ~new_guard_reset_Q} :
           \E bad_DoorNeedsReset \in {(new_DoorNeedsReset_waits /\ (S_DriveEnable /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))} :
-          \E new_BeamNeedsReset_waits \in {(BeamNeedsReset_waits \/ (~S_BeamFree /\ ~beam.S_OSSD_Out)) /\ ~new_beam_reset_Q} :
-          \E bad_BeamNeedsReset \in {(new_BeamNeedsReset_waits /\ (S_DriveEnable /\ ((automatic \/ intervention) \/ service)))} :
+          \E bad_BeamNeedsReset \in {((S_DriveEnable /\ ((automatic \/ intervention) \/ service)) /\ ~new_opening_reset_Q1)} :
           \E bad_StuckStart \in {(new_drive_starts_Q /\ ~new_start_press_Q)} :
           \E bad_ResetNeverStarts \in {(new_drive_starts_Q /\ ~~new_protected_again_Q)} :
           \E bad_UnlockAtRest \in {(new_unlock_begins_Q /\ ~((((S_Standstill /\ S_Contactor1) /\ S_Contactor2) /\ ~new_drive_stops_Q) /\ (~S_DriveEnable \/ new_drive_starts_Q)))} :
@@ -252,7 +256,7 @@ Step5 ==
           \E bad_SwitchErrorStays \in {(new_SwitchErrorStays_waits /\ ~enable.Error)} :
           \E new_ContactorErrorStays_waits \in {(ContactorErrorStays_waits \/ ((edm').Error /\ ~Reset)) /\ ~new_desk_reset_Q} :
           \E bad_ContactorErrorStays \in {(new_ContactorErrorStays_waits /\ ~(edm').Error)} :
-          /\ broken' = IF edm_is!Assumes(edm, i) THEN (IF bad_OneMode THEN {"one-mode"} ELSE {}) \cup (IF bad_ModeNeedsKey THEN {"mode-needs-key"} ELSE {}) \cup (IF bad_NoModeNoMotion THEN {"no-mode-no-motion"} ELSE {}) \cup (IF bad_ModeChangeStops THEN {"mode-change-stops"} ELSE {}) \cup (IF bad_KeyErrorStops THEN {"key-error-stops"} ELSE {}) \cup (IF bad_SafeguardsOfTheMode THEN {"safeguards-of-the-mode"} ELSE {}) \cup (IF bad_AutomaticClosed THEN {"automatic-closed"} ELSE {}) \cup (IF bad_OpenOnlyHeld THEN {"open-only-held"} ELSE {}) \cup (IF bad_PersonInside THEN {"person-inside"} ELSE {}) \cup (IF bad_SetupHeld THEN {"setup-held"} ELSE {}) \cup (IF bad_ServiceHeld THEN {"service-held"} ELSE {}) \cup (IF bad_ManualProtected THEN {"manual-protected"} ELSE {}) \cup (IF bad_InterventionProtected THEN {"intervention-protected"} ELSE {}) \cup (IF bad_DarkStopsAtOnce THEN {"dark-stops-at-once"} ELSE {}) \cup (IF bad_OpenIsSlow THEN {"open-is-slow"} ELSE {}) \cup (IF bad_StopStops THEN {"stop-stops"} ELSE {}) \cup (IF bad_LettingGoStops THEN {"letting-go-stops"} ELSE {}) \cup (IF bad_LettingGoStopsOpen THEN {"letting-go-stops-open"} ELSE {}) \cup (IF bad_SqueezingStops THEN {"squeezing-stops"} ELSE {}) \cup (IF bad_SqueezingStopsOpen THEN {"squeezing-stops-open"} ELSE {}) \cup (IF bad_ResetThenStart THEN {"reset-then-start"} ELSE {}) \cup (IF bad_DoorNeedsReset THEN {"door-needs-reset"} ELSE {}) \cup (IF bad_BeamNeedsReset THEN {"beam-needs-reset"} ELSE {}) \cup (IF bad_StuckStart THEN {"stuck-start"} ELSE {}) \cup (IF bad_ResetNeverStarts THEN {"reset-never-starts"} ELSE {}) \cup (IF bad_UnlockAtRest THEN {"unlock-at-rest"} ELSE {}) \cup (IF bad_LockedInMotion THEN {"locked-in-motion"} ELSE {}) \cup (IF bad_UnlockHeld THEN {"unlock-held"} ELSE {}) \cup (IF bad_WeldedPreventsStart THEN {"welded-prevents-start"} ELSE {}) \cup (IF bad_ContactorErrorStops THEN {"contactor-error-stops"} ELSE {}) \cup (IF bad_DoorErrorStays THEN {"door-error-stays"} ELSE {}) \cup (IF bad_BeamErrorStays THEN {"beam-error-stays"} ELSE {}) \cup (IF bad_SwitchErrorStays THEN {"switch-error-stays"} ELSE {}) \cup (IF bad_ContactorErrorStays THEN {"contactor-error-stays"} ELSE {}) ELSE {"edm"}
+          /\ broken' = IF edm_is!Assumes(edm, i) THEN (IF bad_OneMode THEN {"one-mode"} ELSE {}) \cup (IF bad_ModeNeedsKey THEN {"mode-needs-key"} ELSE {}) \cup (IF bad_ModeWithinLevel THEN {"mode-within-level"} ELSE {}) \cup (IF bad_NoModeNoMotion THEN {"no-mode-no-motion"} ELSE {}) \cup (IF bad_ModeChangeStops THEN {"mode-change-stops"} ELSE {}) \cup (IF bad_KeyErrorStops THEN {"key-error-stops"} ELSE {}) \cup (IF bad_SafeguardsOfTheMode THEN {"safeguards-of-the-mode"} ELSE {}) \cup (IF bad_AutomaticClosed THEN {"automatic-closed"} ELSE {}) \cup (IF bad_OpenOnlyHeld THEN {"open-only-held"} ELSE {}) \cup (IF bad_PersonInside THEN {"person-inside"} ELSE {}) \cup (IF bad_SetupHeld THEN {"setup-held"} ELSE {}) \cup (IF bad_ServiceHeld THEN {"service-held"} ELSE {}) \cup (IF bad_ManualProtected THEN {"manual-protected"} ELSE {}) \cup (IF bad_InterventionProtected THEN {"intervention-protected"} ELSE {}) \cup (IF bad_DarkStopsAtOnce THEN {"dark-stops-at-once"} ELSE {}) \cup (IF bad_OpenIsSlow THEN {"open-is-slow"} ELSE {}) \cup (IF bad_StopStops THEN {"stop-stops"} ELSE {}) \cup (IF bad_LettingGoStops THEN {"letting-go-stops"} ELSE {}) \cup (IF bad_LettingGoStopsOpen THEN {"letting-go-stops-open"} ELSE {}) \cup (IF bad_SqueezingStops THEN {"squeezing-stops"} ELSE {}) \cup (IF bad_SqueezingStopsOpen THEN {"squeezing-stops-open"} ELSE {}) \cup (IF bad_ResetThenStart THEN {"reset-then-start"} ELSE {}) \cup (IF bad_DoorNeedsReset THEN {"door-needs-reset"} ELSE {}) \cup (IF bad_BeamNeedsReset THEN {"beam-needs-reset"} ELSE {}) \cup (IF bad_StuckStart THEN {"stuck-start"} ELSE {}) \cup (IF bad_ResetNeverStarts THEN {"reset-never-starts"} ELSE {}) \cup (IF bad_UnlockAtRest THEN {"unlock-at-rest"} ELSE {}) \cup (IF bad_LockedInMotion THEN {"locked-in-motion"} ELSE {}) \cup (IF bad_UnlockHeld THEN {"unlock-held"} ELSE {}) \cup (IF bad_WeldedPreventsStart THEN {"welded-prevents-start"} ELSE {}) \cup (IF bad_ContactorErrorStops THEN {"contactor-error-stops"} ELSE {}) \cup (IF bad_DoorErrorStays THEN {"door-error-stays"} ELSE {}) \cup (IF bad_BeamErrorStays THEN {"beam-error-stays"} ELSE {}) \cup (IF bad_SwitchErrorStays THEN {"switch-error-stays"} ELSE {}) \cup (IF bad_ContactorErrorStays THEN {"contactor-error-stays"} ELSE {}) ELSE {"edm"}
           /\ reset_edge_CLK' = new_reset_edge_CLK
           /\ armed_Q1' = new_armed_Q1
           /\ start_edge_CLK' = new_start_edge_CLK
@@ -268,18 +272,19 @@ Step5 ==
           /\ intervention_new_CLK' = new_intervention_new_CLK
           /\ service_new_CLK' = new_service_new_CLK
           /\ nobody_inside_Q1' = new_nobody_inside_Q1
+          /\ opening_reset_Q1' = new_opening_reset_Q1
           /\ drive_starts_CLK' = new_drive_starts_CLK
           /\ drive_stops_CLK' = new_drive_starts_CLK
           /\ unlock_begins_CLK' = new_unlock_begins_CLK
           /\ protected_again_CLK' = new_protected_again_CLK
-          /\ start_due_Q1' = new_start_due_Q1
           /\ reset_due_Q1' = new_reset_due_Q1
+          /\ reset_done_CLK' = new_reset_done_CLK
+          /\ start_due_Q1' = new_start_due_Q1
           /\ LettingGoStops_waits' = new_LettingGoStops_waits
           /\ LettingGoStopsOpen_waits' = new_LettingGoStopsOpen_waits
           /\ SqueezingStops_waits' = new_SqueezingStops_waits
           /\ SqueezingStopsOpen_waits' = new_SqueezingStopsOpen_waits
           /\ DoorNeedsReset_waits' = new_DoorNeedsReset_waits
-          /\ BeamNeedsReset_waits' = new_BeamNeedsReset_waits
           /\ DoorErrorStays_waits' = new_DoorErrorStays_waits
           /\ BeamErrorStays_waits' = new_BeamErrorStays_waits
           /\ SwitchErrorStays_waits' = new_SwitchErrorStays_waits
@@ -316,6 +321,7 @@ Assumes_enable == "enable" \notin broken
 Assumes_edm == "edm" \notin broken
 OneMode == "one-mode" \notin broken
 ModeNeedsKey == "mode-needs-key" \notin broken
+ModeWithinLevel == "mode-within-level" \notin broken
 NoModeNoMotion == "no-mode-no-motion" \notin broken
 ModeChangeStops == "mode-change-stops" \notin broken
 KeyErrorStops == "key-error-stops" \notin broken

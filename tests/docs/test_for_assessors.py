@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -24,7 +25,7 @@ PARTS = [part.strip() for cell in MINUTES for part in cell.split(",")]
 PROPERTY = re.findall(r"\(`(\w+)` of `(\w+)`", PAGE)
 RUNS = ("edm/MC_SF_EDM_arbitrary", "edm/NEG_SF_EDM_reset_by_level")
 THEOREM = "neither_inhibit_nor_error_goes_without_an_edge"
-ADAPTER = f"'{sys.executable} examples/adapters/refimpl_adapter.py sf_edm'"
+ADAPTER = shlex.quote(shlex.join([sys.executable, "examples/adapters/refimpl_adapter.py", "sf_edm"]))
 FAILS = "# VIOLATED ("
 """So the page marks the command that must end with 1."""
 

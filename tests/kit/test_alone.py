@@ -204,7 +204,7 @@ def test_the_packed_kit_has_the_same_bytes_and_no_dates(kit: Path) -> None:
     assert [info.filename for info in infos] == sorted(info.filename for info in infos)
 
 
-@pytest.mark.deep
+@pytest.mark.long
 def test_the_slow_suites_go_in_when_they_are_asked_for(toy: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["vectors", "pack", "--all"]) == 0
     said = capsys.readouterr().out

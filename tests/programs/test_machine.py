@@ -13,7 +13,8 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs import machine_picture
 from programs.machine import Machine
-from programs.machine_trial import edits, read_record
+from programs.machine_record import read_record
+from programs.machine_trial import edits
 from programs.recheck import SOLVERS
 from programs.wiring import wiring_of
 

@@ -6,9 +6,16 @@ import re
 import tomllib
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import z3
+
+from programs import machine_trial
+from programs.induction import System
 from programs.machine import Machine
-from programs.machine_trial import Outcome, Trial, as_toml, basis_of, edits, read_record
+from programs.machine_record import as_toml, basis_of, read_record
+from programs.machine_trial import Outcome, Trial, edits
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "spec/machine_cell"
@@ -67,3 +74,17 @@ def test_blocks_that_do_not_read_each_other_change_over_freely() -> None:
     killed = trial.run(found["order = fplc last"])
     assert killed is not None
     assert killed.word == "KILLED"
+
+
+def test_a_fact_that_is_lost_may_hold_where_a_flag_is_off() -> None:
+    """x follows y by a scan: once it was never true; now it is true only where y is, or not for long."""
+    x, y, asked = z3.Bools("x y asked")
+    yes, no = z3.BoolVal(True), z3.BoolVal(False)
+    after = {"x": y, "y": z3.Or(y, asked)}
+    edited: Any = SimpleNamespace(
+        system=System({"x": x, "y": y}, {"asked": asked}, {"x": no, "y": no}, after, yes, yes, yes)
+    )
+    never = z3.Not(x)
+    assert machine_trial._kept(edited, [never]) == []
+    found = machine_trial._weakened(edited, [never])
+    assert {z3.simplify(lemma).sexpr() for lemma in found} == {"(or y (not x))", "true"}

@@ -155,7 +155,7 @@ def test_trace_reads_a_log_of_the_cell(tmp_path: Path, known: dict[str, Any]) ->
     ("target", "story", "cell", "true"),
     [
         ("sf_edm", "welded_contactor", 0, '"Error":true'),
-        ("key_flows", "stale_confirmation", 1, '"ERROR":true'),
+        pytest.param("key_flows", "stale_confirmation", 1, '"ERROR":true', marks=pytest.mark.long),
     ],
 )
 def test_a_played_log_is_accepted_by_trace(

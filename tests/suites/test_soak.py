@@ -56,7 +56,7 @@ def test_a_counter_of_8_bits_passes_all_but_soak(tmp_path: Path, fault: type[Lam
     assert run_suite(made(tmp_path, "soak"), Lamp).word == CONFORMS
 
 
-@pytest.mark.deep
+@pytest.mark.long
 def test_a_counter_of_16_bits_overflows_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert run_suite(made(tmp_path, "soak"), Word).word == CONFORMS, "the short one"
     monkeypatch.setattr(soak, "MOST", 66_000)

@@ -60,7 +60,7 @@ def test_a_second_explorer_confirms_the_sentence_over_all_paths(sentence: Callab
     assert judged(sentence)[0] == "CONFIRMED", judged(sentence)
 
 
-QUICK = frozenset({fplc.Step.ERROR, fplc.Step.ONE_OUTPUT, fplc.Step.AWAIT_SELECTION, fplc.Step.SETTLE})
+QUICK = frozenset({fplc.Step.ERROR, fplc.Step.ONE_OUTPUT, fplc.Step.SETTLE})
 """Of the others six take one to two minutes of CPU time each."""
 
 
