@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import hashlib
+import itertools
 import shlex
 import threading
 import time
@@ -175,13 +176,25 @@ def _verdict(machine: Machine, verdict: Verdict) -> Iterator[str]:
     yield f"  property    {verdict.asked.text}"
     yield f"  hazard      {verdict.row['hazard']}"
     yield f"  {'trace' if verdict.scans else 'missing':<11} {verdict.how}"
-    for number, (dt_ms, given, gives) in enumerate(rows_of_trace(machine, verdict.scans), 1):
-        word = "wrong scan" if number == len(verdict.scans) else "scan"
-        yield f"  {f'{word} {number}':<13} after {dt_ms} ms: {given or 'the same inputs'}"
-        if gives:
-            yield f"                gives {gives}"
+    yield from trace_lines(list(rows_of_trace(machine, verdict.scans)))
     for row in verdict.mended:
         yield f"  wire        {row}"
+
+
+def trace_lines(rows: Sequence[tuple[int, str, str]]) -> Iterator[str]:
+    """The rows of a trace; scans in which nothing changes stand in one line."""
+
+    def alike(numbered: tuple[int, tuple[int, str, str]]) -> tuple[int, ...]:
+        number, (dt_ms, given, gives) = numbered
+        return (number, dt_ms) if given or gives or number == len(rows) else (dt_ms,)
+
+    for _, group in itertools.groupby(enumerate(rows, 1), alike):
+        (first, (dt_ms, given, gives)), *more = group
+        number = more[-1][0] if more else first
+        where = f"scans {first}-{number}" if more else f"{'wrong ' * (number == len(rows))}scan {number}"
+        yield f"  {where:<13} after {dt_ms} ms{' each' if more else ''}: {given or 'the same inputs'}"
+        if gives:
+            yield f"                gives {gives}"
 
 
 def rows_of_trace(machine: Machine, scans: Sequence[Scan]) -> Iterator[tuple[int, str, str]]:

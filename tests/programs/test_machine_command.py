@@ -15,7 +15,7 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs.cell import Asked
 from programs.machine import Machine, Verdict
-from programs.machine_command import lines_of, status
+from programs.machine_command import lines_of, status, trace_lines
 
 FOLDER = Path(__file__).parents[2] / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
@@ -205,3 +205,24 @@ def test_records_of_the_project_are_made_from_its_own_files(
     mine.write_text(TEXT, "utf-8")
     assert main(["machine", str(mine), option]) == 2
     assert "are about the project's own files" in capsys.readouterr().err
+
+
+def test_scans_in_which_nothing_changes_stand_in_one_line() -> None:
+    rows = [
+        (5, "Start=1", ""),
+        (5, "", ""),
+        (5, "", ""),
+        (9, "", ""),
+        (9, "", "Lamp=1"),
+        (9, "", ""),
+        (9, "", ""),
+    ]
+    assert list(trace_lines(rows)) == [
+        "  scan 1        after 5 ms: Start=1",
+        "  scans 2-3     after 5 ms each: the same inputs",
+        "  scan 4        after 9 ms: the same inputs",
+        "  scan 5        after 9 ms: the same inputs",
+        "                gives Lamp=1",
+        "  scan 6        after 9 ms: the same inputs",
+        "  wrong scan 7  after 9 ms: the same inputs",
+    ]
