@@ -36,7 +36,7 @@ from refimpl.machine_cell import cell as reference
 
 BESIDE = {"hazard": str, "cites": list}
 """What a property of a machine has besides."""
-RUNS = 240
+RUNS = 260
 TRIES = 250
 """Runs that may be made to shorten one counterexample."""
 LIMIT_MS = 30_000
