@@ -229,7 +229,7 @@ class Trial:
 
     @cached_property
     def terms(self) -> dict[str, str]:
-        """The composed program as it is."""
+        """The composed program as it is, without what no property depends on."""
         return {path: term.sexpr() for path, term in self.machine.system.after.items()}
 
     def run(self, edit: Edit) -> Outcome | None:
@@ -260,7 +260,7 @@ class Trial:
         if seen.broken:
             return self._killed(edit, edited, seen)
         if self._same(edited):
-            return Outcome(edit, "HARMLESS", ["the same program"])
+            return Outcome(edit, "HARMLESS", ["no property depends on what it changes"])
         facts = self._facts(edited)
         if self._proved(edited, facts) or self._proved(edited, _kept(edited, facts)):
             return Outcome(edit, "HARMLESS", ["every property is proved of it too"])
@@ -292,7 +292,7 @@ class Trial:
         return found
 
     def _same(self, edited: Machine) -> bool:
-        """Whether the edited program is the same."""
+        """Whether the edited program is the same, but for what no property depends on."""
         return {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms
 
     @staticmethod

@@ -2,16 +2,16 @@
 (***************************************************************************)
 (* What the cell needs of SF_TestableSafetySensor.  Our own design.  The   *)
 (* form is that of FPLCContract.                                           *)
-(* Leaves out: how long a test lasts, and the sender.                      *)
+(* Leaves out: how long a test lasts.                                      *)
 (***************************************************************************)
 EXTENDS Integers
 
-\* `reset`: Reset as the call read it
+\* `reset`: Reset as the call read it; in a test it is first "asked", with the sender off, then "testing"
 Row(shows, reset) ==
-    [S_OSSD_Out |-> shows \in {"free", "testing"}, TestPossible |-> shows = "free", Error |-> shows = "error",
-     reset |-> reset]
+    [S_OSSD_Out |-> shows \in {"free", "asked", "testing"}, TestPossible |-> shows = "free",
+     S_TestOut |-> shows # "asked", Error |-> shows = "error", reset |-> reset]
 \* TSS-8010, TSS-8020, TSS-8030, TSS-8000, TSS-EB-1
-Rows == {Row(shows, reset) : shows \in {"free", "testing", "error", "none"}, reset \in BOOLEAN}
+Rows == {Row(shows, reset) : shows \in {"free", "asked", "testing", "error", "none"}, reset \in BOOLEAN}
 Start == Row("none", FALSE)
 
 \* TSSA-08: it is never switched off, for then it forgets its error; both inhibits are on, and a failed test

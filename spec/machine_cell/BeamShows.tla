@@ -11,7 +11,7 @@ Call(i) == SensorScan(i)
 \* What its contract speaks of
 Row ==
     [S_OSSD_Out |-> Rows[state].S_OSSD_Out, TestPossible |-> Rows[state].TestPossible,
-     Error |-> Rows[state].Error, reset |-> resetBefore]
+     S_TestOut |-> Rows[state].S_TestOut, Error |-> Rows[state].Error, reset |-> resetBefore]
 
 \* What the refinement tries: everything, and times around the end of the test
 Inputs ==
