@@ -229,8 +229,8 @@ class Trial:
 
     @cached_property
     def terms(self) -> dict[str, str]:
-        """The composed program as it is, without what no property depends on."""
-        return {path: term.sexpr() for path, term in self.machine.system.after.items()}
+        """What the properties of the machine as it is depend on."""
+        return terms_of(self.machine)
 
     def run(self, edit: Edit) -> Outcome | None:
         """What becomes of an edit, from runs and the order of calls alone; None: that takes a proof."""
@@ -293,7 +293,7 @@ class Trial:
 
     def _same(self, edited: Machine) -> bool:
         """Whether the edited program is the same, but for what no property depends on."""
-        return {path: term.sexpr() for path, term in edited.system.after.items()} == self.terms
+        return terms_of(edited) == self.terms
 
     @staticmethod
     def _killed(edit: Edit, edited: Machine, seen: Seen) -> Outcome:
@@ -350,6 +350,12 @@ def _weakened(edited: Machine, facts: Sequence[z3.BoolRef]) -> list[z3.BoolRef]:
         for flag in range(len(facts) + 1, len(facts) + len(flags) + 1):
             clauses += [(number, flag), (number, -flag)]
     return _last(edited, [*facts, *flags], clauses)
+
+
+def terms_of(machine: Machine) -> dict[str, str]:
+    """All terms on which the properties of a machine depend: its memory after a scan, and each property."""
+    terms = {**machine.system.after, **{f"broken {id}": term for id, term in machine.bad.items()}}
+    return {name: term.sexpr() for name, term in terms.items()}
 
 
 def reads_of(wiring: Wiring) -> set[tuple[str, str, bool]]:

@@ -17,6 +17,8 @@ from modeproof.ground.proofs import proofs_module
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of, verdict_on_machine
+from modeproof.tlc.start_up import entries
+from modeproof.tlc.toolchain import find_toolchain
 
 ID = "machine"
 MODELS = "tlc.toml"
@@ -112,9 +114,15 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
     sources += [*(place / "spec").glob("*/*.tla")] if (folder / MODELS).exists() else []
     inputs = evidence.hashes(place, sources)  # of what is judged now
     result: dict[str, Any] = {}
+    tools = evidence.solvers()
     try:
         result = proofs_module("programs.machine_evidence").judged(folder)
-        result["models"] = list(_models(place, folder))
+        result["models"] = []
+        if (folder / MODELS).exists():
+            toolchain = find_toolchain()
+            models = list(_models(place, folder))
+            tools |= entries(toolchain, models[-1]["tlc"])
+            result |= {"models": models, "jar_pinned": toolchain.pinned}
         verdict, reason = verdict_on_machine(result)
         low, high = result["scan_ms"]
         strength = (
@@ -134,7 +142,7 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
         started=started,
         seconds=time.time() - started,
         inputs=inputs,
-        tools=evidence.solvers(),
+        tools=tools,
         result=result,
         reason=reason,
     )
@@ -144,12 +152,12 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
 
 def _models(place: Path, folder: Path) -> Iterator[dict[str, Any]]:
     """The runs of TLC: that each block keeps its contract, and the cell over them. Raises Unjudged."""
-    tasks = proofs_module("programs.machine_tlc").tasks(None, folder) if (folder / MODELS).exists() else ()
-    for task in tasks:
+    for task in proofs_module("programs.machine_tlc").tasks(None, folder):
         verdict, outcome = machine_tlc.judged(place, task, shipped=True)
         counts = outcome.log.counts
         yield {
             "run": task.id,
+            "tlc": outcome.log.version,
             "verdict": verdict.verdict,
             "as_expected": verdict.as_expected,
             "judged": verdict.judged,

@@ -117,7 +117,7 @@ def machine_line(record: Record) -> str:
     models = record["result"].get("models", [])
     kept = sum(row["as_expected"] for row in models)
     line = f"{'machine':<12} {words}, {record['seconds']:.1f} s; {falls} of {len(rows)} fall with an edit"
-    line += f"; {kept} of {len(models)} runs of TLC as expected" if models else ""
+    line += f"; {kept} of {len(models)} runs of TLC as expected" if models else "; no run of TLC"
     return f"{line}; {record['document']} is our own design, no document"
 
 

@@ -242,10 +242,10 @@ Step5 ==
           \E bad_ResetThenStart \in {(S_DriveEnable /\ (new_reset_due_Q1 \/ new_start_due_Q1))} :
           \E new_DoorNeedsReset_waits \in {(DoorNeedsReset_waits \/ ~S_GuardClosed) /\ ~new_guard_reset_Q} :
           \E bad_DoorNeedsReset \in {(new_DoorNeedsReset_waits /\ (S_DriveEnable /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))} :
-          \E bad_BeamNeedsReset \in {((S_DriveEnable /\ ((automatic \/ intervention) \/ service)) /\ ~new_opening_reset_Q1)} :
+          \E bad_BeamNeedsReset \in {((S_DriveEnable /\ (((automatic \/ intervention) \/ service) \/ (manual /\ ~((S_Enable1 /\ ~S_Enable2) /\ S_Enable3)))) /\ ~new_opening_reset_Q1)} :
           \E bad_StuckStart \in {(new_drive_starts_Q /\ ~new_start_press_Q)} :
-          \E bad_ResetNeverStarts \in {(new_drive_starts_Q /\ ~~new_protected_again_Q)} :
-          \E bad_UnlockAtRest \in {(new_unlock_begins_Q /\ ~((((S_Standstill /\ S_Contactor1) /\ S_Contactor2) /\ ~new_drive_stops_Q) /\ (~S_DriveEnable \/ new_drive_starts_Q)))} :
+          \E bad_ResetNeverStarts \in {(new_drive_starts_Q /\ ~(~new_protected_again_Q /\ ~new_reset_done_Q))} :
+          \E bad_UnlockAtRest \in {(new_unlock_begins_Q /\ ~((((S_Standstill /\ S_Contactor1) /\ S_Contactor2) /\ ~new_drive_stops_Q) /\ (~S_DriveEnable \/ (((new_drive_starts_Q /\ S_Enable1) /\ ~S_Enable2) /\ S_Enable3))))} :
           \E bad_LockedInMotion \in {((S_UnlockGuard /\ S_DriveEnable) /\ automatic)} :
           \E bad_UnlockHeld \in {(S_UnlockGuard /\ ~UnlockButton)} :
           \E bad_WeldedPreventsStart \in {(new_drive_starts_Q /\ ~(S_Contactor1 /\ S_Contactor2))} :

@@ -125,6 +125,8 @@ def test_the_runs_of_tlc_are_part_of_the_verdict(
     assert record["reason"].startswith(reason)
     assert [row["run"] for row in record["result"]["models"]] == ["keeps_contactors"]
     assert f"{int(verdict == 'PROVED')} of 1 runs of TLC as expected" in machine_line(record)
+    assert record["result"]["jar_pinned"] and "2.15" in record["tools"]["tlc"]["version"]
+    assert record["tools"].keys() >= {"tlc", "java", "z3", "cvc5"}
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
+import pytest
 import z3
 
 from programs import machine_trial
@@ -74,6 +75,17 @@ def test_blocks_that_do_not_read_each_other_change_over_freely() -> None:
     killed = trial.run(found["order = fplc last"])
     assert killed is not None
     assert killed.word == "KILLED"
+
+
+@pytest.mark.deep
+def test_an_edit_that_a_property_reads_is_not_the_same() -> None:
+    trial = Trial(plain(runs=1))
+    for id, same in (
+        ("outputs.S_SlowSpeed = guard.S_GuardLocked", False),
+        ("order = manual_begins and automatic_begins changed over", True),
+    ):
+        edit = next(edit for edit in edits(TEXT, trial.machine.wiring) if edit.id == id)
+        assert trial._same(trial.edited(edit)) == same
 
 
 def test_a_fact_that_is_lost_may_hold_where_a_flag_is_off() -> None:

@@ -8,6 +8,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.lane.machine import judge_machine
+from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of
 from programs.machine import Machine
 from programs.machine_command import status
@@ -113,6 +114,17 @@ def test_evidence_of_it_is_as_expected(folder: Path) -> None:
     record = judge_machine(folder.parents[1], "latch")
     assert (record["verdict"], record["reason"]) == ("PROVED", "")
     assert record["inputs"].keys() >= {f"spec/latch/{name}.toml" for name in ("wiring", "safety", "use")}
+    assert machine_line(record).endswith(
+        "1 of 1 fall with an edit; no run of TLC; latch is our own design, no document"
+    )
+
+
+def test_a_trial_of_another_text_does_not_count(folder: Path) -> None:
+    row = 'kind = "part left out"\nrow = "block.running.inputs.R1"\ntext = "Stop"\nverdict = "KILLED"\n'
+    recorded = f'[basis]\nwiring = "another"\n\n[[edit]]\n{row}by = ["closed"]\nscans = 2\n'
+    (folder / "trial.toml").write_text(recorded, "utf-8")
+    trial = judge_machine(folder.parents[1], "latch")["result"]["trial"]
+    assert (trial["judged"], trial["of_another_text"], trial["falls"]) == (0, 1, {"closed": 0})
 
 
 @pytest.mark.sampled(3)
