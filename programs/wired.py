@@ -38,7 +38,7 @@ from programs.tree import (
     Unit,
     Variable,
 )
-from programs.wiring import Wiring, is_plain, names, unfit
+from programs.wiring import Wiring, is_plain, leaves, names, unfit
 
 OBSERVERS = ("R_TRIG", "F_TRIG", "SR", "RS")
 """What an observer may be."""
@@ -130,6 +130,28 @@ def spelled(wiring: Wiring, watched: Watched, text: str, place: Place, of: str) 
     return text if found == tree and is_plain(text) else shown(found)
 
 
+def kind_of(wiring: Wiring, watched: Watched, text: str, place: Place, of: str) -> Scalar | None:
+    """The type of a signal; None: a name in it is nothing of the wiring or of the observers.
+
+    of: whose signal it is. Raises Unjudged at `place`: an operator that no wire has, a WORD in an AND.
+    """
+    tree, look = parsed(text, place), _Spelling(wiring, watched, place, f"{of}: {text!r}", "a wire")
+    plain, blocks = {*wiring.table.inputs, *wiring.texts, *wiring.shown}, look.blocks()
+    for leaf in leaves(tree):
+        match leaf:
+            case Name(name, _) if name not in plain:
+                return None
+            case Member(Name(block, _), pin, _) if pin not in blocks.get(block, {}):
+                return None
+    match tree:
+        case Name(name, _):
+            return look.name(name)[1]
+        case Member(Name(block, _), pin, _):
+            return look.pin(block, pin)[2]
+    look.condition(tree)
+    return BOOL
+
+
 @dataclass(frozen=True)
 class _Spelling:
     """What stands in one condition of a property or an observer."""
@@ -138,6 +160,7 @@ class _Spelling:
     watched: Watched
     place: Place
     here: str
+    whose: str = "a property of a machine"
 
     def condition(self, tree: Expression) -> Expression:
         """The expression, which must be a BOOL."""
@@ -157,7 +180,7 @@ class _Spelling:
             case _:
                 lost = tree.operator if isinstance(tree, Unary | Binary) else shown(tree)
                 lost = f"{tree.name}(...)" if isinstance(tree, Function) else lost
-                allowed = "a property of a machine has TRUE, FALSE, names, AND, OR and NOT"
+                allowed = f"{self.whose} has TRUE, FALSE, names, AND, OR and NOT"
                 raise self.place.refuse(f"{self.here}: {allowed}, and no {lost}")
         if kind is not BOOL:
             raise self.place.refuse(f"{self.here}: {shown(made)} is a {kind.name}, and a BOOL is needed")
