@@ -117,6 +117,6 @@ never = "S_Drive AND edm.Error"
     assert f"{path}:4: {pin} is an output of a block and is written" in said.err
 
 
-def test_an_input_of_a_block_may_be_written_before_its_call() -> None:
+def test_an_input_may_be_written_before_the_call() -> None:
     declared = "VAR_OUTPUT y : BOOL; END_VAR VAR r : R_TRIG; END_VAR"
     assert rows(declared, "r.CLK := in; r(); y := r.Q;", [(1, {}), (1, {"in": True})]) == [False, True]
