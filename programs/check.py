@@ -371,11 +371,8 @@ class Types:
         """Refuse an assignment to what must not be written, or of another kind."""
         kind = self.written(target, place)
         given = self.of(value, kind)
-        if (
-            not isinstance(given, Scalar)
-            or given.kind != kind.kind
-            or (kind.kind == "enum" and given != kind)
-        ):
+        alike = isinstance(given, Scalar) and given.kind == kind.kind
+        if not isinstance(given, Scalar) or not alike or (kind.kind == "enum" and given != kind):
             shown = given.name if isinstance(given, Scalar) else "no single value"
             raise place.refuse(f"{kind.name} := {shown} needs a conversion")
         if kind.kind == "bits" and given.high > kind.high:
@@ -387,14 +384,17 @@ class Types:
         if not isinstance(kind, Scalar):
             raise place.refuse("whole arrays and instances are not assigned here")
         root = target
-        while isinstance(root, Index):
+        while isinstance(root, Index | Member):
+            kind_of = self.of(root.of)
+            outs = sides(self.source, kind_of)[1] if isinstance(kind_of, Instance) else {}
+            if isinstance(root, Member) and root.name.upper() in map(str.upper, outs):
+                raise place.refuse(f"{root.name} is an output of a block and is written")
             root = root.of
         if isinstance(root, Name):
             section = self.unit.variables[root.name.upper()].section
             if section in ("constant", "input"):
-                raise place.refuse(
-                    f"{root.name} is {'CONSTANT' if section == 'constant' else 'an input'} and is written"
-                )
+                shown = "CONSTANT" if section == "constant" else "an input"
+                raise place.refuse(f"{root.name} is {shown} and is written")
         return kind
 
     def in_outs(self, kind: Instance, inputs: tuple[tuple[str, Expression], ...], place: Place) -> None:

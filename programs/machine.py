@@ -23,13 +23,13 @@ from modeproof.registers.typed import typed
 from programs.cell import Asked, Cell
 from programs.certificate import Obligation
 from programs.induction import System, conjuncts, is_inductive, named
-from programs.machine_lacking import lacking, observers_lacking
+from programs.machine_lacking import EXPRESSIONS, lacking, observers_lacking
 from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
 from programs.machine_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
 from programs.property import Judgement
 from programs.questions import Beside, Questions, read_questions, words_of
 from programs.recheck import SOLVERS
-from programs.wired import Observer, Watched, cell_of
+from programs.wired import Observer, Watched, cell_of, looked, spelled
 from programs.wiring import Wiring, rows_of, wiring_of
 from refimpl.errors import ParameterError
 from refimpl.machine_cell import cell as reference
@@ -106,9 +106,21 @@ class Machine:
 
     @cached_property
     def questions(self) -> Questions:
-        """The properties that are judged. Raises Unjudged."""
-        rows = tuple(row for row in self.every.rows if row["id"] not in self.lacking)
+        """The properties that are judged, in the spelling of the wiring. Raises Unjudged."""
+        rows = tuple(self.spelled(row) for row in self.every.rows if row["id"] not in self.lacking)
         return replace(self.every, rows=rows)
+
+    def spelled(self, row: Mapping[str, Any]) -> Mapping[str, Any]:
+        """A property in the spelling of the wiring. Raises Unjudged: what no property of a machine has."""
+        if self.every.file != str(self.properties):
+            return row  # a question that was made, not read
+        place = self.every.place(row)
+        texts = {
+            key: spelled(self.wiring, self.watched, row[key], place, f"{row['id']}: {key}")
+            for key in EXPRESSIONS
+            if key in row
+        }
+        return {**row, **texts}
 
     @cached_property
     def observers(self) -> Watched:
@@ -117,16 +129,16 @@ class Machine:
         rows = self.every.tables.get("observer", {})
         if not isinstance(rows, dict):
             raise Unjudged(f"{self.properties}: [observer] is a table")
-        made = {name: typed(Observer, row, f"{self.properties}: {name}") for name, row in rows.items()}
-        return Watched(str(self.properties), made, lines)
+        made = Watched(str(self.properties), {}, lines)
+        told = {name: f"{made.file}:{made.place(name).line}: observer.{name}" for name in rows}
+        return replace(made, rows={name: typed(Observer, row, told[name]) for name, row in rows.items()})
 
     @cached_property
     def watched(self) -> Watched:
-        """Those that the cell can have. Raises Unjudged."""
+        """Those that the cell can have, in the spelling of the wiring. Raises Unjudged."""
         lost = observers_lacking(self.wiring, self.observers) if self.leave_out else {}
-        return replace(
-            self.observers, rows={n: row for n, row in self.observers.rows.items() if n not in lost}
-        )
+        rows = {name: row for name, row in self.observers.rows.items() if name not in lost}
+        return looked(self.wiring, replace(self.observers, rows=rows))
 
     @cached_property
     def cell(self) -> Cell:

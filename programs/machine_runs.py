@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import itertools
 import random
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.wired import Watched
-from programs.wiring import Wiring
+from programs.machine_use import Use as Use
+from programs.machine_use import check_use
+from programs.machine_use import read_use as read_use
+from programs.wired import Watched, kind_of
+from programs.wiring import PLAIN, Wiring, is_plain
 from refimpl.errors import ParameterError
 from refimpl.machine_cell import cell as reference
 from refimpl.machine_cell.expression import Signal, Value, signal
@@ -27,25 +28,6 @@ Scan = tuple[int, Inputs]
 """The time since the scan before in ms, and the inputs."""
 SCANS = 150
 """Of a run."""
-
-
-@dataclass(frozen=True)
-class Use:
-    """How a cell is used. Raises Unjudged for a file that is no such thing."""
-
-    rest: Mapping[str, Value] = field(default_factory=dict)
-    follows: Mapping[str, str] = field(default_factory=dict)
-    pattern: Sequence[Mapping[str, Any]] = ()
-    story: Sequence[Mapping[str, Any]] = ()
-    """`then` names stories that like to follow, `first` marks those that like to begin a run."""
-
-
-def read_use(path: Path) -> Use:
-    """The file. Raises Unjudged."""
-    try:
-        return Use(**tomllib.loads(path.read_text("utf-8")))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, TypeError) as error:
-        raise Unjudged(f"{path}: says nothing about the use of a cell: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -110,7 +92,8 @@ class Runner:
 
     @staticmethod
     def of(wiring: Wiring, watched: Watched, use: Use, table: Mapping[str, Any]) -> Runner:
-        """The runner of a wiring whose file says `table`. Raises Unjudged."""
+        """The runner of a wiring whose file says `table`. Raises Unjudged, also for the use."""
+        check_use(use, wiring)
         rows = {name: {"of": seen.of, "inputs": seen.inputs} for name, seen in watched.rows.items()}
         whole = {
             **table,
@@ -125,11 +108,7 @@ class Runner:
             cell = reference.made_of(whole)
             named = {name: row["is"] for name, row in whole["signals"].items()}
             named |= reference.from_matrix(whole)
-            follows = {
-                name: signal(text, named)
-                for name, text in use.follows.items()
-                if name in cell.inputs and _known(text, named, cell)
-            }
+            follows = {name: signal(text, named) for name, text in followed(use, wiring, watched).items()}
         except ParameterError as error:
             raise Unjudged(f"{wiring.file}: {error}") from None
         return Runner(wiring, watched, use, whole, cell, named, follows)
@@ -333,15 +312,25 @@ class Runner:
         return scans
 
 
-def _known(text: str, named: Mapping[str, str], cell: reference.Cell) -> bool:
-    """Whether every name in a signal is one of this cell."""
-    state = reference.power_up(cell)
-    values = {**dict.fromkeys(cell.inputs, False), **state.pins}
-    try:
-        signal(text, named)(values)
-    except KeyError:
-        return False
-    return True
+def followed(use: Use, wiring: Wiring, watched: Watched) -> dict[str, str]:
+    """What each input of the wiring follows; what names nothing of the wiring is left out.
+
+    Raises Unjudged with file, line and row: no signal, or one of another type than the input.
+    """
+    found = {}
+    for name, text in use.follows.items():
+        if name not in wiring.table.inputs:
+            continue
+        place, here = use.place(f"follows.{name}"), f"follows.{name}"
+        kind = kind_of(wiring, watched, text, place, here)
+        if kind is None:
+            continue
+        if not is_plain(text):
+            raise place.refuse(f"{here}: {text!r}: {PLAIN}")
+        if kind.name != (wanted := wiring.table.inputs[name].type):
+            raise place.refuse(f"{here}: {text!r} is a {kind.name}, and {name} is a {wanted}")
+        found[name] = text
+    return found
 
 
 @dataclass

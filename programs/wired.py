@@ -7,8 +7,11 @@ sources have changed since it was written last, and after the last call for all 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+import msgspec
+
+from modeproof.ground.errors import suggestion
 from modeproof.registers.typed import Entry, Text
 from programs.cell import Cell
 from programs.questions import parsed, shown
@@ -18,20 +21,27 @@ from programs.tree import (
     SCALARS,
     TIME,
     Assign,
+    Binary,
     Body,
     Call,
     Expression,
+    Function,
     Instance,
     Literal,
+    Member,
     Name,
     Place,
     Scalar,
     Source,
     Statement,
+    Unary,
     Unit,
     Variable,
 )
-from programs.wiring import Wiring, names
+from programs.wiring import Wiring, is_plain, leaves, names, unfit
+
+OBSERVERS = ("R_TRIG", "F_TRIG", "SR", "RS")
+"""What an observer may be."""
 
 
 class Observer(Entry, frozen=True, kw_only=True):
@@ -82,11 +92,131 @@ def unit(wiring: Wiring, watched: Watched = NONE) -> Unit:
     for name, seen in watched.rows.items():
         if name.upper() in variables:
             raise watched.place(name).refuse(f"observer.{name}: the cell has a signal of this name")
-        if seen.of.upper() not in BLOCKS or {*seen.inputs} != {*BLOCKS[seen.of.upper()][0]} - {"PT"}:
-            raise watched.place(name).refuse(f"observer.{name}: R_TRIG, F_TRIG, SR or RS with all its inputs")
+        _check_observer(watched, name)
         declare(name, Instance(seen.of), "var", watched.place(name))
     statements = (*_scan(wiring), *observed(watched))
     return Unit("Machine", "program", variables, statements, Place(wiring.file, 1))
+
+
+def _check_observer(watched: Watched, name: str) -> None:
+    """Refuse a name that no signal may have, another block, a pin too many or too few. Raises Unjudged."""
+    place, seen = watched.place(name), watched.rows[name]
+    if cause := unfit(name):
+        raise place.refuse(f"observer.{name}: {cause}")
+    if seen.of.upper() not in OBSERVERS or {*seen.inputs} != {*BLOCKS[seen.of.upper()][0]}:
+        raise place.refuse(f"observer.{name}: R_TRIG, F_TRIG, SR or RS with all its inputs")
+
+
+def looked(wiring: Wiring, watched: Watched) -> Watched:
+    """The observers with the names as the wiring spells them. Raises Unjudged: file, line, what is wrong."""
+    rows = {}
+    for name, seen in watched.rows.items():
+        _check_observer(watched, name)
+        texts = {
+            pin: spelled(wiring, watched, text, watched.place(name), f"observer.{name}")
+            for pin, text in seen.inputs.items()
+        }
+        rows[name] = msgspec.structs.replace(seen, of=seen.of.upper(), inputs=texts)
+    return replace(watched, rows=rows)
+
+
+def spelled(wiring: Wiring, watched: Watched, text: str, place: Place, of: str) -> str:
+    """A condition with the names as the wiring spells them; the same text where they are so already.
+
+    of: whose condition it is. Raises Unjudged at `place`: an operator or a name that it must not have.
+    """
+    tree = parsed(text, place)
+    found = _Spelling(wiring, watched, place, f"{of}: {text!r}").condition(tree)
+    return text if found == tree and is_plain(text) else shown(found)
+
+
+def kind_of(wiring: Wiring, watched: Watched, text: str, place: Place, of: str) -> Scalar | None:
+    """The type of a signal; None: a name in it is nothing of the wiring or of the observers.
+
+    of: whose signal it is. Raises Unjudged at `place`: an operator that no wire has, a WORD in an AND.
+    """
+    tree, look = parsed(text, place), _Spelling(wiring, watched, place, f"{of}: {text!r}", "a wire")
+    plain, blocks = {*wiring.table.inputs, *wiring.texts, *wiring.shown}, look.blocks()
+    for leaf in leaves(tree):
+        match leaf:
+            case Name(name, _) if name not in plain:
+                return None
+            case Member(Name(block, _), pin, _) if pin not in blocks.get(block, {}):
+                return None
+    match tree:
+        case Name(name, _):
+            return look.name(name)[1]
+        case Member(Name(block, _), pin, _):
+            return look.pin(block, pin)[2]
+    look.condition(tree)
+    return BOOL
+
+
+@dataclass(frozen=True)
+class _Spelling:
+    """What stands in one condition of a property or an observer."""
+
+    wiring: Wiring
+    watched: Watched
+    place: Place
+    here: str
+    whose: str = "a property of a machine"
+
+    def condition(self, tree: Expression) -> Expression:
+        """The expression, which must be a BOOL."""
+        match tree:
+            case Literal(bool(), _, _):
+                return tree
+            case Name(name, place):
+                found, kind = self.name(name)
+                made: Expression = Name(found, place)
+            case Member(Name(block, where), pin, place):
+                owner, known, kind = self.pin(block, pin)
+                made = Member(Name(owner, where), known, place)
+            case Unary("NOT", operand, place):
+                return Unary("NOT", self.condition(operand), place)
+            case Binary("AND" | "OR" as operator, left, right, place):
+                return Binary(operator, self.condition(left), self.condition(right), place)
+            case _:
+                lost = tree.operator if isinstance(tree, Unary | Binary) else shown(tree)
+                lost = f"{tree.name}(...)" if isinstance(tree, Function) else lost
+                allowed = f"{self.whose} has TRUE, FALSE, names, AND, OR and NOT"
+                raise self.place.refuse(f"{self.here}: {allowed}, and no {lost}")
+        if kind is not BOOL:
+            raise self.place.refuse(f"{self.here}: {shown(made)} is a {kind.name}, and a BOOL is needed")
+        return made
+
+    def name(self, name: str) -> tuple[str, Scalar]:
+        """A signal: its name in the wiring, its type."""
+        wiring = self.wiring
+        known = {other.upper(): other for other in (*wiring.table.inputs, *wiring.texts, *wiring.shown)}
+        found = known.get(name.upper())
+        if found is None and name.upper() in {other.upper() for other in self.blocks()}:
+            raise self.place.refuse(f"{self.here}: {name} is a block; name one of its outputs, as {name}.Q")
+        if found is None:
+            said = suggestion(name, list(known.values()))
+            raise self.place.refuse(f"{self.here}: {name} is not declared; {said}")
+        if found in wiring.table.inputs:
+            return found, SCALARS[wiring.table.inputs[found].type]
+        return found, wiring.type_of(wiring.shown[found]) if found in wiring.shown else BOOL
+
+    def pin(self, block: str, pin: str) -> tuple[str, str, Scalar]:
+        """An output of a block: both names in the wiring, its type."""
+        blocks = {name.upper(): (name, outputs) for name, outputs in self.blocks().items()}
+        if block.upper() not in blocks:
+            said = suggestion(block, list(self.blocks()))
+            raise self.place.refuse(f"{self.here}: {block} is not declared; {said}")
+        owner, outputs = blocks[block.upper()]
+        found = next((name for name in outputs if name.upper() == pin.upper()), None)
+        if found is None:
+            said = suggestion(pin, list(outputs))
+            raise self.place.refuse(f"{self.here}: {owner} has no output {pin!r}; {said}")
+        return owner, found, outputs[found]
+
+    def blocks(self) -> dict[str, Mapping[str, Scalar]]:
+        """The outputs of each block and observer."""
+        found = {name: pins.outputs for name, pins in self.wiring.kinds.items()}
+        return found | {name: BLOCKS[seen.of.upper()][1] for name, seen in self.watched.rows.items()}
 
 
 def _scan(wiring: Wiring) -> Iterator[Statement]:

@@ -9,6 +9,7 @@ spec/machine_cell/wiring.toml says what each table means.
 from __future__ import annotations
 
 import itertools
+import keyword
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -28,12 +29,15 @@ from programs.reference import targets
 from programs.standard import BLOCKS
 from programs.tree import BOOL, SCALARS, TIME, Binary, Expression, Member, Name, Place, Scalar, Unary, Unit
 from programs.tree import Literal as Value
+from refimpl.errors import ParameterError
+from refimpl.machine_cell.expression import signal
 
 STANDARD = ("R_TRIG", "F_TRIG", "SR", "RS", "TON")
 """The standard blocks that a wiring may have."""
 IN_USE, ANY_MODE, TWO_MODES, HOLD = "_in_use", "a_mode", "two_modes", "safeguards_hold"
 """The signals that come from modes and matrix, beside each mode by its name: the first for each safeguard."""
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+PLAIN = "a wire has TRUE, FALSE, names, AND, OR, NOT and brackets: no & for AND, no comment, no BOOL#"
 RESERVED = {"TRUE", "FALSE", "AND", "OR", "NOT", "XOR", "MOD", *SCALARS, *BLOCKS}
 
 
@@ -221,6 +225,8 @@ class Wiring:
             raise self.refuse(row, here)
         if wanted is None and found.kind not in ("bool", "bits"):
             raise self.refuse(row, f"{text!r} is a {found.name}; an output is a BOOL or a WORD")
+        if not is_plain(text):
+            raise self.refuse(row, f"{text!r}: {PLAIN}")
         return tree
 
     def _look(self, row: str, tree: Expression) -> None:
@@ -333,12 +339,29 @@ def _check_names(wiring: Wiring) -> None:
     for group in ("inputs", "block", "signals", "modes", "outputs"):
         for name in getattr(table, group):
             row = f"{group}.{name}"
-            if not NAME.fullmatch(name) or name.upper() in RESERVED:
-                raise wiring.refuse(row, "a name begins with a letter, has letters, digits and _, no keyword")
+            if cause := unfit(name):
+                raise wiring.refuse(row, cause)
             if name in derived:
                 raise wiring.refuse(row, "this signal comes from the matrix; give yours another name")
             if (first := seen.setdefault(name.upper(), row)) != row:
                 raise wiring.refuse(row, f"the name is that of {first}")
+
+
+def unfit(name: str) -> str:
+    """Why this is no name for a signal, a block or an observer; nothing if it is one."""
+    if not NAME.fullmatch(name) or name.upper() in RESERVED:
+        return "a name begins with a letter, has letters, digits and _, no keyword"
+    if keyword.iskeyword(name):
+        return f"{name} is a keyword of Python, which runs the wires with plain values; take another name"
+    return ""
+
+
+def is_plain(text: str) -> bool:
+    """Whether a text is a signal for the reference too, which reads wires with a reader of its own."""
+    try:
+        return re.fullmatch(r"[\w.()\s]*", text, re.ASCII) is not None and signal(text, {}) is not None
+    except ParameterError:
+        return False
 
 
 def _check_block(wiring: Wiring, name: str, row: Row) -> None:
@@ -352,6 +375,11 @@ def _check_block(wiring: Wiring, name: str, row: Row) -> None:
     for pin in pins.inputs:
         if pin not in row.inputs:
             raise wiring.refuse(f"{here}.inputs.{pin}", f"an input without a source: {row.of} reads {pin}")
+    for pin in pins.parameters:
+        if pins.unit is None and pin not in row.parameters:
+            raise wiring.refuse(
+                f"{here}.parameters.{pin}", f"a parameter without a value: {row.of} has no default"
+            )
     for pin, value in row.parameters.items():
         place = f"{here}.parameters.{pin}"
         if pin not in pins.parameters:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs.run import Overflow
 from tests.programs.test_semantics_edges import Scans, rows
@@ -60,3 +63,60 @@ FUNCTION_BLOCK Two VAR_IN_OUT p, q : INT; END_VAR p := q; END_FUNCTION_BLOCK"""
     declared = "VAR_OUTPUT y : INT; END_VAR VAR b : Bump; two : Two; v : INT; d : DINT; END_VAR"
     with pytest.raises(Unjudged, match=cause.replace("(", r"\(")):
         rows(declared, body, [], more=more)
+
+
+@pytest.mark.parametrize(
+    ("write", "pin"),
+    [
+        ("IF in THEN T.q := FALSE; END_IF", "q"),
+        ("t.Q := in;", "Q"),
+        ("r.Q := in;", "Q"),
+        ("rs.Q1 := in;", "Q1"),
+        ("b.old := x;", "old"),
+        ("w.rows[1] := x;", "rows"),
+        ("r(CLK := in, Q => rs.Q1);", "Q1"),
+    ],
+)
+def test_an_output_of_a_block_is_never_written_from_outside(write: str, pin: str) -> None:
+    more = f"""{BUMP}
+FUNCTION_BLOCK Wide VAR_OUTPUT rows : ARRAY [1..2] OF INT; END_VAR rows[1] := 1; END_FUNCTION_BLOCK"""
+    declared = """VAR_OUTPUT y : INT; END_VAR
+VAR b : Bump; w : Wide; r : R_TRIG; rs : RS; t : TON; END_VAR"""
+    with pytest.raises(Unjudged, match=rf":\d+: {pin} is an output of a block and is written"):
+        rows(declared, write, [], more=more)
+
+
+@pytest.mark.parametrize(
+    ("asked", "block", "pin"), [("--property", "SF_EDM", "Error"), ("--target", "R_TRIG", "Q")]
+)
+def test_no_proof_of_a_program_that_overwrites_an_output(
+    asked: str, block: str, pin: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, question = tmp_path / "b.st", tmp_path / "q.toml"
+    path.write_text(
+        f"""PROGRAM M VAR_INPUT Start : BOOL; END_VAR VAR_OUTPUT S_Drive : BOOL; END_VAR
+VAR edm : {block}; END_VAR
+edm(); S_Drive := Start;
+IF S_Drive THEN edm.{pin} := FALSE; END_IF;
+END_PROGRAM""",
+        "utf-8",
+    )
+    question.write_text(
+        """scan_time_ms = [5, 50]
+[[property]]
+id = "stops"
+sentence = "No drive with an error."
+never = "S_Drive AND edm.Error"
+""",
+        "utf-8",
+    )
+    given = str(question) if asked == "--property" else "sf_edm"
+    assert main(["prove-program", str(path), asked, given]) == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err.count("\n")) == ("", 1)
+    assert f"{path}:4: {pin} is an output of a block and is written" in said.err
+
+
+def test_an_input_may_be_written_before_the_call() -> None:
+    declared = "VAR_OUTPUT y : BOOL; END_VAR VAR r : R_TRIG; END_VAR"
+    assert rows(declared, "r.CLK := in; r(); y := r.Q;", [(1, {}), (1, {"in": True})]) == [False, True]

@@ -112,6 +112,13 @@ def test_a_program_of_other_names_is_refused_in_its_line(what: str, tmp_path: Pa
     assert "mine.st:" in str(caught.value)
 
 
+@pytest.mark.parametrize("pin", ["edm.Error", "fplc.ERROR"])
+def test_a_program_that_overwrites_an_output_is_refused(pin: str, tmp_path: Path) -> None:
+    path = edited(tmp_path, "oldMode := newMode;", f"oldMode := newMode; {pin} := FALSE;")
+    with pytest.raises(Unjudged, match=r"mine\.st:\d+: \w+ is an output of a block and is written"):
+        assert machine(path, 1).cell
+
+
 def asked_of(path: Path, tmp_path: Path) -> ProgramMachine:
     """The program with one property, and few runs."""
     properties = tmp_path / "one.toml"

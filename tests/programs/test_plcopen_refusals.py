@@ -236,6 +236,13 @@ def test_a_ladder_that_is_not_clear_is_refused(name: str, tmp_path: Path) -> Non
     assert cause in said and re.match(r"b\.xml:\d+: ", said)
 
 
+def test_a_diagram_that_writes_an_output_is_refused(tmp_path: Path) -> None:
+    drawn = project(pou(A + writing(5, "z.Q", 1), "z R_TRIG"))
+    ladder = f"<leftPowerRail localId='1'/><coil localId='2'>{wire(1)}<variable>z.Q</variable></coil>"
+    for text, line in ((drawn, 6), (project(pou(ladder, "z R_TRIG", language="LD")), 5)):
+        assert refusal(text, tmp_path) == f"b.xml:{line}: Q is an output of a block and is written"
+
+
 def test_the_command_refuses_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "b.xml"
     path.write_text(project(st("")), "utf-8")

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.errors import Unjudged
 from modeproof.lane.machine import judge_machine
 from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of
@@ -97,6 +98,81 @@ def test_each_verdict_comes_with_its_reason(folder: Path) -> None:
     assert "judged again by z3 and cvc5" in found["closed"][1]
     assert "was never true in" in found["idle"][1]
     assert found["absent"][1] == "the wiring has no 'Beam'"
+
+
+ALLOWED = "a property of a machine has TRUE, FALSE, names, AND, OR and NOT, and no"
+NO_PROPERTY = {
+    "S_Drive = TRUE": f"{ALLOWED} =",
+    "S_Drive XOR Start": f"{ALLOWED} XOR",
+    "SEL(Start, Stop, Door)": f"{ALLOWED} SEL(...)",
+    "S_Drive AND T#5ms": f"{ALLOWED} 5",
+    "running.S AND Stop": "running has no output 'S'; allowed: Q1",
+    "runing.Q1 AND Stop": "runing is not declared; did you mean 'running'",
+    "running AND Stop": "running is a block; name one of its outputs",
+    "S_Drive AND Gate": "Gate is not declared",
+    "Code AND Stop": "Code is a WORD, and a BOOL is needed",
+}
+CODE = '[inputs]\nCode = { type = "WORD", from = "desk", why = "a number" }'
+
+
+@pytest.mark.parametrize("text", NO_PROPERTY)
+def test_what_no_property_has_is_refused_before_any_work(
+    text: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine, path = folder / "wiring.toml", folder / "own.toml"
+    mine.write_text(WIRING.replace("[inputs]", CODE), "utf-8")
+    path.write_text(asked(("own", f'never = "{text}"')), "utf-8")
+    assert main(["machine", str(mine), "--properties", str(path), "--use", str(folder / "use.toml")]) == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err.count("\n")) == ("", 1)
+    assert f"{path}:5: own: never: {text!r}: " in said.err
+    assert NO_PROPERTY[text] in said.err
+
+
+@pytest.mark.parametrize(
+    "text", ["s_drive & not start", "S_Drive AND (* or *) NOT Start", "(S_Drive\nAND NOT Start)"]
+)
+def test_another_spelling_of_a_property_means_the_same(text: str, folder: Path) -> None:
+    path = folder / "own.toml"
+    path.write_text(asked(("own", f'never = """{text}"""')), "utf-8")
+    machine = Machine(WIRING, "my.toml", path, folder / "use.toml", runs=20)
+    (found,) = machine.all(20)
+    assert found.word == "REFUTED"
+    assert [part for part, _ in found.asked.trigger] == ["S_Drive", "NOT Start"]
+
+
+OBSERVERS = {
+    'late = { of = "TON", inputs.IN = "Start" }': "late: R_TRIG, F_TRIG, SR or RS with all its inputs",
+    'AND = { of = "R_TRIG", inputs.CLK = "Start" }': "AND: a name begins with a letter",
+    'is = { of = "R_TRIG", inputs.CLK = "Start" }': "is: is is a keyword of Python",
+    'late = { of = "R_TRIG", inputs.CLK = "Start = TRUE" }': f"late: 'Start = TRUE': {ALLOWED} =",
+    "late = 3": "late: must be a table, not 3",
+}
+
+
+@pytest.mark.parametrize("row", OBSERVERS)
+def test_what_no_observer_is_is_refused_in_its_line(row: str, folder: Path) -> None:
+    path = folder / "own.toml"
+    path.write_text(asked(CLOSED).replace("[observer]", f"[observer]\n{row}"), "utf-8")
+    with pytest.raises(Unjudged) as caught:
+        Machine(WIRING, "my.toml", path, folder / "use.toml", runs=1).all(1)
+    assert caught.value.message.startswith(f"{path}:2: observer.{OBSERVERS[row]}")
+
+
+def test_an_observer_in_another_case_sees_the_same(folder: Path) -> None:
+    path = folder / "own.toml"
+    text = asked(("own", 'never = "Pressed.q AND s_drive"')).replace('"R_TRIG"', '"r_trig"', 1)
+    path.write_text(text.replace('CLK = "Start"', 'CLK = "start"'), "utf-8")
+    (found,) = Machine(WIRING, "my.toml", path, folder / "use.toml", runs=20).all(20)
+    assert found.word == "REFUTED"
+
+
+def test_properties_as_the_wiring_spells_them_stay_as_they_are() -> None:
+    shipped = Path(__file__).parents[2] / "spec/machine_cell"
+    text = (shipped / "wiring.toml").read_text("utf-8")
+    found = Machine(text, "w.toml", shipped / "safety.toml", shipped / "use.toml")
+    assert found.questions.rows == found.every.rows
+    assert found.watched.rows == found.observers.rows
 
 
 @pytest.mark.deep

@@ -69,6 +69,19 @@ REFUSED = {
     "an operator that no wire has": ('"running.Q1"', '"running.Q1 XOR LA"', "and nothing else"),
     "a block that is called twice": ('    "edm",\n', '    "edm", "fplc",\n', "order holds 'fplc' twice"),
     "a key that no row has": ('of = "SF_EDM"', 'off = "SF_EDM"', "block.edm: unknown key 'off'"),
+    "another sign for AND": ('"running.Q1"', '"running.Q1 & LA"', "names, AND, OR, NOT and brackets: no &"),
+    "a comment in a wire": ('"running.Q1"', '"running.Q1 (* x *)"', "brackets: no & for AND, no comment"),
+    "a literal with its type": ('"running.Q1"', '"running.Q1 AND BOOL#FALSE"', "no comment, no BOOL#"),
+    "a name that is a word of Python": (
+        "LA = {",
+        "lambda = {",
+        "inputs.lambda: lambda is a keyword of Python",
+    ),
+    "a time that is needed": (
+        "[block.start_edge]\n",
+        '[block.late]\nof = "TON"\nwhy = "late"\ninputs.IN = "Start"\n[block.start_edge]\n',
+        "block.late.parameters.PT: a parameter without a value: TON has no default",
+    ),
     "a block of nobody": ('of = "SF_EDM"', 'of = "SF_EMD"', "no block 'SF_EMD'; did you mean"),
 }
 
