@@ -19,15 +19,29 @@ from programs import blocks
 from programs.calls import inner_bodies
 from programs.cell import Cell
 from programs.machine import Machine
+from programs.machine_lacking import EXPRESSIONS
 from programs.machine_lemmas import Sample
 from programs.machine_runs import Inputs, Runner
+from programs.questions import parsed
 from programs.replay import memory_of
 from programs.run import Machine as Interpreter
 from programs.sources import read_sources
-from programs.tree import BOOL, Assign, Body, Instance, Place, Return, Source, Statement, Unit, Variable
+from programs.tree import (
+    BOOL,
+    Assign,
+    Body,
+    Instance,
+    Member,
+    Place,
+    Return,
+    Source,
+    Statement,
+    Unit,
+    Variable,
+)
 from programs.tree import Name as Named
 from programs.wired import observed
-from programs.wiring import STANDARD, Wiring, names
+from programs.wiring import STANDARD, Wiring, leaves, names
 from refimpl.machine_cell.expression import Value
 
 TRIES = 60
@@ -93,6 +107,7 @@ class ProgramMachine(Machine):
     def cell(self) -> Cell:
         """The program, after it the wires that the properties name, and the observers. Raises Unjudged."""
         own, wiring = self.own, self.wiring
+        Cell.of(self.source, own, wiring.table.scan_ms)  # alone: observers and wires are none of its names
         wires = {name: tree for name, tree in wiring.signals.items() if name in self._wires}
         variables = dict(own.variables)
         for name in wires:
@@ -108,6 +123,21 @@ class ProgramMachine(Machine):
         whole = replace(own, variables=variables, body=body)
         units = {**self.source.units, own.name.upper(): whole}
         return Cell.of(replace(self.source, units=units), whole, wiring.table.scan_ms)
+
+    def spelled(self, row: Mapping[str, Any]) -> Mapping[str, Any]:
+        """As `Machine.spelled`. Raises Unjudged for a standard block of the wiring too."""
+        found = super().spelled(row)
+        if found is row:
+            return row
+        place = self.every.place(row)
+        for tree in (parsed(found[key], place) for key in EXPRESSIONS if key in found):
+            for leaf in leaves(tree):
+                name = leaf.of.name if isinstance(leaf, Member) and isinstance(leaf.of, Named) else ""
+                if name in self.wiring.kinds and self.wiring.kinds[name].unit is None:
+                    raise place.refuse(
+                        f"{row['id']}: {name} is a standard block, of which a program may have others"
+                    )
+        return found
 
     @cached_property
     def _wires(self) -> set[str]:

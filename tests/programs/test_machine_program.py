@@ -119,6 +119,16 @@ def test_a_program_that_overwrites_an_output_is_refused(pin: str, tmp_path: Path
         assert machine(path, 1).cell
 
 
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [("start_due(S1 := FALSE, R := TRUE);", "start_due"), ("desk_reset(CLK := FALSE);", "desk_reset")],
+)
+def test_a_program_cannot_call_an_observer(call: str, name: str, tmp_path: Path) -> None:
+    path = edited(tmp_path, "oldMode := newMode;", f"oldMode := newMode; {call}")
+    with pytest.raises(Unjudged, match=f"{name} is not declared"):
+        assert machine(path, 1).cell
+
+
 def asked_of(path: Path, tmp_path: Path) -> ProgramMachine:
     """The program with one property, and few runs."""
     properties = tmp_path / "one.toml"

@@ -88,7 +88,7 @@ def test_an_edit_that_a_property_reads_is_not_the_same() -> None:
         assert trial._same(trial.edited(edit)) == same
 
 
-def test_a_fact_that_is_lost_may_hold_where_a_flag_is_off() -> None:
+def test_a_lost_fact_may_hold_where_a_flag_is_off() -> None:
     """x follows y by a scan: once it was never true; now it is true only where y is, or not for long."""
     x, y, asked = z3.Bools("x y asked")
     yes, no = z3.BoolVal(True), z3.BoolVal(False)
