@@ -226,3 +226,38 @@ def test_scans_in_which_nothing_changes_stand_in_one_line() -> None:
         "  scan 6        after 9 ms: the same inputs",
         "  wrong scan 7  after 9 ms: the same inputs",
     ]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(f"--source my.st {other}" for other in ("--model m", "--tlc unlock", "--killers", "--evidence")),
+        *(f"--source my.st {other}" for other in ("--picture p", "--program p", "--vectors v", "--publish")),
+        *(f"--source my.st {other}" for other in ("--trial Reset", "--trial --record")),
+        *(f"--json j {other}" for other in ("--program p", "--picture p", "--model m", "--vectors v")),
+        *(f"--json j {other}" for other in ("--publish", "--tlc unlock", "--trial Reset", "--killers")),
+        *(f"{judged} --model m" for judged in ("--junit x", "--recheck")),
+        *("--evidence --json j", "--source my.st --equal --properties p.toml"),
+        *("--picture p --trial Reset", "--model m --tlc unlock", "--tlc unlock --trial Reset"),
+        *("--vectors v --tlc unlock", "--killers --trial Reset", "--killers --evidence"),
+    ],
+)
+def test_an_option_without_effect_is_refused_in_one_line(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("programs.machine_command.run", lambda args: 0)
+    monkeypatch.setattr("modeproof.lane.machine_tlc.run", lambda args: 0)
+    monkeypatch.setattr("modeproof.lane.machine.machines", lambda place: ())
+    assert main(["machine", *words.split()]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert all(f"--{name}" in said for name in re.findall(r"--(json|junit|recheck|equal)", words))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_files_and_vectors_of_a_wiring_go_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("programs.machine_command.run", lambda args: 0)
+    words = ["--program", "a", "--picture", "b", "--model", "c", "--vectors", "d"]
+    assert main(["machine", *words]) == 0
+    assert main(["machine", "--source", "my.st", "--equal", "--json", "j", "--junit", "x", "--recheck"]) == 0
