@@ -50,13 +50,7 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
-    if args.model is not None:
-        write_text(args.model, machine_tlc.model_of(wiring, folder))
     progress = Progress(quiet=args.quiet)
-    if args.publish or args.vectors is not None:
-        return _vectors(args, file, args.use or folder / "use.toml", progress)
-    if not (args.program is args.picture is args.model is None):
-        return 0
     kind: Callable[..., Machine] = Machine
     if args.source:
         kind = partial(Equality if args.equal else ProgramMachine, sources=args.source, unit=args.unit)
@@ -68,6 +62,12 @@ def run(args: argparse.Namespace) -> int:
         lambda text: progress.update(NAME, text),
         leave_out=args.properties is None,
     )
+    if args.model is not None:
+        write_text(args.model, machine_tlc.model_of(machine, folder))
+    if args.publish or args.vectors is not None:
+        return _vectors(args, file, machine.use, progress)
+    if not (args.program is args.picture is args.model is None):
+        return 0
     with _at_work(progress):
         if args.killers:
             return _killers(machine, folder)
