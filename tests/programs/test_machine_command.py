@@ -245,7 +245,7 @@ def test_scans_in_which_nothing_changes_stand_in_one_line() -> None:
         *("--vectors v --tlc unlock", "--killers --trial Reset", "--killers --evidence"),
     ],
 )
-def test_an_option_without_effect_is_refused_in_one_line(
+def test_an_option_without_effect_is_refused(
     words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
