@@ -11,6 +11,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Count, Entry, Text, typed
 from programs.machine import Machine
+from programs.machine_lacking import lacking
 from programs.machine_model import As, Asked, Block, asked_of, read_blocks
 from programs.machine_module import Module
 from programs.machine_runs import read_use
@@ -84,9 +85,10 @@ def tasks(
 
 def _looked_at(machine: Machine) -> Mapping[str, Any]:
     """The file of properties with its observers. Raises Unjudged with file, line and cause."""
-    assert machine.observers is not None
-    if not machine.leave_out:
-        assert machine.asked  # each name exists
+    lost = lacking(machine.wiring, machine.observers, machine.every)
+    for row in () if machine.leave_out else machine.every.rows:
+        if name := lost.get(row["id"]):
+            raise machine.every.place(row).refuse(f"{row['id']}: {machine.file} has no {name!r}")
     return {**machine.every.tables, "property": machine.every.rows}
 
 
