@@ -89,6 +89,7 @@ def _looked_at(machine: Machine) -> Mapping[str, Any]:
     for row in () if machine.leave_out else machine.every.rows:
         if name := lost.get(row["id"]):
             raise machine.every.place(row).refuse(f"{row['id']}: {machine.file} has no {name!r}")
+    assert machine.cell is not None  # each observer has its pins
     return {**machine.every.tables, "property": machine.every.rows}
 
 

@@ -268,6 +268,7 @@ def test_a_part_that_names_no_run_is_refused(capsys: pytest.CaptureFixture[str])
         ("x = [", "no TOML"),
         (None, "cannot be read: No such file"),
         ("[observer.x]\n" + OWN, "x: key 'of' is missing"),
+        (OWN.replace("Reset", "x.Q") + '[observer.x]\nof = "R_TRIG"\ninputs = {}\n', "with all its inputs"),
         (
             OWN.replace("Reset", "ResetIt"),
             f"mine.toml:2: reset-is-off: {FOLDER / 'wiring.toml'} has no 'ResetIt'",
