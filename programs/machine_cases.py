@@ -14,9 +14,9 @@ from functools import cached_property
 from typing import Any
 
 from programs.machine_runs import Inputs, Runner, Scan, Use
-from programs.machine_trial import Edit, edits
+from programs.machine_trial import Edit, edits, reads_of
 from programs.wired import NONE
-from programs.wiring import Wiring, names, wiring_of
+from programs.wiring import Wiring, wiring_of
 from refimpl.errors import InputError, ParameterError
 from refimpl.machine_cell import cell as reference
 from refimpl.machine_cell.expression import Signal, Value, signal
@@ -384,16 +384,8 @@ class Mistakes:
 
     def _same_order(self, edit: Edit) -> bool:
         """Whether another order of calls changes nothing: who reads whom has the same age."""
-        order = tomllib.loads(edit.after)["order"]
-        return self._ages(order) == self._ages(self.cases.wiring.table.order)
+        return reads_of(wiring_of(edit.after, self.cases.file)) == self._reads
 
-    def _ages(self, order: Sequence[str]) -> dict[tuple[str, str], bool]:
-        wiring = self.cases.wiring
-        ages = {}
-        for name, pins in wiring.sources.items():
-            read = [part for tree in pins.values() for part in names(tree)]
-            for part in read:
-                read += names(wiring.signals[part]) if part in wiring.signals else []
-                if part in order:
-                    ages[name, part] = order.index(part) < order.index(name)
-        return ages
+    @cached_property
+    def _reads(self) -> set[tuple[str, str, bool]]:
+        return reads_of(self.cases.wiring)

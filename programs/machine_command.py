@@ -35,7 +35,8 @@ from programs.wired import text_of, unit
 from programs.wiring import read_wiring
 
 FOLDER = Path("spec/machine_cell")
-OWN = "the project's own design after the five papers; nothing here is a claim about a paper"
+DESIGN, CLAIM = "the project's own design after the five papers", "nothing here is a claim about a paper"
+OWN = f"{DESIGN}; {CLAIM}"
 TRUST = ("the reader of wirings", *TRUSTED)
 WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED")
 NAME = "machine"
@@ -50,24 +51,20 @@ def run(args: argparse.Namespace) -> int:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
-    if args.model is not None:
-        write_text(args.model, machine_tlc.model_of(wiring, folder))
     progress = Progress(quiet=args.quiet)
-    if args.publish or args.vectors is not None:
-        return _vectors(args, file, args.use or folder / "use.toml", progress)
-    if not (args.program is args.picture is args.model is None):
-        return 0
     kind: Callable[..., Machine] = Machine
     if args.source:
         kind = partial(Equality if args.equal else ProgramMachine, sources=args.source, unit=args.unit)
-    machine = kind(
-        file.read_text("utf-8"),
-        str(file),
-        args.properties or folder / "safety.toml",
-        args.use or folder / "use.toml",
-        lambda text: progress.update(NAME, text),
-        leave_out=args.properties is None,
-    )
+    names = str(file), args.properties or folder / "safety.toml", args.use or folder / "use.toml"
+    tell = partial(progress.update, NAME)
+    machine = kind(file.read_text("utf-8"), *names, tell, leave_out=args.properties is None)
+    if args.model is not None:
+        write_text(args.model, machine_tlc.model_of(machine, folder))
+    if args.publish or args.vectors is not None:
+        return _vectors(args, file, machine.use, progress)
+    if not (args.program is args.picture is args.model is None):
+        return 0
+    read = _read(machine) if args.json is not None else {}
     with _at_work(progress):
         if args.killers:
             return _killers(machine, folder)
@@ -80,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
     seconds = time.process_time() - started
     print("\n".join([*lines_of(machine, found, seconds), f"  again       {_again(args)}"]))
     if args.json is not None:
-        write_json(args.json, record_of(machine, found, seconds))
+        write_json(args.json, record_of(machine, found, seconds, read))
     if args.junit is not None:
         cases = [_case(machine, verdict) for verdict in found]
         write_text(args.junit, junit_of(machine.file, cases, round(seconds, 1), "modeproof machine"))
@@ -97,6 +94,40 @@ def _vectors(args: argparse.Namespace, file: Path, use: Path, progress: Progress
     if args.publish:
         machine_vectors.seal(root())
     return 0
+
+
+def _read(machine: Machine) -> dict[str, str]:
+    """The hashes of the files besides the wiring, which are read now: of what is judged. Raises Unjudged."""
+    paths = [*(() if isinstance(machine, Equality) else (machine.properties,)), machine.use]
+    before = {str(path): _sha256(path) for path in paths}
+    assert machine.every.rows is not None
+    assert machine.runner.use is not None
+    for name, known in before.items():
+        if _sha256(Path(name)) != known:
+            raise Unjudged(f"{name}: it was written to while it was read; run it again")
+    return before
+
+
+def _sha256(path: Path) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
+
+
+def basis_said(machine: Machine) -> str:
+    """Whose design a machine is, and whose properties these are."""
+    whose = [_whose(Path(machine.file)), "" if isinstance(machine, Equality) else _whose(machine.properties)]
+    if {*whose} <= {DESIGN, ""}:
+        return OWN
+    said = zip(("the wiring is", "the properties are"), whose, strict=True)
+    return "; ".join([*(f"{what} {name}" for what, name in said if name), CLAIM])
+
+
+def _whose(path: Path) -> str:
+    """Whether it is a file that is shipped."""
+    shipped = [(root() / FOLDER / name).resolve() for name in ("wiring.toml", "safety.toml")]
+    return DESIGN if path.resolve() in shipped else "yours"
 
 
 @contextlib.contextmanager
@@ -154,7 +185,9 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     yield from (f"  program     {file}" for file in machine.files)
     equal = isinstance(machine, Equality)
     yield f"  wiring      {machine.file}{' (what the names mean)' * bool(machine.files and not equal)}"
-    yield f"  properties  {'each output is as the wiring gives it' if equal else machine.properties} ({OWN})"
+    asked = "each output is as the wiring gives it" if equal else str(machine.properties)
+    whose = _whose(Path(machine.file) if equal else machine.properties)
+    yield f"  properties  {asked} ({whose}; {CLAIM})"
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
     for verdict in found:
@@ -218,16 +251,16 @@ def _values(
         yield dt_ms, inputs, {name: values[name] for name in chosen}
 
 
-def record_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> dict[str, Any]:
-    """The verdicts as JSON."""
-    asked = () if isinstance(machine, Equality) else (machine.properties,)
-    files = {str(path): path for path in (*asked, machine.use)}
+def record_of(
+    machine: Machine, found: Sequence[Verdict], seconds: float, read: Mapping[str, str]
+) -> dict[str, Any]:
+    """The verdicts as JSON. read: the hashes of the files besides the wiring."""
     return {
         "command": "machine",
-        "basis": OWN,
+        "basis": basis_said(machine),
         "program": dict(machine.files),
         "wiring": {machine.file: hashlib.sha256(machine.text.encode()).hexdigest()},
-        "files": {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in files.items()},
+        "files": dict(read),
         "tools": certificate.tools(),
         "trusted": list(TRUST),
         "scan_time_ms": list(machine.wiring.table.scan_ms),

@@ -75,7 +75,7 @@ def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dic
 def _killer(machine: Machine, killer: Killer) -> dict[str, Any]:
     of = Killers(machine)
     edit, scans = of.edits[name_of(killer)], of.scans(killer)
-    edited = Machine(edit.after, machine.file, machine.properties, machine.use)
+    edited = Machine(edit.after, machine.file, machine.properties, machine.use, leave_out=machine.leave_out)
     return {
         "property": killer.property,
         "kind": edit.kind,

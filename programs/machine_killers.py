@@ -76,7 +76,8 @@ class Killers:
     def runner(self, edit: Edit) -> Runner:
         """What runs the edited machine. Raises Unjudged."""
         base = self.machine
-        return Machine(edit.after, base.file, base.properties, base.use).runner
+        given = edit.after, base.file, base.properties, base.use
+        return Machine(*given, leave_out=base.leave_out).runner
 
     def doubt(self, killer: Killer) -> str:
         """Why a row does not show that its property can fall; nothing if it does."""

@@ -19,7 +19,7 @@ from typing import Any, Literal
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Entry, Text, typed
-from programs.questions import parsed
+from programs.questions import parsed, shown
 from programs.tree import Binary, Expression, Member, Name, Place, Unary
 from programs.tree import Literal as Value
 from programs.wiring import Wiring
@@ -309,7 +309,7 @@ class Model:
             case Binary("AND" | "OR" as word, left, right, _):
                 sign = "/\\" if word == "AND" else "\\/"
                 return f"({self.expression(step, left)} {sign} {self.expression(step, right)})"
-        raise Unjudged(f"{self.place.file}: the model has no {tree!r}")
+        raise Unjudged(f"{tree.place.file}: the model has no {shown(tree)!r}: values of BOOL only")
 
     def _called(self, name: str, step: Step) -> bool:
         """Whether a standard block was called in a step before this one."""

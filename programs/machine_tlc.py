@@ -10,6 +10,8 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Count, Entry, Text, typed
+from programs.machine import Machine
+from programs.machine_lacking import lacking
 from programs.machine_model import As, Asked, Block, asked_of, read_blocks
 from programs.machine_module import Module
 from programs.machine_runs import read_use
@@ -59,13 +61,14 @@ def tasks(
     file: Path | None, folder: Path, properties: Path | None = None, use: Path | None = None
 ) -> Iterator[Task]:
     """The runs for a wiring (None: the shipped one). Raises Unjudged."""
-    wiring = read_wiring(file or folder / "wiring.toml")
-    safety = properties or folder / "safety.toml"
-    blocks = read_blocks(folder / "blocks.toml")
-    path, rest = folder / "tlc.toml", read_use(use or folder / "use.toml").rest
+    path, source = folder / "tlc.toml", file or folder / "wiring.toml"
+    wiring = read_wiring(source)
+    names = str(source), properties or folder / "safety.toml", use or folder / "use.toml"
+    machine = Machine(source.read_text("utf-8"), *names, leave_out=properties is None)
+    table = _looked_at(machine)
+    blocks, rest = read_blocks(folder / "blocks.toml"), read_use(machine.use).rest
     try:
         rows = typed(Rows, tomllib.loads(path.read_text("utf-8")), str(path)).run
-        table = tomllib.loads(safety.read_text("utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
     for row in rows:
@@ -77,15 +80,31 @@ def tasks(
         elif name:
             yield _kept(row, blocks[name.upper()])
         else:
-            yield _cell(row, wiring, blocks, table, str(safety), rest)
+            yield _cell(row, wiring, blocks, table, str(machine.properties), rest)
 
 
-def model_of(wiring: Wiring, folder: Path) -> str:
-    """The module of a wiring over the contracts of its blocks, with every property that has no time."""
-    table = tomllib.loads((folder / "safety.toml").read_text("utf-8"))
-    asked = asked_of(table, "safety.toml")
-    model = Module(wiring, read_blocks(folder / "blocks.toml"), table.get("observer", {}), asked)
-    return model.text("MachineCell", (f"{wiring.table.title}, over the contracts of its blocks.", *MADE))
+def _looked_at(machine: Machine) -> Mapping[str, Any]:
+    """The file of properties with its observers. Raises Unjudged with file, line and cause."""
+    lost = lacking(machine.wiring, machine.observers, machine.every)
+    for row in () if machine.leave_out else machine.every.rows:
+        if name := lost.get(row["id"]):
+            raise machine.every.place(row).refuse(f"{row['id']}: {machine.file} has no {name!r}")
+    assert machine.cell is not None  # each observer has its pins
+    return {**machine.every.tables, "property": machine.every.rows}
+
+
+def model_of(machine: Machine, folder: Path) -> str:
+    """The module of a wiring over the contracts of its blocks, with every property that has no time.
+
+    Those that name what the wiring has not are left out, as in a judgement. Raises Unjudged.
+    """
+    observers = _looked_at(machine).get("observer", {})
+    there = {name: row for name, row in observers.items() if name in machine.watched.rows}
+    asked = asked_of({"property": machine.questions.rows}, str(machine.properties))
+    model = Module(machine.wiring, read_blocks(folder / "blocks.toml"), there, asked)
+    title = f"{machine.wiring.table.title}, over the contracts of its blocks."
+    left = [f"Left out, for the wiring has no {lost}: {id}." for id, lost in machine.lacking.items()]
+    return model.text("MachineCell", (title, *MADE, *left))
 
 
 CALLS = 8

@@ -287,7 +287,8 @@ class Trial:
         """The machine with the edit. Raises Unjudged."""
         base = self.machine
         triggers = [[text for text, _ in asked.trigger] for asked in base.asked]
-        found = Machine(edit.after, base.file, base.properties, base.use, runs=FEW_RUNS, triggers=triggers)
+        given = edit.after, base.file, base.properties, base.use
+        found = Machine(*given, runs=FEW_RUNS, triggers=triggers, leave_out=base.leave_out)
         assert found.rules
         return found
 

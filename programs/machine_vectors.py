@@ -175,6 +175,8 @@ def write(
     """
     text = _text(file)
     cases = Cases(text, str(file), read_use(use))
+    if not cases.stories:
+        raise Unjudged(f"machine: no story of {use} concerns {file}; --use names a file with some")
     sources = {_relative(path, root): _sha256(path) for path in (file, use)}
     code = sorted((Path(reference.__file__).parents[1]).rglob("*.py"))
     sources |= {path.relative_to(code[0].parents[1]).as_posix(): _sha256(path) for path in code}

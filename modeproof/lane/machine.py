@@ -24,6 +24,11 @@ ID = "machine"
 MODELS = "tlc.toml"
 ROOMS = ("programs", "proofs", "refimpl")
 """Whose Python a verdict on a machine rests on."""
+FILES = ("program", "picture", "model")
+WORKS = (("vectors", "publish"), ("tlc",), ("trial",), ("killers",), ("evidence",))
+"""What is done in the place of a judgement; those in a row are one."""
+JUDGED = ("json", "junit", "recheck")
+"""What belongs to a judgement."""
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -176,8 +181,26 @@ def troubles_of_machine(place: Path, name: str) -> str:
         return error.message
 
 
+def _look(args: argparse.Namespace) -> None:
+    """Raises Unjudged: two options of which one would have no effect."""
+    given = {name for name, value in vars(args).items() if value is not None and value is not False}
+    files = [name for name in FILES if name in given]
+    works = [name for row in WORKS for name in row if name in given]
+    two = "give them in two commands"
+    for name in ("source", *JUDGED):
+        if name in given and (others := [*works, *files]):
+            what = "judges a program" if name == "source" else "is about verdicts"
+            raise Unjudged(f"machine: --{name} {what}, and --{others[0]} does not judge that; {two}")
+    if len([row for row in WORKS if given & {*row}]) > 1 or (files and {*works} - {*WORKS[0]}):
+        first, *_, last = [*files, *works]
+        raise Unjudged(f"machine: of --{first} and --{last} only one would be done; {two}")
+    if args.equal and args.properties is not None:
+        raise Unjudged("machine: --equal asks for equal outputs, not for properties; leave --properties out")
+
+
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdicts. Raises Unjudged."""
+    _look(args)
     if args.record and args.trial != "":
         raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
     others = [name for name in ("file", "properties", "use") if getattr(args, name) is not None]
@@ -195,8 +218,6 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
-    if args.source and any((args.trial is not None, args.publish, args.vectors, args.picture, args.program)):
-        raise Unjudged("machine: --source judges a program; the other outputs are made from a wiring alone")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:

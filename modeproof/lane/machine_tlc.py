@@ -34,7 +34,9 @@ def run(args: argparse.Namespace) -> int:
     chosen = [task for task in made if args.tlc in task.id]
     if not chosen:
         raise Unjudged(f"machine: no run of TLC has {args.tlc!r} in its name")
-    shipped = args.file is None or args.file.resolve() == (spec / "wiring.toml").resolve()
+    own = {"file": "wiring.toml", "properties": "safety.toml", "use": "use.toml"}
+    given = {spec / name: getattr(args, option) or spec / name for option, name in own.items()}
+    shipped = all(path.resolve() == there.resolve() for there, path in given.items())
     found = []
     for task in chosen:
         before = _cpu()
@@ -45,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def judged(place: Path, task: Any, shipped: bool) -> tuple[Judgement, Outcome]:
-    """The judgement of a run; the counts are compared only for the shipped wiring. Raises Unjudged."""
+    """The judgement of a run; the counts are compared only for the shipped files. Raises Unjudged."""
     folder = build(place) / "tlc" / FOLDER / "made" / task.id
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)

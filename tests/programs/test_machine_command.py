@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import re
 import shlex
@@ -13,9 +14,11 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from modeproof.kit.vectors import FILE_NAME
 from programs.cell import Asked
 from programs.machine import Machine, Verdict
-from programs.machine_command import lines_of, status, trace_lines
+from programs.machine_command import CLAIM, DESIGN, OWN, lines_of, status, trace_lines
+from programs.machine_vectors import SUITES
 
 FOLDER = Path(__file__).parents[2] / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
@@ -226,3 +229,102 @@ def test_scans_in_which_nothing_changes_stand_in_one_line() -> None:
         "  scan 6        after 9 ms: the same inputs",
         "  wrong scan 7  after 9 ms: the same inputs",
     ]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        *(f"--source my.st {other}" for other in ("--model m", "--tlc unlock", "--killers", "--evidence")),
+        *(f"--source my.st {other}" for other in ("--picture p", "--program p", "--vectors v", "--publish")),
+        *(f"--source my.st {other}" for other in ("--trial Reset", "--trial --record")),
+        *(f"--json j {other}" for other in ("--program p", "--picture p", "--model m", "--vectors v")),
+        *(f"--json j {other}" for other in ("--publish", "--tlc unlock", "--trial Reset", "--killers")),
+        *(f"{judged} --model m" for judged in ("--junit x", "--recheck")),
+        *("--evidence --json j", "--source my.st --equal --properties p.toml"),
+        *("--picture p --trial Reset", "--model m --tlc unlock", "--tlc unlock --trial Reset"),
+        *("--vectors v --tlc unlock", "--killers --trial Reset", "--killers --evidence"),
+    ],
+)
+def test_an_option_without_effect_is_refused(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("programs.machine_command.run", lambda args: 0)
+    monkeypatch.setattr("modeproof.lane.machine_tlc.run", lambda args: 0)
+    monkeypatch.setattr("modeproof.lane.machine.machines", lambda place: ())
+    assert main(["machine", *words.split()]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert all(f"--{name}" in said for name in re.findall(r"--(json|junit|recheck|equal)", words))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_files_and_vectors_of_a_wiring_go_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("programs.machine_command.run", lambda args: 0)
+    words = ["--program", "a", "--picture", "b", "--model", "c", "--vectors", "d"]
+    assert main(["machine", *words]) == 0
+    assert main(["machine", "--source", "my.st", "--equal", "--json", "j", "--junit", "x", "--recheck"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("wiring", "properties", "basis"),
+    [
+        (False, False, OWN),
+        (True, False, f"the wiring is yours; the properties are {OWN}"),
+        (False, True, f"the wiring is {DESIGN}; the properties are yours; {CLAIM}"),
+        (True, True, f"the wiring is yours; the properties are yours; {CLAIM}"),
+    ],
+)
+def test_only_what_is_shipped_is_called_our_design(
+    wiring: bool,
+    properties: bool,
+    basis: str,
+    judged: None,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    mine, asked, target = (tmp_path / name for name in ("my.toml", "own.toml", "verdicts.json"))
+    mine.write_text(TEXT, "utf-8")
+    asked.write_text(PROPERTY.replace("Barrier", "LA"), "utf-8")
+    words = [str(mine)] * wiring + ["--properties", str(asked)] * properties
+    main(["machine", *words, "--json", str(target), "--quiet"])
+    [said] = [line for line in capsys.readouterr().out.splitlines() if line.startswith("  properties  ")]
+    assert said.endswith(f"({'yours' if properties else DESIGN}; {CLAIM})")
+    assert json.loads(target.read_text("utf-8"))["basis"] == basis
+
+
+def test_json_names_the_files_that_were_judged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = {name: tmp_path / f"{name}.toml" for name in ("wiring", "safety", "use")}
+    for name, path in files.items():
+        path.write_bytes((FOLDER / f"{name}.toml").read_bytes())
+    known = {str(path): hashlib.sha256(path.read_bytes()).hexdigest() for path in files.values()}
+
+    def written_to(machine: Machine, *rest: object, **more: object) -> list[Verdict]:
+        for path in files.values():
+            path.write_text("# another one\n", "utf-8")
+        assert machine.every.rows
+        assert machine.runner.use.story
+        return [verdict("PROVED")]
+
+    monkeypatch.setattr(Machine, "all", written_to)
+    target = tmp_path / "verdicts.json"
+    words = [str(files["wiring"]), "--properties", str(files["safety"]), "--use", str(files["use"])]
+    assert main(["machine", *words, "--json", str(target), "--quiet"]) == 0
+    found = json.loads(target.read_text("utf-8"))
+    assert {**found["wiring"], **found["files"]} == known
+
+
+def test_vectors_without_a_story_of_the_cell_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    use = tmp_path / "use.toml"
+    use.write_text('[[story]]\nid = "other"\nfirst = true\nrow = [{ Elsewhere = true }]\n', "utf-8")
+    folder = tmp_path / "vectors"
+    folder.mkdir()
+    for suite in SUITES:
+        (folder / FILE_NAME.format(suite=suite)).write_text("kept", "utf-8")
+    assert main(["machine", "--vectors", str(folder), "--use", str(use), "--quiet"]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"no story of {use} concerns {FOLDER / 'wiring.toml'}" in said
+    assert [path.read_text("utf-8") for path in folder.iterdir()] == ["kept"] * len(SUITES)

@@ -5,15 +5,18 @@ from __future__ import annotations
 import dataclasses
 import re
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.errors import Unjudged
 from modeproof.lane.machine_tlc import judged
 from modeproof.tlc.judge import HOLDS, VIOLATED
+from programs.machine import Machine
 from programs.machine_tlc import Task, model_of, tasks
-from programs.wiring import wiring_of
+from tests.programs.test_machine_command import without_the_beam
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "spec/machine_cell"
@@ -102,6 +105,15 @@ FAULTS = {
     ),
 }
 
+OWN = """[[property]]
+id = "reset-is-off"
+sentence = "It is so."
+hazard = "planted"
+cites = ["A-02"]
+never = "Reset"
+"""
+SAFETY = tomllib.loads((FOLDER / "safety.toml").read_text("utf-8"))
+
 
 def task(id: str, file: Path | None = None) -> Task:
     [found] = [made for made in tasks(file, FOLDER) if made.id == id]
@@ -109,7 +121,7 @@ def task(id: str, file: Path | None = None) -> Task:
 
 
 def test_the_kept_module_is_made_from_the_wiring() -> None:
-    made = model_of(wiring_of(TEXT, "wiring.toml"), FOLDER)
+    made = model_of(Machine(TEXT, "wiring.toml", FOLDER / "safety.toml", FOLDER / "use.toml"), FOLDER)
     assert made == (FOLDER / "MachineCell.tla").read_text("utf-8")
 
 
@@ -246,3 +258,77 @@ def test_a_wiring_without_a_block_of_the_runs_is_refused(
 def test_a_part_that_names_no_run_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["machine", "--tlc", "no-such-run"]) == 2
     assert "no run of TLC" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "no [[property]] in it"),
+        ("x = [", "no TOML"),
+        (None, "cannot be read: No such file"),
+        ("[observer.x]\n" + OWN, "x: key 'of' is missing"),
+        (OWN.replace("Reset", "x.Q") + '[observer.x]\nof = "R_TRIG"\ninputs = {}\n', "with all its inputs"),
+        (
+            OWN.replace("Reset", "ResetIt"),
+            f"mine.toml:2: reset-is-off: {FOLDER / 'wiring.toml'} has no 'ResetIt'",
+        ),
+    ],
+)
+@pytest.mark.parametrize("option", ["--tlc", "--model"])
+def test_bad_properties_are_refused_by_their_own_name(
+    text: str | None, said: str, option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine, target = tmp_path / "mine.toml", tmp_path / "M.tla"
+    if text is not None:
+        mine.write_text(text, "utf-8")
+    words = ["--tlc", "unlock"] if option == "--tlc" else ["--model", str(target)]
+    assert main(["machine", "--properties", str(mine), *words]) == 2
+    found = capsys.readouterr().err
+    assert found.count("\n") == 1
+    assert found.startswith(f"modeproof: {mine}")
+    assert said in found
+    assert not target.exists()
+
+
+def test_a_model_has_the_properties_that_were_given(tmp_path: Path) -> None:
+    mine, target = tmp_path / "mine.toml", tmp_path / "M.tla"
+    mine.write_text(OWN, "utf-8")
+    assert main(["machine", "--properties", str(mine), "--model", str(target)]) == 0
+    made = target.read_text("utf-8")
+    assert 'ResetIsOff == "reset-is-off"' in made
+    assert "UnlockAtRest" not in made
+
+
+def test_a_model_leaves_out_what_the_wiring_lacks(tmp_path: Path) -> None:
+    mine, target = tmp_path / "my.toml", tmp_path / "M.tla"
+    mine.write_text(without_the_beam(), "utf-8")
+    assert main(["machine", str(mine), "--model", str(target)]) == 0
+    made = target.read_text("utf-8")
+    assert "Left out, for the wiring has no ResetBeam: beam-needs-reset." in made
+    assert "BeamNeedsReset ==" not in made
+    assert "UnlockAtRest ==" in made
+
+
+@pytest.mark.parametrize(
+    ("option", "name", "shipped"),
+    [
+        ([], "wiring", False),
+        (["--properties"], "safety", False),
+        (["--use"], "use", False),
+        (["--properties"], "safety", True),
+    ],
+)
+def test_counts_are_compared_only_where_all_is_shipped(
+    option: list[str], name: str, shipped: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = FOLDER / f"{name}.toml" if shipped else shutil.copy(FOLDER / f"{name}.toml", tmp_path)
+    asked = []
+
+    def judge(place: Path, task: Task, shipped: bool) -> None:
+        asked.append(shipped)
+        raise Unjudged("enough")
+
+    monkeypatch.setattr("modeproof.lane.machine_tlc.judged", judge)
+    monkeypatch.setattr("programs.machine_tlc._looked_at", lambda machine: SAFETY)
+    assert main(["machine", *option, str(file), "--tlc", "unlock"]) == 2
+    assert asked == [shipped]

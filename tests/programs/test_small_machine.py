@@ -13,6 +13,8 @@ from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of
 from programs.machine import Machine
 from programs.machine_command import status
+from programs.machine_killers import Killers, read_killers
+from programs.machine_trial import Trial, edits
 
 WIRING = """title = "a drive behind a door"
 cycle_ms = 10
@@ -173,6 +175,28 @@ def test_properties_as_the_wiring_spells_them_stay_as_they_are() -> None:
     found = Machine(text, "w.toml", shipped / "safety.toml", shipped / "use.toml")
     assert found.questions.rows == found.every.rows
     assert found.watched.rows == found.observers.rows
+
+
+def lacking_a_beam(folder: Path) -> Machine:
+    """The machine with a property and an observer of a beam that it has not."""
+    path = folder / "safety.toml"
+    text = asked(CLOSED, ("dark", 'never = "S_Drive AND beam_edge.Q"'))
+    path.write_text(f'{text}[observer.beam_edge]\nof = "R_TRIG"\ninputs.CLK = "S_BeamFree"\n', "utf-8")
+    return Machine(WIRING, "my.toml", path, folder / "use.toml", leave_out=True, runs=20)
+
+
+def test_edits_are_tried_without_what_the_wiring_lacks(folder: Path) -> None:
+    machine = lacking_a_beam(folder)
+    [edit] = [one for one in edits(WIRING, machine.wiring) if one.id == "block.running.inputs.R1 = Stop"]
+    outcome = Trial(machine).run(edit)
+    assert outcome is not None
+    assert (outcome.word, outcome.by) == ("KILLED", ["closed"])
+
+
+def test_killers_are_played_without_what_the_wiring_lacks(folder: Path) -> None:
+    machine = lacking_a_beam(folder)
+    assert machine.lacking.keys() == {"dark"}
+    assert Killers(machine).problems(read_killers(folder / "killers.toml")) == {}
 
 
 @pytest.mark.deep
