@@ -147,7 +147,7 @@ TRACE = ["trace", "sf_edm", "log.jsonl", "--quiet"]
     [
         pytest.param(CONFORM, 1.5),
         *(pytest.param(CONFORM, after, marks=pytest.mark.deep) for after in (0.0, 0.5, 2.5)),
-        *(pytest.param(TRACE, after, marks=pytest.mark.deep) for after in (0.0, 0.5, 1.5, 3.0)),
+        *(pytest.param(TRACE, after, marks=pytest.mark.deep) for after in (0.0, 0.4, 0.8, 1.2)),
         *(pytest.param(["report"], after, marks=pytest.mark.deep) for after in (0.0, 0.4, 0.8)),
     ],
 )

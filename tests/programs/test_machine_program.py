@@ -143,7 +143,7 @@ only_if = "UnlockButton"
 """,
         "utf-8",
     )
-    return ProgramMachine(WIRING, "w.toml", properties, FOLDER / "use.toml", runs=8, sources=[path])
+    return ProgramMachine(WIRING, "w.toml", properties, FOLDER / "use.toml", runs=60, sources=[path])
 
 
 @pytest.mark.deep
