@@ -16,11 +16,13 @@ from modeproof.ground.proofs import proofs_module
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.runs import Run
 from modeproof.tlc.judge import HOLDS, VIOLATED, Judgement, judge
-from modeproof.tlc.process import Outcome, run_tlc
+from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.toolchain import find_toolchain
 
 FOLDER = "machine_cell"
 HEAP_MB, TIMEOUT_S = 2048, 900
+FEW_STATES = 150_000
+"""Of generated states: a run that had fewer with the shipped wiring is a small one (SMALL_HEAP_MB)."""
 
 
 def run(args: argparse.Namespace) -> int:
@@ -64,7 +66,7 @@ def judged(place: Path, task: Any, shipped: bool) -> tuple[Judgement, Outcome]:
         kind="NEG" if task.breaks else "MC",
         lanes=("full",),
         environment="arbitrary",
-        heap_mb=HEAP_MB,
+        heap_mb=SMALL_HEAP_MB if task.generated and task.generated < FEW_STATES else HEAP_MB,
         timeout_s=TIMEOUT_S,
         properties=task.checks,
         property=task.checks[0] if task.breaks else "",
