@@ -71,6 +71,8 @@ def tasks(
         rows = typed(Rows, tomllib.loads(path.read_text("utf-8")), str(path)).run
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
+    if not rows:
+        raise Unjudged(f"{path}: declares no run")
     for row in rows:
         name = row.rests or row.keeps or row.needs
         if name and name.upper() not in blocks:

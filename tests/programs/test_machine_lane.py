@@ -129,6 +129,14 @@ def test_the_runs_of_tlc_are_part_of_the_verdict(
     assert record["tools"].keys() >= {"tlc", "java", "z3", "cvc5"}
 
 
+def test_a_file_that_declares_no_run_is_no_pass(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    judged_as(monkeypatch)
+    (tree / "spec" / NAME / "tlc.toml").write_text("run = []\n", "utf-8")
+    record = judge_machine(tree, NAME)
+    assert (record["verdict"], record["as_expected"]) == ("UNJUDGED", False)
+    assert record["reason"].endswith("tlc.toml: declares no run")
+
+
 @pytest.mark.parametrize(
     ("word", "verdict", "status"),
     [("REFUTED", "REFUTED", 1), ("UNKNOWN", "UNKNOWN", 2), ("NOT JUDGED", "UNJUDGED", 2)],
