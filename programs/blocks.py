@@ -17,7 +17,6 @@ import z3
 from modeproof.ground.errors import Unjudged
 from modeproof.registers import Signal
 from programs.calls import inner_bodies
-from programs.check import Types
 from programs.reference import Reference, reference, targets
 from programs.standard import BLOCKS
 from programs.terms import INT, Env, Slot, choose
@@ -39,6 +38,7 @@ from programs.tree import (
     Unit,
     Variable,
 )
+from programs.types import Types
 
 CONTROL, AGE = "control", "age"
 """What a block remembers beside its memory: the number of its control state, and the time since its call."""

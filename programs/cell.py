@@ -15,11 +15,13 @@ from typing import Any
 import z3
 
 from programs.blocks import Block, check_parameters, with_blocks
-from programs.check import Types, check, reached
+from programs.check import check, reached
 from programs.run import Frame, Machine, Overflow
-from programs.symbolic import Context, Obligation, Translator
+from programs.symbolic import Obligation, Translator
 from programs.terms import TRUE, Slot, in_range, slots, symbol
 from programs.tree import BOOL, Array, Expression, Source, Unit
+from programs.types import Types
+from programs.values import Context
 
 
 @dataclass(frozen=True)

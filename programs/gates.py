@@ -12,7 +12,6 @@ from dataclasses import replace
 
 from modeproof.ground.errors import suggestion
 from programs.calls import sides
-from programs.check import Types
 from programs.diagrams import Node, Out, Pin, read_nodes
 from programs.markup import Element
 from programs.networks import Order, roots
@@ -40,6 +39,7 @@ from programs.tree import (
     Unit,
     Variable,
 )
+from programs.types import Types
 
 CHAINS = {"AND": "AND", "OR": "OR", "XOR": "XOR", "ADD": "+", "MUL": "*"}
 PAIRS = {

@@ -24,7 +24,6 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
 from programs.cell import Asked, Cell
-from programs.check import Types
 from programs.st import read_text
 from programs.tree import (
     BOOL,
@@ -37,6 +36,7 @@ from programs.tree import (
     Place,
     Unary,
 )
+from programs.types import Types
 
 FORMS = (
     {"never"},

@@ -12,7 +12,6 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from programs.calls import in_outs, own_arguments
-from programs.check import Types
 from programs.standard import arguments
 from programs.tree import (
     Array,
@@ -39,6 +38,7 @@ from programs.tree import (
     Unary,
     Unit,
 )
+from programs.types import Types
 
 
 class Overflow(Unjudged):

@@ -1,0 +1,245 @@
+"""Statements and expressions of Structured Text into the language of `tree`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from programs.times import time_ms
+from programs.tree import (
+    SCALARS,
+    TIME,
+    Assign,
+    Binary,
+    Body,
+    Call,
+    Case,
+    Expression,
+    For,
+    Function,
+    If,
+    Index,
+    Literal,
+    Member,
+    Name,
+    Place,
+    Return,
+    Statement,
+    Stop,
+    Unary,
+)
+
+MOST_TURNS = 32
+"""Of WHILE and REPEAT: that no more are needed is part of the proof."""
+_NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
+
+
+class Bodies:
+    """Reads statements and expressions in the tree of one file; `read`: how many statements."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.read = 0
+
+    def place(self, node: Any) -> Place:
+        return Place(self.file, node.start_point[0] + 1)
+
+    def refuse(self, node: Any, text: str = "") -> Unjudged:
+        shown = " ".join(self.text(node).split())[:50]
+        return self.place(node).refuse(text or f"{node.type.replace('_', ' ')} is not supported: {shown}")
+
+    def text(self, node: Any) -> str:
+        return str(node.text.decode("utf-8"))
+
+    def named(self, node: Any) -> list[Any]:
+        return [child for child in node.children if child.is_named and child.type != "comment"]
+
+    def field(self, node: Any, name: str) -> Any:
+        return node.child_by_field_name(name)
+
+    def fields(self, node: Any, name: str) -> list[Any]:
+        return [
+            child for child in node.children_by_field_name(name) if child.is_named and child.type != "comment"
+        ]
+
+    def constant(self, node: Any) -> int:
+        """The number that stands there."""
+        value = self.expression(node)
+        if isinstance(value, Unary) and value.operator == "-" and isinstance(value.operand, Literal):
+            return -int(value.operand.value)
+        if not isinstance(value, Literal) or isinstance(value.value, bool):
+            raise self.refuse(node, f"{self.text(node)}: a number is needed here")
+        return value.value
+
+    # ------------------------------------------------------------ statements
+
+    def body(self, nodes: Iterable[Any]) -> Body:
+        found: list[Statement] = []
+        for node in nodes:
+            if node.type in ("while_statement", "repeat_statement"):
+                found += self.loop(node, self.place(node))
+            elif node.type != "empty_statement":
+                found.append(self.statement(node))
+        return tuple(found)
+
+    def loop(self, node: Any, place: Place) -> Iterator[Statement]:
+        """WHILE and REPEAT, turn by turn; after the last one nothing may be left to do."""
+        self.read += 1
+        going, inner = self.expression(self.field(node, "condition")), self.body(self.fields(node, "body"))
+        if node.type == "repeat_statement":
+            yield from inner
+            going = Unary("NOT", going, place)
+        yield from (If(((going, inner),), (), place) for _ in range(MOST_TURNS))
+        stop = Stop(f"the loop ends after {MOST_TURNS} turns at most", place)
+        yield If(((going, (stop,)),), (), place)
+
+    def statement(self, node: Any) -> Statement:
+        self.read += 1
+        place = self.place(node)
+        match node.type:
+            case "assignment_statement":
+                return Assign(
+                    self.target(self.field(node, "left")), self.expression(self.field(node, "right")), place
+                )
+            case "if_statement":
+                branches = [(self.field(node, "condition"), self.fields(node, "consequence"))]
+                otherwise: Body = ()
+                for child in self.named(node):
+                    if child.type == "elsif_clause":
+                        branches.append((self.field(child, "condition"), self.fields(child, "body")))
+                    elif child.type == "else_clause":
+                        otherwise = self.body(self.fields(child, "body"))
+                made = tuple((self.expression(asked), self.body(body)) for asked, body in branches)
+                return If(made, otherwise, place)
+            case "case_statement":
+                return self.case(node, place)
+            case "for_statement":
+                control = self.expression(self.field(node, "control"))
+                if not isinstance(control, Name):
+                    raise self.refuse(node, "the control variable of FOR must be a variable")
+                step = self.field(node, "step")
+                return For(
+                    control,
+                    self.expression(self.field(node, "start")),
+                    self.expression(self.field(node, "end")),
+                    None if step is None else self.expression(step),
+                    self.body(self.fields(node, "body")),
+                    place,
+                )
+            case "invocation_statement":
+                return self.call(self.named(node)[0], place)
+            case "return_statement":
+                return Return(place)
+        raise self.refuse(node)
+
+    def case(self, node: Any, place: Place) -> Case:
+        clauses = []
+        otherwise: Body = ()
+        for child in self.named(node):
+            if child.type == "case_clause":
+                ranges = []
+                for value in self.named(child):
+                    if value.type == "case_value":
+                        (inner,) = self.named(value)
+                        ends = ("lower", "upper") if inner.type == "subrange" else None
+                        low, high = (self.field(inner, end) for end in ends) if ends else (inner, inner)
+                        ranges.append((self.expression(low), self.expression(high)))
+                clauses.append((tuple(ranges), self.body(self.fields(child, "body"))))
+            elif child.type == "else_clause":
+                otherwise = self.body(self.fields(child, "body"))
+            elif child != self.field(node, "subject"):
+                raise self.refuse(child)
+        return Case(self.expression(self.field(node, "subject")), tuple(clauses), otherwise, place)
+
+    def call(self, node: Any, place: Place) -> Call:
+        if node.type != "call_expression":
+            raise self.refuse(node)
+        inputs: list[tuple[str, Expression]] = []
+        outputs: list[tuple[str, Expression]] = []
+        for argument in self.named(self.field(node, "arguments")):
+            if argument.type != "named_argument":
+                raise self.refuse(argument, "a block is called with named arguments: instance(NAME := value)")
+            pair = (self.text(self.field(argument, "name")), self.expression(self.field(argument, "value")))
+            (outputs if any(child.type == "=>" for child in argument.children) else inputs).append(pair)
+        return Call(self.target(self.field(node, "function")), tuple(inputs), tuple(outputs), place)
+
+    # ------------------------------------------------------------ expressions
+
+    def target(self, node: Any) -> Expression:
+        found = self.expression(node)
+        if not isinstance(found, Name | Member | Index):
+            raise self.refuse(node, f"{self.text(node)}: a variable is needed here")
+        return found
+
+    def expression(self, node: Any) -> Expression:
+        place = self.place(node)
+        match node.type:
+            case "identifier":
+                return Name(self.text(node), place)
+            case "parenthesized_expression":
+                (inner,) = self.named(node)
+                return self.expression(inner)
+            case "boolean_literal":
+                return Literal(self.text(node).upper().endswith("TRUE"), SCALARS["BOOL"], place)
+            case "integer_literal":
+                return Literal(self.number(node), None, place)
+            case "time_literal":
+                return Literal(time_ms(self.text(node), place), TIME, place)
+            case "typed_literal":
+                return self.typed(node, place)
+            case "member_access_expression":
+                return Member(
+                    self.expression(self.field(node, "object")), self.text(self.field(node, "member")), place
+                )
+            case "index_expression":
+                indexes = self.fields(node, "index")
+                if len(indexes) != 1:
+                    raise self.refuse(node, "an array has one index here")
+                return Index(self.target(self.field(node, "object")), self.expression(indexes[0]), place)
+            case "unary_expression":
+                operator = self.text(self.field(node, "operator")).upper()
+                operand = self.expression(self.field(node, "operand"))
+                return operand if operator == "+" else Unary(operator, operand, place)
+            case "binary_expression":
+                operator = self.text(self.field(node, "operator")).upper()
+                left, right = (self.expression(self.field(node, side)) for side in ("left", "right"))
+                return Binary({"&": "AND"}.get(operator, operator), left, right, place)
+            case "call_expression":
+                arguments = []
+                for argument in self.named(self.field(node, "arguments")):
+                    if argument.type == "named_argument":
+                        if any(child.type == "=>" for child in argument.children):
+                            raise self.refuse(argument)
+                        value = self.expression(self.field(argument, "value"))
+                        arguments.append((self.text(self.field(argument, "name")).upper(), value))
+                    else:
+                        arguments.append(("", self.expression(argument)))
+                return Function(self.text(self.field(node, "function")).upper(), tuple(arguments), place)
+        raise self.refuse(node)
+
+    def number(self, node: Any) -> int:
+        match = _NUMBER.fullmatch(self.text(node))
+        if match is None:
+            raise self.refuse(node, f"{self.text(node)}: not a whole number")
+        try:
+            return int(match[1] + match[3].replace("_", ""), int(match[2] or 10))
+        except ValueError:
+            raise self.refuse(node, f"{self.text(node)}: not a whole number") from None
+
+    def typed(self, node: Any, place: Place) -> Literal:
+        name = self.text(self.field(node, "type")).upper()
+        value = self.field(node, "value")
+        if name not in SCALARS:
+            raise self.refuse(node)
+        kind = SCALARS[name]
+        if kind.kind == "bool":
+            text = self.text(value).upper()
+            if text not in ("TRUE", "FALSE", "0", "1"):
+                raise self.refuse(node)
+            return Literal(text in ("TRUE", "1"), kind, place)
+        number = self.constant(value)
+        if not kind.low <= number <= kind.high:
+            raise self.refuse(node, f"{self.text(node)}: outside {kind.low}..{kind.high}")
+        return Literal(number, kind, place)
