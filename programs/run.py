@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping
+from copy import deepcopy
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
@@ -34,9 +35,11 @@ from programs.tree import (
     Scalar,
     Source,
     Stop,
+    Struct,
     Type,
     Unary,
     Unit,
+    blocks_in,
 )
 from programs.types import Types
 
@@ -55,28 +58,53 @@ def default(kind: Type, initial: object) -> Any:
         given = list(initial) if isinstance(initial, tuple) else []
         size = kind.high - kind.low + 1
         return [default(kind.element, value) for value in [*given, *[None] * (size - len(given))]]
+    if isinstance(kind, Struct):
+        own = dict(initial) if isinstance(initial, tuple) else {}
+        return {
+            name.upper(): default(inner, own.get(name.upper(), value)) for name, inner, value in kind.members
+        }
     assert isinstance(kind, Scalar)
     return bool(initial or False) if kind.kind == "bool" else int(initial or 0)  # type: ignore[call-overload]
 
 
 class Frame:
-    """The memory of one unit: its variables, and below them those of its instances."""
+    """The memory of one unit: its variables, and below them those of its instances.
 
-    def __init__(self, source: Source, unit: Unit) -> None:
+    root: that of the program, which has the global variables.
+    """
+
+    def __init__(self, source: Source, unit: Unit, root: Frame | None = None) -> None:
         self.source, self.unit, self.types = source, unit, Types(source, unit)
-        self.values: dict[str, Any] = {}
-        for key, variable in unit.variables.items():
-            kind = variable.type
-            if not isinstance(kind, Instance):
-                self.values[key] = default(kind, variable.initial)
-            elif kind.block.upper() in source.units:
-                self.values[key] = Frame(source, source.units[kind.block.upper()])
-            else:
-                self.values[key] = Standard(kind.block.upper())
+        self.root = root or self
+        self.values: dict[str, Any] = {
+            key: self.made(variable.type, variable.initial)
+            for key, variable in unit.variables.items()
+            if variable.section != "external"
+        }
         self.state: Any = None
         self.since = 0
         if unit.device is not None:
             self.values |= unit.device.memory()
+
+    def made(self, kind: Type, initial: object) -> Any:
+        """The first value of a variable, with the instances in it."""
+        if isinstance(kind, Instance):
+            block = kind.block.upper()
+            known = self.source.units.get(block)
+            return Standard(block) if known is None else Frame(self.source, known, self.root)
+        if isinstance(kind, Array) and any(blocks_in(kind)):
+            return [self.made(kind.element, None) for _ in range(kind.low, kind.high + 1)]
+        if isinstance(kind, Struct) and any(blocks_in(kind)):
+            own = dict(initial) if isinstance(initial, tuple) else {}
+            return {
+                name.upper(): self.made(inner, own.get(name.upper(), value))
+                for name, inner, value in kind.members
+            }
+        return default(kind, initial)
+
+    def home(self, key: str) -> dict[str, Any]:
+        """The values among which a variable is: its own, or those of the program for a global one."""
+        return self.root.values if self.unit.variables[key].section == "external" else self.values
 
 
 class Standard:
@@ -149,9 +177,9 @@ class Machine:
         """
         self.now += dt_ms
         for name, value in inputs.items():
-            self.memory.values[name.upper()] = value
+            self.memory.values[name.upper()] = deepcopy(value)
         self.call(self.memory)
-        return {name: self.memory.values[name.upper()] for name in self.unit.of("output")}
+        return {name: deepcopy(self.memory.values[name.upper()]) for name in self.unit.of("output")}
 
     def call(self, frame: Frame) -> None:
         """One call of a unit of the program's own."""
@@ -167,9 +195,8 @@ class Machine:
         for statement in body:
             match statement:
                 case Assign(target, value, place):
-                    kind = frame.types.of(target)
-                    assert isinstance(kind, Scalar)
-                    self.store(frame, target, self.ranged(self.value(frame, value, kind), kind, place))
+                    given = self.given(frame, value, frame.types.of(target), place)
+                    self.store(frame, target, given)
                 case If(branches, otherwise, _):
                     chosen = next((inner for asked, inner in branches if self.value(frame, asked)), otherwise)
                     self.body(frame, chosen)
@@ -183,10 +210,10 @@ class Machine:
                         raise Overflow(f"{place.file}:{place.line}: FOR by 0 does not end")
                     number = low
                     while number <= high if by > 0 else number >= high:
-                        frame.values[control.name.upper()] = number
+                        self.store(frame, control, number)
                         self.body(frame, inner)
                         number += by
-                    frame.values[control.name.upper()] = number
+                    self.store(frame, control, number)
                 case Call(instance, inputs, outputs, place):
                     self.invoke(frame, instance, inputs, outputs)
                 case Return():
@@ -206,16 +233,17 @@ class Machine:
         pins = below.values
         for name, expression in inputs:
             kind = frame.types.member(frame.types.of(instance), name, instance.place, True)
-            assert isinstance(kind, Scalar)
-            pins[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, instance.place)
+            pins[name.upper()] = self.given(frame, expression, kind, instance.place)
+        kept = in_outs(self.source, frame.types.of(instance))
+        lent = [(key.upper(), self.spot(frame, of)) for key, of in inputs if key.upper() in kept]
         if isinstance(below, Standard):
             below.call(self.now)
         else:
             self.call(below)
-        kept = in_outs(self.source, frame.types.of(instance))
-        back = [(name, target) for name, target in inputs if name.upper() in kept]
-        for name, target in (*back, *outputs):
-            self.store(frame, target, pins[name.upper()])
+        for key, (holder, at) in lent:
+            holder[at] = deepcopy(pins[key])
+        for name, target in outputs:
+            self.store(frame, target, deepcopy(pins[name.upper()]))
 
     # ------------------------------------------------------------ values
 
@@ -229,24 +257,31 @@ class Machine:
             )
         return (value - kind.low) % (kind.high - kind.low + 1) + kind.low
 
-    def read(self, frame: Frame, target: Expression) -> Any:
+    def given(self, frame: Frame, expression: Expression, kind: Type, place: Place) -> Any:
+        """The value of an expression for a variable of this type; a structure or an array is copied."""
+        if isinstance(kind, Scalar):
+            return self.ranged(self.value(frame, expression, kind), kind, place)
+        return deepcopy(self.read(frame, expression))
+
+    def spot(self, frame: Frame, target: Expression) -> tuple[Any, Any]:
+        """Where a variable is kept: the values among which it is, and its key or number there."""
         match target:
             case Name(name, _):
-                return frame.values[name.upper()]
+                return frame.home(name.upper()), name.upper()
             case Member(of, name, _):
-                return self.read(frame, of).values[name.upper()]
+                above = self.read(frame, of)
+                return (above if isinstance(above, dict) else above.values), name.upper()
             case Index(of, _, _):
-                return self.read(frame, of)[self.position(frame, target)]
+                return self.read(frame, of), self.position(frame, target)
         raise AssertionError(target)
 
+    def read(self, frame: Frame, target: Expression) -> Any:
+        holder, at = self.spot(frame, target)
+        return holder[at]
+
     def store(self, frame: Frame, target: Expression, value: Any) -> None:
-        match target:
-            case Name(name, _):
-                frame.values[name.upper()] = value
-            case Member(of, name, _):
-                self.read(frame, of).values[name.upper()] = value
-            case Index(of, _, _):
-                self.read(frame, of)[self.position(frame, target)] = value
+        holder, at = self.spot(frame, target)
+        holder[at] = value
 
     def position(self, frame: Frame, target: Index) -> int:
         kind = frame.types.of(target.of)

@@ -9,7 +9,7 @@ from typing import Any
 import z3
 
 from programs.run import default
-from programs.tree import BOOL, TIME, Array, Instance, Scalar, Source, Type, Unit
+from programs.tree import BOOL, TIME, Array, Instance, Scalar, Source, Struct, Type, Unit
 
 TRUE, FALSE = z3.BoolVal(True), z3.BoolVal(False)
 Env = dict[str, Any]
@@ -25,6 +25,8 @@ class Slot:
     type: Scalar
     initial: bool | int | None
     section: str
+    given: bool = False
+    """Whether it is an input of the program itself."""
 
 
 def symbol(kind: Scalar, name: str) -> Any:
@@ -49,23 +51,43 @@ def in_range(kind: Scalar, term: Any) -> z3.BoolRef:
 
 
 def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
-    """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants."""
+    """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants.
+
+    What a block below has in VAR_EXTERNAL is memory of the program.
+    """
     if unit.device is not None:
         yield from unit.device.slots(above.removesuffix("."))
     for key, variable in unit.variables.items():
-        if variable.section in ("temp", "constant"):
+        if variable.section in ("temp", "constant", "external"):
             continue
-        kind: Type = variable.type
-        path = f"{above}{key}"
-        if isinstance(kind, Instance):
-            if kind.block.upper() in source.units:
-                yield from slots(source, source.units[kind.block.upper()], f"{path}.")
+        given = variable.section == "input" and not above
+        for place, kind, initial in cells(variable.type, f"{above}{key}", variable.initial):
+            if isinstance(kind, Scalar):
+                value = None if variable.section == "retain" else default(kind, initial)
+                yield Slot(place, kind, value, variable.section, given)
+            elif kind.block.upper() in source.units:
+                yield from slots(source, source.units[kind.block.upper()], f"{place}.")
             else:
-                yield from _standard(kind.block.upper(), path)
-            continue
-        value = default(kind, variable.initial)
-        for place, single, initial in singles(kind, path, value):
-            yield Slot(place, single, None if variable.section == "retain" else initial, variable.section)
+                yield from _standard(kind.block.upper(), place)
+
+
+def cells(kind: Type, path: str, initial: object) -> Iterator[tuple[str, Scalar | Instance, object]]:
+    """The single values and instances in a variable: path, type, and the initial value that is declared."""
+    if isinstance(kind, Array):
+        given = initial if isinstance(initial, tuple) else ()
+        for n, number in enumerate(range(kind.low, kind.high + 1)):
+            yield from cells(kind.element, f"{path}[{number}]", given[n] if n < len(given) else None)
+    elif isinstance(kind, Struct):
+        own = dict(initial) if isinstance(initial, tuple) else {}
+        for name, inner, value in kind.members:
+            yield from cells(inner, f"{path}.{name.upper()}", own.get(name.upper(), value))
+    else:
+        yield path, kind, initial
+
+
+def leaves(kind: Type) -> list[str]:
+    """The ends of the paths of the single values of this type; `""` for a type of single values."""
+    return [path for path, _, _ in cells(kind, "", None)]
 
 
 def parts(terms: Iterable[Any]) -> Iterator[Any]:
@@ -122,12 +144,11 @@ def live(asked: Iterable[Any], after: Mapping[str, tuple[str, Any]]) -> set[str]
     return found
 
 
-def singles(kind: Type, path: str, value: Any) -> Iterator[tuple[str, Scalar, Any]]:
-    if isinstance(kind, Array):
-        for n, number in enumerate(range(kind.low, kind.high + 1)):
-            yield from singles(kind.element, f"{path}[{number}]", value[n])
-    elif isinstance(kind, Scalar):
-        yield path, kind, value
+def singles(kind: Type, path: str, initial: object) -> Iterator[tuple[str, Scalar, Any]]:
+    """The single values of a variable: path, type, and the value at power-up."""
+    for place, single, value in cells(kind, path, initial):
+        if isinstance(single, Scalar):
+            yield place, single, default(single, value)
 
 
 def _standard(block: str, path: str) -> Iterator[Slot]:

@@ -52,13 +52,47 @@ class Array:
 
 
 @dataclass(frozen=True)
+class Struct:
+    """A structure: the names, types and initial values of its members."""
+
+    name: str
+    members: tuple[tuple[str, Type, object], ...]
+
+    def member(self, name: str) -> Type | None:
+        """The type of a member; None: there is none of this name."""
+        return next((kind for own, kind, _ in self.members if own.upper() == name.upper()), None)
+
+
+@dataclass(frozen=True)
 class Instance:
     """An instance of a function block, the program's own or one of the standard."""
 
     block: str
 
 
-Type = Scalar | Array | Instance
+Type = Scalar | Array | Struct | Instance
+
+
+def blocks_in(kind: Type) -> Iterator[str]:
+    """The blocks of which a variable of this type has instances."""
+    match kind:
+        case Instance(block):
+            yield block
+        case Array(_, _, element):
+            yield from blocks_in(element)
+        case Struct(_, members):
+            for _, member, _ in members:
+                yield from blocks_in(member)
+
+
+def shown(kind: Type) -> str:
+    """A type in a message."""
+    match kind:
+        case Array(low, high, element):
+            return f"ARRAY [{low}..{high}] OF {shown(element)}"
+        case Instance(block):
+            return block
+    return kind.name
 
 
 def _integers() -> dict[str, Scalar]:
@@ -109,7 +143,7 @@ class Name:
 
 @dataclass(frozen=True)
 class Member:
-    """A variable of an instance, or a member of an enumeration (`Colour.Red`, `Colour#Red`)."""
+    """A variable of an instance, a member of a structure or of an enumeration (`Colour.Red`, `Colour#Red`)."""
 
     of: Expression
     name: str
@@ -234,14 +268,21 @@ Body = tuple[Statement, ...]
 
 @dataclass(frozen=True)
 class Variable:
-    """One declared variable. section: input, output, var, temp, constant or retain."""
+    """One declared variable.
+
+    section: input, output, in_out, var, temp, constant, retain; external: a global variable, whose value is
+    kept beside the program.
+    """
 
     name: str
     type: Type
     section: str
     initial: object
-    """bool, int, or a tuple of them; None: the default of its type."""
+    """bool, int, or a tuple: of the elements of an array, or of the names (in upper case) and values of the
+    members of a structure; None: the default of its type."""
     place: Place
+    address: str = ""
+    """Of AT, such as `%IX0.1` or `%Q*`."""
 
 
 class Device(Protocol):
@@ -289,6 +330,10 @@ class Source:
     """The SHA-256 of each file."""
     refused: Mapping[str, Unjudged] = field(default_factory=dict)
     """Units and types that are there and cannot be read, by their names in upper case."""
+    globals: Mapping[str, Variable] = field(default_factory=dict)
+    """The global variables by their names in upper case."""
+    scheduled: tuple[tuple[str, Place], ...] = ()
+    """The program instances of a CONFIGURATION: what each runs."""
 
     def find(self, name: str) -> Unit | None:
         """The unit with this name; None: there is none. Raises Unjudged: it cannot be read."""
@@ -302,10 +347,10 @@ class Source:
         for refusal in self.refused.values():
             raise refusal
         used = {
-            variable.type.block.upper()
-            for unit in self.units.values()
-            for variable in unit.variables.values()
-            if isinstance(variable.type, Instance)
+            block.upper()
+            for variables in (self.globals, *(unit.variables for unit in self.units.values()))
+            for variable in variables.values()
+            for block in blocks_in(variable.type)
         }
         found = [unit for name, unit in self.units.items() if name not in used and unit.kind != "function"]
         if len(found) != 1:
