@@ -187,6 +187,8 @@ def _values(frame: Frame, above: str, now: int) -> Iterator[tuple[str, Any]]:
             yield from ((f"{path}.{pin}", found) for pin, found in value.values.items())
             yield f"{path}.before", value.before
             yield f"{path}.running", value.running
+            yield f"{path}.up", value.up
+            yield f"{path}.down", value.down
             yield f"{path}.age", now - value.since
         elif isinstance(value, list):
             low = getattr(frame.unit.variables[key].type, "low", 0)
