@@ -21,6 +21,7 @@ import z3
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers import Signal
 from modeproof.registers.profiles import LETTER, PROFILES, value_in
+from programs.paths import steps, type_at, value_at, whole
 from programs.reference import Reference
 from programs.terms import Slot, slots
 from programs.tree import BOOL, Array, Scalar, Source, Unit
@@ -73,18 +74,14 @@ class Binding:
 
     @cached_property
     def _inputs(self) -> dict[str, Slot]:
-        return {
-            slot.path: slot
-            for slot in slots(self.source, self.unit)
-            if slot.section == "input" and "." not in slot.path
-        }
+        return {slot.path: slot for slot in slots(self.source, self.unit) if slot.given}
 
     def _path(self, name: str, section: str) -> str | None:
         """The program's variable for a signal, in upper case; None: it has none."""
         known = [key for key, variable in self.unit.variables.items() if variable.section == section]
         if name in self.names:
-            wanted = self.names[name].upper()
-            if wanted not in known:
+            wanted = "".join(self.names[name].upper().split())
+            if (steps(wanted) or [""])[0] not in known or type_at(self.unit, wanted) is None:
                 raise self.unit.place.refuse(
                     f"the binding names {self.names[name]!r}, which is no {section}; "
                     + suggestion(wanted, known)
@@ -114,7 +111,7 @@ class Binding:
                 if path in taken:
                     raise self.unit.place.refuse(f"{taken[path]} and {name} are both bound to {path}")
                 taken[path] = name
-                kind = self.unit.variables[path].type
+                kind = type_at(self.unit, path)
                 if signal.type == "modes" and not (isinstance(kind, Scalar) and kind.kind == "bits"):
                     for number, element in enumerate(self._elements(name, path)):
                         found[element] = (f"{name}[{number}]", signal)
@@ -123,16 +120,15 @@ class Binding:
                     found[path] = (name, signal)
         path = self._path(DT, "input")
         if path is not None:
-            self._check(DT, SCAN_TIME, self.unit.variables[path].type)
+            self._check(DT, SCAN_TIME, type_at(self.unit, path))
             found[path] = (DT, SCAN_TIME)
         return found
 
     def _elements(self, name: str, path: str) -> list[str]:
         """The paths of the five elements of a set of modes."""
-        variable = self.unit.variables[path]
-        kind = variable.type
+        kind = type_at(self.unit, path)
         if not isinstance(kind, Array) or kind.high - kind.low != 4 or kind.element != BOOL:
-            raise variable.place.refuse(f"{name} is an ARRAY [0..4] OF BOOL")
+            raise self.unit.variables[steps(path)[0]].place.refuse(f"{name} is an ARRAY [0..4] OF BOOL")
         return [f"{path}[{kind.low + number}]" for number in range(5)]
 
     def _check(self, name: str, signal: Signal, kind: object, inward: bool = True) -> None:
@@ -152,6 +148,8 @@ class Binding:
             raise self.unit.place.refuse(
                 f"{name} is of type {signal.type}, and the program's is {shown}{advice}"
             )
+        if kind.numbers or (kind.base is not None and inward):
+            raise self.unit.place.refuse(f"{name}: {kind.name} has a range or numbers of its own")
         if kind.kind == "bits" and kind.width != 16:
             raise self.unit.place.refuse(f"{name} has 16 bits, and {kind.name} has {kind.width}")
         low, high = {"mode": (-1, 4), "text": (0, len(signal.values) - 1)}.get(signal.type, (0, 0))
@@ -254,7 +252,7 @@ class Binding:
             if signal.type == "modes":
                 self._elements(name, path)
             else:
-                self._check(name, signal, self.unit.variables[path].type, inward=False)
+                self._check(name, signal, type_at(self.unit, path), inward=False)
             found.append(name)
         return tuple(found)
 
@@ -284,9 +282,7 @@ class Binding:
         for path, (place, signal) in self._given.items():
             name, _, index = place.partition("[")
             if index:
-                key = path.partition("[")[0]
-                array = found.setdefault(key, [False] * 5)
-                array[int(index.rstrip("]"))] = given[name][int(index.rstrip("]"))]
+                found[path] = given[name][int(index.rstrip("]"))]
             elif signal.type == "modes":
                 found[path] = sum(1 << mode for mode, there in enumerate(given[name]) if there)
             elif signal.type == "text":
@@ -294,14 +290,15 @@ class Binding:
                 found[path] = bool(number) if self._inputs[path].type.kind == "bool" else number
             else:
                 found[path] = given[name]
-        return found
+        return whole(self.unit, found)
 
     def plain_outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The interpreter's outputs by the names of the document."""
         by_key = {name.upper(): value for name, value in own.items()}
         found = {}
         for name in self.compared:
-            value, signal = by_key[self._path(name, "output") or ""], self.reference.signals("outputs")[name]
+            path, signal = self._path(name, "output"), self.reference.signals("outputs")[name]
+            value = value_at(self.unit, path or "", by_key)
             if signal.type == "modes":
                 found[name] = tuple(value)
             elif signal.type == "text" and 0 <= value < len(signal.values):

@@ -16,10 +16,10 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers import Signal
-from programs.calls import inner_bodies
+from programs.calls import function_of, handed_to_block, inner_bodies
 from programs.reference import Reference, reference, targets
 from programs.standard import BLOCKS
-from programs.terms import INT, Env, Slot, choose
+from programs.terms import INT, Env, Slot, cells, choose
 from programs.tree import (
     BOOL,
     SCALARS,
@@ -37,6 +37,7 @@ from programs.tree import (
     Unary,
     Unit,
     Variable,
+    blocks_in,
 )
 from programs.types import Types
 
@@ -207,8 +208,8 @@ def with_blocks(source: Source) -> Source:
     units = dict(source.units)
     for unit in source.units.values():
         for variable in unit.variables.values():
-            if isinstance(variable.type, Instance):
-                key = variable.type.block.upper()
+            for name in blocks_in(variable.type):
+                key = name.upper()
                 if key not in units and key not in BLOCKS and (found := block(key)) is not None:
                     units[key] = found.unit()
     return Source(units, source.files)
@@ -217,11 +218,12 @@ def with_blocks(source: Source) -> Source:
 def instances(source: Source, unit: Unit, above: str = "") -> Iterator[tuple[str, Block]]:
     """The path of each instance of a published block in a unit, and the block."""
     for key, variable in unit.variables.items():
-        below = source.units.get(variable.type.block.upper()) if isinstance(variable.type, Instance) else None
-        if below is not None and isinstance(below.device, Block):
-            yield f"{above}{key}", below.device
-        elif below is not None:
-            yield from instances(source, below, f"{above}{key}.")
+        for path, kind, _ in cells(variable.type, f"{above}{key}", None):
+            below = source.units.get(kind.block.upper()) if isinstance(kind, Instance) else None
+            if below is not None and isinstance(below.device, Block):
+                yield path, below.device
+            elif below is not None:
+                yield from instances(source, below, f"{path}.")
 
 
 # ---------------------------------------------------------------- parameters
@@ -235,13 +237,15 @@ def check_parameters(source: Source, unit: Unit) -> None:
     types = Types(source, unit)
     given: dict[str, dict[str, int]] = {}
     for call in _calls(unit.body):
+        if function_of(source, unit, call) is not None:
+            continue
         kind = types.of(call.instance)
         own = source.units.get(kind.block.upper()) if isinstance(kind, Instance) else None
         device = None if own is None else own.device
-        if not isinstance(device, Block):
+        if not isinstance(device, Block) or not isinstance(kind, Instance):
             continue
         values = {}
-        for name, expression in call.inputs:
+        for name, expression in handed_to_block(source, kind, call)[0]:
             group, _ = device.pins[name.upper()]
             if group == "parameters":
                 values[name.upper()] = _constant(types, name, expression)

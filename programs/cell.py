@@ -16,10 +16,11 @@ import z3
 
 from programs.blocks import Block, check_parameters, with_blocks
 from programs.check import check, reached
-from programs.run import Frame, Machine, Overflow
+from programs.paths import put, value_at, whole
+from programs.run import Machine, Overflow
 from programs.symbolic import Obligation, Translator
-from programs.terms import TRUE, Slot, in_range, slots, symbol
-from programs.tree import BOOL, Array, Expression, Source, Unit
+from programs.terms import TRUE, Slot, in_range, leaves, slots, symbol
+from programs.tree import BOOL, Expression, Source, Unit
 from programs.types import Types
 from programs.values import Context
 
@@ -95,12 +96,12 @@ class Cell:
     @cached_property
     def slots(self) -> dict[str, Slot]:
         """The memory."""
-        return {slot.path: slot for slot in slots(self.source, self.unit) if not _is_input(slot)}
+        return {slot.path: slot for slot in slots(self.source, self.unit) if not slot.given}
 
     @cached_property
     def inputs(self) -> dict[str, Slot]:
         """The inputs."""
-        return {slot.path: slot for slot in slots(self.source, self.unit) if _is_input(slot)}
+        return {slot.path: slot for slot in slots(self.source, self.unit) if slot.given}
 
     @cached_property
     def symbols(self) -> dict[str, Any]:
@@ -158,26 +159,12 @@ class Cell:
         """The interpreter at power-up, with these values in what is RETAIN."""
         machine = Machine(self.source, self.unit, self.wrap)
         for path, value in retained.items():
-            *above, name = path.split(".")
-            frame: Any = machine.memory
-            for key in above:
-                frame = frame.values[key]
-            _put(frame, name, value)
+            put(machine.memory, path, value)
         return machine
 
     def plain_inputs(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Values by slot as the interpreter takes them."""
-        found: dict[str, Any] = {}
-        for path, value in values.items():
-            name, _, index = path.partition("[")
-            if index:
-                kind = self.unit.variables[name].type
-                assert isinstance(kind, Array)
-                row = found.setdefault(name, [None] * (kind.high - kind.low + 1))
-                row[int(index.rstrip("]")) - kind.low] = value
-            else:
-                found[name] = value
-        return found
+        return whole(self.unit, values)
 
     def run(
         self, retained: Mapping[str, Any], scans: Sequence[tuple[int, Mapping[str, Any]]], asked: Asked
@@ -198,7 +185,11 @@ class Cell:
 
     def row(self, machine: Machine, asked: Asked) -> dict[str, Any]:
         """What is shown of a scan: the outputs, and each part of the property."""
-        found = {name: machine.memory.values[name.upper()] for name in self.unit.of("output")}
+        found = {
+            path: value_at(self.unit, path, machine.memory.values)
+            for name, variable in self.unit.of("output").items()
+            for path in (f"{name}{leaf}" for leaf in leaves(variable.type))
+        }
         for text, expression in asked.trigger:
             found[f"[{text}]"] = machine.value(machine.memory, expression)
         return found
@@ -271,20 +262,6 @@ class Judge:
         late = self.waits and self.since > asked.within_ms
         self.waits = (self.waits or trigger) and not true
         return late
-
-
-def _is_input(slot: Slot) -> bool:
-    return slot.section == "input" and "." not in slot.path
-
-
-def _put(frame: Frame, name: str, value: Any) -> None:
-    key, _, index = name.partition("[")
-    if index:
-        kind = frame.unit.variables[key].type
-        assert isinstance(kind, Array)
-        frame.values[key][int(index.rstrip("]")) - kind.low] = value
-    else:
-        frame.values[key] = value
 
 
 def _random(values: random.Random, slot: Slot) -> Any:

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from modeproof.ground.errors import suggestion
-from programs.calls import called_functions, check_function, in_outs, inner_bodies, sides
+from programs.calls import (
+    Pairs,
+    called_functions,
+    check_function,
+    function_of,
+    handed_to_block,
+    handed_to_function,
+    in_outs,
+    inner_bodies,
+    sides,
+)
 from programs.standard import BLOCKS
 from programs.tree import (
-    Array,
     Assign,
+    Bit,
     Body,
     Call,
     Case,
@@ -18,6 +28,8 @@ from programs.tree import (
     If,
     Index,
     Instance,
+    Leave,
+    Loop,
     Member,
     Name,
     Place,
@@ -25,7 +37,12 @@ from programs.tree import (
     Scalar,
     Source,
     Stop,
+    Type,
     Unit,
+    Variable,
+    blocks_in,
+    root_of,
+    shown,
 )
 from programs.types import Types
 
@@ -57,19 +74,17 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
     named = (source.units.get(name) for name in called_functions(unit.body))
     below = [found for found in named if found is not None and found.kind == "function"]
     for variable in unit.variables.values():
-        kind = variable.type
-        while isinstance(kind, Array):
-            kind = kind.element
-            if isinstance(kind, Instance):
-                raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
-        if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
-            instance = source.find(kind.block)
+        for block in blocks_in(variable.type):
+            if block.upper() in BLOCKS:
+                continue
+            instance = source.find(block)
             if instance is None:
                 raise variable.place.refuse(
-                    f"{variable.name}: no type or block {kind.block!r} is known; "
-                    + suggestion(kind.block, [*BLOCKS, *(found.name for found in source.units.values())])
+                    f"{variable.name}: no type or block {block!r} is known; "
+                    + suggestion(block, [*BLOCKS, *(found.name for found in source.units.values())])
                 )
-            below.append(instance)
+            if instance not in below:
+                below.append(instance)
     for found in (found for inner in below for found in reached(source, inner, (*above, unit.name))):
         if found.name not in seen:
             seen.add(found.name)
@@ -79,8 +94,8 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
 class _Statements(Types):
     """The statements of one unit."""
 
-    def body(self, body: Body) -> None:
-        """Look at every statement."""
+    def body(self, body: Body, looped: bool = False) -> None:
+        """Look at every statement; looped: there is a loop around it."""
         for statement in body:
             match statement:
                 case Assign(target, value, place):
@@ -88,27 +103,37 @@ class _Statements(Types):
                 case If(branches, otherwise, place):
                     for asked, inner in branches:
                         self.scalar(asked, place, ("bool",))
-                        self.body(inner)
-                    self.body(otherwise)
+                        self.body(inner, looped)
+                    self.body(otherwise, looped)
                 case Case(subject, clauses, otherwise, place):
                     kind = self.scalar(subject, place, ("int", "enum", "bits"))
                     for ranges, inner in clauses:
                         for end in (end for pair in ranges for end in pair):
-                            if self.scalar(end, place, (kind.kind,), kind).kind != kind.kind:
-                                raise place.refuse("a label of CASE is of another type")
+                            label = self.scalar(end, end.place, (kind.kind,), kind)
+                            if kind.kind == "enum" and label != kind:
+                                raise end.place.refuse(
+                                    f"a label of {label.name}, and the value is {kind.name}"
+                                )
                             self.constant(end)
-                        self.body(inner)
-                    self.body(otherwise)
+                        if kind.numbers and any(low != high for low, high in ranges):
+                            raise place.refuse(f"a range of {kind.name}, which has numbers of its own")
+                        self.body(inner, looped)
+                    self.body(otherwise, looped)
                 case For(control, start, end, step, inner, place):
                     self.scalar(control, place, ("int",))
                     by = 1 if step is None else self.constant(step)
                     self.turns(control, self.constant(start), self.constant(end), by)
                     if any(self.writes(inner, control.name)):
                         raise place.refuse(f"the loop writes its control variable {control.name}")
-                    self.body(inner)
-                case Call(instance, inputs, outputs, place):
-                    self.call(instance, inputs, outputs, place)
-                case Return() | Stop():
+                    self.body(inner, True)
+                case Loop(going, inner, _, place):
+                    self.scalar(going, place, ("bool",))
+                    self.body(inner, True)
+                case Leave(turn, place) if not looped:
+                    raise place.refuse(f"{'CONTINUE' if turn else 'EXIT'} without a loop around it")
+                case Call():
+                    self.call(statement)
+                case Return() | Leave() | Stop():
                     pass
 
     def turns(self, control: Name, low: int, high: int, by: int) -> None:
@@ -116,6 +141,7 @@ class _Statements(Types):
         kind = self.written(control, control.place)
         if by == 0 or abs(high - low) // abs(by) > MOST_TURNS:
             raise control.place.refuse(f"FOR: at most {MOST_TURNS:,} turns, and a step other than 0")
+        assert isinstance(kind, Scalar)
         for value in (low, high, high + by):
             self.fits(value, kind, control.place)
 
@@ -124,31 +150,48 @@ class _Statements(Types):
             if isinstance(statement, Assign) and isinstance(statement.target, Name):
                 yield statement.target.name.upper() == name.upper()
             if isinstance(statement, Call):
-                for _, target in statement.outputs:
+                for target in (*self.lent(statement), *(target for _, target in statement.outputs)):
                     yield isinstance(target, Name) and target.name.upper() == name.upper()
             if isinstance(statement, For):
                 yield statement.control.name.upper() == name.upper()
             for inner in inner_bodies(statement):
                 yield from self.writes(inner, name)
 
+    def lent(self, call: Call) -> Iterator[Expression]:
+        """What a call gives to VAR_IN_OUT."""
+        unit = function_of(self.source, self.unit, call)
+        if unit is None and isinstance(kind := self.of(call.instance), Instance):
+            unit = self.source.units.get(kind.block.upper())
+        names = {name.upper() for name in unit.of("in_out")} if unit is not None else set()
+        return (value for name, value in call.inputs if name.upper() in names)
+
     def assigned(self, target: Expression, value: Expression, place: Place) -> None:
         """Refuse an assignment to what must not be written, or of another kind."""
-        kind = self.written(target, place)
+        written = self.written(target, place)
+        if not isinstance(written, Scalar):
+            self.same(value, written, "the variable", place)
+            return
+        kind = written.base or written
         given = self.of(value, kind)
         alike = isinstance(given, Scalar) and given.kind == kind.kind
         if not isinstance(given, Scalar) or not alike or (kind.kind == "enum" and given != kind):
-            shown = given.name if isinstance(given, Scalar) else "no single value"
-            raise place.refuse(f"{kind.name} := {shown} needs a conversion")
+            raise place.refuse(f"{kind.name} := {shown(given)} needs a conversion")
         if kind.kind == "bits" and given.high > kind.high:
             raise place.refuse(f"{kind.name} := {given.name} needs a conversion")
 
-    def written(self, target: Expression, place: Place) -> Scalar:
+    def same(self, value: Expression, kind: Type, what: str, place: Place) -> None:
+        """Refuse anything but a structure or an array of exactly this type."""
+        given = self.declared(value)
+        if given != kind or not isinstance(value, Name | Member | Index):
+            raise place.refuse(f"{what} is {shown(kind)}, and this is {shown(given)}")
+
+    def written(self, target: Expression, place: Place) -> Type:
         """The type of what is written. Refuse what must not be."""
-        kind = self.of(target)
-        if not isinstance(kind, Scalar):
-            raise place.refuse("whole arrays and instances are not assigned here")
+        kind = self.declared(target)
+        if any(blocks_in(kind)):
+            raise place.refuse("instances of blocks are not assigned")
         root = target
-        while isinstance(root, Index | Member):
+        while isinstance(root, Index | Member | Bit):
             kind_of = self.of(root.of)
             outs = sides(self.source, kind_of)[1] if isinstance(kind_of, Instance) else {}
             if isinstance(root, Member) and root.name.upper() in map(str.upper, outs):
@@ -161,54 +204,71 @@ class _Statements(Types):
                 raise place.refuse(f"{root.name} is {shown} and is written")
         return kind
 
-    def in_outs(self, kind: Instance, inputs: tuple[tuple[str, Expression], ...], place: Place) -> None:
+    def in_outs(self, of: str, wanted: Mapping[str, Variable], inputs: Pairs, place: Place) -> None:
         """Refuse a call whose VAR_IN_OUT are not each a variable of their own, of the same type."""
-        wanted = in_outs(self.source, kind)
         given = {name.upper(): value for name, value in inputs if name.upper() in wanted}
         for name, variable in wanted.items():
             value = given.get(name)
-            if not isinstance(value, Name) or not isinstance(variable.type, Scalar):
-                raise place.refuse(
-                    f"{variable.name} of {kind.block} is VAR_IN_OUT: give it a single variable"
-                )
+            if not isinstance(value, Name | Member | Index):
+                raise place.refuse(f"{variable.name} of {of} is VAR_IN_OUT: give it a single variable")
             if self.written(value, place) != variable.type:
-                raise place.refuse(f"{variable.name} of {kind.block} is of another type")
-        names = [value.name.upper() for value in given.values() if isinstance(value, Name)]
+                raise place.refuse(f"{variable.name} of {of} is of another type")
+        names = [root_of(value) for value in given.values()]
         if len(set(names)) != len(names):
-            raise place.refuse(f"two VAR_IN_OUT of {kind.block} are the same variable")
+            raise place.refuse(f"two VAR_IN_OUT of {of} are the same variable")
 
-    def call(
-        self,
-        instance: Expression,
-        inputs: tuple[tuple[str, Expression], ...],
-        outputs: tuple[tuple[str, Expression], ...],
-        place: Place,
-    ) -> None:
-        kind = self.of(instance)
+    def call(self, call: Call) -> None:
+        """Look at a call of an instance or of a FUNCTION."""
+        place = call.place
+        if (unit := function_of(self.source, self.unit, call)) is not None:
+            inputs, outputs = handed_to_function(unit, call)
+            ins, outs = (
+                {name: variable.type for name, variable in unit.of(*sections).items()}
+                for sections in (("input", "in_out"), ("output",))
+            )
+            lent = {name.upper(): variable for name, variable in unit.of("in_out").items()}
+            self.in_outs(unit.name, lent, inputs, place)
+            self.pins(unit.name, ins, inputs, place, False)
+            self.pins(unit.name, outs, outputs, place, True)
+            return
+        kind = self.of(call.instance)
         if not isinstance(kind, Instance):
             raise place.refuse("only an instance of a block is called")
-        ins, outs = sides(self.source, kind)
-        self.in_outs(kind, inputs, place)
-        for pairs, known in ((inputs, ins), (outputs, outs)):
-            for name, expression in pairs:
-                key = next((key for key in known if key.upper() == name.upper()), None)
-                if key is None:
-                    raise place.refuse(f"{kind.block} has no {name}; {suggestion(name, known)}")
-                wanted = known[key]
-                if not isinstance(wanted, Scalar):
-                    raise place.refuse(
-                        f"{name} of {kind.block}: arrays and instances are not handed over here"
-                    )
-                given = self.of(expression, wanted)
-                alike = isinstance(given, Scalar) and given.kind == wanted.kind
-                if not alike or (wanted.kind == "enum" and given != wanted):
-                    raise place.refuse(f"{name} of {kind.block} is of another type")
-                assert isinstance(given, Scalar)
-                if pairs is outputs:
+        ins, outs = (dict(side) for side in sides(self.source, kind))
+        inputs, outputs = handed_to_block(self.source, kind, call)
+        self.in_outs(kind.block, in_outs(self.source, kind), inputs, place)
+        self.pins(kind.block, ins, inputs, place, False)
+        self.pins(kind.block, outs, outputs, place, True)
+
+    def pins(self, of: str, known: Mapping[str, Type], given: Pairs, place: Place, out: bool) -> None:
+        """Refuse an argument of a call that is unknown, given twice, or of another type."""
+        names = [name.upper() for name, _ in given]
+        for name, expression in given:
+            key = next((key for key in known if key.upper() == name.upper()), None)
+            if key is None:
+                raise place.refuse(f"{of} has no {name}; {suggestion(name, known)}")
+            if names.count(name.upper()) > 1:
+                raise place.refuse(f"{name} of {of} is given twice")
+            declared = known[key]
+            if not isinstance(declared, Scalar):
+                if any(blocks_in(declared)):
+                    raise place.refuse(f"{name} of {of}: instances of blocks are not handed over")
+                self.same(expression, declared, f"{name} of {of}", place)
+                if out:
                     self.written(expression, place)
-                    if not given.low <= wanted.low <= wanted.high <= given.high or (
-                        given.kind == "bits" and given != wanted
-                    ):
-                        raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
-                elif wanted.kind == "bits" and given.high > wanted.high:
-                    raise place.refuse(f"{name} := {given.name} needs a conversion")
+                continue
+            wanted = declared.base or declared
+            given_type = self.of(expression, wanted)
+            alike = isinstance(given_type, Scalar) and given_type.kind == wanted.kind
+            if not alike or (wanted.kind == "enum" and given_type != wanted):
+                raise place.refuse(f"{name} of {of} is of another type")
+            assert isinstance(given_type, Scalar)
+            if out:
+                target = self.written(expression, place)
+                assert isinstance(target, Scalar)
+                if not target.low <= wanted.low <= wanted.high <= target.high or (
+                    target.kind == "bits" and target != wanted
+                ):
+                    raise place.refuse(f"{name} of {of} is {wanted.name}, not {target.name}")
+            elif wanted.kind == "bits" and given_type.high > wanted.high:
+                raise place.refuse(f"{name} := {given_type.name} needs a conversion")

@@ -12,9 +12,10 @@ from modeproof.ground.errors import Unjudged
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import open_suite
 from programs.bind import Binding
+from programs.paths import put, single_values
 from programs.product import Pair, Product
 from programs.relations import Values
-from programs.run import Frame, Machine, Overflow, Standard
+from programs.run import Machine, Overflow
 
 SUITES = ("sequences", "times", "brief")
 MOST_SCANS = 6_000
@@ -133,7 +134,7 @@ def steps(binding: Binding, wrap: bool, run: Run, found_by: str = "") -> Iterato
     """Run both from power-up: what was met after each scan, up to the first difference."""
     reference, machine = binding.reference, Machine(binding.source, binding.unit, wrap)
     for path, value in run.retained.items():
-        _put(machine.memory, path, value)
+        put(machine.memory, path, value)
     state = reference.start(run.parameters)
     expected: list[Mapping[str, Any]] = []
     given: list[Mapping[str, Any]] = []
@@ -173,38 +174,7 @@ def _parameters(binding: Binding, parameters: Mapping[str, Any]) -> Values:
 
 def memory_of(machine: Machine) -> dict[str, Any]:
     """Every value in a program's memory by the paths of `terms.slots`."""
-    return dict(_values(machine.memory, "", machine.now))
-
-
-def _values(frame: Frame, above: str, now: int) -> Iterator[tuple[str, Any]]:
-    if frame.unit.device is not None:
-        yield f"{above}age", now - frame.since
-    for key, value in frame.values.items():
-        path = f"{above}{key}"
-        if isinstance(value, Frame):
-            yield from _values(value, f"{path}.", now)
-        elif isinstance(value, Standard):
-            yield from ((f"{path}.{pin}", found) for pin, found in value.values.items())
-            yield f"{path}.before", value.before
-            yield f"{path}.running", value.running
-            yield f"{path}.age", now - value.since
-        elif isinstance(value, list):
-            low = getattr(frame.unit.variables[key].type, "low", 0)
-            yield from ((f"{path}[{low + number}]", found) for number, found in enumerate(value))
-        else:
-            yield path, value
-
-
-def _put(frame: Frame, path: str, value: Any) -> None:
-    """Give a variable a first value."""
-    name, _, rest = path.partition(".")
-    if rest:
-        _put(frame.values[name], rest, value)
-    elif name.endswith("]"):
-        name, _, index = name.rstrip("]").partition("[")
-        frame.values[name][int(index) - getattr(frame.unit.variables[name].type, "low", 0)] = value
-    else:
-        frame.values[name] = value
+    return dict(single_values(machine.memory, machine.now))
 
 
 def published(binding: Binding, wrap: bool, folder: Path) -> Difference | Replayed:

@@ -12,12 +12,14 @@ from copy import deepcopy
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.calls import in_outs, own_arguments
-from programs.standard import arguments
+from programs.calls import function_of, handed_to_block, handed_to_function, in_outs, own_arguments
+from programs.standard import BLOCKS, arguments, conversion
 from programs.tree import (
+    MOST_TURNS,
     Array,
     Assign,
     Binary,
+    Bit,
     Body,
     Call,
     Case,
@@ -27,7 +29,9 @@ from programs.tree import (
     If,
     Index,
     Instance,
+    Leave,
     Literal,
+    Loop,
     Member,
     Name,
     Place,
@@ -52,8 +56,16 @@ class _Returned(Exception):
     pass
 
 
+class _Exit(Exception):
+    pass
+
+
+class _Continue(Exception):
+    pass
+
+
 def default(kind: Type, initial: object) -> Any:
-    """The value of a variable at power-up: 0, FALSE or the first member where none is declared."""
+    """The value of a variable at power-up; that of its type, or 0, FALSE, where none is declared."""
     if isinstance(kind, Array):
         given = list(initial) if isinstance(initial, tuple) else []
         size = kind.high - kind.low + 1
@@ -64,7 +76,8 @@ def default(kind: Type, initial: object) -> Any:
             name.upper(): default(inner, own.get(name.upper(), value)) for name, inner, value in kind.members
         }
     assert isinstance(kind, Scalar)
-    return bool(initial or False) if kind.kind == "bool" else int(initial or 0)  # type: ignore[call-overload]
+    value = kind.start if initial is None else initial
+    return bool(value) if kind.kind == "bool" else int(value)  # type: ignore[call-overload]
 
 
 class Frame:
@@ -116,6 +129,15 @@ class Standard:
             "IN": False, "CLK": False, "S": False, "S1": False, "R": False, "R1": False,
             "PT": 0, "ET": 0, "Q": False, "Q1": False,
         }  # fmt: skip
+        if block.startswith("CT"):
+            self.values = {
+                name: False if kind.kind == "bool" else 0
+                for side in BLOCKS[block]
+                for name, kind in side.items()
+            }
+            self.highest = BLOCKS[block][0]["PV"].high
+            self.lowest = BLOCKS[block][0]["PV"].low
+        self.up = self.down = False
         self.before = False
         self.since = 0
         self.running = False
@@ -123,6 +145,9 @@ class Standard:
     def call(self, now: int) -> None:
         """One call at this time, in ms since power-up."""
         own = self.values
+        if self.block.startswith("CT"):
+            self.count(own)
+            return
         match self.block:
             case "TON":
                 if not own["IN"]:
@@ -161,6 +186,28 @@ class Standard:
                 own["Q1"] = not own["R1"] and (own["S"] or own["Q1"])
         self.before = own["IN"] or own["CLK"]
 
+    def count(self, own: dict[str, Any]) -> None:
+        """One call of a counter: an edge of CU counts up, one of CD down, both together do nothing."""
+        up = own.get("CU", False) and not self.up
+        down = own.get("CD", False) and not self.down
+        if own.get("R", False):
+            own["CV"] = 0
+        elif own.get("LD", False):
+            own["CV"] = own["PV"]
+        elif up and not down and own["CV"] < self.highest:
+            own["CV"] += 1
+        elif down and not up and own["CV"] > self.lowest:
+            own["CV"] -= 1
+        reached, empty = own["CV"] >= own["PV"], own["CV"] <= 0
+        match self.block.partition("_")[0]:
+            case "CTU":
+                own["Q"] = reached
+            case "CTD":
+                own["Q"] = empty
+            case _:
+                own["QU"], own["QD"] = reached, empty
+        self.up, self.down = own.get("CU", False), own.get("CD", False)
+
 
 class Machine:
     """A program at power-up. wrap: integers and times wrap as two's complement; else they stop the run."""
@@ -195,7 +242,7 @@ class Machine:
         for statement in body:
             match statement:
                 case Assign(target, value, place):
-                    given = self.given(frame, value, frame.types.of(target), place)
+                    given = self.given(frame, value, frame.types.declared(target), place)
                     self.store(frame, target, given)
                 case If(branches, otherwise, _):
                     chosen = next((inner for asked, inner in branches if self.value(frame, asked)), otherwise)
@@ -211,15 +258,37 @@ class Machine:
                     number = low
                     while number <= high if by > 0 else number >= high:
                         self.store(frame, control, number)
-                        self.body(frame, inner)
+                        try:
+                            with contextlib.suppress(_Continue):
+                                self.body(frame, inner)
+                        except _Exit:
+                            break
                         number += by
-                    self.store(frame, control, number)
-                case Call(instance, inputs, outputs, place):
-                    self.invoke(frame, instance, inputs, outputs)
+                    else:
+                        self.store(frame, control, number)
+                case Loop(going, inner, first, place):
+                    with contextlib.suppress(_Exit):
+                        self.turns(frame, going, inner, first, place)
+                case Call():
+                    self.invoke(frame, statement)
                 case Return():
                     raise _Returned
+                case Leave(turn, _):
+                    raise _Continue if turn else _Exit
                 case Stop(text, place):
                     raise Overflow(f"{place.file}:{place.line}: not so: {text}")
+
+    def turns(self, frame: Frame, going: Expression, inner: Body, first: bool, place: Place) -> None:
+        """The turns of WHILE and REPEAT."""
+        made = -1 if first else 0
+        while made < 0 or self.value(frame, going):
+            if made == MOST_TURNS:
+                raise Overflow(
+                    f"{place.file}:{place.line}: not so: the loop ends after {MOST_TURNS} turns at most"
+                )
+            with contextlib.suppress(_Continue):
+                self.body(frame, inner)
+            made += 1
 
     def clause(self, frame: Frame, clauses: Any, found: int, otherwise: Body) -> Body:
         for ranges, inner in clauses:
@@ -228,14 +297,19 @@ class Machine:
                     return inner  # type: ignore[no-any-return]
         return otherwise
 
-    def invoke(self, frame: Frame, instance: Expression, inputs: Any, outputs: Any) -> None:
-        below = self.read(frame, instance)
+    def invoke(self, frame: Frame, call: Call) -> None:
+        if (unit := function_of(self.source, frame.unit, call)) is not None:
+            self.invoke_function(frame, call, unit)
+            return
+        below, of = self.read(frame, call.instance), frame.types.of(call.instance)
+        assert isinstance(of, Instance)
+        inputs, outputs = handed_to_block(self.source, of, call)
         pins = below.values
         for name, expression in inputs:
-            kind = frame.types.member(frame.types.of(instance), name, instance.place, True)
-            pins[name.upper()] = self.given(frame, expression, kind, instance.place)
-        kept = in_outs(self.source, frame.types.of(instance))
-        lent = [(key.upper(), self.spot(frame, of)) for key, of in inputs if key.upper() in kept]
+            kind = frame.types.member(of, name, call.instance.place, True)
+            pins[name.upper()] = self.given(frame, expression, kind, call.instance.place)
+        kept = in_outs(self.source, of)
+        lent = [(key.upper(), self.spot(frame, target)) for key, target in inputs if key.upper() in kept]
         if isinstance(below, Standard):
             below.call(self.now)
         else:
@@ -245,13 +319,27 @@ class Machine:
         for name, target in outputs:
             self.store(frame, target, deepcopy(pins[name.upper()]))
 
+    def invoke_function(self, frame: Frame, call: Call, unit: Unit) -> None:
+        """A FUNCTION called as a statement: it begins anew, and its outputs go where the call says."""
+        inputs, outputs = handed_to_function(unit, call)
+        called = Frame(self.source, unit)
+        for name, expression in inputs:
+            kind = unit.variables[name.upper()].type
+            assert isinstance(kind, Scalar)
+            called.values[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, call.place)
+        self.call(called)
+        lent = unit.of("in_out")
+        back = [pair for pair in inputs if unit.variables[pair[0].upper()].name in lent]
+        for name, target in (*back, *outputs):
+            self.store(frame, target, called.values[name.upper()])
+
     # ------------------------------------------------------------ values
 
     def ranged(self, value: Any, kind: Scalar, place: Place) -> Any:
         """The value in the range of its type."""
         if kind.kind not in ("int", "time") or kind.low <= value <= kind.high:
             return value
-        if not self.wrap:
+        if not self.wrap or kind.base is not None:
             raise Overflow(
                 f"{place.file}:{place.line}: {value} is outside {kind.name}, {kind.low}..{kind.high}"
             )
@@ -276,10 +364,17 @@ class Machine:
         raise AssertionError(target)
 
     def read(self, frame: Frame, target: Expression) -> Any:
+        if isinstance(target, Bit):
+            return bool(self.value(frame, target.of) // 2**target.number % 2)
         holder, at = self.spot(frame, target)
         return holder[at]
 
     def store(self, frame: Frame, target: Expression, value: Any) -> None:
+        if isinstance(target, Bit):
+            before = self.read(frame, target.of)
+            changed = before + (int(value) - before // 2**target.number % 2) * 2**target.number
+            self.store(frame, target.of, changed)
+            return
         holder, at = self.spot(frame, target)
         holder[at] = value
 
@@ -300,7 +395,7 @@ class Machine:
         match expression:
             case Literal(value, _, _):
                 return bool(value) if isinstance(kind, Scalar) and kind.kind == "bool" else int(value)
-            case Name() | Member() | Index():
+            case Name() | Member() | Index() | Bit():
                 return self.read(frame, expression)
         assert isinstance(kind, Scalar)
         match expression:
@@ -316,6 +411,10 @@ class Machine:
         raise AssertionError(expression)
 
     def binary(self, frame: Frame, node: Binary, kind: Scalar, wanted: Scalar | None) -> Any:
+        if node.operator in ("AND_THEN", "OR_ELSE"):
+            if self.value(frame, node.left) == (node.operator == "OR_ELSE"):
+                return node.operator == "OR_ELSE"
+            return self.value(frame, node.right)
         compares = node.operator in ("=", "<>", "<", "<=", ">", ">=")
         first, second = frame.types.pair(node.left, node.right, node.place, None if compares else wanted)
         left, right = self.value(frame, node.left, first), self.value(frame, node.right, second)
@@ -361,7 +460,7 @@ class Machine:
                 place = node.place
                 raise Overflow(f"{place.file}:{place.line}: a shift by {by} is outside 0..{kind.width - 1}")
             return _shifted(node.name, value, by, kind)
-        if "_TO_" in node.name:
+        if conversion(node.name) is not None:
             return self.converted(frame, node, given[0], kind)
         if node.name == "SEL":
             no, yes = (self.value(frame, value, kind) for value in given[1:])
@@ -392,6 +491,8 @@ class Machine:
         given = frame.types.of(argument)
         value = self.value(frame, argument)
         assert isinstance(given, Scalar)
+        if given.numbers:
+            value = given.numbers[value]
         if kind.kind == "bits":
             return int(value) & kind.high
         if given.kind == "bits" and kind.kind == "int" and value > kind.high:

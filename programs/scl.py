@@ -45,7 +45,7 @@ def structured_text(text: str, file: str) -> str:
     """SCL as Structured Text with the same lines. Raises Unjudged with the line."""
     line = 1
     parts = []
-    header = False
+    header, typed = False, False  # typed: between TYPE and what is behind the name
     for match in _TOKEN.finditer(text):
         found, kind = match[0], match.lastgroup
         if kind == "word" and found.upper() in HEADS:
@@ -54,6 +54,11 @@ def structured_text(text: str, file: str) -> str:
             header = False
         elif kind == "about" and not header:
             raise Place(file, line).refuse(f"{found.split()[0]} is understood in the head of a block only")
+        if kind == "word" and found.upper() == "TYPE":
+            typed = True
+        elif typed and (found == ":" or found.upper() in ("STRUCT", "END_TYPE")):
+            parts.append(": " * (found.upper() == "STRUCT"))
+            typed = False
         parts.append(_changed(found, kind or "", Place(file, line)))
         line += found.count("\n")
     return "".join(parts)

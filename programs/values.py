@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -10,14 +11,16 @@ from typing import TYPE_CHECKING, Any
 import z3
 
 from programs.calls import own_arguments
-from programs.run import default
-from programs.standard import arguments
+from programs.standard import arguments, conversion
 from programs.terms import (
+    FALSE,
+    TRUE,
     Env,
     both,
     choose,
     constant,
     either,
+    leaves,
     negated,
     rotated,
     shifted,
@@ -27,6 +30,7 @@ from programs.terms import (
 from programs.tree import (
     Array,
     Binary,
+    Bit,
     Expression,
     Function,
     Index,
@@ -35,6 +39,7 @@ from programs.tree import (
     Name,
     Place,
     Scalar,
+    Type,
     Unary,
     Unit,
 )
@@ -53,6 +58,12 @@ _PLAIN: Mapping[str, Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 
 
+MOST_PLACES = 1000
+"""What a free index may choose from."""
+Places = list[tuple[z3.BoolRef, str]]
+"""Paths, and when each of them is meant."""
+
+
 @dataclass(frozen=True)
 class Context:
     """Where a body stands: the translator, the types of its unit, and the path above its variables."""
@@ -61,27 +72,76 @@ class Context:
     types: Types
     above: str
 
-    def path(self, target: Expression, env: Env, here: z3.BoolRef) -> str:
-        """The path of a target without a free index."""
+    def places(self, target: Expression, env: Env, here: z3.BoolRef) -> Places:
+        """Where a variable is: its path, or with a free index each path that it may have and when.
+
+        The conditions exclude each other; the last path stands for every index that is left.
+        """
         match target:
             case Name(name, _):
-                return f"{self.above}{name.upper()}"
+                outer = self.types.unit.variables[name.upper()].section == "external"
+                return [(TRUE, name.upper() if outer else f"{self.above}{name.upper()}")]
             case Member(of, name, _):
-                return f"{self.path(of, env, here)}.{name.upper()}"
-        raise target.place.refuse("an element of an array is not supported here")
+                return [(there, f"{path}.{name.upper()}") for there, path in self.places(of, env, here)]
+            case Index(of, index, place):
+                array = self.types.of(of)
+                assert isinstance(array, Array)
+                number = z3.simplify(self.value(index, env, here))
+                self.bounds(array, number, place, here)
+                found = [
+                    (both(there, at), f"{path}[{n}]")
+                    for there, path in self.places(of, env, here)
+                    for n in range(array.low, array.high + 1)
+                    if not z3.is_false(at := z3.simplify(number == n))
+                ]
+                if len(found) > MOST_PLACES:
+                    raise place.refuse(f"this may be one of more than {MOST_PLACES:,} variables")
+                return found or [(FALSE, f"{self.places(of, env, here)[0][1]}[{array.low}]")]
+        raise target.place.refuse("a variable is needed here")
 
-    def store(self, target: Expression, term: Any, env: Env, here: z3.BoolRef) -> None:
-        """Give a target its new value."""
-        if isinstance(target, Index):
-            array = self.types.of(target.of)
-            assert isinstance(array, Array)
-            base, index = self.path(target.of, env, here), z3.simplify(self.value(target.index, env, here))
-            self.bounds(array, index, target.place, here)
-            for number in range(array.low, array.high + 1):
-                key = f"{base}[{number}]"
-                env[key] = choose(z3.simplify(index == number), term, env[key])
+    def read(self, places: Places, leaf: str, env: Env) -> Any:
+        """The value there; leaf: the end of the path of one single value."""
+        found = self.term(f"{places[-1][1]}{leaf}", env)
+        for there, path in reversed(places[:-1]):
+            found = choose(there, self.term(f"{path}{leaf}", env), found)
+        return found
+
+    def term(self, path: str, env: Env) -> Any:
+        """What has this path, which may be a constant."""
+        if path in env:
+            return env[path]
+        own = path[len(self.above) :]
+        variable = self.types.unit.variables[re.split(r"[.\[]", own)[0]]
+        assert variable.section == "constant"
+        known = singles(variable.type, variable.name.upper(), variable.initial)
+        return next(constant(kind, value) for place, kind, value in known if place == own)
+
+    def put(self, places: Places, terms: Mapping[str, Any], env: Env) -> None:
+        """Give what is there new values, by the ends of their paths."""
+        for there, path in places:
+            for leaf, term in terms.items():
+                env[f"{path}{leaf}"] = choose(there, term, env[f"{path}{leaf}"])
+
+    def assign(self, target: Expression, terms: Mapping[str, Any], env: Env, here: z3.BoolRef) -> None:
+        """Give a target its new value, by the ends of the paths in it."""
+        if isinstance(target, Bit):
+            string = self.value(target.of, env, here)
+            mask = z3.BitVecVal(1 << target.number, string.size())
+            changed = z3.simplify(z3.If(terms[""], string | mask, string & ~mask))
+            self.assign(target.of, {"": changed}, env, here)
         else:
-            env[self.path(target, env, here)] = term
+            self.put(self.places(target, env, here), terms, env)
+
+    def handed(
+        self, expression: Expression, kind: Type, place: Place, env: Env, here: z3.BoolRef
+    ) -> Mapping[str, Any]:
+        """The value of an expression for a variable of this type, by the ends of the paths in it."""
+        if isinstance(kind, Scalar):
+            given = self.types.of(expression, kind)
+            term = self.value(expression, env, here, kind)
+            return {"": self.translator.fitted(term, given, kind, place, here)}
+        where = self.places(expression, env, here)
+        return {leaf: self.read(where, leaf, env) for leaf in leaves(kind)}
 
     def bounds(self, array: Array, index: Any, place: Place, here: z3.BoolRef) -> None:
         inside = z3.simplify(z3.And(index >= array.low, index <= array.high))
@@ -99,15 +159,10 @@ class Context:
             case Literal(value, _, _):
                 assert isinstance(kind, Scalar)
                 return constant(kind, value)
-            case Name(name, _):
-                variable = self.types.unit.variables[name.upper()]
-                if variable.section == "constant" and isinstance(kind, Scalar):
-                    return constant(kind, default(kind, variable.initial))
-                return env[self.path(expression, env, here)]
-            case Member():
-                return env[self.path(expression, env, here)]
-            case Index(of, index, place):
-                return self.element(of, z3.simplify(self.value(index, env, here)), place, env, here)
+            case Name() | Member() | Index():
+                return self.read(self.places(expression, env, here), "", env)
+            case Bit(of, number, _):
+                return z3.Extract(number, number, self.value(of, env, here)) == 1
         assert isinstance(kind, Scalar)
         match expression:
             case Unary("NOT", operand, _):
@@ -121,23 +176,12 @@ class Context:
                 return self.function(expression, kind, env, here, wanted)
         raise AssertionError(expression)
 
-    def element(self, of: Expression, index: Any, place: Place, env: Env, here: z3.BoolRef) -> Any:
-        array = self.types.of(of)
-        assert isinstance(array, Array) and isinstance(of, Name | Member)
-        self.bounds(array, index, place, here)
-        variable = self.types.unit.variables.get(of.name.upper()) if isinstance(of, Name) else None
-        if variable is not None and variable.section == "constant" and isinstance(array.element, Scalar):
-            values = default(array, variable.initial)
-            terms = [constant(array.element, value) for value in values]
-        else:
-            base = self.path(of, env, here)
-            terms = [env[f"{base}[{number}]"] for number in range(array.low, array.high + 1)]
-        found = terms[-1]
-        for number, term in reversed(list(zip(range(array.low, array.high), terms, strict=False))):
-            found = choose(z3.simplify(index == number), term, found)
-        return found
-
     def binary(self, node: Binary, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None) -> Any:
+        if node.operator in ("AND_THEN", "OR_ELSE"):
+            left = self.value(node.left, env, here)
+            if node.operator == "AND_THEN":
+                return both(left, self.value(node.right, env, both(here, left)))
+            return either(left, self.value(node.right, env, both(here, negated(left))))
         compares = node.operator in ("=", "<>", "<", "<=", ">", ">=")
         first, second = self.types.pair(node.left, node.right, node.place, None if compares else wanted)
         left, right = self.value(node.left, env, here, first), self.value(node.right, env, here, second)
@@ -182,7 +226,7 @@ class Context:
             if node.name in ("ROL", "ROR"):
                 return rotated(term, by if node.name == "ROL" else -by)
             return term << by if node.name == "SHL" else z3.LShR(term, by)
-        if "_TO_" in node.name:
+        if conversion(node.name) is not None:
             return self.converted(node, given[0], kind, env, here)
         if node.name == "SEL":
             no, yes = (self.value(value, env, here, kind) for value in given[1:])
@@ -203,18 +247,24 @@ class Context:
         return values[0]
 
     def own(self, node: Function, unit: Unit, env: Env, here: z3.BoolRef) -> Any:
-        """The result of a FUNCTION of the program's own: it begins anew in each call."""
+        """The result of a FUNCTION of the program's own."""
+        return self.called(own_arguments(node, unit), unit, node.place, env, here)[unit.name.upper()]
+
+    def called(
+        self, given: Mapping[str, Expression], unit: Unit, place: Place, env: Env, here: z3.BoolRef
+    ) -> Env:
+        """The variables of a FUNCTION after a call with these arguments: it begins anew in each call."""
         inner: Env = {}
         for key, variable in unit.variables.items():
-            start = default(variable.type, variable.initial)
-            inner |= {path: constant(kind, value) for path, kind, value in singles(variable.type, key, start)}
-        for key, expression in own_arguments(node, unit).items():
+            own = singles(variable.type, key, variable.initial)
+            inner |= {path: constant(kind, value) for path, kind, value in own}
+        for key, expression in given.items():
             kind = unit.variables[key].type
             assert isinstance(kind, Scalar)
             term = self.value(expression, env, here, kind)
-            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, node.place, here)
+            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, place, here)
         self.translator.call(unit, "", inner, here)
-        return inner[unit.name.upper()]
+        return inner
 
     def converted(
         self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef
@@ -222,6 +272,12 @@ class Context:
         given = self.types.of(argument)
         term = self.value(argument, env, here)
         assert isinstance(given, Scalar)
+        if given.numbers:
+            place, *others = enumerate(given.numbers)
+            found = z3.IntVal(place[1])
+            for number, value in others:
+                found = z3.If(term == number, z3.IntVal(value), found)
+            term = found
         if given.kind == "bool" and kind.kind != "bool":
             term = z3.If(term, constant(kind, 1), constant(kind, 0))
             return term

@@ -8,12 +8,13 @@ from typing import Any
 import z3
 
 from programs.check import check
+from programs.paths import value_at
 from programs.replay import memory_of
 from programs.run import Machine, Overflow
 from programs.st import read_text
 from programs.symbolic import Translator
-from programs.terms import constant, slots, symbol
-from programs.tree import Array, Source, Unit
+from programs.terms import constant, leaves, slots, symbol
+from programs.tree import Array, Source, Struct, Unit
 
 
 def source_of(text: str, file: str = "b.st") -> Source:
@@ -67,18 +68,17 @@ def difference_of_translator(source: Source, unit: Unit, seed: int, scans: int, 
 
 def _flat(inputs: dict[str, Any], unit: Unit) -> Any:
     for name, value in inputs.items():
-        if isinstance(value, list):
-            kind = unit.variables[name.upper()].type
-            assert isinstance(kind, Array)
-            yield from ((f"{name.upper()}[{kind.low + n}]", part) for n, part in enumerate(value))
-        else:
-            yield name.upper(), value
+        for leaf in leaves(unit.variables[name.upper()].type):
+            path = f"{name.upper()}{leaf}"
+            yield path, value_at(unit, path, {name.upper(): value})
 
 
 def random_value(values: random.Random, kind: Any) -> Any:
     """A value of a type, often near a limit."""
     if isinstance(kind, Array):
         return [random_value(values, kind.element) for _ in range(kind.low, kind.high + 1)]
+    if isinstance(kind, Struct):
+        return {name.upper(): random_value(values, inner) for name, inner, _ in kind.members}
     if kind.kind == "bool":
         return values.random() < 0.5
     if kind.kind == "bits":

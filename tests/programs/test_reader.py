@@ -16,12 +16,16 @@ from programs.tree import Place, Source
 HEAD = "FUNCTION_BLOCK B\nVAR_INPUT x : INT; END_VAR VAR_OUTPUT y : INT; END_VAR\n"
 END = "\nEND_FUNCTION_BLOCK\n"
 REFUSED = {
-    "a structure": (
-        "VAR s : STRUCT a : INT; END_STRUCT; END_VAR y := s.a;",
-        "declare each member as a variable",
+    "two structures that are compared": (
+        "VAR s, t : STRUCT a : INT; END_STRUCT; END_VAR IF s = t THEN y := 1; END_IF",
+        "a value of kind",
     ),
-    "a bit of a word": ("VAR w : WORD; END_VAR w.%X3 := TRUE;", "use AND with a mask"),
-    "an early end of a loop": ("FOR y := 1 TO 2 DO EXIT; END_FOR", "exit statement is not supported"),
+    "a bit beyond a word": ("VAR w : WORD; END_VAR w.%X16 := TRUE;", "bit 16 is outside WORD, 0..15"),
+    "a bit of a number": ("IF y.0 THEN y := 1; END_IF", "a value of kind bits is needed here"),
+    "a byte of a word": ("VAR w : WORD; END_VAR w.%B1 := BYTE#1;", "use SHR"),
+    "a name like a bit": ("VAR w : WORD; END_VAR w.__BIT3 := TRUE;", "give this another name"),
+    "an end of no loop": ("IF y = 1 THEN EXIT; END_IF", "EXIT without a loop around it"),
+    "a turn of no loop": ("CONTINUE;", "CONTINUE without a loop around it"),
     "a pointer": ("VAR p : POINTER TO INT; END_VAR y := 1;", "is not supported"),
     "a real number": ("VAR r : REAL; END_VAR y := 1;", "type REAL is not supported"),
     "an address": ("VAR r AT %I0.0 : BOOL; END_VAR y := 1;", "AT: variables at addresses"),
@@ -45,7 +49,9 @@ REFUSED = {
     "a retained timer": ("VAR RETAIN t : TON; END_VAR y := 1;", "an instance of a block is not supported"),
     "a block in itself": ("VAR b : B; END_VAR y := 1;", "B calls B: a block must not contain itself"),
     "a syntax error": ("y := := 1;", "syntax error"),
-    "a nested comment": ("(* (* inner *) y := 2; *) y := 1;", "syntax error"),
+    "a nested comment": ("(* (* inner *) y := 2; *) y := 1;", "a comment within a comment"),
+    "a nested comment of another kind": ("(* /* inner */ *) y := 1;", "a comment within a comment"),
+    "an open comment": ("y := 1; /* inner", "begins a comment that does not end"),
     "a write to the loop variable": ("FOR y := 1 TO 3 DO y := 5; END_FOR", "writes its control variable y"),
 }
 
