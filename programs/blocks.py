@@ -203,15 +203,20 @@ def block(name: str) -> Block | None:
 
 
 def with_blocks(source: Source) -> Source:
-    """The source with each published block that it has an instance of and does not bring itself."""
+    """The source with each published block that it has an instance of and does not bring itself.
+
+    Raises Unjudged: it brings the block, and that cannot be read.
+    """
     units = dict(source.units)
     for unit in source.units.values():
         for variable in unit.variables.values():
             if isinstance(variable.type, Instance):
                 key = variable.type.block.upper()
+                if key in source.refused:
+                    raise source.refused[key]  # it is there, and the published one is another
                 if key not in units and key not in BLOCKS and (found := block(key)) is not None:
                     units[key] = found.unit()
-    return Source(units, source.files)
+    return Source(units, source.files, source.refused)
 
 
 def instances(source: Source, unit: Unit, above: str = "") -> Iterator[tuple[str, Block]]:

@@ -23,7 +23,9 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
+from programs.calls import called_functions
 from programs.cell import Asked, Cell
+from programs.check import check_below
 from programs.st import read_text
 from programs.tree import (
     BOOL,
@@ -182,6 +184,9 @@ def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
 def expression(text: str, cell: Cell, place: Place) -> Expression:
     """An expression of type BOOL over the program's values. Raises Unjudged with file, line and cause."""
     found = parsed(text, place)
+    for name in called_functions(found):
+        if (unit := cell.source.find(name)) is not None:
+            check_below(cell.source, unit)
     types = Types(cell.source, cell.unit)
     types.scalar(found, place, ("bool",), BOOL)
     for name in _names(found):

@@ -15,6 +15,7 @@ import tree_sitter_iec61131_3_st
 
 from modeproof.ground.errors import Unjudged
 from programs.st_body import Bodies
+from programs.standard import BLOCKS
 from programs.tree import (
     SCALARS,
     Array,
@@ -58,7 +59,7 @@ def read_text(text: str, file: str) -> list[Unit]:
         fault = next(_faults(root))
         shown = " ".join(fault.text.decode("utf-8", "replace").split())[:40]
         raise Place(file, fault.start_point[0] + 1).refuse(
-            f"{shown!r} is missing or not Structured Text"
+            f"{fault.type!r} is missing here, or what stands here is not Structured Text"
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
@@ -102,8 +103,7 @@ class _Reader(Bodies):
         for node in self.named(root):
             if node.type == "type_declaration":
                 for definition in self.named(node):
-                    name = self.text(self.field(definition, "name"))
-                    self.types[name.upper()] = self.type(self.field(definition, "definition"), name)
+                    self.define(definition)
             elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
                 found.append(self.unit(node))
             else:
@@ -116,6 +116,15 @@ class _Reader(Bodies):
         if self.read != there:
             raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         return found
+
+    def define(self, node: Any) -> None:
+        """A type with a name of its own."""
+        name = self.text(self.field(node, "name"))
+        if name.upper() in {*SCALARS, *BLOCKS, *self.types}:
+            raise self.refuse(node, f"there is another type with the name {name}")
+        if self.field(node, "default") is not None:
+            raise self.refuse(node, f"{name}: give the first value to each variable, not to the type")
+        self.types[name.upper()] = self.type(self.field(node, "definition"), name)
 
     def unit(self, node: Any) -> Unit:
         name = self.text(self.field(node, "name"))
@@ -133,6 +142,8 @@ class _Reader(Bodies):
         enumerations = {name: kind for name, kind in self.types.items() if isinstance(kind, Scalar)}
         kind = node.type.removesuffix("_declaration").replace("_", " ")
         if kind == "function":
+            if name.upper() in variables:
+                raise variables[name.upper()].place.refuse(f"{name} is declared twice: it is the result")
             result = self.type(self.field(node, "return_type"), "")
             variables[name.upper()] = Variable(name, result, "output", None, self.place(node))
         return Unit(name, kind, variables, self.body(body_nodes), self.place(node), enumerations)

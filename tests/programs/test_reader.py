@@ -47,6 +47,35 @@ REFUSED = {
     "a syntax error": ("y := := 1;", "syntax error"),
     "a nested comment": ("(* (* inner *) y := 2; *) y := 1;", "syntax error"),
     "a write to the loop variable": ("FOR y := 1 TO 3 DO y := 5; END_FOR", "writes its control variable y"),
+    "a loop from no number": (
+        "FOR y := FALSE TO 3 DO ; END_FOR",
+        "kind int is needed here, and this is BOOL",
+    ),
+    "a shift by all bits": ("VAR w : WORD; END_VAR w := SHR(w, 16);", "SHR of WORD by 16: compilers differ"),
+    "a conversion of more": (
+        "VAR d : DINT; END_VAR y := WORD_TO_INT(INT_TO_WORD(d));",
+        "INT_TO_WORD of a DINT",
+    ),
+    "numbers with and without sign": (
+        "VAR u : UINT; END_VAR y := x + u;",
+        "+ of INT and UINT: compilers differ",
+    ),
+    "an input given twice": ("VAR t : TON; END_VAR t(IN := TRUE, in := FALSE);", "IN of TON stands twice"),
+    "a timer for one scan": ("VAR_TEMP t : TON; END_VAR y := 1;", "t: an instance of a block stands in VAR"),
+    "a timer of another": ("VAR_INPUT t : TON; END_VAR y := 1;", "t: an instance of a block stands in VAR"),
+    "arrays in an array": (
+        "VAR a : ARRAY [0..1] OF ARRAY [0..1] OF INT; END_VAR y := 1;",
+        "a: an array of arrays is not supported",
+    ),
+    "a missing end": ("y := x", "';' is missing"),
+}
+LENT = "FUNCTION_BLOCK L VAR_IN_OUT z : INT; END_VAR VAR_OUTPUT o : INT; END_VAR z := 9; END_FUNCTION_BLOCK "
+TYPES = {
+    "a type with a first value": ("TYPE T : INT := 5; END_TYPE", "to each variable, not to the type"),
+    "a colour with a first value": ("TYPE T : (Red, Green) := Green; END_TYPE", "not to the type"),
+    "two types of one name": ("TYPE T : (Red, Green); END_TYPE TYPE t : INT; END_TYPE", "with the name t"),
+    "a type named like ours": ("TYPE INT : (Red, Green); END_TYPE", "another type with the name INT"),
+    "a type named like a block": ("TYPE TON : (Red, Green); END_TYPE", "another type with the name TON"),
 }
 
 
@@ -63,6 +92,18 @@ def test_what_is_not_supported_is_refused(name: str) -> None:
     body, cause = REFUSED[name]
     said = refusal(HEAD + body + END)
     assert cause in said and said.startswith(("b.st:3:", "b.st:1: B calls"))
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_a_type_that_would_be_read_wrongly_is_refused(name: str) -> None:
+    text, cause = TYPES[name]
+    said = refusal(f"{text}\n{HEAD}y := 1;{END}")
+    assert cause in said and said.startswith("b.st:1:")
+
+
+def test_a_loop_that_lends_its_variable_is_refused() -> None:
+    body = "VAR l : L; i : INT; END_VAR FOR i := 1 TO 3 DO l(z := i); END_FOR"
+    assert "the loop writes its control variable i" in refusal(LENT + HEAD + body + END)
 
 
 def test_a_program_without_outputs_is_refused() -> None:
