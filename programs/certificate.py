@@ -22,6 +22,7 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
+from modeproof.kit.files import write_json, write_text
 from programs.bind import Binding
 from programs.product import OUTPUTS, RANGES, START, Node, Pair, Product, shown
 from programs.relations import KINDS, Relation
@@ -115,7 +116,6 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
 
     Raises Unjudged: the folder holds something else, or cannot be written.
     """
-    _empty(folder)
     try:
         texts = {owed.file: owed.text for owed in obligations(product)}
     except NotImplementedError as error:
@@ -138,12 +138,15 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
                 "reached_by": None if way is None else _run_written(way),
             }
         )
+    _empty(folder)
     try:
         for name, text in texts.items():
-            (folder / name).write_text(text, "utf-8")
-        (folder / NAME).write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", "utf-8")
-    except OSError as error:
-        raise Unjudged(f"{folder}: cannot be written: {error.strerror or error}") from None
+            write_text(folder / name, text)
+        write_json(folder / NAME, record)
+    except BaseException:  # half a certificate is none
+        for name in texts:
+            (folder / name).unlink(missing_ok=True)
+        raise
     return {pair: run for pair, run in ways.items() if run is not None}
 
 
@@ -268,6 +271,19 @@ def _unlike(product: Product, pair: Pair, run: Run) -> str:
     return ""
 
 
+def _outside(product: Product, run: Run) -> str:
+    """What scans start from or take that the claim is not about; nothing: it is about all of it."""
+    binding = product.binding
+    if not binding.allows(run.parameters):
+        return "their parameters are none of the claim"
+    for path, value in run.retained.items():
+        slot = product.every_slot[path]
+        if slot.initial is not None or not slot.type.low <= value <= slot.type.high:
+            return f"{path} is no RETAIN variable that may have {value}"
+    longest = max((dt_ms for dt_ms, _ in run.scans), default=0)
+    return "a scan is too long" if longest > (binding.longest_scan or longest) else ""
+
+
 def _run_written(run: Run) -> dict[str, Any]:
     return {
         "parameters": dict(run.parameters),
@@ -367,14 +383,13 @@ class Kept:
 
     def compare(self, texts: Mapping[str, str]) -> None:
         """Refuse a set of queries that is not the one that follows from the program. Raises Unjudged."""
-        stored = sorted(path.name for path in self.folder.glob("*.smt2"))
-        if stored != sorted(texts) or sorted(self.table("queries")) != sorted(texts):
-            odd = sorted(set(stored) ^ set(texts)) or ["the list in it"]
+        there = sorted(path.name for path in self.folder.glob("*.smt2"))
+        if there != sorted(texts) or sorted(self.table("queries")) != sorted(texts):
+            odd = sorted(set(there) ^ set(texts)) or ["the list in it"]
             raise self.refuse(f"the queries are not those that follow from the program: {odd[0]}")
         for name, text in texts.items():
-            if (self.folder / name).read_text("utf-8") != text or self.table("queries")[name] != _sha256(
-                text
-            ):
+            stored = (self.folder / name).read_bytes()
+            if stored != text.encode("utf-8") or self.table("queries")[name] != _sha256(text):
                 raise Unjudged(f"{self.folder / name}: not the obligation that follows from the program")
 
     def follow(self, product: Product, ways: Mapping[Pair, Run | None]) -> Sequence[Pair]:
@@ -382,7 +397,7 @@ class Kept:
         for pair, run in ways.items():
             if run is not None:
                 try:
-                    odd = _unlike(product, pair, run)
+                    odd = _outside(product, run) or _unlike(product, pair, run)
                 except (KeyError, TypeError, ValueError) as error:
                     odd = f"{error!r:.100}"
                 if odd:
@@ -397,7 +412,7 @@ def read(folder: Path) -> Kept:
         record = json.loads(path.read_text("utf-8"))
     except OSError as error:
         raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise Unjudged(f"{path}: no JSON: {error}") from None
     if not isinstance(record, dict) or record.get("format") != FORMAT or record.get("version") != VERSION:
         raise Unjudged(f"{path}: no certificate of a program, version {VERSION}")

@@ -146,7 +146,8 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     """What a verdict is about, in lines of a label and a text."""
     binding, signals = product.binding, product.binding.reference.signals("parameters")
     yield "compared", ", ".join(binding.compared)
-    yield "left out", ", ".join(binding.left_out) or "no output"
+    own = f"; of the program's own: {', '.join(binding.unasked)}" if binding.unasked else ""
+    yield "left out", (", ".join(binding.left_out) or "no output") + own
     narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
     free = []
     for name in binding.free_parameters:
@@ -214,6 +215,7 @@ def not_shown(found: Verdict) -> Iterator[str]:
     if found.missing:
         yield found.missing
     yield from (f"output {name}: it is not compared" for name in binding.left_out)
+    yield from (f"output {name} of the program: the target has none such" for name in binding.unasked)
     yield from (f"{name} other than {value}" for name, value in binding.values.items())
     yield from (f"parameters outside {text}" for text in binding.narrowed())
     if binding.longest_scan is not None:

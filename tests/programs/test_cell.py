@@ -177,32 +177,6 @@ def test_a_value_out_of_its_type_proves_nothing() -> None:
     assert words(verdict("m := n + 1; q := a;", "holds = 'q'\nonly_if = 'a'", wrap=True))[1] == "PROVED"
 
 
-def test_a_loop_longer_than_ours_refutes_nothing() -> None:
-    body = "i := 0; WHILE i < n DO i := i + 1; END_WHILE q := a;"
-    with pytest.raises(Unjudged, match="p.st:4: not so: the loop ends after 32 turns at most"):
-        verdict(body, "never = 'q AND NOT a'", "VAR i : INT; END_VAR")
-
-
-@pytest.mark.parametrize(
-    ("function", "cause"),
-    [
-        ("VAR_INPUT x : BOOL; END_VAR f := f(x);", "f calls f: a block must not contain itself"),
-        ("VAR_INPUT x : BOOL; END_VAR VAR t : TON; END_VAR f := x;", "t: a FUNCTION has inputs and plain"),
-        ("VAR_INPUT x : ARRAY [0..1] OF BOOL; END_VAR f := TRUE;", "inputs and result of a FUNCTION"),
-    ],
-)
-def test_a_function_of_a_property_is_looked_through(function: str, cause: str) -> None:
-    text = (
-        f"FUNCTION f : BOOL {function} END_FUNCTION\n"
-        "PROGRAM P VAR_OUTPUT q : BOOL; END_VAR q := TRUE; END_PROGRAM"
-    )
-    source = Source({unit.name.upper(): unit for unit in read_text(text, "p.st")}, {})
-    with pytest.raises(Unjudged, match=cause):
-        asked("[[property]]\nid = 'x'\nsentence = 's'\nnever = 'f(q)'\n").asked(
-            Cell.of(source, source.units["P"])
-        )
-
-
 def test_a_bound_is_never_called_a_proof(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(property, "induction", lambda *given: None)
     monkeypatch.setattr(property, "spacer", lambda *given: None)

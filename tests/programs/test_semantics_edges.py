@@ -96,7 +96,6 @@ def test_a_word_as_a_number_has_its_bits() -> None:
     assert once("DINT", "WORD_TO_DINT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == 65535
     assert once("INT", "WORD_TO_INT(16#FFFF)") == -1
     assert once("INT", "BYTE_TO_INT(NOT 16#0F)") == 0xF0
-    assert once("DINT", "DWORD_TO_DINT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == 65535
     assert once("WORD", "INT_TO_WORD(x)", x=-2) == 0xFFFE
 
 

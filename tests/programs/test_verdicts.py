@@ -288,6 +288,9 @@ def test_flags_that_tell_states_apart_are_found(tmp_path: Path) -> None:
         ("[name]\n", "unknown key 'name'; did you mean 'names'"),
         (f"left_out = {EDM_OUTPUTS}\n", "no output is compared"),
         ("[names]\nS_EDM1 = 'S_EDM2'\n", "are both bound to S_EDM2"),
+        ("[names]\ndt_ms = 'MonitoringTime'\n", "MonitoringTime_ms and dt_ms are both bound"),
+        ("[names]\nError = 'Ready'\n", "Ready and Error are both bound to READY"),
+        ("left_out = ['Ready']\n[names]\nReady = 'Redy'\n", "under .names. and under left_out"),
     ],
 )
 def test_a_binding_that_cannot_be_right_is_refused(text: str, cause: str, tmp_path: Path) -> None:
@@ -295,6 +298,13 @@ def test_a_binding_that_cannot_be_right_is_refused(text: str, cause: str, tmp_pa
     path.write_text(text, "utf-8")
     with pytest.raises(Unjudged, match=cause):
         make([EDM], "sf_edm", binding=read_binding(path))
+
+
+def test_an_output_of_nobody_is_named(tmp_path: Path) -> None:
+    path = changed(tmp_path, "Ready : BOOL;", "Ready : BOOL; Spare : BOOL;")
+    found = judged(path, "sf_edm", binding={"left_out": ("DiagCode",)})
+    assert "  left out    DiagCode; of the program's own: Spare" in text_of(found, 1)
+    assert "output Spare of the program: the target has none such" in record_of(found, 1, {})["not_shown"]
 
 
 def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:
