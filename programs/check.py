@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from modeproof.ground.errors import suggestion
 from programs.calls import called_functions, check_function, in_outs, inner_bodies, sides
+from programs.length import check_length
 from programs.standard import BLOCKS
 from programs.tree import (
     Array,
@@ -51,15 +52,22 @@ def check_below(source: Source, unit: Unit) -> None:
     for found in every:
         if found.kind == "function":
             check_function(found)
+    check_length(source, unit)
     for found in every:
         _Statements(source, found).body(found.body)
 
 
 def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit]:
     """The unit and every unit that it has an instance of, each once."""
+    return _reached(source, unit, above, set())
+
+
+def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str]) -> Iterator[Unit]:
     if unit.name in above or len(above) > DEEPEST:
         raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
-    seen = {unit.name}
+    if unit.name in seen:
+        return
+    seen.add(unit.name)
     yield unit
     named = (source.units.get(name) for name in called_functions(unit.body))
     below = [found for found in named if found is not None and found.kind == "function"]
@@ -78,10 +86,8 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
             below.append(instance)
         if isinstance(kind, Instance) and variable.section != "var":
             raise variable.place.refuse(f"{variable.name}: an instance of a block stands in VAR here")
-    for found in (found for inner in below for found in reached(source, inner, (*above, unit.name))):
-        if found.name not in seen:
-            seen.add(found.name)
-            yield found
+    for inner in below:
+        yield from _reached(source, inner, (*above, unit.name), seen)
 
 
 class _Statements(Types):

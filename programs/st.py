@@ -210,7 +210,10 @@ class _Reader(Bodies):
             for node in nodes:
                 if node.type == "array_repetition":
                     count, *rest = self.named(node)
-                    values += [self.single(part, declared.element) for part in rest] * self.constant(count)
+                    times = self.constant(count)
+                    if not 0 < times <= LONGEST:
+                        raise self.refuse(node, f"{times} times: 1 to {LONGEST:,} are possible")
+                    values += [self.single(part, declared.element) for part in rest] * times
                 else:
                     values.append(self.single(node, declared.element))
             if len(values) > declared.high - declared.low + 1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import ctypes
 import importlib
 import math
 from pathlib import Path
@@ -77,4 +78,13 @@ def run(args: argparse.Namespace) -> int:
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
     room = "command" if args.property is None else "property_command"
-    return int(proofs_module(f"programs.{room}").run(args))
+    try:
+        return int(proofs_module(f"programs.{room}").run(args))
+    except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
+        if "recursion" not in f"{type(error).__name__} {error}".lower():
+            raise
+        files = ", ".join(map(str, args.files or [args.recheck]))
+        raise Unjudged(
+            f"{files}: an expression, or a list of ELSIF, CASE or RETURN, is too long or too deep for this "
+            "reader; split it"
+        ) from None

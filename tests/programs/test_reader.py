@@ -67,6 +67,14 @@ REFUSED = {
         "VAR a : ARRAY [0..1] OF ARRAY [0..1] OF INT; END_VAR y := 1;",
         "a: an array of arrays is not supported",
     ),
+    "too many first values": (
+        "VAR a : ARRAY [0..3] OF INT := [999999999(1)]; END_VAR y := 1;",
+        "999999999 times: 1 to 1,000 are possible",
+    ),
+    "fewer than no first values": (
+        "VAR a : ARRAY [0..3] OF INT := [0(1), 2]; END_VAR y := 1;",
+        "0 times: 1 to 1,000 are possible",
+    ),
     "a missing end": ("y := x", "';' is missing"),
 }
 LENT = "FUNCTION_BLOCK L VAR_IN_OUT z : INT; END_VAR VAR_OUTPUT o : INT; END_VAR z := 9; END_FUNCTION_BLOCK "
@@ -99,6 +107,40 @@ def test_a_type_that_would_be_read_wrongly_is_refused(name: str) -> None:
     text, cause = TYPES[name]
     said = refusal(f"{text}\n{HEAD}y := 1;{END}")
     assert cause in said and said.startswith("b.st:1:")
+
+
+TWICE = (
+    "FUNCTION_BLOCK B{0} VAR_OUTPUT o : INT; END_VAR VAR x, y : B{1}; END_VAR {2} END_FUNCTION_BLOCK "
+    "FUNCTION F{0} : INT VAR_INPUT v : INT; END_VAR F{0} := F{1}(v) + F{1}(v); END_FUNCTION "
+)
+LAST = (
+    "FUNCTION_BLOCK B18 VAR_OUTPUT o : INT; END_VAR o := 1; END_FUNCTION_BLOCK "
+    "FUNCTION F18 : INT VAR_INPUT v : INT; END_VAR F18 := v; END_FUNCTION "
+)
+
+
+@pytest.mark.parametrize(
+    ("body", "calls", "cause"),
+    [
+        ("WHILE x > 0 DO " * 6 + "y := 1;" + "END_WHILE " * 6, "", "statements in a scan"),
+        ("FOR y := 0 TO 999 DO FOR z := 0 TO 999 DO ; END_FOR END_FOR", "", "1,001,001 statements in a scan"),
+        ("b();", "x(); y();", "statements in a scan"),
+        ("y := 1;", "o := 1;", "instances of blocks; at most 20,000"),
+        ("y := F0(x);", "o := 1;", "statements in a scan"),
+    ],
+)
+def test_a_scan_without_end_is_refused_at_once(body: str, calls: str, cause: str) -> None:
+    below = "".join(TWICE.format(n, n + 1, calls) for n in range(18)) + LAST if calls else ""
+    declared = "VAR z : INT; b : B0; END_VAR " if calls else "VAR z : INT; END_VAR "
+    assert cause in refusal(below + HEAD + declared + body + END)
+
+
+def test_what_is_too_deep_is_refused_in_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "b.st"
+    path.write_text(HEAD + "y := " + " + ".join(["x"] * 1500) + ";" + END, "utf-8")
+    assert main(["prove-program", str(path), "--target", "sf_edm"]) == 2
+    said = capsys.readouterr().err
+    assert "b.st: an expression, or a list of ELSIF, CASE or RETURN, is too long" in said
 
 
 def test_a_loop_that_lends_its_variable_is_refused() -> None:
