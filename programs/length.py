@@ -26,7 +26,7 @@ def check_length(source: Source, unit: Unit) -> None:
 
 @dataclass
 class _Lengths:
-    """The lengths of units by their names, and of statements by their identity: turns of a loop share theirs."""
+    """Lengths of units by their names, of statements by identity: the turns of a loop share theirs."""
 
     source: Source
     units: dict[str, int] = field(default_factory=dict)
@@ -69,7 +69,8 @@ class _Lengths:
                 inner += 0 if own is None else self.unit(own)
             case For(_, start, end, step, _, _):
                 by = 1 if step is None else types.constant(step)
-                inner *= abs(types.constant(end) - types.constant(start)) // max(1, abs(by)) + 1
+                turns = abs(types.constant(end) - types.constant(start)) // max(1, abs(by)) + 1
+                inner = turns * (inner + 1)
         functions = [self.source.units.get(name) for name in called_functions(expressions)]
         found = 1 + inner + sum(self.unit(one) for one in functions if one is not None)
         self.statements[key] = found

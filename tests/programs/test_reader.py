@@ -123,7 +123,7 @@ LAST = (
     ("body", "calls", "cause"),
     [
         ("WHILE x > 0 DO " * 6 + "y := 1;" + "END_WHILE " * 6, "", "statements in a scan"),
-        ("FOR y := 0 TO 999 DO FOR z := 0 TO 999 DO ; END_FOR END_FOR", "", "1,001,001 statements in a scan"),
+        ("FOR y := 0 TO 999 DO FOR z := 0 TO 999 DO ; END_FOR END_FOR", "", "1,002,001 statements in a scan"),
         ("b();", "x(); y();", "statements in a scan"),
         ("y := 1;", "o := 1;", "instances of blocks; at most 20,000"),
         ("y := F0(x);", "o := 1;", "statements in a scan"),
