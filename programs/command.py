@@ -220,6 +220,8 @@ def not_shown(found: Verdict) -> Iterator[str]:
     yield from (f"parameters outside {text}" for text in binding.narrowed())
     if binding.longest_scan is not None:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
+    if found.product.wrap:
+        yield "whether numbers stay within their types: they wrap"
     yield "what the compiler and the PLC make of the source"
 
 

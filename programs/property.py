@@ -62,9 +62,13 @@ class Judgement:
 
     def all(self) -> list[Found]:
         """The verdict on each, that on types first."""
-        types = Asked(
-            TYPES, "The program stays within its types.", "no overflow, division by 0, wrong index", None
-        )
+        sentence, text = "The program stays within its types.", "no overflow, division by 0, wrong index"
+        if self.cell.wrap:
+            sentence, text = (
+                "The program does what its types allow.",
+                "no division by 0, wrong index; numbers wrap",
+            )
+        types = Asked(TYPES, sentence, text, None)
         found = []
         for asked in (types, *self.asked):
             self.tell(asked.id)
