@@ -163,6 +163,11 @@ class Binding:
             raise self.unit.place.refuse(f"{name} is {low}..{high}, and {kind.name} {kind.low}..{kind.high}")
         if kind.kind == "enum" and kind.high != high:
             raise self.unit.place.refuse(f"{name} has {high + 1} values, and {kind.name} has {kind.high + 1}")
+        ours, own = [value.upper() for value in signal.values], [value.upper() for value in kind.names]
+        if ours != own and sorted(ours) == sorted(own):
+            raise self.unit.place.refuse(
+                f"{name} counts {', '.join(signal.values)}, and {kind.name} otherwise"
+            )
 
     @property
     def bound_paths(self) -> tuple[str, ...]:

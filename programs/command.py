@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -56,6 +57,8 @@ def run(args: argparse.Namespace) -> int:
     seconds = time.process_time() - started
     print("\n".join([*text_of(found, seconds), *lines]))
     record = record_of(found, seconds, ways)
+    if args.binding is not None:
+        record["binding_file"] = {str(args.binding): hashlib.sha256(args.binding.read_bytes()).hexdigest()}
     write_record(root(), record, args.json)
     if args.junit is not None:
         said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
