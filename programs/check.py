@@ -108,7 +108,8 @@ class _Statements(Types):
                     kind = self.scalar(subject, place, ("int", "enum", "bits"))
                     for ranges, inner in clauses:
                         for end in (end for pair in ranges for end in pair):
-                            if self.scalar(end, place, (kind.kind,), kind).kind != kind.kind:
+                            label = self.scalar(end, place, (kind.kind,), kind)
+                            if kind.kind == "enum" and label != kind:
                                 raise place.refuse("a label of CASE is of another type")
                             self.constant(end)
                         self.body(inner)

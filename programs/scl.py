@@ -1,7 +1,8 @@
 """Siemens SCL into Structured Text: a pass over the text that keeps every line where it is.
 
-`#name` and, in declarations and calls, `"name"` become names; REGION lines, attributes in braces, VERSION, TITLE and BEGIN go; TON_TIME
-is TON, and W#16#FF is WORD#16#FF. Comments and strings are left alone. The rest is Structured Text.
+`#name` and, in declarations and calls, `"name"` become names; REGION lines, attributes in braces, VERSION,
+TITLE and BEGIN go; TON_TIME is TON, and W#16#FF is WORD#16#FF. Comments and strings are left alone. The rest
+is Structured Text.
 """
 
 from __future__ import annotations

@@ -197,6 +197,8 @@ class _Reader(Bodies):
                 if value is not None and self.constant(value) != number:
                     raise self.refuse(member, "an enumeration counts from 0 by 1 here")
                 names.append(self.text(self.field(member, "name")))
+                if names[-1].upper() in map(str.upper, names[:-1]):
+                    raise self.refuse(member, f"{names[-1]} stands twice in an enumeration")
             return Scalar(
                 name or f"enum at line {node.start_point[0] + 1}", "enum", 0, len(names) - 1, tuple(names)
             )

@@ -59,6 +59,9 @@ class Types:
         if isinstance(expression, Member) and isinstance(expression.of, Name):
             for kind in self._enumerations():
                 if kind.name.upper() == expression.of.name.upper() and expression.name in kind.names:
+                    variable = self.unit.variables.get(kind.name.upper())
+                    if variable is not None and isinstance(variable.type, Instance):
+                        raise expression.place.refuse(f"{kind.name} is a type and an instance; rename one")
                     return kind, kind.names.index(expression.name)
         return None
 

@@ -75,6 +75,14 @@ REFUSED = {
         "VAR a : ARRAY [0..3] OF INT := [0(1), 2]; END_VAR y := 1;",
         "0 times: 1 to 1,000 are possible",
     ),
+    "a label of another enumeration": (
+        "VAR s : (Red, Green); t : (Green, Red, Blue); END_VAR CASE t OF Green: y := 1; END_CASE",
+        "a label of CASE is of another type",
+    ),
+    "a member that stands twice": (
+        "VAR s : (Red, RED); END_VAR y := 1;",
+        "RED stands twice in an enumeration",
+    ),
     "a missing end": ("y := x", "';' is missing"),
 }
 LENT = "FUNCTION_BLOCK L VAR_IN_OUT z : INT; END_VAR VAR_OUTPUT o : INT; END_VAR z := 9; END_FUNCTION_BLOCK "
@@ -100,6 +108,12 @@ def test_what_is_not_supported_is_refused(name: str) -> None:
     body, cause = REFUSED[name]
     said = refusal(HEAD + body + END)
     assert cause in said and said.startswith(("b.st:3:", "b.st:1: B calls"))
+
+
+def test_a_type_and_an_instance_of_one_name_are_refused() -> None:
+    types = "TYPE T : (Q1, R); END_TYPE "
+    said = refusal(f"{types}{HEAD}VAR t : SR; z : T; END_VAR z := T.Q1;{END}")
+    assert said == "b.st:3: T is a type and an instance; rename one"
 
 
 @pytest.mark.parametrize("name", TYPES)

@@ -309,7 +309,7 @@ def test_an_enumeration_in_another_order_is_refused(tmp_path: Path) -> None:
     for kind in kinds:
         make([changed(tmp_path, "Activate : BOOL;", f"Activate : BOOL; AFTER_RESET : {kind};")], "sf_edm")
     path = changed(tmp_path, "Activate : BOOL;", "Activate : BOOL; AFTER_RESET : (At_once, Stop_first);")
-    with pytest.raises(Unjudged, match="AFTER_RESET counts stop_first, at_once, and"):
+    with pytest.raises(Unjudged, match="AFTER_RESET counts"):
         make([path], "sf_edm")
 
 
