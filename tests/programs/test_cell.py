@@ -297,6 +297,8 @@ def test_an_own_block_goes_before_the_document() -> None:
         ("VAR e : SF_EDM; t : TIME; END_VAR", "e(MonitoringTime := t);", "t: a constant is needed here"),
         ("VAR e : SF_EDM; END_VAR", "e(MonitoringTime := T#1s + T#1s);", "so it needs a constant"),
         ("VAR e : SF_EDM; END_VAR", "e(MonitoringTime := T#1s); e();", "other values in another call"),
+        ("VAR e : SF_EDM; END_VAR", "e(MonitoringTime := T#1s); E();", "other values in another call"),
+        ("VAR e : SF_EDM; END_VAR", "e.MonitoringTime := T#1s; e();", "is a parameter: give it in the call"),
         ("VAR e : SF_EDM; END_VAR", "e(MonitoringTime := T#2h);", "MonitoringTime_ms"),
         ("VAR e : SF_EDM; END_VAR", "e(S_EDM3 := a);", "has no S_EDM3; did you mean 'S_EDM2'"),
         ("VAR e : SF_EDN; END_VAR", "q := a;", "no type or block 'SF_EDN' is known"),
