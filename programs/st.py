@@ -42,6 +42,8 @@ SECTIONS = {
     "var_temp": "temp",
     "var_in_out": "in_out",
 }
+MOST_OPEN = 100
+"""Comments that begin and do not end."""
 STRUCTURE = "structures are not supported: declare each member as a variable of its own"
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
@@ -54,6 +56,10 @@ def read_text(text: str, file: str) -> list[Unit]:
     """The program units of one text. Raises Unjudged with file, line and cause."""
     text = _MEMBER.sub(lambda match: match[0] if match[1].upper() in _PREFIXES else f"{match[1]}.", text)
     text = _TIME.sub(lambda match: match[0].replace("_", ""), text)
+    last = text.rfind("*)") + 1
+    if text.count("(*", last) > MOST_OPEN:  # the grammar would look for the end of each of them
+        line = text.count("\n", 0, text.index("(*", last)) + 1
+        raise Place(file, line).refuse("a comment that begins here does not end")
     root = _PARSER.parse(text.encode("utf-8")).root_node
     if root.has_error:
         fault = next(_faults(root))

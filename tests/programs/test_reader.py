@@ -149,6 +149,10 @@ def test_a_scan_without_end_is_refused_at_once(body: str, calls: str, cause: str
     assert cause in refusal(below + HEAD + declared + body + END)
 
 
+def test_comments_without_end_are_refused_at_once() -> None:
+    assert refusal(HEAD + "y := 1;\n" + "(*" * 400_000) == "b.st:4: a comment that begins here does not end"
+
+
 def test_what_is_too_deep_is_refused_in_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "b.st"
     path.write_text(HEAD + "y := " + " + ".join(["x"] * 1500) + ";" + END, "utf-8")
