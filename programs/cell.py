@@ -16,7 +16,7 @@ import z3
 
 from programs.blocks import Block, check_parameters, with_blocks
 from programs.check import check, reached
-from programs.run import Frame, Machine, Overflow
+from programs.run import Frame, Limit, Machine, Overflow
 from programs.symbolic import Obligation, Translator
 from programs.terms import TRUE, Slot, in_range, slots, symbol
 from programs.tree import BOOL, Array, Expression, Source, Unit
@@ -188,6 +188,8 @@ class Cell:
         for number, (dt_ms, inputs) in enumerate(scans, 1):
             try:
                 machine.scan(self.plain_inputs(inputs), dt_ms)
+            except Limit:
+                raise
             except Overflow as error:
                 wrong = asked.holds is None
                 return Trace(retained, scans[:number], rows, error.message) if wrong else None
