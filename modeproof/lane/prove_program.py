@@ -65,7 +65,7 @@ def run(args: argparse.Namespace) -> int:
         )
     beside = {
         "recheck": ("binding", "unit", "wrap", "certificate", "vector", "junit", "json", "seconds"),
-        "property": ("certificate", "vector"),
+        "property": ("vector",),
     }
     for name in beside.get(asked[0], ()):
         if getattr(args, name) not in (None, False):
