@@ -87,6 +87,8 @@ def text_of(cell: Cell, found: Sequence[Found], seconds: float) -> Iterator[str]
     blocks = [f"{name} ({block.reference.document})" for name, block in cell.blocks.items()]
     yield f"  blocks      {', '.join(blocks) or 'none of the documents'}"
     yield f"  scans       of {_times(cell)}; every input, from power-up, for ever"
+    if cell.clock:
+        yield "  dt_ms       is the time since the scan before"
     if cell.wrap:
         yield f"  numbers     {WRAP}"
     for verdict in found:

@@ -76,3 +76,26 @@ def test_numbers_that_wrap_are_said() -> None:
     assert found[0].word == "PROVED" and "no overflow" not in found[0].asked.text
     lines = list(text_of(judge.cell, found, 1))
     assert any(line.startswith("  numbers     wrap") for line in lines)
+
+
+COUNT = (
+    "VAR_INPUT dt_ms : {}; END_VAR VAR since : DINT; END_VAR "
+    "IF a THEN since := MIN(since + dt_ms, 1000); ELSE since := 0; END_IF q := since >= 20;"
+)
+
+
+@pytest.mark.parametrize(("limit", "word"), [(29, "PROVED"), (18, "REFUTED")])
+def test_an_input_may_have_the_time_of_the_scan(limit: int, word: str) -> None:
+    row = f"after = 'a'\nwithin_ms = {limit}\nholds = 'q OR NOT a'"
+    judge = small(COUNT.format("DINT"), row)
+    found = judge.all()[1]
+    assert found.word == word and "  dt_ms       is the time since the scan before" in text_of(
+        judge.cell, [found], 1
+    )
+    if found.trace is not None:
+        assert all(inputs["DT_MS"] == dt_ms for dt_ms, inputs in found.trace.scans)
+
+
+def test_a_scan_longer_than_its_input_is_refused() -> None:
+    with pytest.raises(Unjudged, match=r"p\.st:4: dt_ms holds 127 ms at most"):
+        verdict(COUNT.format("SINT"), "never = 'q AND NOT a'", times="[1, 200]")
