@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping
+from copy import deepcopy
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
@@ -66,6 +67,12 @@ class Frame:
     def __init__(self, source: Source, unit: Unit) -> None:
         self.source, self.unit = source, unit
         self.types: Types = source.kept.setdefault(id(unit), Types(source, unit))
+        self.temporary = {
+            key: default(variable.type, variable.initial)
+            for key, variable in unit.variables.items()
+            if variable.section == "temp"
+        }
+        """What VAR_TEMP holds when a call begins."""
         self.values: dict[str, Any] = {}
         for key, variable in unit.variables.items():
             kind = variable.type
@@ -160,8 +167,8 @@ class Machine:
         if frame.unit.device is not None:
             frame.unit.device.call(frame, self.now)
             return
-        for name, variable in frame.unit.of("temp").items():
-            frame.values[name.upper()] = default(variable.type, variable.initial)
+        for key, value in frame.temporary.items():
+            frame.values[key] = value if isinstance(value, int) else deepcopy(value)
         with contextlib.suppress(_Returned):
             self.body(frame, frame.unit.body)
 
