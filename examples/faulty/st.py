@@ -110,9 +110,9 @@ def as_page(faults: Sequence[Fault], rows: Mapping[str, str]) -> str:
     lines = [
         "# Programs that are wrong in one place, judged by a proof",
         "",
-        "Each fault is one edit of a program in [Structured Text or SCL](../st), of a [function block diagram or a",
-        "ladder](../plcopen) or of [statement list](../awl): `st-`, `scl-`, `fbd-`, `ld-`, `stl-`. [`st.toml`](st.toml)",
-        "has the edits.",
+        "Each fault is one edit of a program in [Structured Text or SCL](../st) (`st-`, `scl-`), of",
+        "[a function block diagram or a ladder](../plcopen) (`fbd-`, `ld-`), or of",
+        "[statement list](../awl) (`stl-`). [`st.toml`](st.toml) has the edits.",
         "",
         "```",
         ".venv/bin/python examples/faulty/st.py",
