@@ -316,12 +316,18 @@ class Binding:
                 found[path] = given[name]
         return found
 
+    @cached_property
+    def _taken(self) -> dict[str, tuple[str, Signal]]:
+        """For each output that is compared the program's variable, and the signal."""
+        signals = self.reference.signals("outputs")
+        return {name: (self._path(name, "output") or "", signals[name]) for name in self.compared}
+
     def plain_outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The interpreter's outputs by the names of the document."""
         by_key = {name.upper(): value for name, value in own.items()}
         found = {}
-        for name in self.compared:
-            value, signal = by_key[self._path(name, "output") or ""], self.reference.signals("outputs")[name]
+        for name, (path, signal) in self._taken.items():
+            value = by_key[path]
             if signal.type == "modes":
                 found[name] = tuple(value)
             elif signal.type == "text" and 0 <= value < len(signal.values):

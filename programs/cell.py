@@ -163,7 +163,7 @@ class Cell:
         """The expression after a scan. Raises Unjudged: a value in it could leave its type."""
         own = Translator(self.source, self.unit, self.wrap)
         term = Context(own, self.types, "").value(expression, dict(self.after), TRUE, BOOL)
-        if any(not z3.is_true(z3.simplify(owed.formula)) for owed in own.obligations):
+        if any(not _follows(owed.formula) for owed in own.obligations):
             raise expression.place.refuse(
                 "a value here could leave its type; compute it in the program and name the variable"
             )
@@ -260,6 +260,8 @@ class Cell:
         return tuple(path for path, slot in self.slots.items() if slot.initial is None)
 
 
+LIMIT_MS = 2_000
+"""For the question whether a value in a property stays within its type."""
 Scans = list[tuple[int, Mapping[str, Any]]]
 
 
@@ -292,6 +294,14 @@ class Judge:
         late = self.waits and self.since > asked.within_ms
         self.waits = (self.waits or trigger) and not true
         return late
+
+
+def _follows(formula: z3.BoolRef) -> bool:
+    """Whether a formula is true of all values."""
+    solver = z3.Solver()
+    solver.set("timeout", LIMIT_MS)
+    solver.add(z3.Not(formula))
+    return bool(solver.check() == z3.unsat)
 
 
 def _is_input(slot: Slot) -> bool:

@@ -182,6 +182,8 @@ def _values(frame: Frame, above: str, now: int) -> Iterator[tuple[str, Any]]:
     if frame.unit.device is not None:
         yield f"{above}age", now - frame.since
     for key, value in frame.values.items():
+        if key in frame.temporary:
+            continue
         path = f"{above}{key}"
         if isinstance(value, Frame):
             yield from _values(value, f"{path}.", now)

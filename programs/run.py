@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Mapping
+from copy import deepcopy
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from programs.calls import in_outs, own_arguments
+from programs.ready import ready
 from programs.standard import arguments, converted_from
 from programs.tree import (
     Array,
@@ -67,7 +69,14 @@ class Frame:
     """The memory of one unit: its variables, and below them those of its instances."""
 
     def __init__(self, source: Source, unit: Unit) -> None:
-        self.source, self.unit, self.types = source, unit, Types(source, unit)
+        self.source, self.unit = source, unit
+        self.types: Types = source.kept.setdefault(id(unit), Types(source, unit))
+        self.temporary = {
+            key: default(variable.type, variable.initial)
+            for key, variable in unit.variables.items()
+            if variable.section == "temp"
+        }
+        """What VAR_TEMP holds when a call begins."""
         self.values: dict[str, Any] = {}
         for key, variable in unit.variables.items():
             kind = variable.type
@@ -162,8 +171,8 @@ class Machine:
         if frame.unit.device is not None:
             frame.unit.device.call(frame, self.now)
             return
-        for name, variable in frame.unit.of("temp").items():
-            frame.values[name.upper()] = default(variable.type, variable.initial)
+        for key, value in frame.temporary.items():
+            frame.values[key] = value if isinstance(value, int) else deepcopy(value)
         with contextlib.suppress(_Returned):
             self.body(frame, frame.unit.body)
 
@@ -263,19 +272,20 @@ class Machine:
 
     def value(self, frame: Frame, expression: Expression, wanted: Scalar | None = None) -> Any:
         """The value of an expression."""
-        if (member := frame.types.enum_member(expression)) is not None:
-            return member[1]
+        kept, key = self.source.kept, (id(frame.unit), id(expression), id(wanted))
+        if key not in kept:
+            kept[key] = ready(frame.types, expression, wanted), expression, wanted
+        return kept[key][0](self, frame)
+
+    def worked_out(self, frame: Frame, expression: Expression, wanted: Scalar | None) -> Any:
+        """The value of an expression that `ready` leaves to this."""
+        if isinstance(expression, Name | Member | Index):
+            return self.read(frame, expression)
         kind = frame.types.of(expression, wanted)
-        match expression:
-            case Literal(value, _, _):
-                return bool(value) if isinstance(kind, Scalar) and kind.kind == "bool" else int(value)
-            case Name() | Member() | Index():
-                return self.read(frame, expression)
         assert isinstance(kind, Scalar)
         match expression:
             case Unary("NOT", operand, _):
-                value = self.value(frame, operand, wanted)
-                return not value if kind.kind == "bool" else kind.high ^ value
+                return kind.high ^ self.value(frame, operand, wanted)
             case Unary(_, operand, place):
                 return self.ranged(-self.value(frame, operand, wanted), kind, place)
             case Binary():
@@ -285,28 +295,9 @@ class Machine:
         raise AssertionError(expression)
 
     def binary(self, frame: Frame, node: Binary, kind: Scalar, wanted: Scalar | None) -> Any:
-        compares = node.operator in ("=", "<>", "<", "<=", ">", ">=")
-        first, second = frame.types.pair(node.left, node.right, node.place, None if compares else wanted)
+        first, second = frame.types.pair(node.left, node.right, node.place, wanted)
         left, right = self.value(frame, node.left, first), self.value(frame, node.right, second)
         match node.operator:
-            case "=":
-                return left == right
-            case "<>":
-                return left != right
-            case "<":
-                return left < right
-            case "<=":
-                return left <= right
-            case ">":
-                return left > right
-            case ">=":
-                return left >= right
-            case "AND":
-                return left & right
-            case "OR":
-                return left | right
-            case "XOR":
-                return left ^ right
             case "+W" | "-W":
                 return (left + (right if node.operator == "+W" else -right)) & kind.high
             case "+":

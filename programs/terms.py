@@ -217,13 +217,13 @@ def rotated(term: Any, by: int) -> Any:
 
 
 def merge(env: Env, condition: z3.BoolRef, yes: Env, no: Env) -> None:
-    for key in {**yes, **no}:
-        if key in yes and key in no:
-            env[key] = choose(condition, yes[key], no[key])
+    for key, term in yes.items():
+        if key in no:
+            env[key] = choose(condition, term, no[key])
 
 
 def choose(condition: z3.BoolRef, yes: Any, no: Any) -> Any:
-    if z3.is_true(condition) or yes.eq(no):
+    if yes is no or z3.is_true(condition) or yes.eq(no):
         return yes
     return no if z3.is_false(condition) else z3.If(condition, yes, no)
 

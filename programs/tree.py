@@ -289,6 +289,8 @@ class Source:
     """The SHA-256 of each file."""
     refused: Mapping[str, Unjudged] = field(default_factory=dict)
     """Units and types that are there and cannot be read, by their names in upper case."""
+    kept: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
+    """What the interpreter has made ready of these units, by their identity."""
 
     def find(self, name: str) -> Unit | None:
         """The unit with this name; None: there is none. Raises Unjudged: it cannot be read."""
