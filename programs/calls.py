@@ -112,8 +112,9 @@ def handed_to_function(unit: Unit, call: Call) -> tuple[Pairs, Pairs]:
     """`handed` for a FUNCTION: every input and VAR_IN_OUT is given."""
     ins = [*unit.of("input"), *unit.of("in_out")]
     outs = [name for name in unit.of("output") if name.upper() != unit.name.upper()]
-    why = f"{unit.name} has VAR_IN_OUT" if unit.of("in_out") else ""
-    inputs, outputs = handed(call, ins, [] if outs else outs, why)
+    doubtful = unit.of("in_out") or not _in_order(unit)
+    why = f"{unit.name} has VAR_IN_OUT, or outputs before inputs" if doubtful else ""
+    inputs, outputs = handed(call, ins, outs, why)
     given = [name.upper() for name, _ in inputs]
     if sorted(given) != sorted(name.upper() for name in ins):
         raise call.place.refuse(f"the arguments of {unit.name} are {', '.join(ins) or 'none'}")

@@ -244,6 +244,10 @@ class Types:
 
     def own(self, node: Function, unit: Unit) -> Scalar:
         """The type of the result of a FUNCTION, after a look at its arguments."""
+        if unit.name.upper() not in unit.variables:
+            raise node.place.refuse(f"{unit.name} has no result: call it as a statement")
+        if unit.of("in_out"):
+            raise node.place.refuse(f"{unit.name} has VAR_IN_OUT: it is called as a statement here")
         for key, expression in own_arguments(node, unit).items():
             wanted = unit.variables[key].type
             assert isinstance(wanted, Scalar)
@@ -254,10 +258,6 @@ class Types:
             assert isinstance(given, Scalar)
             if wanted.kind == "bits" and given.high > wanted.high:
                 raise node.place.refuse(f"{unit.variables[key].name} := {given.name} needs a conversion")
-        if unit.name.upper() not in unit.variables:
-            raise node.place.refuse(f"{unit.name} has no result: call it as a statement")
-        if unit.of("in_out"):
-            raise node.place.refuse(f"{unit.name} has VAR_IN_OUT: it is called as a statement here")
         result = unit.variables[unit.name.upper()].type
         assert isinstance(result, Scalar)
         return result.base or result
