@@ -156,7 +156,10 @@ def caller(unit: Unit) -> Unit:
     }
     given = tuple((found.name, Name(found.name, place)) for found in variables.values())
     body: Statement
-    if unit.kind == "function":
+    if unit.kind == "function" and (unit.of("in_out") or unit.name.upper() not in unit.variables):
+        variables["DONE"] = Variable("DONE", BOOL, "output", None, place)
+        body = Call(Name(unit.name, place), given, (), place)
+    elif unit.kind == "function":
         result = unit.variables[unit.name.upper()].type
         variables["RESULT_OF_CALL"] = Variable("RESULT_OF_CALL", result, "output", None, place)
         called = Function(unit.name.upper(), tuple((name.upper(), value) for name, value in given), place)

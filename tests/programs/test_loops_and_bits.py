@@ -38,7 +38,7 @@ from tests.programs.small_blocks import END, HEAD, INT, given
             [4, 5],
         ),
         (
-            "y := 0; i := y; REPEAT i := i + 1; IF i = x THEN CONTINUE; END_IF y := i; UNTIL i > 2 END_REPEAT",
+            "y := 0; i := 0; REPEAT i := i + 1; IF i=x THEN CONTINUE; END_IF y := i; UNTIL i > 2 END_REPEAT",
             [2, 3],
         ),
         ("i := 0; REPEAT i := i + 1; IF i = x THEN RETURN; END_IF y := i; UNTIL i >= 5 END_REPEAT", [2, 5]),
