@@ -121,7 +121,7 @@ class _Reader(Bodies):
                 if unit.name.upper() in self.types:
                     raise unit.place.refuse(f"there is a type with the name {unit.name}")
                 yield unit
-            elif node.type != "pragma":
+            else:
                 raise self.refuse(node)
 
     def define(self, definition: Any, namespace: str) -> None:

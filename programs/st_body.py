@@ -88,7 +88,7 @@ class Bodies:
     # ------------------------------------------------------------ statements
 
     def body(self, nodes: Iterable[Any]) -> Body:
-        return tuple(self.statement(node) for node in nodes if node.type not in ("empty_statement", "pragma"))
+        return tuple(self.statement(node) for node in nodes if node.type != "empty_statement")
 
     def statement(self, node: Any) -> Statement:
         self.read += 1
