@@ -14,7 +14,8 @@ from modeproof.kit.vectors import open_suite
 from programs.bind import Binding
 from programs.product import Pair, Product
 from programs.relations import Values
-from programs.run import Frame, Machine, Overflow, Standard
+from programs.run import Frame, Machine, Overflow
+from programs.run_standard import Standard
 
 SUITES = ("sequences", "times", "brief")
 MOST_SCANS = 6_000

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from programs import run, terms
+from programs import run_standard, terms
 from tests.programs.fuzz import difference_of_text
 from tests.programs.small_blocks import BOOL, END, HEAD, INT, given, ready, refusal
 
@@ -77,14 +77,14 @@ def test_a_counter_stands_still_at_its_limit(block: str, first: int, pins: str, 
 
 
 def test_another_rule_for_both_edges_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    right = run.Standard.count
+    right = run_standard.Standard.count
 
     def wrong(self: Any, own: Any) -> None:
         edges = own["CU"] and own["CD"] and not self.up and not self.down
         right(self, own)
         own["CV"] += int(edges)
 
-    monkeypatch.setattr(run.Standard, "count", wrong)
+    monkeypatch.setattr(run_standard.Standard, "count", wrong)
     text = f"{HEAD}VAR_OUTPUT y : INT; END_VAR VAR c : CTUD; END_VAR c(CU := in, CD := on); y := c.CV;{END}"
     assert " the term gives " in difference_of_text(text, 2, 60)
 
