@@ -97,7 +97,10 @@ class Collection:
     @cached_property
     def units(self) -> dict[str, Unit | str]:
         """Each block that was read, or why not, by its name; functions as far as they are supported."""
-        types = "\n".join(piece.plain for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
+        known = {
+            _type_name(piece.text): piece for piece in self.pieces if piece.kind == "TYPE" and _reads(piece)
+        }
+        types = "\n".join(piece.plain for piece in known.values())
         found: dict[str, Unit | str] = {}
         for piece in self.pieces:
             if piece.kind not in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
@@ -184,6 +187,12 @@ def _name(text: str) -> str:
         r"\b(?:FUNCTION_BLOCK|PROGRAM|FUNCTION)\s+(?:PUBLIC\s+|INTERNAL\s+)?\"?(\w+)", text, re.I
     )
     return found[1] if found else "?"
+
+
+def _type_name(text: str) -> str:
+    """The first name that a text with types declares; a collection may declare a type in several files."""
+    found = re.search(r"\bTYPE\s+(\w+)", text, re.I)
+    return found[1].upper() if found else text
 
 
 def _cause(error: Unjudged) -> str:
