@@ -13,7 +13,7 @@ from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
 from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
-from programs import certificate
+from programs import certificate, folder
 from programs.bind import Binding, read_binding
 from programs.check import check
 from programs.output import Case, junit_of, vector_of, write_record
@@ -244,8 +244,8 @@ def record_of(found: Verdict, seconds: float, ways: Mapping[Pair, Run]) -> dict[
         "unit": binding.unit.name,
         "sources": dict(binding.source.files),
         "target": binding.reference.device.name,
-        "reference": certificate.reference_files(binding.reference.document),
-        "tools": certificate.tools(),
+        "reference": folder.reference_files(binding.reference.document),
+        "tools": folder.tools(),
         "trusted": list(TRUSTED),
         "not_shown": list(not_shown(found)),
         "states": states(found.product, ways),

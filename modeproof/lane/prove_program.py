@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
         )
     beside = {
         "recheck": ("binding", "unit", "wrap"),
-        "property": ("certificate", "vector"),
+        "property": ("vector",),
     }
     for name in beside.get(asked[0], ()):
         if getattr(args, name):

@@ -16,6 +16,7 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs import certificate
 from programs.command import make
+from programs.folder import NAME, digest, digest_of
 from programs.recheck import recheck
 from programs.relations import Relation
 from programs.verdict import Verdict, judge
@@ -49,18 +50,18 @@ def folder(tmp_path: Path) -> Path:
 
 def record_of(folder: Path) -> Any:
     """certificate.json as it stands."""
-    return json.loads((folder / certificate.NAME).read_text("utf-8"))
+    return json.loads((folder / NAME).read_text("utf-8"))
 
 
 def keep(folder: Path, record: Any) -> None:
     """Put another record in its place."""
-    (folder / certificate.NAME).write_text(json.dumps(record), "utf-8")
+    (folder / NAME).write_text(json.dumps(record), "utf-8")
 
 
 def written_anew(folder: Path, spoil: Callable[[Any], None]) -> None:
     """A cheat that is consistent: the relations or pairs are spoilt, and the queries made to go with them."""
     kept = certificate.read(folder)
-    product = make(kept.sources, "plc")
+    product = make(kept.files("sources"), "plc")
     kept.fill(product)
     spoil(product)
     replayed = proved().replayed
@@ -71,7 +72,11 @@ def written_anew(folder: Path, spoil: Callable[[Any], None]) -> None:
 def test_a_certificate_is_shown_by_both_solvers(folder: Path) -> None:
     found = recheck(folder)
     assert found.status == 0 and not found.unreached
-    assert found.files == 5 and found.count >= 16 and set(found.answers) == {"z3", "cvc5"}
+    assert (
+        found.answers.files == 5
+        and found.answers.count >= 16
+        and set(found.answers.answers) == {"z3", "cvc5"}
+    )
     text = "\n".join(found.lines(0.0))
     assert text.startswith("PROVED, checked again: function block PLC") and "cvc5        5 of 5 files" in text
 
@@ -188,7 +193,7 @@ def test_a_weaker_query_is_refused(folder: Path) -> None:
     path = sorted(folder.glob("*.smt2"))[1]
     path.write_text(path.read_text("utf-8").replace("(push 1)", "(push 1)\n(assert false)", 1), "utf-8")
     record = record_of(folder)
-    record["queries"][path.name] = certificate._sha256(path.read_text("utf-8"))
+    record["queries"][path.name] = digest_of(path.read_text("utf-8"))
     keep(folder, record)
     with pytest.raises(Unjudged, match="not the obligation that follows from the program"):
         recheck(folder)
@@ -214,7 +219,7 @@ def test_a_changed_program_is_refused(folder: Path) -> None:
 def test_another_program_under_the_same_queries_is_refused(folder: Path) -> None:
     program, record = folder.parent / "plc.st", record_of(folder)
     program.write_text(program.read_text("utf-8").replace("MW03 := SelectMSO", "MW03 := SwitchMSO"), "utf-8")
-    record["sources"] = {str(program): certificate._digest(program)}
+    record["sources"] = {str(program): digest(program)}
     keep(folder, record)
     with pytest.raises(Unjudged, match=r"not the obligation that follows|the outputs differ on the way"):
         recheck(folder)
@@ -255,7 +260,7 @@ def test_consistent_cheats_are_not_shown(spoil: Callable[[Any], None], folder: P
         assert "do not lead there" in str(error) or "power-up" in str(error)
         return
     assert found.status == 1
-    assert all("sat" in answers.values() for answers in found.answers.values())
+    assert all("sat" in answers.values() for answers in found.answers.answers.values())
 
 
 def test_a_folder_with_other_files_is_not_emptied(tmp_path: Path) -> None:
