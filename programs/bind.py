@@ -156,6 +156,8 @@ class Binding:
             raise self.unit.place.refuse(
                 f"{name} is of type {signal.type}, and the program's is {shown}{advice}"
             )
+        if kind.numbers or (kind.base is not None and inward):
+            raise self.unit.place.refuse(f"{name}: {kind.name} has a range or numbers of its own")
         if kind.kind == "bits" and kind.width != 16:
             raise self.unit.place.refuse(f"{name} has 16 bits, and {kind.name} has {kind.width}")
         low, high = {"mode": (-1, 4), "text": (0, len(signal.values) - 1)}.get(signal.type, (0, 0))

@@ -16,7 +16,7 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers import Signal
-from programs.calls import inner_bodies
+from programs.calls import function_of, handed_to_block, inner_bodies
 from programs.reference import Reference, reference, targets
 from programs.standard import BLOCKS
 from programs.terms import INT, Env, Slot, choose
@@ -247,13 +247,15 @@ def check_parameters(source: Source, unit: Unit) -> None:
             if isinstance(device, Block) and device.pins[target.name.upper()][0] == "parameters":
                 raise target.place.refuse(f"{target.name} is a parameter: give it in the call, as a constant")
     for call in _calls(unit.body):
+        if function_of(source, unit, call) is not None:
+            continue
         kind = types.of(call.instance)
         own = source.units.get(kind.block.upper()) if isinstance(kind, Instance) else None
         device = None if own is None else own.device
-        if not isinstance(device, Block):
+        if not isinstance(device, Block) or not isinstance(kind, Instance):
             continue
         values = {}
-        for name, expression in call.inputs:
+        for name, expression in handed_to_block(source, kind, call)[0]:
             group, _ = device.pins[name.upper()]
             if group == "parameters":
                 values[name.upper()] = _constant(types, name, expression)

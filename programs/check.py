@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from modeproof.ground.errors import suggestion
-from programs.calls import called_functions, check_function, in_outs, inner_bodies, sides
+from programs.calls import (
+    Pairs,
+    called_functions,
+    check_function,
+    function_of,
+    handed_to_block,
+    handed_to_function,
+    in_outs,
+    inner_bodies,
+    sides,
+)
 from programs.length import check_length
 from programs.standard import BLOCKS
 from programs.tree import (
     Array,
     Assign,
+    Bit,
     Body,
     Call,
     Case,
@@ -19,14 +30,17 @@ from programs.tree import (
     If,
     Index,
     Instance,
+    Leave,
+    Loop,
     Member,
     Name,
     Place,
     Return,
     Scalar,
     Source,
-    Stop,
+    Type,
     Unit,
+    Variable,
 )
 from programs.types import Types
 
@@ -93,8 +107,8 @@ def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str])
 class _Statements(Types):
     """The statements of one unit."""
 
-    def body(self, body: Body) -> None:
-        """Look at every statement."""
+    def body(self, body: Body, looped: bool = False) -> None:
+        """Look at every statement; looped: there is a loop around it."""
         for statement in body:
             match statement:
                 case Assign(target, value, place):
@@ -102,18 +116,22 @@ class _Statements(Types):
                 case If(branches, otherwise, place):
                     for asked, inner in branches:
                         self.scalar(asked, place, ("bool",))
-                        self.body(inner)
-                    self.body(otherwise)
+                        self.body(inner, looped)
+                    self.body(otherwise, looped)
                 case Case(subject, clauses, otherwise, place):
                     kind = self.scalar(subject, place, ("int", "enum", "bits"))
                     for ranges, inner in clauses:
                         for end in (end for pair in ranges for end in pair):
-                            label = self.scalar(end, place, (kind.kind,), kind)
+                            label = self.scalar(end, end.place, (kind.kind,), kind)
                             if kind.kind == "enum" and label != kind:
-                                raise place.refuse("a label of CASE is of another type")
+                                raise end.place.refuse(
+                                    f"a label of {label.name}, and the value is {kind.name}"
+                                )
                             self.constant(end)
-                        self.body(inner)
-                    self.body(otherwise)
+                        if kind.numbers and any(low != high for low, high in ranges):
+                            raise place.refuse(f"a range of {kind.name}, which has numbers of its own")
+                        self.body(inner, looped)
+                    self.body(otherwise, looped)
                 case For(control, start, end, step, inner, place):
                     kind = self.scalar(control, place, ("int",))
                     for bound in (start, end, *([] if step is None else [step])):
@@ -122,10 +140,15 @@ class _Statements(Types):
                     self.turns(control, self.constant(start), self.constant(end), by)
                     if any(self.writes(inner, control.name)):
                         raise place.refuse(f"the loop writes its control variable {control.name}")
-                    self.body(inner)
-                case Call(instance, inputs, outputs, place):
-                    self.call(instance, inputs, outputs, place)
-                case Return() | Stop():
+                    self.body(inner, True)
+                case Loop(going, inner, _, place):
+                    self.scalar(going, place, ("bool",))
+                    self.body(inner, True)
+                case Leave(turn, place) if not looped:
+                    raise place.refuse(f"{'CONTINUE' if turn else 'EXIT'} without a loop around it")
+                case Call():
+                    self.call(statement)
+                case Return() | Leave():
                     pass
 
     def turns(self, control: Name, low: int, high: int, by: int) -> None:
@@ -141,18 +164,25 @@ class _Statements(Types):
             if isinstance(statement, Assign) and isinstance(statement.target, Name):
                 yield statement.target.name.upper() == name.upper()
             if isinstance(statement, Call):
-                lent = in_outs(self.source, self.of(statement.instance))
-                given = [(pin, target) for pin, target in statement.inputs if pin.upper() in lent]
-                for _, target in (*given, *statement.outputs):
+                for target in (*self.lent(statement), *(target for _, target in statement.outputs)):
                     yield isinstance(target, Name) and target.name.upper() == name.upper()
             if isinstance(statement, For):
                 yield statement.control.name.upper() == name.upper()
             for inner in inner_bodies(statement):
                 yield from self.writes(inner, name)
 
+    def lent(self, call: Call) -> Iterator[Expression]:
+        """What a call gives to VAR_IN_OUT."""
+        unit = function_of(self.source, self.unit, call)
+        if unit is None and isinstance(kind := self.of(call.instance), Instance):
+            unit = self.source.units.get(kind.block.upper())
+        names = {name.upper() for name in unit.of("in_out")} if unit is not None else set()
+        return (value for name, value in call.inputs if name.upper() in names)
+
     def assigned(self, target: Expression, value: Expression, place: Place) -> None:
         """Refuse an assignment to what must not be written, or of another kind."""
         kind = self.written(target, place)
+        kind = kind.base or kind
         given = self.of(value, kind)
         alike = isinstance(given, Scalar) and given.kind == kind.kind
         if not isinstance(given, Scalar) or not alike or (kind.kind == "enum" and given != kind):
@@ -163,11 +193,11 @@ class _Statements(Types):
 
     def written(self, target: Expression, place: Place) -> Scalar:
         """The type of what is written. Refuse what must not be."""
-        kind = self.of(target)
+        kind = self.declared(target)
         if not isinstance(kind, Scalar):
             raise place.refuse("whole arrays and instances are not assigned here")
         root = target
-        while isinstance(root, Index | Member):
+        while isinstance(root, Index | Member | Bit):
             kind_of = self.of(root.of)
             outs = sides(self.source, kind_of)[1] if isinstance(kind_of, Instance) else {}
             if isinstance(root, Member) and root.name.upper() in map(str.upper, outs):
@@ -180,57 +210,65 @@ class _Statements(Types):
                 raise place.refuse(f"{root.name} is {shown} and is written")
         return kind
 
-    def in_outs(self, kind: Instance, inputs: tuple[tuple[str, Expression], ...], place: Place) -> None:
+    def in_outs(self, of: str, wanted: Mapping[str, Variable], inputs: Pairs, place: Place) -> None:
         """Refuse a call whose VAR_IN_OUT are not each a variable of their own, of the same type."""
-        wanted = in_outs(self.source, kind)
         given = {name.upper(): value for name, value in inputs if name.upper() in wanted}
         for name, variable in wanted.items():
             value = given.get(name)
             if not isinstance(value, Name) or not isinstance(variable.type, Scalar):
-                raise place.refuse(
-                    f"{variable.name} of {kind.block} is VAR_IN_OUT: give it a single variable"
-                )
+                raise place.refuse(f"{variable.name} of {of} is VAR_IN_OUT: give it a single variable")
             if self.written(value, place) != variable.type:
-                raise place.refuse(f"{variable.name} of {kind.block} is of another type")
+                raise place.refuse(f"{variable.name} of {of} is of another type")
         names = [value.name.upper() for value in given.values() if isinstance(value, Name)]
         if len(set(names)) != len(names):
-            raise place.refuse(f"two VAR_IN_OUT of {kind.block} are the same variable")
+            raise place.refuse(f"two VAR_IN_OUT of {of} are the same variable")
 
-    def call(
-        self,
-        instance: Expression,
-        inputs: tuple[tuple[str, Expression], ...],
-        outputs: tuple[tuple[str, Expression], ...],
-        place: Place,
-    ) -> None:
-        kind = self.of(instance)
+    def call(self, call: Call) -> None:
+        """Look at a call of an instance or of a FUNCTION."""
+        place = call.place
+        if (unit := function_of(self.source, self.unit, call)) is not None:
+            inputs, outputs = handed_to_function(unit, call)
+            ins, outs = (
+                {name: variable.type for name, variable in unit.of(*sections).items()}
+                for sections in (("input", "in_out"), ("output",))
+            )
+            lent = {name.upper(): variable for name, variable in unit.of("in_out").items()}
+            self.in_outs(unit.name, lent, inputs, place)
+            self.pins(unit.name, ins, inputs, place, False)
+            self.pins(unit.name, outs, outputs, place, True)
+            return
+        kind = self.of(call.instance)
         if not isinstance(kind, Instance):
             raise place.refuse("only an instance of a block is called")
-        ins, outs = sides(self.source, kind)
-        self.in_outs(kind, inputs, place)
-        for pairs, known in ((inputs, ins), (outputs, outs)):
-            names = [name.upper() for name, _ in pairs]
-            for name, expression in pairs:
-                if names.count(name.upper()) > 1:
-                    raise place.refuse(f"{name} of {kind.block} stands twice in one call")
-                key = next((key for key in known if key.upper() == name.upper()), None)
-                if key is None:
-                    raise place.refuse(f"{kind.block} has no {name}; {suggestion(name, known)}")
-                wanted = known[key]
-                if not isinstance(wanted, Scalar):
-                    raise place.refuse(
-                        f"{name} of {kind.block}: arrays and instances are not handed over here"
-                    )
-                given = self.of(expression, wanted)
-                alike = isinstance(given, Scalar) and given.kind == wanted.kind
-                if not alike or (wanted.kind == "enum" and given != wanted):
-                    raise place.refuse(f"{name} of {kind.block} is of another type")
-                assert isinstance(given, Scalar)
-                if pairs is outputs:
-                    self.written(expression, place)
-                    if not given.low <= wanted.low <= wanted.high <= given.high or (
-                        given.kind == "bits" and given != wanted
-                    ):
-                        raise place.refuse(f"{name} of {kind.block} is {wanted.name}, not {given.name}")
-                elif wanted.kind == "bits" and given.high > wanted.high:
-                    raise place.refuse(f"{name} := {given.name} needs a conversion")
+        ins, outs = (dict(side) for side in sides(self.source, kind))
+        inputs, outputs = handed_to_block(self.source, kind, call)
+        self.in_outs(kind.block, in_outs(self.source, kind), inputs, place)
+        self.pins(kind.block, ins, inputs, place, False)
+        self.pins(kind.block, outs, outputs, place, True)
+
+    def pins(self, of: str, known: Mapping[str, Type], given: Pairs, place: Place, out: bool) -> None:
+        """Refuse an argument of a call that is unknown, given twice, or of another type."""
+        names = [name.upper() for name, _ in given]
+        for name, expression in given:
+            key = next((key for key in known if key.upper() == name.upper()), None)
+            if key is None:
+                raise place.refuse(f"{of} has no {name}; {suggestion(name, known)}")
+            if names.count(name.upper()) > 1:
+                raise place.refuse(f"{name} of {of} is given twice")
+            declared = known[key]
+            if not isinstance(declared, Scalar):
+                raise place.refuse(f"{name} of {of}: arrays and instances are not handed over here")
+            wanted = declared.base or declared
+            given_type = self.of(expression, wanted)
+            alike = isinstance(given_type, Scalar) and given_type.kind == wanted.kind
+            if not alike or (wanted.kind == "enum" and given_type != wanted):
+                raise place.refuse(f"{name} of {of} is of another type")
+            assert isinstance(given_type, Scalar)
+            if out:
+                target = self.written(expression, place)
+                if not target.low <= wanted.low <= wanted.high <= target.high or (
+                    target.kind == "bits" and target != wanted
+                ):
+                    raise place.refuse(f"{name} of {of} is {wanted.name}, not {target.name}")
+            elif wanted.kind == "bits" and given_type.high > wanted.high:
+                raise place.refuse(f"{name} := {given_type.name} needs a conversion")

@@ -5,8 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from programs.calls import called_functions, inner_bodies
-from programs.tree import Assign, Body, Call, Case, For, If, Instance, Source, Statement, Unit
+from programs.calls import called_functions, function_of, inner_bodies
+from programs.tree import (
+    MOST_TURNS,
+    Assign,
+    Body,
+    Call,
+    Case,
+    For,
+    If,
+    Instance,
+    Loop,
+    Source,
+    Statement,
+    Unit,
+)
 from programs.types import Types
 
 MOST = 20_000
@@ -62,11 +75,15 @@ class _Lengths:
                 expressions = subject
             case Assign(target, value, _):
                 expressions = (target, value)
-            case Call(instance, inputs, _, _):
-                expressions = inputs
-                kind = types.of(instance)
-                own = self.source.units.get(kind.block.upper()) if isinstance(kind, Instance) else None
+            case Call():
+                expressions = statement.inputs
+                own = function_of(self.source, types.unit, statement)
+                if own is None and isinstance(kind := types.of(statement.instance), Instance):
+                    own = self.source.units.get(kind.block.upper())
                 inner += 0 if own is None else self.unit(own)
+            case Loop(going, _, _, _):
+                expressions = going
+                inner = (MOST_TURNS + 1) * (inner + 1)
             case For(_, start, end, step, _, _):
                 by = 1 if step is None else types.constant(step)
                 turns = abs(types.constant(end) - types.constant(start)) // max(1, abs(by)) + 1

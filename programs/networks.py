@@ -15,7 +15,7 @@ from functools import cached_property
 
 from modeproof.ground.errors import suggestion
 from programs.diagrams import Node, Pin
-from programs.tree import Binary, Expression, Function, Index, Member, Name, Unary
+from programs.tree import Binary, Bit, Expression, Function, Index, Member, Name, Unary
 
 
 def roots(expression: Expression | None) -> Iterator[str]:
@@ -23,7 +23,7 @@ def roots(expression: Expression | None) -> Iterator[str]:
     match expression:
         case Name(name, _):
             yield name.upper()
-        case Member(of, _, _):
+        case Member(of, _, _) | Bit(of, _, _):
             yield from roots(of)
         case Index(of, index, _):
             yield from roots(of)
@@ -40,7 +40,7 @@ def roots(expression: Expression | None) -> Iterator[str]:
 
 def written_root(target: Expression | None) -> str:
     """The variable or instance that an assignment to the target changes."""
-    while isinstance(target, Member | Index):
+    while isinstance(target, Member | Index | Bit):
         target = target.of
     return target.name.upper() if isinstance(target, Name) else ""
 

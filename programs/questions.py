@@ -31,6 +31,7 @@ from programs.tree import (
     BOOL,
     Assign,
     Binary,
+    Bit,
     Expression,
     Index,
     Member,
@@ -254,6 +255,8 @@ def shown(node: Expression) -> str:
             return name
         case Member(of, name, _):
             return f"{shown(of)}.{name}"
+        case Bit(of, number, _):
+            return f"{shown(of)}.{number}"
         case Index(of, index, _):
             return f"{shown(of)}[{shown(index)}]"
         case Unary(operator, operand, _):

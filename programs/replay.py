@@ -14,7 +14,8 @@ from modeproof.kit.vectors import open_suite
 from programs.bind import Binding
 from programs.product import Pair, Product
 from programs.relations import Values
-from programs.run import Frame, Limit, Machine, Overflow, Standard
+from programs.run import Frame, Limit, Machine, Overflow
+from programs.run_standard import Standard
 
 SUITES = ("sequences", "times", "brief")
 MOST_SCANS = 6_000
@@ -191,6 +192,8 @@ def _values(frame: Frame, above: str, now: int) -> Iterator[tuple[str, Any]]:
             yield from ((f"{path}.{pin}", found) for pin, found in value.values.items())
             yield f"{path}.before", value.before
             yield f"{path}.running", value.running
+            yield f"{path}.up", value.up
+            yield f"{path}.down", value.down
             yield f"{path}.age", now - value.since
         elif isinstance(value, list):
             low = getattr(frame.unit.variables[key].type, "low", 0)

@@ -12,13 +12,16 @@ from copy import deepcopy
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.calls import in_outs, own_arguments
+from programs.calls import function_of, handed_to_block, handed_to_function, in_outs, own_arguments
 from programs.ready import ready
-from programs.standard import arguments, converted_from
+from programs.run_standard import Standard
+from programs.standard import arguments, conversion, converted_from
 from programs.tree import (
+    MOST_TURNS,
     Array,
     Assign,
     Binary,
+    Bit,
     Body,
     Call,
     Case,
@@ -28,14 +31,15 @@ from programs.tree import (
     If,
     Index,
     Instance,
+    Leave,
     Literal,
+    Loop,
     Member,
     Name,
     Place,
     Return,
     Scalar,
     Source,
-    Stop,
     Type,
     Unary,
     Unit,
@@ -55,14 +59,23 @@ class _Returned(Exception):
     pass
 
 
+class _Exit(Exception):
+    pass
+
+
+class _Continue(Exception):
+    pass
+
+
 def default(kind: Type, initial: object) -> Any:
-    """The value of a variable at power-up: 0, FALSE or the first member where none is declared."""
+    """The value of a variable at power-up; that of its type, or 0, FALSE, where none is declared."""
     if isinstance(kind, Array):
         given = list(initial) if isinstance(initial, tuple) else []
         size = kind.high - kind.low + 1
         return [default(kind.element, value) for value in [*given, *[None] * (size - len(given))]]
     assert isinstance(kind, Scalar)
-    return bool(initial or False) if kind.kind == "bool" else int(initial or 0)  # type: ignore[call-overload]
+    value = kind.start if initial is None else initial
+    return bool(value) if kind.kind == "bool" else int(value)  # type: ignore[call-overload]
 
 
 class Frame:
@@ -90,61 +103,6 @@ class Frame:
         self.since = 0
         if unit.device is not None:
             self.values |= unit.device.memory()
-
-
-class Standard:
-    """An instance of a standard block: its pins, and what it remembers."""
-
-    def __init__(self, block: str) -> None:
-        self.block = block
-        self.values: dict[str, Any] = {
-            "IN": False, "CLK": False, "S": False, "S1": False, "R": False, "R1": False,
-            "PT": 0, "ET": 0, "Q": False, "Q1": False,
-        }  # fmt: skip
-        self.before = False
-        self.since = 0
-        self.running = False
-
-    def call(self, now: int) -> None:
-        """One call at this time, in ms since power-up."""
-        own = self.values
-        match self.block:
-            case "TON":
-                if not own["IN"]:
-                    own["ET"], own["Q"] = 0, False
-                else:
-                    if not self.before:
-                        self.since = now
-                    own["ET"] = max(0, min(now - self.since, own["PT"]))
-                    own["Q"] = now - self.since >= own["PT"]
-            case "TOF":
-                if own["IN"]:
-                    own["ET"], own["Q"], self.running = 0, True, False
-                else:
-                    if self.before:
-                        self.since, self.running = now, True
-                    if self.running:
-                        own["ET"] = max(0, min(now - self.since, own["PT"]))
-                        own["Q"] = now - self.since < own["PT"]
-                        self.running = bool(own["Q"])
-            case "TP":
-                if not self.running and own["IN"] and not self.before:
-                    self.since, self.running = now, True
-                if self.running:
-                    own["ET"] = max(0, min(now - self.since, own["PT"]))
-                    own["Q"] = now - self.since < own["PT"]
-                    self.running = bool(own["Q"])
-                if not self.running and not own["IN"]:
-                    own["ET"] = 0
-            case "R_TRIG":
-                own["Q"] = own["CLK"] and not self.before
-            case "F_TRIG":
-                own["Q"] = not own["CLK"] and self.before
-            case "SR":
-                own["Q1"] = own["S1"] or (not own["R"] and own["Q1"])
-            case "RS":
-                own["Q1"] = not own["R1"] and (own["S"] or own["Q1"])
-        self.before = own["IN"] or own["CLK"]
 
 
 class Machine:
@@ -180,7 +138,7 @@ class Machine:
         for statement in body:
             match statement:
                 case Assign(target, value, place):
-                    kind = frame.types.of(target)
+                    kind = frame.types.declared(target)
                     assert isinstance(kind, Scalar)
                     self.store(frame, target, self.ranged(self.value(frame, value, kind), kind, place))
                 case If(branches, otherwise, _):
@@ -197,15 +155,34 @@ class Machine:
                     number = low
                     while number <= high if by > 0 else number >= high:
                         frame.values[control.name.upper()] = number
-                        self.body(frame, inner)
+                        try:
+                            with contextlib.suppress(_Continue):
+                                self.body(frame, inner)
+                        except _Exit:
+                            break
                         number += by
-                    frame.values[control.name.upper()] = number
-                case Call(instance, inputs, outputs, place):
-                    self.invoke(frame, instance, inputs, outputs)
+                    else:
+                        frame.values[control.name.upper()] = number
+                case Loop(going, inner, first, place):
+                    with contextlib.suppress(_Exit):
+                        self.turns(frame, going, inner, first, place)
+                case Call():
+                    self.invoke(frame, statement)
                 case Return():
                     raise _Returned
-                case Stop(text, place):
-                    raise Limit(f"{place.file}:{place.line}: not so: {text}; what takes more is not judged")
+                case Leave(turn, _):
+                    raise _Continue if turn else _Exit
+
+    def turns(self, frame: Frame, going: Expression, inner: Body, first: bool, place: Place) -> None:
+        """The turns of WHILE and REPEAT."""
+        made = -1 if first else 0
+        while made < 0 or self.value(frame, going):
+            if made == MOST_TURNS:
+                what = f"the loop ends after {MOST_TURNS} turns at most; what takes more is not judged"
+                raise Limit(f"{place.file}:{place.line}: not so: {what}")
+            with contextlib.suppress(_Continue):
+                self.body(frame, inner)
+            made += 1
 
     def clause(self, frame: Frame, clauses: Any, found: int, otherwise: Body) -> Body:
         for ranges, inner in clauses:
@@ -214,21 +191,40 @@ class Machine:
                     return inner  # type: ignore[no-any-return]
         return otherwise
 
-    def invoke(self, frame: Frame, instance: Expression, inputs: Any, outputs: Any) -> None:
-        below = self.read(frame, instance)
+    def invoke(self, frame: Frame, call: Call) -> None:
+        if (unit := function_of(self.source, frame.unit, call)) is not None:
+            self.invoke_function(frame, call, unit)
+            return
+        below, of = self.read(frame, call.instance), frame.types.of(call.instance)
+        assert isinstance(of, Instance)
+        inputs, outputs = handed_to_block(self.source, of, call)
         pins = below.values
         for name, expression in inputs:
-            kind = frame.types.member(frame.types.of(instance), name, instance.place, True)
+            kind = frame.types.member(of, name, call.instance.place, True)
             assert isinstance(kind, Scalar)
-            pins[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, instance.place)
+            pins[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, call.instance.place)
         if isinstance(below, Standard):
             below.call(self.now)
         else:
             self.call(below)
-        kept = in_outs(self.source, frame.types.of(instance))
+        kept = in_outs(self.source, of)
         back = [(name, target) for name, target in inputs if name.upper() in kept]
         for name, target in (*back, *outputs):
             self.store(frame, target, pins[name.upper()])
+
+    def invoke_function(self, frame: Frame, call: Call, unit: Unit) -> None:
+        """A FUNCTION called as a statement: it begins anew, and its outputs go where the call says."""
+        inputs, outputs = handed_to_function(unit, call)
+        called = Frame(self.source, unit)
+        for name, expression in inputs:
+            kind = unit.variables[name.upper()].type
+            assert isinstance(kind, Scalar)
+            called.values[name.upper()] = self.ranged(self.value(frame, expression, kind), kind, call.place)
+        self.call(called)
+        lent = unit.of("in_out")
+        back = [pair for pair in inputs if unit.variables[pair[0].upper()].name in lent]
+        for name, target in (*back, *outputs):
+            self.store(frame, target, called.values[name.upper()])
 
     # ------------------------------------------------------------ values
 
@@ -236,7 +232,7 @@ class Machine:
         """The value in the range of its type."""
         if kind.kind not in ("int", "time") or kind.low <= value <= kind.high:
             return value
-        if not self.wrap:
+        if not self.wrap or kind.base is not None:
             raise Overflow(
                 f"{place.file}:{place.line}: {value} is outside {kind.name}, {kind.low}..{kind.high}"
             )
@@ -250,6 +246,8 @@ class Machine:
                 return self.read(frame, of).values[name.upper()]
             case Index(of, _, _):
                 return self.read(frame, of)[self.position(frame, target)]
+            case Bit(of, number, _):
+                return bool(self.value(frame, of) // 2**number % 2)
         raise AssertionError(target)
 
     def store(self, frame: Frame, target: Expression, value: Any) -> None:
@@ -260,6 +258,9 @@ class Machine:
                 self.read(frame, of).values[name.upper()] = value
             case Index(of, _, _):
                 self.read(frame, of)[self.position(frame, target)] = value
+            case Bit(of, number, _):
+                before = self.read(frame, of)
+                self.store(frame, of, before + (int(value) - before // 2**number % 2) * 2**number)
 
     def position(self, frame: Frame, target: Index) -> int:
         kind = frame.types.of(target.of)
@@ -279,7 +280,7 @@ class Machine:
 
     def worked_out(self, frame: Frame, expression: Expression, wanted: Scalar | None) -> Any:
         """The value of an expression that `ready` leaves to this."""
-        if isinstance(expression, Name | Member | Index):
+        if isinstance(expression, Name | Member | Index | Bit):
             return self.read(frame, expression)
         kind = frame.types.of(expression, wanted)
         assert isinstance(kind, Scalar)
@@ -295,6 +296,10 @@ class Machine:
         raise AssertionError(expression)
 
     def binary(self, frame: Frame, node: Binary, kind: Scalar, wanted: Scalar | None) -> Any:
+        if node.operator in ("AND_THEN", "OR_ELSE"):
+            if self.value(frame, node.left) == (node.operator == "OR_ELSE"):
+                return node.operator == "OR_ELSE"
+            return self.value(frame, node.right)
         first, second = frame.types.pair(node.left, node.right, node.place, wanted)
         left, right = self.value(frame, node.left, first), self.value(frame, node.right, second)
         match node.operator:
@@ -321,7 +326,7 @@ class Machine:
                 place = node.place
                 raise Overflow(f"{place.file}:{place.line}: a shift by {by} is outside 0..{kind.width - 1}")
             return _shifted(node.name, value, by, kind)
-        if "_TO_" in node.name:
+        if conversion(node.name) is not None:
             return self.converted(frame, node, given[0], kind)
         if node.name == "SEL":
             no, yes = (self.value(frame, value, kind) for value in given[1:])
@@ -353,6 +358,8 @@ class Machine:
         given = start or frame.types.of(argument)
         value = self.value(frame, argument, start)
         assert isinstance(given, Scalar)
+        if given.numbers:
+            value = given.numbers[value]
         if kind.kind == "bits":
             return int(value) & kind.high
         if given.kind == "bits" and kind.kind == "int" and value > kind.high:

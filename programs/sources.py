@@ -8,6 +8,7 @@ from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from programs.awl import beside, read_awl
+from programs.namespaces import resolved
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import read_scl
 from programs.st import read_text
@@ -43,7 +44,9 @@ def read_sources(paths: Sequence[Path]) -> Source:
                     f"{unit.name} is the name of a standard block; give yours another one"
                 )
             if key in units:
-                raise unit.place.refuse(f"there is another unit with the name {unit.name}")
+                raise unit.place.refuse(
+                    f"there is another unit with the name {unit.name}{_advice(units[key], unit)}"
+                )
             units[key] = unit
             if lower is not None:
                 bodies[key] = lower
@@ -55,11 +58,18 @@ def read_sources(paths: Sequence[Path]) -> Source:
             refused[key] = error
     for key in refused:
         units.pop(key, None)
+    units = resolved(units)
     if refused and (not units or set(refused) & set(BLOCKS)):
         raise next(iter(refused.values()))
     if not units:
         raise Unjudged(f"{', '.join(files)}: no PROGRAM and no FUNCTION_BLOCK")
     return Source(units, files, refused)
+
+
+def _advice(one: Unit, other: Unit) -> str:
+    if one.namespace.upper() == other.namespace.upper():
+        return ""
+    return "; it is in two namespaces, and either could be meant: give the files of one alone"
 
 
 def _bytes(path: Path, files: dict[str, str]) -> bytes:

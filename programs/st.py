@@ -6,35 +6,33 @@ file and line: nothing is skipped.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeGuard
 
 import tree_sitter
 import tree_sitter_iec61131_3_st
 
 from modeproof.ground.errors import Unjudged
+from programs.constants import known
 from programs.st_body import Bodies
+from programs.st_text import NO_RESULT, prepared
 from programs.standard import BLOCKS
 from programs.tree import (
     SCALARS,
     Array,
     Instance,
-    Literal,
     Member,
     Name,
     Place,
     Scalar,
     Type,
-    Unary,
     Unit,
     Variable,
 )
 
 LONGEST = 1000
 """Elements of an array."""
-MOST_TURNS = 32
-"""Of WHILE and REPEAT: that no more are needed is part of the proof."""
 SECTIONS = {
     "var_input": "input",
     "var_output": "output",
@@ -42,24 +40,13 @@ SECTIONS = {
     "var_temp": "temp",
     "var_in_out": "in_out",
 }
-MOST_OPEN = 100
-"""Comments that begin and do not end."""
 STRUCTURE = "structures are not supported: declare each member as a variable of its own"
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
-_NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
-_MEMBER = re.compile(r"\b([A-Za-z_]\w*)#(?=[A-Za-z_])")
-_TIME = re.compile(r"\b(?:L?TIME|L?T)#[\w.]+", re.IGNORECASE)
-_PREFIXES = {*SCALARS, "T", "LTIME", "LT", "DATE", "D", "TOD", "DT"}
 
 
 def read_text(text: str, file: str) -> list[Unit]:
     """The program units of one text. Raises Unjudged with file, line and cause."""
-    text = _MEMBER.sub(lambda match: match[0] if match[1].upper() in _PREFIXES else f"{match[1]}.", text)
-    text = _TIME.sub(lambda match: match[0].replace("_", ""), text)
-    last = text.rfind("*)") + 1
-    if text.count("(*", last) > MOST_OPEN:  # the grammar would look for the end of each of them
-        line = text.count("\n", 0, text.index("(*", last)) + 1
-        raise Place(file, line).refuse("a comment that begins here does not end")
+    text, using = prepared(text, file)
     root = _PARSER.parse(text.encode("utf-8")).root_node
     if root.has_error:
         fault = next(_faults(root))
@@ -69,13 +56,15 @@ def read_text(text: str, file: str) -> list[Unit]:
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
-    return _Reader(file).units(root)
+    return _Reader(file, tuple((one.namespace, one.place) for one in using)).units(root)
 
 
 def _advice(shown: str) -> str:
     if shown.upper().startswith("STRUCT"):
         return f"; {STRUCTURE}"
-    return "; bits (X.0, X.%X0) and addresses are not supported: use AND with a mask" * shown.startswith("%")
+    if shown.upper().startswith(("WORD (", "BYTE (", "DWORD (")):
+        return "; named values of a bit string are not supported: declare them as CONSTANT"
+    return "; addresses are not supported: give the variable a name" * shown.startswith("%")
 
 
 def _faults(node: Any) -> Iterator[Any]:
@@ -98,43 +87,59 @@ def _nodes(node: Any) -> Iterator[Any]:
 class _Reader(Bodies):
     """Reads the tree of one file."""
 
-    def __init__(self, file: str) -> None:
+    def __init__(self, file: str, using: tuple[tuple[str, Place], ...]) -> None:
         super().__init__(file)
+        self.using = using
         self.types: dict[str, Type] = {}
+        self.spaces: dict[str, str] = {}
+        """The namespace of each type."""
 
     # ------------------------------------------------------------ declarations
 
     def units(self, root: Any) -> list[Unit]:
-        found = []
-        for node in self.named(root):
-            if node.type == "type_declaration":
-                for definition in self.named(node):
-                    self.define(definition)
-            elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
-                found.append(self.unit(node))
-            else:
-                raise self.refuse(node)
-        there = 0
-        for node in _nodes(root):
-            there += node.is_named and node.type.endswith("_statement") and node.type != "empty_statement"
-            if node.type == "comment" and self.text(node).startswith("(*") and "(*" in self.text(node)[2:]:
-                raise self.refuse(node, "a comment within a comment is not supported: compilers differ here")
+        found = list(self.declarations(self.named(root), ""))
+        there = sum(
+            node.is_named and node.type.endswith("_statement") and node.type != "empty_statement"
+            for node in _nodes(root)
+        )
         if self.read != there:
             raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         return found
 
-    def define(self, node: Any) -> None:
-        """A type with a name of its own."""
-        name = self.text(self.field(node, "name"))
+    def declarations(self, nodes: Sequence[Any], namespace: str) -> Iterator[Unit]:
+        """The units among what is declared here, and below in namespaces."""
+        for node in nodes:
+            if node.type == "namespace_declaration":
+                name = self.field(node, "name")
+                inner = [child for child in self.named(node) if child != name]
+                whole = f"{namespace}.{_joined(self.text(name))}" if namespace else _joined(self.text(name))
+                yield from self.declarations(inner, whole)
+            elif node.type == "type_declaration":
+                for definition in self.named(node):
+                    self.define(definition, namespace)
+            elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
+                unit = replace(self.unit(node), namespace=namespace, using=self.using)
+                if unit.name.upper() in self.types:
+                    raise unit.place.refuse(f"there is a type with the name {unit.name}")
+                yield unit
+            else:
+                raise self.refuse(node)
+
+    def define(self, definition: Any, namespace: str) -> None:
+        """Read one type and its first value."""
+        name = self.text(self.field(definition, "name"))
         if name.upper() in {*SCALARS, *BLOCKS, *self.types}:
-            raise self.refuse(node, f"there is another type with the name {name}")
-        if self.field(node, "default") is not None:
-            raise self.refuse(node, f"{name}: give the first value to each variable, not to the type")
-        self.types[name.upper()] = self.type(self.field(node, "definition"), name)
+            raise self.refuse(definition, f"there is another type with the name {name}")
+        kind = self.type(self.field(definition, "definition"), name)
+        if nodes := self.fields(definition, "default"):
+            if not isinstance(kind, Scalar):
+                raise self.refuse(definition, f"{name}: a first value of a type is a single value here")
+            kind = kind.starting(int(self.single(nodes[0], kind)))
+        self.types[name.upper()], self.spaces[name.upper()] = kind, namespace
 
     def unit(self, node: Any) -> Unit:
         name = self.text(self.field(node, "name"))
-        variables: dict[str, Variable] = {}
+        self.variables = variables = {}
         body_nodes = self.fields(node, "body")
         for child in self.named(node):
             if child in body_nodes or child in (self.field(node, "name"), self.field(node, "return_type")):
@@ -148,10 +153,13 @@ class _Reader(Bodies):
         enumerations = {name: kind for name, kind in self.types.items() if isinstance(kind, Scalar)}
         kind = node.type.removesuffix("_declaration").replace("_", " ")
         if kind == "function":
+            result = self.field(node, "return_type")
             if name.upper() in variables:
                 raise variables[name.upper()].place.refuse(f"{name} is declared twice: it is the result")
-            result = self.type(self.field(node, "return_type"), "")
-            variables[name.upper()] = Variable(name, result, "output", None, self.place(node))
+            if self.text(result).upper() != NO_RESULT:
+                variables[name.upper()] = Variable(
+                    name, self.type(result, ""), "output", None, self.place(node)
+                )
         return Unit(name, kind, variables, self.body(body_nodes), self.place(node), enumerations)
 
     def declared(self, section: Any) -> Iterator[Variable]:
@@ -175,6 +183,8 @@ class _Reader(Bodies):
             initial = self.initial(self.fields(child, "initial_value"), declared, self.place(child))
             if kind == "retain" and isinstance(declared, Instance):
                 raise self.refuse(child, "VAR RETAIN: an instance of a block is not supported there")
+            if kind != "in_out" and initial is None and _undecided(declared):
+                raise self.refuse(child, f"{declared.name}: give it a first value; compilers differ here")
             for name in self.fields(child, "names"):
                 yield Variable(self.text(name), declared, kind, initial, self.place(name))
 
@@ -188,6 +198,13 @@ class _Reader(Bodies):
             if node.type == "elementary_type":
                 raise self.refuse(node, f"type {word} is not supported")
             return Instance(word)
+        if node.type == "qualified_identifier":
+            space, _, tail = _joined(self.text(node)).rpartition(".")
+            if self.spaces.get(tail.upper(), "").upper() == space.upper():
+                return self.types[tail.upper()]
+            return Instance(f"{space}.{tail}")
+        if node.type == "subrange_type":
+            return self.subrange(node)
         if node.type == "array_type":
             ranges = self.fields(node, "range")
             if len(ranges) != 1:
@@ -195,20 +212,44 @@ class _Reader(Bodies):
             low, high = (self.constant(self.field(ranges[0], part)) for part in ("lower", "upper"))
             if not low <= high < low + LONGEST:
                 raise self.refuse(node, f"an array has 1 to {LONGEST:,} elements, not {low}..{high}")
-            return Array(low, high, self.type(self.field(node, "element_type"), ""))
+            element = self.type(self.field(node, "element_type"), "")
+            if _undecided(element):
+                raise self.refuse(node, f"an array of {element.name} is not supported: compilers differ here")
+            return Array(low, high, element)
         if node.type == "enumerated_type_inline":
-            names = []
-            for number, member in enumerate(self.named(node)):
-                value = self.field(member, "value")
-                if value is not None and self.constant(value) != number:
-                    raise self.refuse(member, "an enumeration counts from 0 by 1 here")
-                names.append(self.text(self.field(member, "name")))
-                if names[-1].upper() in map(str.upper, names[:-1]):
-                    raise self.refuse(member, f"{names[-1]} stands twice in an enumeration")
-            return Scalar(
-                name or f"enum at line {node.start_point[0] + 1}", "enum", 0, len(names) - 1, tuple(names)
-            )
+            return self.enumeration(node, name)
         raise self.refuse(node, STRUCTURE if node.type == "structure_type_inline" else "")
+
+    def subrange(self, node: Any) -> Scalar:
+        """INT (0..10): a calculation with it is one with INT, and each value that it is given is in range."""
+        word = self.text(self.named(node)[0]).upper()
+        low, high = (self.constant(self.field(node, end)) for end in ("lower", "upper"))
+        base = SCALARS.get(word)
+        if base is None or base.kind != "int":
+            raise self.refuse(node, f"a range of {word} is not supported")
+        if not base.low <= low <= high <= base.high:
+            raise self.refuse(node, f"{low}..{high} is no range of {base.name}")
+        return Scalar(f"{base.name} ({low}..{high})", "int", low, high, base=base)
+
+    def enumeration(self, node: Any, name: str) -> Scalar:
+        """The members in their order, and their numbers where they do not count from 0 by 1."""
+        names: list[str] = []
+        numbers: list[int] = []
+        for member in self.named(node):
+            value = self.field(member, "value")
+            numbers.append(self.constant(value) if value is not None else numbers[-1] + 1 if numbers else 0)
+            names.append(self.text(self.field(member, "name")))
+        if len({one.upper() for one in names}) != len(names) or len(set(numbers)) != len(numbers):
+            raise self.refuse(node, "two members of an enumeration with one name or one number")
+        counted = numbers == list(range(len(names)))
+        return Scalar(
+            name or f"enum at line {node.start_point[0] + 1}",
+            "enum",
+            0,
+            len(names) - 1,
+            tuple(names),
+            () if counted else tuple(numbers),
+        )
 
     def initial(self, nodes: Sequence[Any], declared: Type, place: Place) -> object:
         if not nodes:
@@ -231,18 +272,30 @@ class _Reader(Bodies):
             raise place.refuse("one initial value is needed")
         return self.single(nodes[0], declared)
 
-    def single(self, node: Any, declared: Type) -> object:
+    def single(self, node: Any, declared: Type) -> bool | int:
         value = self.expression(node)
-        if isinstance(declared, Scalar) and declared.kind == "enum" and isinstance(value, Name | Member):
-            if value.name not in declared.names:
-                raise self.refuse(node, f"{declared.name} has no {value.name}")
-            return declared.names.index(value.name)
-        number = value.operand if isinstance(value, Unary) and value.operator == "-" else value
-        if isinstance(number, Literal) and isinstance(declared, Scalar):
-            given = value.value if isinstance(value, Literal) else self.constant(node)
-            kind = "bool" if isinstance(given, bool) else number.type.kind if number.type else ""
-            fits = declared.kind in ("int", "bits") if not kind else kind == declared.kind
-            if not fits or not declared.low <= given <= declared.high:
-                raise self.refuse(node, f"initial value {self.text(node)}: no value of {declared.name}")
-            return given
-        raise self.refuse(node, f"initial value {self.text(node)}: a literal is needed here")
+        if not isinstance(declared, Scalar):
+            raise self.refuse(node, f"initial value {self.text(node)}: a literal is needed here")
+        if declared.kind == "enum" and isinstance(value, Name | Member):
+            number = declared.member(value.name)
+            owner = value.of.name if isinstance(value, Member) and isinstance(value.of, Name) else ""
+            if number is None or owner.upper() not in ("", declared.name.upper()):
+                raise self.refuse(node, f"{declared.name} has no {self.text(node)}")
+            return number
+        given = known(value, self.look)
+        if given.type is None and declared.kind == "bool" and given.value in (0, 1):
+            return bool(given.value)
+        fits = declared.kind in ("int", "bits") if given.type is None else given.type.kind == declared.kind
+        if declared.kind == "enum" or not fits or not declared.low <= given.value <= declared.high:
+            raise self.refuse(node, f"initial value {self.text(node)}: no value of {declared.name}")
+        return given.value
+
+
+def _undecided(kind: Type) -> TypeGuard[Scalar]:
+    """Whether a variable of this type needs a first value: one begins at 0, another at the lower bound."""
+    return isinstance(kind, Scalar) and kind.base is not None and kind.low != 0 and kind.start == 0
+
+
+def _joined(text: str) -> str:
+    """A name with namespaces, without blanks."""
+    return "".join(text.split())

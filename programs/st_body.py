@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from programs.constants import Known, constant_of, known
+from programs.st_text import BIT, THEN
 from programs.times import time_ms
 from programs.tree import (
     SCALARS,
     TIME,
     Assign,
     Binary,
+    Bit,
     Body,
     Call,
     Case,
@@ -21,18 +25,22 @@ from programs.tree import (
     Function,
     If,
     Index,
+    Instance,
+    Leave,
     Literal,
+    Loop,
     Member,
     Name,
     Place,
     Return,
     Statement,
-    Stop,
     Unary,
+    Variable,
 )
 
-MOST_TURNS = 32
-"""Of WHILE and REPEAT: that no more are needed is part of the proof."""
+COUNTERS = ("CTU", "CTD", "CTUD")
+OLD_PINS = {"RESET": "R", "LOAD": "LD"}
+"""Of counters: the names of their pins in an older edition of the standard."""
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
 
 
@@ -42,6 +50,8 @@ class Bodies:
     def __init__(self, file: str) -> None:
         self.file = file
         self.read = 0
+        self.variables: dict[str, Variable] = {}
+        """Of the unit that is read, as far as they are known."""
 
     def place(self, node: Any) -> Place:
         return Place(self.file, node.start_point[0] + 1)
@@ -66,43 +76,32 @@ class Bodies:
 
     def constant(self, node: Any) -> int:
         """The number that stands there."""
-        value = self.expression(node)
-        if isinstance(value, Unary) and value.operator == "-" and isinstance(value.operand, Literal):
-            return -int(value.operand.value)
-        if not isinstance(value, Literal) or isinstance(value.value, bool):
+        found = known(self.expression(node), self.look)
+        if found.type is not None and found.type.kind not in ("int", "bits"):
             raise self.refuse(node, f"{self.text(node)}: a number is needed here")
-        return value.value
+        return int(found.value)
+
+    def look(self, name: Name | Member) -> Known | None:
+        """The value of a CONSTANT that was declared before."""
+        return constant_of(self.variables.get(name.name.upper())) if isinstance(name, Name) else None
 
     # ------------------------------------------------------------ statements
 
     def body(self, nodes: Iterable[Any]) -> Body:
-        found: list[Statement] = []
-        for node in nodes:
-            if node.type in ("while_statement", "repeat_statement"):
-                found += self.loop(node, self.place(node))
-            elif node.type != "empty_statement":
-                found.append(self.statement(node))
-        return tuple(found)
-
-    def loop(self, node: Any, place: Place) -> Iterator[Statement]:
-        """WHILE and REPEAT, turn by turn; after the last one nothing may be left to do."""
-        self.read += 1
-        going, inner = self.expression(self.field(node, "condition")), self.body(self.fields(node, "body"))
-        if node.type == "repeat_statement":
-            yield from inner
-            going = Unary("NOT", going, place)
-        yield from (If(((going, inner),), (), place) for _ in range(MOST_TURNS))
-        stop = Stop(f"the loop ends after {MOST_TURNS} turns at most", place)
-        yield If(((going, (stop,)),), (), place)
+        return tuple(self.statement(node) for node in nodes if node.type != "empty_statement")
 
     def statement(self, node: Any) -> Statement:
         self.read += 1
         place = self.place(node)
         match node.type:
             case "assignment_statement":
-                return Assign(
-                    self.target(self.field(node, "left")), self.expression(self.field(node, "right")), place
-                )
+                target, value = self.target(self.field(node, "left")), self.field(node, "right")
+                if value.type == "call_expression" and any(map(_gives, self.arguments(value))):
+                    called = self.call(value, place)
+                    if isinstance(called.instance, Name):
+                        result = (called.instance.name, target)
+                        return replace(called, outputs=(*called.outputs, result))
+                return Assign(target, self.expression(value), place)
             case "if_statement":
                 branches = [(self.field(node, "condition"), self.fields(node, "consequence"))]
                 otherwise: Body = ()
@@ -128,6 +127,13 @@ class Bodies:
                     self.body(self.fields(node, "body")),
                     place,
                 )
+            case "while_statement" | "repeat_statement":
+                going = self.expression(self.field(node, "condition"))
+                first = node.type == "repeat_statement"
+                body = self.body(self.fields(node, "body"))
+                return Loop(Unary("NOT", going, place) if first else going, body, first, place)
+            case "exit_statement" | "continue_statement":
+                return Leave(node.type == "continue_statement", place)
             case "invocation_statement":
                 return self.call(self.named(node)[0], place)
             case "return_statement":
@@ -158,18 +164,35 @@ class Bodies:
             raise self.refuse(node)
         inputs: list[tuple[str, Expression]] = []
         outputs: list[tuple[str, Expression]] = []
-        for argument in self.named(self.field(node, "arguments")):
+        instance = self.target(self.field(node, "function"))
+        for argument in self.arguments(node):
             if argument.type != "named_argument":
-                raise self.refuse(argument, "a block is called with named arguments: instance(NAME := value)")
-            pair = (self.text(self.field(argument, "name")), self.expression(self.field(argument, "value")))
-            (outputs if any(child.type == "=>" for child in argument.children) else inputs).append(pair)
-        return Call(self.target(self.field(node, "function")), tuple(inputs), tuple(outputs), place)
+                inputs.append(("", self.expression(argument)))
+                continue
+            name = self.pin(instance, self.text(self.field(argument, "name")))
+            pair = (name, self.expression(self.field(argument, "value")))
+            (outputs if _gives(argument) else inputs).append(pair)
+        if len({name == "" for name, _ in (*inputs, *outputs)}) > 1:
+            raise place.refuse("arguments with names and without in one call")
+        return Call(instance, tuple(inputs), tuple(outputs), place)
+
+    def arguments(self, node: Any) -> list[Any]:
+        """The arguments of a call."""
+        return self.named(self.field(node, "arguments"))
+
+    def pin(self, instance: Expression, name: str) -> str:
+        """The name of a pin today."""
+        declared = self.variables.get(instance.name.upper()) if isinstance(instance, Name) else None
+        kind = declared.type if declared is not None else None
+        if isinstance(kind, Instance) and kind.block.upper().partition("_")[0] in COUNTERS:
+            return OLD_PINS.get(name.upper(), name)
+        return name
 
     # ------------------------------------------------------------ expressions
 
     def target(self, node: Any) -> Expression:
         found = self.expression(node)
-        if not isinstance(found, Name | Member | Index):
+        if not isinstance(found, Name | Member | Index | Bit):
             raise self.refuse(node, f"{self.text(node)}: a variable is needed here")
         return found
 
@@ -190,9 +213,10 @@ class Bodies:
             case "typed_literal":
                 return self.typed(node, place)
             case "member_access_expression":
-                return Member(
-                    self.expression(self.field(node, "object")), self.text(self.field(node, "member")), place
-                )
+                of, name = self.expression(self.field(node, "object")), self.text(self.field(node, "member"))
+                if name.startswith(BIT):
+                    return Bit(of, int(name.removeprefix(BIT)), place)
+                return Member(of, self.pin(of, name), place)
             case "index_expression":
                 indexes = self.fields(node, "index")
                 if len(indexes) != 1:
@@ -205,13 +229,17 @@ class Bodies:
             case "binary_expression":
                 operator = self.text(self.field(node, "operator")).upper()
                 left, right = (self.expression(self.field(node, side)) for side in ("left", "right"))
+                if any(self.text(child) == THEN for child in node.children if child.type == "comment"):
+                    operator = {"AND": "AND_THEN", "OR": "OR_ELSE"}[operator]
                 return Binary({"&": "AND"}.get(operator, operator), left, right, place)
             case "call_expression":
                 arguments = []
-                for argument in self.named(self.field(node, "arguments")):
+                for argument in self.arguments(node):
                     if argument.type == "named_argument":
-                        if any(child.type == "=>" for child in argument.children):
-                            raise self.refuse(argument)
+                        if _gives(argument):
+                            raise self.refuse(
+                                argument, "=> within an expression: call the function before it"
+                            )
                         value = self.expression(self.field(argument, "value"))
                         arguments.append((self.text(self.field(argument, "name")).upper(), value))
                     else:
@@ -243,3 +271,8 @@ class Bodies:
         if not kind.low <= number <= kind.high:
             raise self.refuse(node, f"{self.text(node)}: outside {kind.low}..{kind.high}")
         return Literal(number, kind, place)
+
+
+def _gives(argument: Any) -> bool:
+    """Whether an argument of a call is an output."""
+    return any(child.type == "=>" for child in argument.children)

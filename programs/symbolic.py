@@ -13,7 +13,7 @@ from typing import Any
 
 import z3
 
-from programs.calls import in_outs
+from programs.calls import function_of, handed_to_block, handed_to_function, in_outs
 from programs.run import default
 from programs.terms import (
     FALSE,
@@ -30,19 +30,20 @@ from programs.terms import (
     standard_call,
 )
 from programs.tree import (
+    MOST_TURNS,
     Assign,
     Body,
     Call,
     Case,
-    Expression,
     For,
     If,
     Instance,
+    Leave,
+    Loop,
     Place,
     Return,
     Scalar,
     Source,
-    Stop,
     Type,
     Unit,
 )
@@ -69,6 +70,39 @@ class Scan:
     after: Mapping[str, Any]
     outputs: Mapping[str, Any]
     obligations: tuple[Obligation, ...]
+
+
+@dataclass(frozen=True)
+class Left:
+    """The conditions under which a body was left before its end."""
+
+    returned: z3.BoolRef = FALSE
+    ended: z3.BoolRef = FALSE
+    """By EXIT: so is the loop around it."""
+    turned: z3.BoolRef = FALSE
+    """By CONTINUE: the next turn of the loop comes."""
+
+    @property
+    def early(self) -> z3.BoolRef:
+        return either(either(self.returned, self.ended), self.turned)
+
+    def then(self, rest: Left) -> Left:
+        """With what follows where this part was not left."""
+        stayed = negated(self.early)
+        return Left(
+            either(self.returned, both(stayed, rest.returned)),
+            either(self.ended, both(stayed, rest.ended)),
+            either(self.turned, both(stayed, rest.turned)),
+        )
+
+    def chosen(self, condition: z3.BoolRef, other: Left) -> Left:
+        """This where the condition is true, else the other."""
+        no = negated(condition)
+        return Left(
+            either(both(condition, self.returned), both(no, other.returned)),
+            either(both(condition, self.ended), both(no, other.ended)),
+            either(both(condition, self.turned), both(no, other.turned)),
+        )
 
 
 @dataclass
@@ -107,24 +141,24 @@ class Translator:
                 env[path] = constant(kind, value)
         self.body(Context(self, Types(self.source, unit), above), unit.body, env, here)
 
-    def body(self, at: Context, body: Body, env: Env, here: z3.BoolRef) -> z3.BoolRef:
-        """Carry out a body in `env`; returns the condition under which RETURN was met in it."""
-        returned = FALSE
+    def body(self, at: Context, body: Body, env: Env, here: z3.BoolRef) -> Left:
+        """Carry out a body in `env`; returns where it was left before its end."""
+        left = Left()
         for n, statement in enumerate(body):
-            if not z3.is_false(returned):
+            if not z3.is_false(left.early):
                 rest = dict(env)
-                more = self.body(at, body[n:], rest, both(here, negated(returned)))
-                merge(env, returned, dict(env), rest)
-                return either(returned, more)
-            returned = self.statement(at, statement, env, here)
-            if z3.is_true(returned):
-                return returned
-        return returned
+                more = self.body(at, body[n:], rest, both(here, negated(left.early)))
+                merge(env, left.early, dict(env), rest)
+                return left.then(more)
+            left = self.statement(at, statement, env, here)
+            if z3.is_true(left.early):
+                return left
+        return left
 
-    def statement(self, at: Context, statement: Any, env: Env, here: z3.BoolRef) -> z3.BoolRef:
+    def statement(self, at: Context, statement: Any, env: Env, here: z3.BoolRef) -> Left:
         match statement:
             case Assign(target, value, place):
-                kind = at.types.of(target)
+                kind = at.types.declared(target)
                 assert isinstance(kind, Scalar)
                 given = at.types.of(value, kind)
                 term = self.fitted(at.value(value, env, here, kind), given, kind, place, here)
@@ -143,30 +177,63 @@ class Translator:
                     ]
                     asked.append((z3.Or(*hits) if len(hits) > 1 else hits[0], inner))
                 return self.branches(at, asked, otherwise, env, here)
-            case For(control, start, end, step, inner, place):
-                low, high = at.types.constant(start), at.types.constant(end)
-                by = 1 if step is None else at.types.constant(step)
-                if by == 0 or abs(high - low) // abs(by) > 1000:
-                    raise place.refuse("FOR: at most 1,000 turns, and a step other than 0")
-                turns = range(low, high + (1 if by > 0 else -1), by)
-                path = f"{at.above}{control.name.upper()}"
-                for number in turns:
-                    env[path] = z3.IntVal(number)
-                    returned = self.body(at, inner, env, here)
-                    if not z3.is_false(returned):
-                        raise place.refuse("RETURN within FOR is not supported")
-                env[path] = z3.IntVal(low + by * len(turns))
-            case Call(instance, inputs, outputs, place):
-                self.invoke(at, instance, inputs, outputs, env, here)
-            case Stop(text, place):
-                self.owe(negated(here), text, place)
+            case For():
+                return self.counted(at, statement, env, here)
+            case Loop():
+                return self.turns(at, statement, MOST_TURNS, env, here)
+            case Call():
+                self.invoke(at, statement, env, here)
             case Return():
-                return TRUE
-        return FALSE
+                return Left(returned=TRUE)
+            case Leave(turn, _):
+                return Left(turned=TRUE) if turn else Left(ended=TRUE)
+        return Left()
 
-    def branches(
-        self, at: Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef
-    ) -> z3.BoolRef:
+    def counted(self, at: Context, loop: For, env: Env, here: z3.BoolRef) -> Left:
+        """FOR, turn by turn. After EXIT the control variable keeps its value."""
+        low, high = at.types.constant(loop.start), at.types.constant(loop.end)
+        by = 1 if loop.step is None else at.types.constant(loop.step)
+        if by == 0 or abs(high - low) // abs(by) > 1000:
+            raise loop.place.refuse("FOR: at most 1,000 turns, and a step other than 0")
+        numbers = range(low, high + (1 if by > 0 else -1), by)
+        path = f"{at.above}{loop.control.name.upper()}"
+        before = Left()  # without `turned`
+        for number in (*numbers, None):
+            if z3.is_true(before.early):
+                break
+            turn = dict(env)
+            turn[path] = z3.IntVal(low + by * len(numbers) if number is None else number)
+            left = Left()
+            if number is not None:
+                left = self.body(at, loop.body, turn, both(here, negated(before.early)))
+            merge(env, before.early, dict(env), turn)
+            before = before.then(Left(left.returned, left.ended))
+        return Left(before.returned)
+
+    def turns(self, at: Context, loop: Loop, most: int, env: Env, here: z3.BoolRef) -> Left:
+        """WHILE and REPEAT, turn by turn; after the last one nothing may be left to do."""
+        if loop.first:
+            left = self.body(at, loop.body, env, here)
+            before = Left(left.returned, left.ended)
+        else:
+            before = Left()
+        for number in range(most + 1):
+            stayed = both(here, negated(before.early))
+            if z3.is_true(before.early):
+                break
+            going = z3.simplify(both(negated(before.early), at.value(loop.going, env, stayed)))
+            if number == most:
+                text = f"the loop ends after {MOST_TURNS} turns at most"
+                self.owe(negated(both(here, going)), text, loop.place)
+            if number == most or z3.is_false(going):
+                break
+            turn = dict(env)
+            left = self.body(at, loop.body, turn, both(here, going))
+            merge(env, going, turn, dict(env))
+            before = before.then(Left(both(going, left.returned), both(going, left.ended)))
+        return Left(before.returned)
+
+    def branches(self, at: Context, branches: list[Any], otherwise: Body, env: Env, here: z3.BoolRef) -> Left:
         if not branches:
             return self.body(at, otherwise, env, here)
         asked, inner = branches[0]
@@ -180,20 +247,27 @@ class Translator:
         first = self.body(at, inner, yes, both(here, condition))
         second = self.branches(at, branches[1:], otherwise, no, both(here, negated(condition)))
         merge(env, condition, yes, no)
-        return either(both(condition, first), both(negated(condition), second))
+        return first.chosen(condition, second)
 
-    def invoke(
-        self, at: Context, instance: Expression, inputs: Any, outputs: Any, env: Env, here: z3.BoolRef
-    ) -> None:
-        path = at.path(instance, env, here)
-        kind = at.types.of(instance)
+    def invoke(self, at: Context, call: Call, env: Env, here: z3.BoolRef) -> None:
+        if (unit := function_of(self.source, at.types.unit, call)) is not None:
+            inputs, outputs = handed_to_function(unit, call)
+            given = {name.upper(): value for name, value in inputs}
+            inner = at.called(given, unit, call.place, env, here)
+            lent = {name.upper() for name in unit.of("in_out")}
+            for name, target in (*(pair for pair in inputs if pair[0].upper() in lent), *outputs):
+                at.store(target, inner[name.upper()], env, here)
+            return
+        path = at.path(call.instance, env, here)
+        kind = at.types.of(call.instance)
         assert isinstance(kind, Instance)
+        inputs, outputs = handed_to_block(self.source, kind, call)
         for name, expression in inputs:
-            wanted = at.types.member(kind, name, instance.place, True)
+            wanted = at.types.member(kind, name, call.instance.place, True)
             assert isinstance(wanted, Scalar)
-            given = at.types.of(expression, wanted)
-            term = self.fitted(at.value(expression, env, here, wanted), given, wanted, instance.place, here)
-            env[f"{path}.{name.upper()}"] = term
+            given_type = at.types.of(expression, wanted)
+            term = at.value(expression, env, here, wanted)
+            env[f"{path}.{name.upper()}"] = self.fitted(term, given_type, wanted, call.instance.place, here)
         if kind.block.upper() in self.source.units:
             self.call(self.source.units[kind.block.upper()], f"{path}.", env, here)
         else:
@@ -221,7 +295,7 @@ class Translator:
             z3.is_int_value(term) and kind.low <= term.as_long() <= kind.high
         ):
             return term
-        if self.wrap:
+        if self.wrap and kind.base is None:
             return (term - kind.low) % (kind.high - kind.low + 1) + kind.low
         self.owe(z3.Implies(here, in_range(kind, term)), f"a value stays within {kind.name}", place)
         return term

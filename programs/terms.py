@@ -9,11 +9,14 @@ from typing import Any
 import z3
 
 from programs.run import default
+from programs.standard import BLOCKS
 from programs.tree import BOOL, TIME, Array, Instance, Scalar, Source, Type, Unit
 
 TRUE, FALSE = z3.BoolVal(True), z3.BoolVal(False)
 Env = dict[str, Any]
 """Terms by the path of the variable, such as `TIMER.ET` or `WORDS[2]`."""
+EDGES = {"CU": "up", "CD": "down"}
+"""Of counters: what an input was in the call before, below this name."""
 INT = Scalar("DINT", "int", -(2**31), 2**31 - 1)
 
 
@@ -138,6 +141,9 @@ def _standard(block: str, path: str) -> Iterator[Slot]:
             pins["running"] = BOOL
     elif block in ("R_TRIG", "F_TRIG"):
         pins = {"CLK": BOOL, "Q": BOOL, "before": BOOL}
+    elif block.startswith("CT"):
+        ins, outs = BLOCKS[block]
+        pins = {**ins, **outs, **{edge: BOOL for name, edge in EDGES.items() if name in ins}}
     elif block == "SR":
         pins = {"S1": BOOL, "R": BOOL, "Q1": BOOL}
     else:
@@ -182,10 +188,34 @@ def standard_call(block: str, path: str, env: Env) -> None:
         clock, before = pin("CLK"), pin("before")
         put("Q", both(clock, negated(before)) if block == "R_TRIG" else both(negated(clock), before))
         put("before", clock)
+    elif block.startswith("CT"):
+        _count(block, path, env)
     elif block == "SR":
         put("Q1", either(pin("S1"), both(negated(pin("R")), pin("Q1"))))
     else:
         put("Q1", both(negated(pin("R1")), either(pin("S"), pin("Q1"))))
+
+
+def _count(block: str, path: str, env: Env) -> None:
+    """One call of a counter; CV stands still at the limits of its type."""
+    number = BLOCKS[block][1]["CV"]
+    before, wanted = env[f"{path}.CV"], env[f"{path}.PV"]
+    edges = []
+    for name, edge in EDGES.items():
+        signal = env.get(f"{path}.{name}", FALSE)
+        edges.append(both(signal, negated(env.get(f"{path}.{edge}", FALSE))))
+        if f"{path}.{edge}" in env:
+            env[f"{path}.{edge}"] = signal
+    more = z3.If(before >= number.high, before, before + 1)
+    less = z3.If(before <= number.low, before, before - 1)
+    steps = z3.If(edges[0] == edges[1], before, z3.If(edges[0], more, less))
+    loaded = z3.If(env.get(f"{path}.LD", FALSE), wanted, steps)
+    after = z3.If(env.get(f"{path}.R", FALSE), z3.IntVal(0), loaded)
+    env[f"{path}.CV"] = after
+    if block.startswith("CTUD"):
+        env[f"{path}.QU"], env[f"{path}.QD"] = after >= wanted, after <= 0
+    else:
+        env[f"{path}.Q"] = after <= 0 if block.startswith("CTD") else after >= wanted
 
 
 def _limited(age: Any, limit: Any) -> Any:

@@ -7,7 +7,7 @@ knows its line.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Final, Protocol
 
 from modeproof.ground.errors import Unjudged
@@ -34,12 +34,27 @@ class Scalar:
     low: int = 0
     high: int = 1
     names: tuple[str, ...] = ()
-    """Of an enumeration."""
+    """Of an enumeration. Its values are their places, counted from 0."""
+    numbers: tuple[int, ...] = ()
+    """Of an enumeration with numbers of its own: what a conversion gives."""
+    base: Scalar | None = None
+    """Of a subrange: the type in which one calculates with it."""
+    start: int = field(default=0, compare=False)
+    """The value of a variable of this type that is declared without one."""
 
     @property
     def width(self) -> int:
         """Bits of a bit string."""
         return self.high.bit_length()
+
+    def member(self, name: str) -> int | None:
+        """The place of a member of an enumeration; None: it has no such member."""
+        names = [known.upper() for known in self.names]
+        return names.index(name.upper()) if name.upper() in names else None
+
+    def starting(self, value: int) -> Scalar:
+        """This type with another first value."""
+        return replace(self, start=value)
 
 
 @dataclass(frozen=True)
@@ -60,6 +75,9 @@ class Instance:
 
 Type = Scalar | Array | Instance
 
+MOST_TURNS: Final = 32
+"""Of WHILE and REPEAT: that no more are needed is part of the proof."""
+
 
 def _integers() -> dict[str, Scalar]:
     found = {}
@@ -75,12 +93,12 @@ SCALARS: Final[Mapping[str, Scalar]] = {
     "BOOL": BOOL,
     "SAFEBOOL": BOOL,
     **{
-        name: Scalar(name, "bits", 0, 2**bits - 1)
-        for name, bits in (("BYTE", 8), ("WORD", 16), ("DWORD", 32))
+        f"{prefix}{name}": Scalar(name, "bits", 0, 2**bits - 1)
+        for prefix in ("", "SAFE")
+        for name, bits in (("BYTE", 8), ("WORD", 16), ("DWORD", 32), ("LWORD", 64))
     },
-    **{f"SAFE{name}": Scalar(name, "bits", 0, 2**bits - 1) for name, bits in (("BYTE", 8), ("WORD", 16))},
     **_integers(),
-    "SAFEINT": Scalar("INT", "int", -(2**15), 2**15 - 1),
+    **{f"SAFE{name}": kind for name, kind in _integers().items()},
     "TIME": TIME,
     "SAFETIME": TIME,
 }
@@ -126,6 +144,15 @@ class Index:
 
 
 @dataclass(frozen=True)
+class Bit:
+    """A bit of a bit string; 0 is the lowest."""
+
+    of: Expression
+    number: int
+    place: Place
+
+
+@dataclass(frozen=True)
 class Unary:
     """NOT or -."""
 
@@ -136,7 +163,10 @@ class Unary:
 
 @dataclass(frozen=True)
 class Binary:
-    """AND OR XOR, comparison, + - * / MOD; +W and -W of bit strings, which wrap."""
+    """AND OR XOR, comparison, + - * / MOD; +W and -W of bit strings, which wrap.
+
+    AND_THEN and OR_ELSE look at the right side only where the left one leaves it open.
+    """
 
     operator: str
     left: Expression
@@ -146,15 +176,15 @@ class Binary:
 
 @dataclass(frozen=True)
 class Function:
-    """A call of a standard function; arguments by position, or by their standard names."""
+    """A call of a function; arguments by position, or by their names."""
 
     name: str
     arguments: tuple[tuple[str, Expression], ...]
     place: Place
 
 
-Expression = Literal | Name | Member | Index | Unary | Binary | Function
-Target = Name | Member | Index
+Expression = Literal | Name | Member | Index | Bit | Unary | Binary | Function
+Target = Name | Member | Index | Bit
 
 
 # ---------------------------------------------------------------- statements
@@ -201,8 +231,21 @@ class For:
 
 
 @dataclass(frozen=True)
+class Loop:
+    """WHILE, and REPEAT, whose first turn is always made (`first`); `going`: another turn is made."""
+
+    going: Expression
+    body: Body
+    first: bool
+    place: Place
+
+
+@dataclass(frozen=True)
 class Call:
-    """A call of an instance: its inputs, and where outputs go (`=>`)."""
+    """A call of an instance or of a FUNCTION: its inputs, and where outputs go (`=>`).
+
+    Inputs without names are given in the order in which they are declared.
+    """
 
     instance: Expression
     inputs: tuple[tuple[str, Expression], ...]
@@ -218,14 +261,14 @@ class Return:
 
 
 @dataclass(frozen=True)
-class Stop:
-    """What must not be reached: the PLC would stop there. text: what is true where it is not reached."""
+class Leave:
+    """EXIT: the end of the innermost loop; CONTINUE (`turn`): the end of this turn of it."""
 
-    text: str
+    turn: bool
     place: Place
 
 
-Statement = Assign | If | Case | For | Call | Return | Stop
+Statement = Assign | If | Case | For | Loop | Call | Return | Leave
 Body = tuple[Statement, ...]
 
 
@@ -272,6 +315,9 @@ class Unit:
     enumerations: Mapping[str, Scalar] = field(default_factory=dict)
     device: Device | None = None
     """What carries out a call in the place of a body."""
+    namespace: str = ""
+    using: tuple[tuple[str, Place], ...] = ()
+    """The namespaces whose names its file uses, and where it says so."""
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""
@@ -299,8 +345,10 @@ class Source:
         return self.units.get(name.upper())
 
     def main(self) -> Unit:
-        """The unit that no other unit has an instance of. Raises Unjudged: there is none, or several, or
-        one cannot be read, so that it might be meant."""
+        """The unit that no other unit has an instance of; of several the one PROGRAM.
+
+        Raises Unjudged: there is none, or several, or one cannot be read, so that it might be meant.
+        """
         for refusal in self.refused.values():
             raise refusal
         used = {
@@ -310,6 +358,9 @@ class Source:
             if isinstance(variable.type, Instance)
         }
         found = [unit for name, unit in self.units.items() if name not in used and unit.kind != "function"]
+        programs = [unit for unit in found if unit.kind == "program"]
+        if len(programs) == 1:
+            return programs[0]
         if len(found) != 1:
             names = ", ".join(unit.name for unit in found) or "none"
             raise Unjudged(

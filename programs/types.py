@@ -8,13 +8,15 @@ from typing import Any
 
 from modeproof.ground.errors import suggestion
 from programs.calls import own_arguments
-from programs.standard import BLOCKS, FUNCTIONS, SHIFTS, arguments, converted_from
+from programs.constants import Known, constant_of, known
+from programs.standard import BLOCKS, FUNCTIONS, SHIFTS, arguments, conversion
 from programs.tree import (
     BOOL,
     SCALARS,
     TIME,
     Array,
     Binary,
+    Bit,
     Expression,
     Function,
     Index,
@@ -53,16 +55,23 @@ class Types:
 
     def _enum_member(self, expression: Expression) -> tuple[Scalar, int] | None:
         if isinstance(expression, Name) and expression.name.upper() not in self.unit.variables:
-            for kind in self._enumerations():
-                if expression.name in kind.names:
-                    return kind, kind.names.index(expression.name)
+            found = {
+                kind: number
+                for kind in self._enumerations()
+                if (number := kind.member(expression.name)) is not None
+            }
+            if len(found) > 1:
+                shown = " or ".join(f"{kind.name}.{expression.name}" for kind in found)
+                raise expression.place.refuse(f"{expression.name}: which enumeration is meant? {shown}")
+            return next(iter(found.items()), None)
         if isinstance(expression, Member) and isinstance(expression.of, Name):
             for kind in self._enumerations():
-                if kind.name.upper() == expression.of.name.upper() and expression.name in kind.names:
+                number = kind.member(expression.name)
+                if kind.name.upper() == expression.of.name.upper() and number is not None:
                     variable = self.unit.variables.get(kind.name.upper())
                     if variable is not None and isinstance(variable.type, Instance):
                         raise expression.place.refuse(f"{kind.name} is a type and an instance; rename one")
-                    return kind, kind.names.index(expression.name)
+                    return kind, number
         return None
 
     def _enumerations(self) -> Iterator[Scalar]:
@@ -71,7 +80,15 @@ class Types:
                 yield kind
 
     def of(self, expression: Expression, wanted: Scalar | None = None) -> Type:
-        """The type of an expression; a bare number takes the type that is wanted."""
+        """The type of an expression; a bare number takes the type that is wanted.
+
+        One calculates with a subrange as with its base.
+        """
+        found = self.declared(expression, (wanted and wanted.base) or wanted)
+        return found.base if isinstance(found, Scalar) and found.base is not None else found
+
+    def declared(self, expression: Expression, wanted: Scalar | None = None) -> Type:
+        """The type of an expression; that of a variable as it is declared."""
         key = id(expression), id(wanted)
         if key not in self.known:
             self.known[key] = (expression, wanted), self._of(expression, wanted)
@@ -105,6 +122,11 @@ class Types:
                     raise place.refuse("only an array has an index")
                 self.scalar(index, place, ("int",))
                 return kind.element
+            case Bit(of, number, place):
+                string = self.scalar(of, place, ("bits",))
+                if number >= string.width:
+                    raise place.refuse(f"bit {number} is outside {string.name}, 0..{string.width - 1}")
+                return BOOL
             case Unary(operator, operand, place):
                 kinds = ("bool", "bits") if operator == "NOT" else ("int", "time")
                 return self.scalar(operand, place, kinds, wanted)
@@ -167,6 +189,8 @@ class Types:
             return BOOL
         first, second = self.pair(node.left, node.right, node.place, wanted)
         kinds = {first.kind, second.kind}
+        if node.operator in ("AND_THEN", "OR_ELSE") and kinds == {"bool"}:
+            return BOOL
         if node.operator in ("AND", "OR", "XOR", "+W", "-W"):
             if kinds == {"bool"} or kinds == {"bits"}:
                 return max(first, second, key=lambda kind: kind.high)
@@ -182,13 +206,15 @@ class Types:
                 return TIME
             if (first.kind, second.kind) == ("time", "int") and node.operator in "*/":
                 return TIME
-        raise node.place.refuse(f"{node.operator} of {first.name} and {second.name} is not supported")
+        advice = "; use BOOL_TO_INT" if kinds == {"bool"} and node.operator in ("+", "-") else ""
+        raise node.place.refuse(f"{node.operator} of {first.name} and {second.name} is not supported{advice}")
 
     def function(self, node: Function, wanted: Scalar | None) -> Scalar:
         place = node.place
         if (unit := self.own_function(node)) is not None:
             return self.own(node, unit)
-        if node.name not in FUNCTIONS and "_TO_" not in node.name:
+        ends = conversion(node.name)
+        if node.name not in FUNCTIONS and ends is None:
             raise place.refuse(f"function {node.name} is not supported")
         values = arguments(node)
         if node.name == "ABS":
@@ -218,12 +244,12 @@ class Types:
                     f"{node.name} of {kind.name} by {by}: compilers differ from {kind.width} on"
                 )
             return kind
-        start, _, end = node.name.partition("_TO_")
-        if end in SCALARS and (start in SCALARS or not start):
-            return self.conversion(node, values[0], converted_from(node.name), SCALARS[end])
-        if node.name == "MOVE":
+        if ends is None:  # MOVE
             return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
-        raise place.refuse(f"conversion {node.name} is not supported")
+        start, end = ends
+        if end not in SCALARS or (start not in SCALARS and start):
+            raise place.refuse(f"conversion {node.name} is not supported")
+        return self.conversion(node, values[0], SCALARS.get(start), SCALARS[end])
 
     def own_function(self, node: Function) -> Unit | None:
         """The FUNCTION of the program's own that is called; None: it is one of the standard."""
@@ -232,10 +258,14 @@ class Types:
 
     def own(self, node: Function, unit: Unit) -> Scalar:
         """The type of the result of a FUNCTION, after a look at its arguments."""
+        if unit.name.upper() not in unit.variables:
+            raise node.place.refuse(f"{unit.name} has no result: call it as a statement")
+        if unit.of("in_out"):
+            raise node.place.refuse(f"{unit.name} has VAR_IN_OUT: it is called as a statement here")
         for key, expression in own_arguments(node, unit).items():
             wanted = unit.variables[key].type
             assert isinstance(wanted, Scalar)
-            given = self.of(expression, wanted)
+            given, wanted = self.of(expression, wanted), wanted.base or wanted
             alike = isinstance(given, Scalar) and given.kind == wanted.kind
             if not alike or (wanted.kind == "enum" and given != wanted):
                 raise node.place.refuse(f"{unit.variables[key].name} of {unit.name} is of another type")
@@ -244,7 +274,7 @@ class Types:
                 raise node.place.refuse(f"{unit.variables[key].name} := {given.name} needs a conversion")
         result = unit.variables[unit.name.upper()].type
         assert isinstance(result, Scalar)
-        return result
+        return result.base or result
 
     def conversion(self, node: Function, value: Expression, start: Scalar | None, end: Scalar) -> Scalar:
         given = self.scalar(value, node.place, ("bool", "bits", "int", "time", "enum"), start)
@@ -257,21 +287,11 @@ class Types:
         return end
 
     def constant(self, expression: Expression) -> int:
-        """The value of a literal, of a member of an enumeration or of a CONSTANT."""
+        """The value of a member of an enumeration or of a constant expression."""
         if (member := self.enum_member(expression)) is not None:
             return member[1]
-        match expression:
-            case Literal(value, _, _):
-                return int(value)
-            case Unary("-", Literal(value, _, _), _):
-                return -int(value)
-            case Name(name, place):
-                variable = self.unit.variables.get(name.upper())
-                if (
-                    variable is not None
-                    and variable.section == "constant"
-                    and isinstance(variable.initial, int)
-                ):
-                    return int(variable.initial)
-                raise place.refuse(f"{name}: a constant is needed here")
-        raise expression.place.refuse("a constant is needed here")
+        return int(known(expression, self.look).value)
+
+    def look(self, name: Name | Member) -> Known | None:
+        """The value of a CONSTANT of this unit."""
+        return constant_of(self.unit.variables.get(name.name.upper())) if isinstance(name, Name) else None

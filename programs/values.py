@@ -11,7 +11,7 @@ import z3
 
 from programs.calls import own_arguments
 from programs.run import default
-from programs.standard import arguments, converted_from
+from programs.standard import arguments, conversion, converted_from
 from programs.terms import (
     Env,
     both,
@@ -27,6 +27,7 @@ from programs.terms import (
 from programs.tree import (
     Array,
     Binary,
+    Bit,
     Expression,
     Function,
     Index,
@@ -72,7 +73,11 @@ class Context:
 
     def store(self, target: Expression, term: Any, env: Env, here: z3.BoolRef) -> None:
         """Give a target its new value."""
-        if isinstance(target, Index):
+        if isinstance(target, Bit):
+            string = self.value(target.of, env, here)
+            mask = z3.BitVecVal(1 << target.number, string.size())
+            self.store(target.of, z3.simplify(z3.If(term, string | mask, string & ~mask)), env, here)
+        elif isinstance(target, Index):
             array = self.types.of(target.of)
             assert isinstance(array, Array)
             base, index = self.path(target.of, env, here), z3.simplify(self.value(target.index, env, here))
@@ -108,6 +113,8 @@ class Context:
                 return env[self.path(expression, env, here)]
             case Index(of, index, place):
                 return self.element(of, z3.simplify(self.value(index, env, here)), place, env, here)
+            case Bit(of, number, _):
+                return z3.Extract(number, number, self.value(of, env, here)) == 1
         assert isinstance(kind, Scalar)
         match expression:
             case Unary("NOT", operand, _):
@@ -138,6 +145,11 @@ class Context:
         return found
 
     def binary(self, node: Binary, kind: Scalar, env: Env, here: z3.BoolRef, wanted: Scalar | None) -> Any:
+        if node.operator in ("AND_THEN", "OR_ELSE"):
+            left = self.value(node.left, env, here)
+            if node.operator == "AND_THEN":
+                return both(left, self.value(node.right, env, both(here, left)))
+            return either(left, self.value(node.right, env, both(here, negated(left))))
         compares = node.operator in ("=", "<>", "<", "<=", ">", ">=")
         first, second = self.types.pair(node.left, node.right, node.place, None if compares else wanted)
         left, right = self.value(node.left, env, here, first), self.value(node.right, env, here, second)
@@ -182,7 +194,7 @@ class Context:
             if node.name in ("ROL", "ROR"):
                 return rotated(term, by if node.name == "ROL" else -by)
             return term << by if node.name == "SHL" else z3.LShR(term, by)
-        if "_TO_" in node.name:
+        if conversion(node.name) is not None:
             return self.converted(node, given[0], kind, env, here)
         if node.name == "SEL":
             no, yes = (self.value(value, env, here, kind) for value in given[1:])
@@ -203,18 +215,24 @@ class Context:
         return values[0]
 
     def own(self, node: Function, unit: Unit, env: Env, here: z3.BoolRef) -> Any:
-        """The result of a FUNCTION of the program's own: it begins anew in each call."""
+        """The result of a FUNCTION of the program's own."""
+        return self.called(own_arguments(node, unit), unit, node.place, env, here)[unit.name.upper()]
+
+    def called(
+        self, given: Mapping[str, Expression], unit: Unit, place: Place, env: Env, here: z3.BoolRef
+    ) -> Env:
+        """The variables of a FUNCTION after a call with these arguments: it begins anew in each call."""
         inner: Env = {}
         for key, variable in unit.variables.items():
             start = default(variable.type, variable.initial)
             inner |= {path: constant(kind, value) for path, kind, value in singles(variable.type, key, start)}
-        for key, expression in own_arguments(node, unit).items():
+        for key, expression in given.items():
             kind = unit.variables[key].type
             assert isinstance(kind, Scalar)
             term = self.value(expression, env, here, kind)
-            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, node.place, here)
+            inner[key] = self.translator.fitted(term, self.types.of(expression, kind), kind, place, here)
         self.translator.call(unit, "", inner, here)
-        return inner[unit.name.upper()]
+        return inner
 
     def converted(
         self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef
@@ -224,6 +242,12 @@ class Context:
         term = self.value(argument, env, here, start)
         assert isinstance(given, Scalar)
         term = self.translator.widened(term, self.types.of(argument, start), given)
+        if given.numbers:
+            place, *others = enumerate(given.numbers)
+            found = z3.IntVal(place[1])
+            for number, value in others:
+                found = z3.If(term == number, z3.IntVal(value), found)
+            term = found
         if given.kind == "bool" and kind.kind != "bool":
             term = z3.If(term, constant(kind, 1), constant(kind, 0))
             return term

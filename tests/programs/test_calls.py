@@ -45,7 +45,7 @@ def test_a_lent_variable_is_changed() -> None:
         ("y := Add2(a := x, c := x);", "the arguments of Add2 are a, b"),
         ("y := Add2(in, x);", "a of Add2 is of another type"),
         ("y := Loop(x);", "Loop calls Loop"),
-        ("y := Kept(x);", "e: a FUNCTION has inputs and plain variables here"),
+        ("y := Kept(x);", "e: a FUNCTION has plain variables here"),
         ("b(by := 1);", "z of Bump is VAR_IN_OUT: give it a single variable"),
         ("b(z := x + 1);", "give it a single variable"),
         ("b(z := x);", "x is an input and is written"),

@@ -22,8 +22,8 @@ def test_a_loop_longer_than_ours_refutes_nothing() -> None:
     ("function", "cause"),
     [
         ("VAR_INPUT x : BOOL; END_VAR f := f(x);", "f calls f: a block must not contain itself"),
-        ("VAR_INPUT x : BOOL; END_VAR VAR t : TON; END_VAR f := x;", "t: a FUNCTION has inputs and plain"),
-        ("VAR_INPUT x : ARRAY [0..1] OF BOOL; END_VAR f := TRUE;", "inputs and result of a FUNCTION"),
+        ("VAR_INPUT x : BOOL; END_VAR VAR t : TON; END_VAR f := x;", "t: a FUNCTION has plain variables"),
+        ("VAR_INPUT x : ARRAY [0..1] OF BOOL; END_VAR f := TRUE;", "inputs and outputs of a FUNCTION"),
     ],
 )
 def test_a_function_of_a_property_is_looked_through(function: str, cause: str) -> None:

@@ -10,7 +10,7 @@ import pytest
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs import run, symbolic, terms
+from programs import run_standard, symbolic, terms
 from programs.check import check
 from programs.run import Machine, Overflow
 from programs.st import read_text
@@ -393,13 +393,13 @@ def put(pin: str, term: Callable[[Callable[[str], Any]], Any]) -> Callable[[str,
     return lambda path, env: env.__setitem__(f"{path}.{pin}", term(lambda name: env[f"{path}.{name}"]))
 
 
-def late(self: Any, now: int, right: Any = run.Standard.call) -> None:
+def late(self: Any, now: int, right: Any = run_standard.Standard.call) -> None:
     """A standard block whose clock runs within a scan."""
     self.since -= 1
     right(self, now)
 
 
-def fresh(self: Any, now: int, right: Any = run.Standard.call) -> None:
+def fresh(self: Any, now: int, right: Any = run_standard.Standard.call) -> None:
     """A standard block that forgets its input."""
     self.before = False
     right(self, now)
@@ -429,8 +429,8 @@ SLIPS: dict[str, tuple[Any, str, Any]] = {
     "the element before": (symbolic, "choose", lambda condition, yes, no: no),
     "nothing is owed": (symbolic.Translator, "owe", lambda self, formula, text, place: None),
     "temporary variables have no value": (symbolic, "singles", lambda kind, path, value: ()),
-    "the clock runs within a scan": (run.Standard, "call", late),
-    "the interpreter forgets an input": (run.Standard, "call", fresh),
+    "the clock runs within a scan": (run_standard.Standard, "call", late),
+    "the interpreter forgets an input": (run_standard.Standard, "call", fresh),
 }
 
 
