@@ -57,6 +57,8 @@ class Binding:
         for name in self.left_out:
             if name not in self.reference.signals("outputs"):
                 raise Unjudged(f"binding: {name} is no output, so it cannot be left out")
+            if name in self.names:
+                raise Unjudged(f"binding: {name} stands under [names] and under left_out")
         if not self.compared:
             raise Unjudged("binding: no output is compared")
         try:
@@ -123,6 +125,8 @@ class Binding:
                     found[path] = (name, signal)
         path = self._path(DT, "input")
         if path is not None:
+            if path in taken:
+                raise self.unit.place.refuse(f"{taken[path]} and {DT} are both bound to {path}")
             self._check(DT, SCAN_TIME, self.unit.variables[path].type)
             found[path] = (DT, SCAN_TIME)
         return found
@@ -159,6 +163,11 @@ class Binding:
             raise self.unit.place.refuse(f"{name} is {low}..{high}, and {kind.name} {kind.low}..{kind.high}")
         if kind.kind == "enum" and kind.high != high:
             raise self.unit.place.refuse(f"{name} has {high + 1} values, and {kind.name} has {kind.high + 1}")
+        ours, own = [value.upper() for value in signal.values], [value.upper() for value in kind.names]
+        if ours != own and sorted(ours) == sorted(own):
+            raise self.unit.place.refuse(
+                f"{name} counts {', '.join(signal.values)}, and {kind.name} otherwise"
+            )
 
     @property
     def bound_paths(self) -> tuple[str, ...]:
@@ -242,6 +251,7 @@ class Binding:
     def compared(self) -> tuple[str, ...]:
         """The outputs of the document that the program has and that are not left out."""
         found = []
+        taken: dict[str, str] = {}
         for name in self.reference.signals("outputs"):
             if name in self.left_out:
                 continue
@@ -250,6 +260,9 @@ class Binding:
                 raise self.unit.place.refuse(
                     f"{self.unit.name} has no output {name}; bind it, or list it under left_out"
                 )
+            if path in taken:
+                raise self.unit.place.refuse(f"{taken[path]} and {name} are both bound to {path}")
+            taken[path] = name
             signal = self.reference.signals("outputs")[name]
             if signal.type == "modes":
                 self._elements(name, path)
@@ -257,6 +270,13 @@ class Binding:
                 self._check(name, signal, self.unit.variables[path].type, inward=False)
             found.append(name)
         return tuple(found)
+
+    @cached_property
+    def unasked(self) -> tuple[str, ...]:
+        """The outputs of the program that are none of the target, so that nothing is said of them."""
+        asked = {self._path(name, "output") for name in self.compared}
+        asked |= {name.upper() for name in self.left_out}
+        return tuple(name for name in self.unit.of("output") if name.upper() not in asked)
 
     def outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The program's outputs by the names of the document, in the sorts of the reference."""

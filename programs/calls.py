@@ -35,15 +35,17 @@ def own_arguments(node: Function, unit: Unit) -> dict[str, Expression]:
 
 
 def called_functions(part: Any) -> Iterator[str]:
-    """The names of all functions that are called in a part of a program."""
-    if isinstance(part, Function):
-        yield part.name
-    if isinstance(part, tuple):
-        for inner in part:
-            yield from called_functions(inner)
-    elif hasattr(part, "place"):
-        for inner in vars(part).values():
-            yield from called_functions(inner)
+    """The names of all functions that are called in a part of a program, once for each place."""
+    waiting, seen = [part], set()
+    while waiting:
+        here = waiting.pop()
+        if id(here) in seen:
+            continue
+        if isinstance(here, Function):
+            yield here.name
+        if isinstance(here, tuple) or hasattr(here, "place"):
+            seen.add(id(here))  # the turns of a loop share their statements
+            waiting += here if isinstance(here, tuple) else vars(here).values()
 
 
 def check_function(unit: Unit) -> None:

@@ -94,7 +94,6 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
 
     Raises Unjudged: the folder holds something else, or cannot be written.
     """
-    empty(folder)
     try:
         texts = {owed.file: owed.text for owed in obligations(product)}
     except NotImplementedError as error:
@@ -116,6 +115,7 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
                 "reached_by": None if way is None else _run_written(way),
             }
         )
+    empty(folder)
     fill(folder, record, texts)
     return {pair: run for pair, run in ways.items() if run is not None}
 
@@ -203,6 +203,19 @@ def _unlike(product: Product, pair: Pair, run: Run) -> str:
     return ""
 
 
+def _outside(product: Product, run: Run) -> str:
+    """What scans start from or take that the claim is not about; nothing: it is about all of it."""
+    binding = product.binding
+    if not binding.allows(run.parameters):
+        return "their parameters are none of the claim"
+    for path, value in run.retained.items():
+        slot = product.every_slot[path]
+        if slot.initial is not None or not slot.type.low <= value <= slot.type.high:
+            return f"{path} is no RETAIN variable that may have {value}"
+    longest = max((dt_ms for dt_ms, _ in run.scans), default=0)
+    return "a scan is too long" if longest > (binding.longest_scan or longest) else ""
+
+
 def _run_written(run: Run) -> dict[str, Any]:
     return {
         "parameters": dict(run.parameters),
@@ -271,7 +284,7 @@ class Kept(Stored):
         for pair, run in ways.items():
             if run is not None:
                 try:
-                    odd = _unlike(product, pair, run)
+                    odd = _outside(product, run) or _unlike(product, pair, run)
                 except (KeyError, TypeError, ValueError) as error:
                     odd = f"{error!r:.100}"
                 if odd:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from modeproof.ground.errors import suggestion
 from programs.calls import called_functions, check_function, in_outs, inner_bodies, sides
+from programs.length import check_length
 from programs.standard import BLOCKS
 from programs.tree import (
     Array,
@@ -36,32 +37,45 @@ DEEPEST = 20
 
 def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
-    for found in list(reached(source, unit, ())):
+    if unit.kind == "function":
+        raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
+    for name, variable in unit.of("in_out").items():
+        raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
+    if not unit.of("output"):
+        raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
+    check_below(source, unit)
+
+
+def check_below(source: Source, unit: Unit) -> None:
+    """The same for the statements alone, those of a FUNCTION too. Raises Unjudged with file and line."""
+    every = list(reached(source, unit, ()))
+    for found in every:
         if found.kind == "function":
             check_function(found)
-            if found is unit:
-                raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
-        for name, variable in found.of("in_out").items() if found is unit else ():
-            raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
-        if not found.of("output") and found is unit:
-            raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
+    check_length(source, unit)
+    for found in every:
         _Statements(source, found).body(found.body)
 
 
 def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit]:
     """The unit and every unit that it has an instance of, each once."""
+    return _reached(source, unit, above, set())
+
+
+def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str]) -> Iterator[Unit]:
     if unit.name in above or len(above) > DEEPEST:
         raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
-    seen = {unit.name}
+    if unit.name in seen:
+        return
+    seen.add(unit.name)
     yield unit
     named = (source.units.get(name) for name in called_functions(unit.body))
     below = [found for found in named if found is not None and found.kind == "function"]
     for variable in unit.variables.values():
         kind = variable.type
-        while isinstance(kind, Array):
-            kind = kind.element
-            if isinstance(kind, Instance):
-                raise variable.place.refuse(f"{variable.name}: an array of blocks is not supported")
+        if isinstance(kind, Array) and not isinstance(kind.element, Scalar):
+            what = "blocks" if isinstance(kind.element, Instance) else "arrays"
+            raise variable.place.refuse(f"{variable.name}: an array of {what} is not supported")
         if isinstance(kind, Instance) and kind.block.upper() not in BLOCKS:
             instance = source.find(kind.block)
             if instance is None:
@@ -70,10 +84,10 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
                     + suggestion(kind.block, [*BLOCKS, *(found.name for found in source.units.values())])
                 )
             below.append(instance)
-    for found in (found for inner in below for found in reached(source, inner, (*above, unit.name))):
-        if found.name not in seen:
-            seen.add(found.name)
-            yield found
+        if isinstance(kind, Instance) and variable.section != "var":
+            raise variable.place.refuse(f"{variable.name}: an instance of a block stands in VAR here")
+    for inner in below:
+        yield from _reached(source, inner, (*above, unit.name), seen)
 
 
 class _Statements(Types):
@@ -94,13 +108,16 @@ class _Statements(Types):
                     kind = self.scalar(subject, place, ("int", "enum", "bits"))
                     for ranges, inner in clauses:
                         for end in (end for pair in ranges for end in pair):
-                            if self.scalar(end, place, (kind.kind,), kind).kind != kind.kind:
+                            label = self.scalar(end, place, (kind.kind,), kind)
+                            if kind.kind == "enum" and label != kind:
                                 raise place.refuse("a label of CASE is of another type")
                             self.constant(end)
                         self.body(inner)
                     self.body(otherwise)
                 case For(control, start, end, step, inner, place):
-                    self.scalar(control, place, ("int",))
+                    kind = self.scalar(control, place, ("int",))
+                    for bound in (start, end, *([] if step is None else [step])):
+                        self.scalar(bound, place, ("int",), kind)
                     by = 1 if step is None else self.constant(step)
                     self.turns(control, self.constant(start), self.constant(end), by)
                     if any(self.writes(inner, control.name)):
@@ -124,7 +141,9 @@ class _Statements(Types):
             if isinstance(statement, Assign) and isinstance(statement.target, Name):
                 yield statement.target.name.upper() == name.upper()
             if isinstance(statement, Call):
-                for _, target in statement.outputs:
+                lent = in_outs(self.source, self.of(statement.instance))
+                given = [(pin, target) for pin, target in statement.inputs if pin.upper() in lent]
+                for _, target in (*given, *statement.outputs):
                     yield isinstance(target, Name) and target.name.upper() == name.upper()
             if isinstance(statement, For):
                 yield statement.control.name.upper() == name.upper()
@@ -190,7 +209,10 @@ class _Statements(Types):
         ins, outs = sides(self.source, kind)
         self.in_outs(kind, inputs, place)
         for pairs, known in ((inputs, ins), (outputs, outs)):
+            names = [name.upper() for name, _ in pairs]
             for name, expression in pairs:
+                if names.count(name.upper()) > 1:
+                    raise place.refuse(f"{name} of {kind.block} stands twice in one call")
                 key = next((key for key in known if key.upper() == name.upper()), None)
                 if key is None:
                     raise place.refuse(f"{kind.block} has no {name}; {suggestion(name, known)}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -56,6 +57,8 @@ def run(args: argparse.Namespace) -> int:
     seconds = time.process_time() - started
     print("\n".join([*text_of(found, seconds), *lines]))
     record = record_of(found, seconds, ways)
+    if args.binding is not None:
+        record["binding_file"] = {str(args.binding): hashlib.sha256(args.binding.read_bytes()).hexdigest()}
     write_record(root(), record, args.json)
     if args.junit is not None:
         said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
@@ -146,7 +149,8 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     """What a verdict is about, in lines of a label and a text."""
     binding, signals = product.binding, product.binding.reference.signals("parameters")
     yield "compared", ", ".join(binding.compared)
-    yield "left out", ", ".join(binding.left_out) or "no output"
+    own = f"; of the program's own: {', '.join(binding.unasked)}" if binding.unasked else ""
+    yield "left out", (", ".join(binding.left_out) or "no output") + own
     narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
     free = []
     for name in binding.free_parameters:
@@ -214,10 +218,13 @@ def not_shown(found: Verdict) -> Iterator[str]:
     if found.missing:
         yield found.missing
     yield from (f"output {name}: it is not compared" for name in binding.left_out)
+    yield from (f"output {name} of the program: the target has none such" for name in binding.unasked)
     yield from (f"{name} other than {value}" for name, value in binding.values.items())
     yield from (f"parameters outside {text}" for text in binding.narrowed())
     if binding.longest_scan is not None:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
+    if found.product.wrap:
+        yield "whether numbers stay within their types: they wrap"
     yield "what the compiler and the PLC make of the source"
 
 

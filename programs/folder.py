@@ -20,6 +20,7 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
+from modeproof.kit.files import write_json, write_text
 from programs.smtlib import Printer
 
 NAME: Final = "certificate.json"
@@ -93,14 +94,16 @@ def empty(folder: Path) -> None:
 
 
 def fill(folder: Path, record: Mapping[str, Any], texts: Mapping[str, str]) -> None:
-    """Write the questions, and the record last. Raises Unjudged."""
+    """Write the questions, and the record last. Raises Unjudged; then nothing is left of them."""
+    said = {**record, "queries": {name: digest_of(text) for name, text in texts.items()}}
     try:
         for name, text in texts.items():
-            (folder / name).write_text(text, "utf-8")
-        said = {**record, "queries": {name: digest_of(text) for name, text in texts.items()}}
-        (folder / NAME).write_text(json.dumps(said, indent=1, ensure_ascii=False) + "\n", "utf-8")
-    except OSError as error:
-        raise Unjudged(f"{folder}: cannot be written: {error.strerror or error}") from None
+            write_text(folder / name, text)
+        write_json(folder / NAME, said)
+    except BaseException:  # half a certificate is none
+        for name in texts:
+            (folder / name).unlink(missing_ok=True)
+        raise
 
 
 def record_in(folder: Path, *formats: str) -> dict[str, Any]:
@@ -110,7 +113,7 @@ def record_in(folder: Path, *formats: str) -> dict[str, Any]:
         record = json.loads(path.read_text("utf-8"))
     except OSError as error:
         raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise Unjudged(f"{path}: no JSON: {error}") from None
     if (
         not isinstance(record, dict)
@@ -173,6 +176,6 @@ class Stored:
             odd = sorted(set(stored) ^ set(texts)) or ["the list in it"]
             raise self.refuse(f"the queries are not those that follow from the program: {odd[0]}")
         for name, text in texts.items():
-            kept = (self.folder / name).read_text("utf-8", "replace")
-            if kept != text or self.table("queries")[name] != digest_of(text):
+            kept = (self.folder / name).read_bytes()
+            if kept != text.encode("utf-8") or self.table("queries")[name] != digest_of(text):
                 raise Unjudged(f"{self.folder / name}: not the obligation that follows from the program")

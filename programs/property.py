@@ -66,10 +66,13 @@ class Judgement:
     @property
     def every(self) -> list[Asked]:
         """The properties, that on types first."""
-        types = Asked(
-            TYPES, "The program stays within its types.", "no overflow, division by 0, wrong index", None
-        )
-        return [types, *self.asked]
+        sentence, text = "The program stays within its types.", "no overflow, division by 0, wrong index"
+        if self.cell.wrap:
+            sentence, text = (
+                "The program does what its types allow.",
+                "no division by 0, wrong index; numbers wrap",
+            )
+        return [Asked(TYPES, sentence, text, None), *self.asked]
 
     def all(self) -> list[Found]:
         """The verdict on each."""

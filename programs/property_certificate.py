@@ -143,7 +143,6 @@ def write(cell: Cell, judgement: Judgement, found: Sequence[Found], properties: 
 
     Raises Unjudged: the folder holds something else, or no certificate can be written.
     """
-    empty(folder)
     try:
         proofs = [(one.asked, _kept(judgement, one)) for one in found]
         texts = {owed.file: owed.text for owed in obligations(judgement, proofs)}
@@ -165,6 +164,7 @@ def write(cell: Cell, judgement: Judgement, found: Sequence[Found], properties: 
         }
         for one, (asked, proof) in zip(found, proofs, strict=True)
     ]
+    empty(folder)
     fill(folder, {**claim(cell, judgement, properties), "proofs": rows}, texts)
 
 
@@ -263,10 +263,27 @@ class Kept(Stored):
             raise self.refuse(f"{asked.id}: it has not one way to each of its {len(asked.trigger)} triggers")
         for (text, trigger), row in zip(asked.trigger, rows, strict=True):
             scans: Scans = [(int(scan["dt_ms"]), dict(scan["in"])) for scan in row["scans"]]
-            if cell.run(dict(row["retained"]), scans, never(asked, trigger)) is None:
-                raise self.refuse(f"{asked.id}: the scans to `{text}` do not lead there")
+            retained = dict(row["retained"])
+            odd = _outside(cell, retained, scans)
+            if odd or cell.run(retained, scans, never(asked, trigger)) is None:
+                raise self.refuse(f"{asked.id}: the scans to `{text}` do not lead there{odd}")
 
 
 def read(folder: Path) -> Kept:
     """The certificate of properties in a folder. Raises Unjudged."""
     return Kept(folder, record_in(folder, FORMAT))
+
+
+def _outside(cell: Cell, retained: Mapping[str, Any], scans: Scans) -> str:
+    """What scans start from or take that the claim is not about; nothing: it is about all of it."""
+    low, high = cell.scan_time
+    if any(dt_ms < low or dt_ms > (dt_ms if high is None else high) for dt_ms, _ in scans):
+        return ": a scan is too short or too long"
+    given = [(cell.inputs, inputs) for _, inputs in scans]
+    if any(path not in cell.retained for path in retained):
+        return ": a value at power-up is not RETAIN"
+    for slots, values in [(cell.slots, retained), *given]:
+        for path, value in values.items():
+            if path not in slots or not slots[path].type.low <= value <= slots[path].type.high:
+                return f": {path} is not, or cannot be {value}"
+    return ""

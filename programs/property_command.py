@@ -23,6 +23,8 @@ from programs.sources import read_sources
 
 TRUSTED = (*property_certificate.TRUSTED, "z3")
 
+WRAP = "wrap where they leave their types; that they never do was not asked"
+
 
 def run(args: argparse.Namespace) -> int:
     """Judge each property and print it; 1 if one is REFUTED, else 2 if one is not PROVED, else 0."""
@@ -85,6 +87,10 @@ def text_of(cell: Cell, found: Sequence[Found], seconds: float) -> Iterator[str]
     blocks = [f"{name} ({block.reference.document})" for name, block in cell.blocks.items()]
     yield f"  blocks      {', '.join(blocks) or 'none of the documents'}"
     yield f"  scans       of {_times(cell)}; every input, from power-up, for ever"
+    if cell.clock:
+        yield "  dt_ms       is the time since the scan before"
+    if cell.wrap:
+        yield f"  numbers     {WRAP}"
     for verdict in found:
         yield from _verdict(cell, verdict)
     yield f"  trusted     {', '.join(TRUSTED)}"
@@ -138,6 +144,8 @@ def _not_shown(cell: Cell) -> Iterator[str]:
     """What the verdicts say nothing about, in words."""
     yield f"scans outside {_times(cell)}"
     yield "outputs, variables and pins that no property names"
+    if cell.wrap:
+        yield f"numbers: {WRAP}"
     yield "what the compiler and the PLC make of the source"
 
 

@@ -14,7 +14,7 @@ from modeproof.kit.vectors import open_suite
 from programs.bind import Binding
 from programs.product import Pair, Product
 from programs.relations import Values
-from programs.run import Frame, Machine, Overflow, Standard
+from programs.run import Frame, Limit, Machine, Overflow, Standard
 
 SUITES = ("sequences", "times", "brief")
 MOST_SCANS = 6_000
@@ -145,6 +145,8 @@ def steps(binding: Binding, wrap: bool, run: Run, found_by: str = "") -> Iterato
         try:
             own = machine.scan(binding.plain_inputs(inputs, run.parameters, dt_ms), dt_ms)
             given.append(binding.plain_outputs(own))
+        except Limit:
+            raise
         except Overflow as error:
             stopped = error.message
         if stopped or given[-1] != expected[-1]:

@@ -14,7 +14,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from programs.calls import in_outs, own_arguments
 from programs.ready import ready
-from programs.standard import arguments
+from programs.standard import arguments, converted_from
 from programs.tree import (
     Array,
     Assign,
@@ -45,6 +45,10 @@ from programs.types import Types
 
 class Overflow(Unjudged):
     """A value left the range of its type, a divisor was zero, or an index was outside its array."""
+
+
+class Limit(Overflow):
+    """A limit of the reader was met, which is no fault of the program: nothing can be said of it."""
 
 
 class _Returned(Exception):
@@ -201,7 +205,7 @@ class Machine:
                 case Return():
                     raise _Returned
                 case Stop(text, place):
-                    raise Overflow(f"{place.file}:{place.line}: not so: {text}")
+                    raise Limit(f"{place.file}:{place.line}: not so: {text}; what takes more is not judged")
 
     def clause(self, frame: Frame, clauses: Any, found: int, otherwise: Body) -> Body:
         for ranges, inner in clauses:
@@ -345,8 +349,9 @@ class Machine:
         return called.values[unit.name.upper()]
 
     def converted(self, frame: Frame, node: Function, argument: Expression, kind: Scalar) -> Any:
-        given = frame.types.of(argument)
-        value = self.value(frame, argument)
+        start = converted_from(node.name)
+        given = start or frame.types.of(argument)
+        value = self.value(frame, argument, start)
         assert isinstance(given, Scalar)
         if kind.kind == "bits":
             return int(value) & kind.high

@@ -15,6 +15,7 @@ import tree_sitter_iec61131_3_st
 
 from modeproof.ground.errors import Unjudged
 from programs.st_body import Bodies
+from programs.standard import BLOCKS
 from programs.tree import (
     SCALARS,
     Array,
@@ -41,6 +42,8 @@ SECTIONS = {
     "var_temp": "temp",
     "var_in_out": "in_out",
 }
+MOST_OPEN = 100
+"""Comments that begin and do not end."""
 STRUCTURE = "structures are not supported: declare each member as a variable of its own"
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 _NUMBER = re.compile(r"(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)")
@@ -53,12 +56,16 @@ def read_text(text: str, file: str) -> list[Unit]:
     """The program units of one text. Raises Unjudged with file, line and cause."""
     text = _MEMBER.sub(lambda match: match[0] if match[1].upper() in _PREFIXES else f"{match[1]}.", text)
     text = _TIME.sub(lambda match: match[0].replace("_", ""), text)
+    last = text.rfind("*)") + 1
+    if text.count("(*", last) > MOST_OPEN:  # the grammar would look for the end of each of them
+        line = text.count("\n", 0, text.index("(*", last)) + 1
+        raise Place(file, line).refuse("a comment that begins here does not end")
     root = _PARSER.parse(text.encode("utf-8")).root_node
     if root.has_error:
         fault = next(_faults(root))
         shown = " ".join(fault.text.decode("utf-8", "replace").split())[:40]
         raise Place(file, fault.start_point[0] + 1).refuse(
-            f"{shown!r} is missing or not Structured Text"
+            f"{fault.type!r} is missing here, or what stands here is not Structured Text"
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
@@ -102,8 +109,7 @@ class _Reader(Bodies):
         for node in self.named(root):
             if node.type == "type_declaration":
                 for definition in self.named(node):
-                    name = self.text(self.field(definition, "name"))
-                    self.types[name.upper()] = self.type(self.field(definition, "definition"), name)
+                    self.define(definition)
             elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
                 found.append(self.unit(node))
             else:
@@ -116,6 +122,15 @@ class _Reader(Bodies):
         if self.read != there:
             raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         return found
+
+    def define(self, node: Any) -> None:
+        """A type with a name of its own."""
+        name = self.text(self.field(node, "name"))
+        if name.upper() in {*SCALARS, *BLOCKS, *self.types}:
+            raise self.refuse(node, f"there is another type with the name {name}")
+        if self.field(node, "default") is not None:
+            raise self.refuse(node, f"{name}: give the first value to each variable, not to the type")
+        self.types[name.upper()] = self.type(self.field(node, "definition"), name)
 
     def unit(self, node: Any) -> Unit:
         name = self.text(self.field(node, "name"))
@@ -133,6 +148,8 @@ class _Reader(Bodies):
         enumerations = {name: kind for name, kind in self.types.items() if isinstance(kind, Scalar)}
         kind = node.type.removesuffix("_declaration").replace("_", " ")
         if kind == "function":
+            if name.upper() in variables:
+                raise variables[name.upper()].place.refuse(f"{name} is declared twice: it is the result")
             result = self.type(self.field(node, "return_type"), "")
             variables[name.upper()] = Variable(name, result, "output", None, self.place(node))
         return Unit(name, kind, variables, self.body(body_nodes), self.place(node), enumerations)
@@ -186,6 +203,8 @@ class _Reader(Bodies):
                 if value is not None and self.constant(value) != number:
                     raise self.refuse(member, "an enumeration counts from 0 by 1 here")
                 names.append(self.text(self.field(member, "name")))
+                if names[-1].upper() in map(str.upper, names[:-1]):
+                    raise self.refuse(member, f"{names[-1]} stands twice in an enumeration")
             return Scalar(
                 name or f"enum at line {node.start_point[0] + 1}", "enum", 0, len(names) - 1, tuple(names)
             )
@@ -199,7 +218,10 @@ class _Reader(Bodies):
             for node in nodes:
                 if node.type == "array_repetition":
                     count, *rest = self.named(node)
-                    values += [self.single(part, declared.element) for part in rest] * self.constant(count)
+                    times = self.constant(count)
+                    if not 0 < times <= LONGEST:
+                        raise self.refuse(node, f"{times} times: 1 to {LONGEST:,} are possible")
+                    values += [self.single(part, declared.element) for part in rest] * times
                 else:
                     values.append(self.single(node, declared.element))
             if len(values) > declared.high - declared.low + 1:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from programs.tree import BOOL, TIME, Expression, Function, Scalar
+from programs.tree import BOOL, SCALARS, TIME, Expression, Function, Scalar
 
 SHIFTS = ("SHL", "SHR", "ROL", "ROR")
 FUNCTIONS = ("ABS", "MIN", "MAX", "LIMIT", "SEL", "MOVE", *SHIFTS)
@@ -22,6 +22,11 @@ _PARAMETERS = {
     "SEL": ("G", "IN0", "IN1"),
     **dict.fromkeys(SHIFTS, ("IN", "N")),
 }
+
+
+def converted_from(name: str) -> Scalar | None:
+    """The type from which a conversion such as INT_TO_WORD starts; None: it takes any (TO_WORD)."""
+    return SCALARS.get(name.partition("_TO_")[0])
 
 
 def arguments(node: Function) -> list[Expression]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from modeproof.ground.errors import suggestion
 from programs.calls import own_arguments
-from programs.standard import BLOCKS, FUNCTIONS, SHIFTS, arguments
+from programs.standard import BLOCKS, FUNCTIONS, SHIFTS, arguments, converted_from
 from programs.tree import (
     BOOL,
     SCALARS,
@@ -59,6 +59,9 @@ class Types:
         if isinstance(expression, Member) and isinstance(expression.of, Name):
             for kind in self._enumerations():
                 if kind.name.upper() == expression.of.name.upper() and expression.name in kind.names:
+                    variable = self.unit.variables.get(kind.name.upper())
+                    if variable is not None and isinstance(variable.type, Instance):
+                        raise expression.place.refuse(f"{kind.name} is a type and an instance; rename one")
                     return kind, kind.names.index(expression.name)
         return None
 
@@ -169,7 +172,12 @@ class Types:
                 return max(first, second, key=lambda kind: kind.high)
         elif node.operator in ("+", "-", "*", "/", "MOD"):
             if kinds == {"int"}:
-                return max(first, second, key=lambda kind: (kind.high - kind.low, kind.high))
+                wider = max(first, second, key=lambda kind: (kind.high - kind.low, kind.high))
+                if min(first.low, second.low) < wider.low or max(first.high, second.high) > wider.high:
+                    raise node.place.refuse(
+                        f"{node.operator} of {first.name} and {second.name}: compilers differ; convert one"
+                    )
+                return wider
             if kinds == {"time"} and node.operator in "+-":
                 return TIME
             if (first.kind, second.kind) == ("time", "int") and node.operator in "*/":
@@ -203,17 +211,23 @@ class Types:
             return first
         if node.name in SHIFTS:
             self.scalar(values[1], place, ("int",))
-            return self.scalar(values[0], place, ("bits",), wanted)
+            kind = self.scalar(values[0], place, ("bits",), wanted)
+            by = values[1].value if isinstance(values[1], Literal) else 0
+            if node.name in ("SHL", "SHR") and by >= kind.width:
+                raise place.refuse(
+                    f"{node.name} of {kind.name} by {by}: compilers differ from {kind.width} on"
+                )
+            return kind
         start, _, end = node.name.partition("_TO_")
         if end in SCALARS and (start in SCALARS or not start):
-            return self.conversion(node, values[0], SCALARS.get(start), SCALARS[end])
+            return self.conversion(node, values[0], converted_from(node.name), SCALARS[end])
         if node.name == "MOVE":
             return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
         raise place.refuse(f"conversion {node.name} is not supported")
 
     def own_function(self, node: Function) -> Unit | None:
         """The FUNCTION of the program's own that is called; None: it is one of the standard."""
-        found = self.source.units.get(node.name)
+        found = self.source.find(node.name)
         return found if found is not None and found.kind == "function" else None
 
     def own(self, node: Function, unit: Unit) -> Scalar:
@@ -234,7 +248,9 @@ class Types:
 
     def conversion(self, node: Function, value: Expression, start: Scalar | None, end: Scalar) -> Scalar:
         given = self.scalar(value, node.place, ("bool", "bits", "int", "time", "enum"), start)
-        if start is not None and given.kind != start.kind:
+        if start is not None and (
+            given.kind != start.kind or not start.low <= given.low <= given.high <= start.high
+        ):
             raise node.place.refuse(f"{node.name} of a {given.name}")
         if given.kind != end.kind and "bool" in (given.kind, end.kind) and end.kind == "bool":
             raise node.place.refuse(f"{node.name} is not supported; compare with 0")

@@ -11,7 +11,7 @@ import z3
 
 from programs.calls import own_arguments
 from programs.run import default
-from programs.standard import arguments
+from programs.standard import arguments, converted_from
 from programs.terms import (
     Env,
     both,
@@ -219,9 +219,11 @@ class Context:
     def converted(
         self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef
     ) -> Any:
-        given = self.types.of(argument)
-        term = self.value(argument, env, here)
+        start = converted_from(node.name)
+        given = start or self.types.of(argument)
+        term = self.value(argument, env, here, start)
         assert isinstance(given, Scalar)
+        term = self.translator.widened(term, self.types.of(argument, start), given)
         if given.kind == "bool" and kind.kind != "bool":
             term = z3.If(term, constant(kind, 1), constant(kind, 0))
             return term

@@ -182,7 +182,7 @@ class Generator:
                     f"({one} AND {two})",
                     f"({one} OR {two})",
                     f"({one} XOR NOT {two})",
-                    f"SHL({one}, {self.values.randint(0, 9)})",
+                    f"SHL({one}, {self.values.randint(0, 7)})",
                     f"SHR({one}, 3)",
                     f"ROL({one}, {self.values.randint(0, 40)})",
                     f"ROR({one}, 5)",

@@ -14,15 +14,18 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from modeproof.kit.errors import Unjudged as KitUnjudged
 from programs import certificate
 from programs.command import make
 from programs.folder import NAME, digest, digest_of
 from programs.recheck import recheck
 from programs.relations import Relation
+from programs.replay import Run
 from programs.verdict import Verdict, judge
 
 ROOT = Path(__file__).parents[2]
 PLC = ROOT / "examples" / "st" / "plc.st"
+EDM = ROOT / "examples" / "st" / "sf_edm.st"
 
 
 def silent(text: str) -> None:
@@ -148,6 +151,16 @@ def other_reference(record: Any) -> None:
     record["reference"]["refimpl/mode_selection/plc.py"] = "0" * 64
 
 
+def another_beginning(record: Any) -> None:
+    """Scans from a memory that is not that of power-up."""
+    record["pairs"][1]["reached_by"]["retained"] = {"TURN": 0x22}
+
+
+def no_variable(record: Any) -> None:
+    """Scans from the value of nothing."""
+    record["pairs"][1]["reached_by"]["retained"] = {"NOTHING": 1}
+
+
 def no_queries(record: Any) -> None:
     """A shorter list of queries."""
     record["queries"].popitem()
@@ -163,6 +176,8 @@ EDITS = {
     unknown_kind: "is no relation|not the form",
     no_start: "the pair of power-up",
     other_reference: "refimpl/mode_selection/plc.py has changed since",
+    another_beginning: "TURN is no RETAIN variable",
+    no_variable: "do not lead there: KeyError",
     no_queries: "the queries are not those",
 }
 
@@ -197,6 +212,46 @@ def test_a_weaker_query_is_refused(folder: Path) -> None:
     keep(folder, record)
     with pytest.raises(Unjudged, match="not the obligation that follows from the program"):
         recheck(folder)
+
+
+def test_a_certificate_that_is_no_text_is_refused(folder: Path) -> None:
+    sorted(folder.glob("*.smt2"))[1].write_bytes(b"\xff")
+    with pytest.raises(Unjudged, match="not the obligation that follows"):
+        recheck(folder)
+    (folder / NAME).write_text("[" * 100_000, "utf-8")
+    with pytest.raises(Unjudged, match="no JSON"):
+        recheck(folder)
+
+
+def test_scans_with_other_parameters_show_no_pair() -> None:
+    product, run = make([EDM], "sf_edm"), Run({"AFTER_RESET": "at_once", "MonitoringTime_ms": 5}, [])
+    assert not certificate._outside(product, run)
+    other = Run({"AFTER_RESET": "stop_first", "MonitoringTime_ms": 5}, [])
+    assert certificate._outside(product, other) == "their parameters are none of the claim"
+
+
+@pytest.mark.parametrize("stop", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_half_a_certificate_is_not_left_behind(
+    stop: BaseException, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from modeproof.kit import files
+
+    right, count = files.write_whole, iter(range(3))
+
+    def full(path: Path, content: bytes, mode: int = 0o644) -> None:
+        if next(count, None) is None:
+            raise stop
+        right(path, content, mode)
+
+    replayed = proved().replayed
+    assert replayed is not None
+    with monkeypatch.context() as patched:
+        patched.setattr(files, "write_whole", full)
+        with pytest.raises((KitUnjudged, KeyboardInterrupt)):
+            certificate.write(proved().product, replayed, folder)
+    assert not list(folder.iterdir())
+    certificate.write(proved().product, replayed, folder)
+    assert recheck(folder).status == 0
 
 
 @pytest.mark.parametrize("more", [True, False])
@@ -261,6 +316,20 @@ def test_consistent_cheats_are_not_shown(spoil: Callable[[Any], None], folder: P
         return
     assert found.status == 1
     assert all("sat" in answers.values() for answers in found.answers.answers.values())
+
+
+@pytest.mark.parametrize(
+    "more", ["--json=x", "--junit=x", "--vector=x", "--certificate=x", "--seconds=5", "--wrap", "--unit=x"]
+)
+def test_an_option_without_effect_is_refused(more: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove-program", "--recheck", "folder", more]) == 2
+    assert "has no effect with --recheck; leave it out" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("seconds", ["0", "-1", "nan", "inf"])
+def test_a_limit_that_is_none_is_refused(seconds: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove-program", str(PLC), "--target", "plc", "--seconds", seconds]) == 2
+    assert "a time above 0 is needed" in capsys.readouterr().err
 
 
 def test_a_folder_with_other_files_is_not_emptied(tmp_path: Path) -> None:

@@ -132,6 +132,21 @@ def other_scans(record: Any) -> None:
             scan["in"] = dict.fromkeys(scan["in"], False)
 
 
+def too_slow(record: Any) -> None:
+    """A way with a scan that is longer than any."""
+    record["proofs"][1]["reached_by"][0]["scans"][0]["dt_ms"] = 51
+
+
+def not_retained(record: Any) -> None:
+    """A way that begins with another value than that at power-up."""
+    record["proofs"][1]["reached_by"][0]["retained"] = {"RISE": True}
+
+
+def no_input(record: Any) -> None:
+    """A way that gives a value to an output."""
+    record["proofs"][1]["reached_by"][0]["scans"][0]["in"]["RISE"] = True
+
+
 def no_way(record: Any) -> None:
     """A trigger without scans."""
     record["proofs"][2]["reached_by"] = []
@@ -155,6 +170,9 @@ EDITS = {
     unknown_symbol: "not the form of a certificate",
     too_deep: "not the form of a certificate",
     other_scans: "do not lead there",
+    too_slow: "a scan is too short or too long",
+    not_retained: "is not RETAIN",
+    no_input: "RISE is not, or cannot be",
     no_way: "not one way to each of its 1 triggers",
     other_times: "scan_time_ms is not what",
     weaker: "asked is not what",

@@ -94,6 +94,8 @@ def test_a_shift_by_a_variable_stays_below_the_width(name: str, whole: int) -> N
 def test_a_word_as_a_number_has_its_bits() -> None:
     assert once("INT", "WORD_TO_INT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == -1
     assert once("DINT", "WORD_TO_DINT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == 65535
+    assert once("INT", "WORD_TO_INT(16#FFFF)") == -1
+    assert once("INT", "BYTE_TO_INT(NOT 16#0F)") == 0xF0
     assert once("WORD", "INT_TO_WORD(x)", x=-2) == 0xFFFE
 
 
