@@ -97,7 +97,9 @@ class Collection:
     @cached_property
     def units(self) -> dict[str, Unit | str]:
         """Each block that was read, or why not, by its name; functions as far as they are supported."""
-        types = "\n".join(piece.plain for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
+        types = "\n".join(
+            dict.fromkeys(piece.plain for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
+        )
         found: dict[str, Unit | str] = {}
         for piece in self.pieces:
             if piece.kind not in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
