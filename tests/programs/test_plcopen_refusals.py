@@ -66,9 +66,9 @@ PROJECTS = {
         project(pou(f"<p {HTML}>q := a;</p><p {HTML}/>", language="ST")),
         "more than one",
     ),
-    "an action": (
-        project(pou(GOOD).replace("<body>", "<actions><action name='x'/></actions><body>")),
-        "<actions> of a POU are not supported",
+    "transitions of a chart": (
+        project(pou(GOOD).replace("<body>", "<transitions><transition name='x'/></transitions><body>")),
+        "<transitions> of a POU are not supported",
     ),
     "a method of a vendor": (
         project(pou(GOOD).replace("<body>", '<addData><data name="http://x/method"/></addData><body>')),
