@@ -15,6 +15,7 @@ from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
 from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
 from programs import certificate, folder
+from programs.assumed import assumed
 from programs.bind import Binding, read_binding
 from programs.check import check
 from programs.output import Case, junit_of, vector_of, write_record
@@ -174,6 +175,8 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
     yield "inputs", f"every value, {most} of whole milliseconds"
     yield "numbers", "wrap" if product.wrap else "stay within their types"
+    if choices := list(assumed(binding.source, binding.unit)):
+        yield "assumed", "; ".join(choices)
 
 
 def _difference(found: Difference) -> Iterator[str]:
@@ -225,6 +228,7 @@ def not_shown(found: Verdict) -> Iterator[str]:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
     if found.product.wrap:
         yield "whether numbers stay within their types: they wrap"
+    yield from (f"a tool for which this is not so: {text}" for text in assumed(binding.source, binding.unit))
     yield "what the compiler and the PLC make of the source"
 
 

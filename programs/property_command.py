@@ -13,6 +13,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.kit.files import write_text
 from programs import property_certificate
+from programs.assumed import assumed
 from programs.cell import Cell
 from programs.command import choose
 from programs.folder import digest, tools
@@ -87,6 +88,8 @@ def text_of(cell: Cell, found: Sequence[Found], seconds: float) -> Iterator[str]
     blocks = [f"{name} ({block.reference.document})" for name, block in cell.blocks.items()]
     yield f"  blocks      {', '.join(blocks) or 'none of the documents'}"
     yield f"  scans       of {_times(cell)}; every input, from power-up, for ever"
+    if choices := list(assumed(cell.source, cell.unit)):
+        yield f"  assumed     {'; '.join(choices)}"
     if cell.clock:
         yield "  dt_ms       is the time since the scan before"
     if cell.wrap:
@@ -146,6 +149,7 @@ def _not_shown(cell: Cell) -> Iterator[str]:
     yield "outputs, variables and pins that no property names"
     if cell.wrap:
         yield f"numbers: {WRAP}"
+    yield from (f"a tool for which this is not so: {text}" for text in assumed(cell.source, cell.unit))
     yield "what the compiler and the PLC make of the source"
 
 

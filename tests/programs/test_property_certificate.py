@@ -222,3 +222,18 @@ def test_a_false_invariant_with_its_questions_is_not_shown(folder: Path) -> None
     found = recheck(folder)
     assert found.status == 1 and all("sat" in said.values() for said in found.answers.answers.values())
     assert next(iter(found.lines(0.0))).startswith("REFUSED")
+
+
+def test_what_tools_do_differently_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    program, properties = tmp_path / "lift.st", tmp_path / "lift.toml"
+    text = PROGRAM.replace("Wait : TON;", "Wait : TON; Edge : F_TRIG; Turns : CTU;")
+    program.write_text(text, "utf-8")
+    properties.write_text(PROPERTIES, "utf-8")
+    given = ["prove-program", "--property", str(properties), "--json", str(tmp_path / "out.json")]
+    main([*given, str(program)])
+    assert "assumed     F_TRIG shows no edge in its first scan" in capsys.readouterr().out
+    said = json.loads((tmp_path / "out.json").read_text("utf-8"))["not_shown"]
+    assert sum("a tool for which this is not so" in line for line in said) == 2
+    program.write_text(PROGRAM, "utf-8")
+    main([*given, str(program)])
+    assert "assumed" not in capsys.readouterr().out
