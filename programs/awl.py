@@ -108,7 +108,7 @@ def _signals(path: Path) -> list[Signal]:
     try:
         with path.open(newline="", encoding="utf-8") as stream:
             rows = list(csv.DictReader(stream))
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise Unjudged(f"{path}: the map of the signals cannot be read: {error}") from None
     for line, row in enumerate(rows, 2):
         place = Place(str(path), line)
@@ -127,6 +127,8 @@ def _signals(path: Path) -> list[Signal]:
             raise place.refuse(f"{name!r} is no name")
         if name.upper() in {other.name.upper() for other in found}:
             raise place.refuse(f"{name} stands twice")
+        if access in {other.access for other in found}:
+            raise place.refuse(f"{name}: {address} stands twice")
         found.append(Signal(name, access, SCALARS[kind]))
     return found
 

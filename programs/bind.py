@@ -58,6 +58,8 @@ class Binding:
         for name in self.left_out:
             if name not in self.reference.signals("outputs"):
                 raise Unjudged(f"binding: {name} is no output, so it cannot be left out")
+            if name in self.names:
+                raise Unjudged(f"binding: {name} stands under [names] and under left_out")
         if not self.compared:
             raise Unjudged("binding: no output is compared")
         try:
@@ -120,6 +122,8 @@ class Binding:
                     found[path] = (name, signal)
         path = self._path(DT, "input")
         if path is not None:
+            if path in taken:
+                raise self.unit.place.refuse(f"{taken[path]} and {DT} are both bound to {path}")
             self._check(DT, SCAN_TIME, type_at(self.unit, path))
             found[path] = (DT, SCAN_TIME)
         return found
@@ -157,6 +161,11 @@ class Binding:
             raise self.unit.place.refuse(f"{name} is {low}..{high}, and {kind.name} {kind.low}..{kind.high}")
         if kind.kind == "enum" and kind.high != high:
             raise self.unit.place.refuse(f"{name} has {high + 1} values, and {kind.name} has {kind.high + 1}")
+        ours, own = [value.upper() for value in signal.values], [value.upper() for value in kind.names]
+        if ours != own and sorted(ours) == sorted(own):
+            raise self.unit.place.refuse(
+                f"{name} counts {', '.join(signal.values)}, and {kind.name} otherwise"
+            )
 
     @property
     def bound_paths(self) -> tuple[str, ...]:
@@ -240,6 +249,7 @@ class Binding:
     def compared(self) -> tuple[str, ...]:
         """The outputs of the document that the program has and that are not left out."""
         found = []
+        taken: dict[str, str] = {}
         for name in self.reference.signals("outputs"):
             if name in self.left_out:
                 continue
@@ -248,6 +258,9 @@ class Binding:
                 raise self.unit.place.refuse(
                     f"{self.unit.name} has no output {name}; bind it, or list it under left_out"
                 )
+            if path in taken:
+                raise self.unit.place.refuse(f"{taken[path]} and {name} are both bound to {path}")
+            taken[path] = name
             signal = self.reference.signals("outputs")[name]
             if signal.type == "modes":
                 self._elements(name, path)
@@ -255,6 +268,13 @@ class Binding:
                 self._check(name, signal, type_at(self.unit, path), inward=False)
             found.append(name)
         return tuple(found)
+
+    @cached_property
+    def unasked(self) -> tuple[str, ...]:
+        """The outputs of the program that are none of the target, so that nothing is said of them."""
+        asked = {self._path(name, "output") for name in self.compared}
+        asked |= {name.upper() for name in self.left_out}
+        return tuple(name for name in self.unit.of("output") if name.upper() not in asked)
 
     def outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The program's outputs by the names of the document, in the sorts of the reference."""
@@ -292,13 +312,18 @@ class Binding:
                 found[path] = given[name]
         return whole(self.unit, found)
 
+    @cached_property
+    def _taken(self) -> dict[str, tuple[str, Signal]]:
+        """For each output that is compared the program's variable, and the signal."""
+        signals = self.reference.signals("outputs")
+        return {name: (self._path(name, "output") or "", signals[name]) for name in self.compared}
+
     def plain_outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The interpreter's outputs by the names of the document."""
         by_key = {name.upper(): value for name, value in own.items()}
         found = {}
-        for name in self.compared:
-            path, signal = self._path(name, "output"), self.reference.signals("outputs")[name]
-            value = value_at(self.unit, path or "", by_key)
+        for name, (path, signal) in self._taken.items():
+            value = value_at(self.unit, path, by_key)
             if signal.type == "modes":
                 found[name] = tuple(value)
             elif signal.type == "text" and 0 <= value < len(signal.values):

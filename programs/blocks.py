@@ -24,6 +24,7 @@ from programs.tree import (
     BOOL,
     SCALARS,
     TIME,
+    Assign,
     Body,
     Call,
     Expression,
@@ -204,15 +205,20 @@ def block(name: str) -> Block | None:
 
 
 def with_blocks(source: Source) -> Source:
-    """The source with each published block that it has an instance of and does not bring itself."""
+    """The source with each published block that it has an instance of and does not bring itself.
+
+    Raises Unjudged: it brings the block, and that cannot be read.
+    """
     units = dict(source.units)
     for unit in source.units.values():
         for variable in unit.variables.values():
             for name in blocks_in(variable.type):
                 key = name.upper()
+                if key in source.refused:
+                    raise source.refused[key]  # it is there, and the published one is another
                 if key not in units and key not in BLOCKS and (found := block(key)) is not None:
                     units[key] = found.unit()
-    return Source(units, source.files)
+    return Source(units, source.files, source.refused)
 
 
 def instances(source: Source, unit: Unit, above: str = "") -> Iterator[tuple[str, Block]]:
@@ -236,6 +242,12 @@ def check_parameters(source: Source, unit: Unit) -> None:
     """
     types = Types(source, unit)
     given: dict[str, dict[str, int]] = {}
+    for target in _targets(unit.body):
+        if isinstance(target, Member) and isinstance(kind := types.of(target.of), Instance):
+            found = source.units.get(kind.block.upper())
+            device = None if found is None else found.device
+            if isinstance(device, Block) and device.pins[target.name.upper()][0] == "parameters":
+                raise target.place.refuse(f"{target.name} is a parameter: give it in the call, as a constant")
     for call in _calls(unit.body):
         if function_of(source, unit, call) is not None:
             continue
@@ -250,7 +262,7 @@ def check_parameters(source: Source, unit: Unit) -> None:
             if group == "parameters":
                 values[name.upper()] = _constant(types, name, expression)
         instance = _shown(call.instance)
-        before = given.setdefault(instance, values)
+        before = given.setdefault(instance.upper(), values)
         if before != values:
             raise call.place.refuse(f"{instance}: its parameters have other values in another call")
         whole = {key: variable.initial for key, variable in device.unit().variables.items()} | values
@@ -272,6 +284,17 @@ def _constant(types: Types, name: str, expression: Expression) -> int:
         case Literal() | Unary("-", Literal(), _) | Name():
             return types.constant(expression)
     raise expression.place.refuse(f"{name} is a parameter, so it needs a constant")
+
+
+def _targets(body: Body) -> Iterator[Expression]:
+    """What is written otherwise than by handing it to a call."""
+    for statement in body:
+        if isinstance(statement, Assign):
+            yield statement.target
+        if isinstance(statement, Call):
+            yield from (target for _, target in statement.outputs)
+        for inner in inner_bodies(statement):
+            yield from _targets(inner)
 
 
 def _calls(body: Body) -> Iterator[Call]:

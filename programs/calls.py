@@ -38,17 +38,19 @@ def own_arguments(node: Function, unit: Unit) -> dict[str, Expression]:
 
 
 def called_functions(part: Any) -> Iterator[str]:
-    """The names of all functions that are called in a part of a program."""
-    if isinstance(part, Function):
-        yield part.name
-    if isinstance(part, Call) and isinstance(part.instance, Name):
-        yield part.instance.name.upper()
-    if isinstance(part, tuple):
-        for inner in part:
-            yield from called_functions(inner)
-    elif hasattr(part, "place"):
-        for inner in vars(part).values():
-            yield from called_functions(inner)
+    """The names of all functions that are called in a part of a program, once for each place."""
+    waiting, seen = [part], set()
+    while waiting:
+        here = waiting.pop()
+        if id(here) in seen:
+            continue
+        if isinstance(here, Function):
+            yield here.name
+        if isinstance(here, Call) and isinstance(here.instance, Name):
+            yield here.instance.name.upper()
+        if isinstance(here, tuple) or hasattr(here, "place"):
+            seen.add(id(here))
+            waiting += here if isinstance(here, tuple) else vars(here).values()
 
 
 def check_function(unit: Unit) -> None:
@@ -112,8 +114,9 @@ def handed_to_function(unit: Unit, call: Call) -> tuple[Pairs, Pairs]:
     """`handed` for a FUNCTION: every input and VAR_IN_OUT is given."""
     ins = [*unit.of("input"), *unit.of("in_out")]
     outs = [name for name in unit.of("output") if name.upper() != unit.name.upper()]
-    why = f"{unit.name} has VAR_IN_OUT" if unit.of("in_out") else ""
-    inputs, outputs = handed(call, ins, [] if outs else outs, why)
+    doubtful = unit.of("in_out") or not _in_order(unit)
+    why = f"{unit.name} has VAR_IN_OUT, or outputs before inputs" if doubtful else ""
+    inputs, outputs = handed(call, ins, outs, why)
     given = [name.upper() for name, _ in inputs]
     if sorted(given) != sorted(name.upper() for name in ins):
         raise call.place.refuse(f"the arguments of {unit.name} are {', '.join(ins) or 'none'}")

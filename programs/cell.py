@@ -17,12 +17,15 @@ import z3
 from programs.blocks import Block, check_parameters, with_blocks
 from programs.check import check, reached
 from programs.paths import put, value_at, whole
-from programs.run import Machine, Overflow
+from programs.run import Limit, Machine, Overflow
 from programs.symbolic import Obligation, Translator
 from programs.terms import TRUE, Slot, in_range, leaves, slots, symbol
 from programs.tree import BOOL, Expression, Source, Unit
 from programs.types import Types
 from programs.values import Context
+
+CLOCK = "DT_MS"
+"""The input of a program that has the time since the scan before, in ms."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +78,20 @@ class Cell:
         check(whole, unit)
         for found in reached(whole, unit, ()):
             check_parameters(whole, found)
-        return Cell(whole, unit, scan_time, wrap)
+        cell = Cell(whole, unit, scan_time, wrap)
+        most = cell.inputs[cell.clock].type.high if cell.clock else None
+        if most is not None and (scan_time[1] is None or scan_time[1] > most):
+            place = unit.variables[cell.clock].place
+            raise place.refuse(
+                f"dt_ms holds {most:,} ms at most: scan_time_ms names a longest scan that fits"
+            )
+        return cell
+
+    @cached_property
+    def clock(self) -> str:
+        """The path of the input that has the time since the scan before; empty: there is none."""
+        slot = self.inputs.get(CLOCK)
+        return CLOCK if slot is not None and slot.type.kind in ("int", "time") else ""
 
     @cached_property
     def types(self) -> Types:
@@ -140,13 +156,15 @@ class Cell:
         parts.append(self.dt_ms >= low)
         if high is not None:
             parts.append(self.dt_ms <= high)
+        if self.clock:
+            parts.append(self.symbols[self.clock] == self.dt_ms)
         return z3.And(*parts)
 
     def holds(self, expression: Expression) -> z3.BoolRef:
         """The expression after a scan. Raises Unjudged: a value in it could leave its type."""
         own = Translator(self.source, self.unit, self.wrap)
         term = Context(own, self.types, "").value(expression, dict(self.after), TRUE, BOOL)
-        if any(not z3.is_true(z3.simplify(owed.formula)) for owed in own.obligations):
+        if any(not _follows(owed.formula) for owed in own.obligations):
             raise expression.place.refuse(
                 "a value here could leave its type; compute it in the program and name the variable"
             )
@@ -175,6 +193,8 @@ class Cell:
         for number, (dt_ms, inputs) in enumerate(scans, 1):
             try:
                 machine.scan(self.plain_inputs(inputs), dt_ms)
+            except Limit:
+                raise
             except Overflow as error:
                 wrong = asked.holds is None
                 return Trace(retained, scans[:number], rows, error.message) if wrong else None
@@ -217,9 +237,10 @@ class Cell:
                     if path not in inputs or values.random() > steady:
                         bit = values.random() < likely[path]
                         inputs[path] = bit if slot.type.kind == "bool" else _random(values, slot)
-                scans.append((values.choice(times), dict(inputs)))
+                dt_ms = values.choice(times)
+                scans.append((dt_ms, inputs | ({self.clock: dt_ms} if self.clock else {})))
                 try:
-                    machine.scan(self.plain_inputs(inputs), scans[-1][0])
+                    machine.scan(self.plain_inputs(scans[-1][1]), dt_ms)
                 except Overflow:
                     break
                 yield machine, retained, scans
@@ -230,6 +251,8 @@ class Cell:
         return tuple(path for path, slot in self.slots.items() if slot.initial is None)
 
 
+LIMIT_MS = 2_000
+"""For the question whether a value in a property stays within its type."""
 Scans = list[tuple[int, Mapping[str, Any]]]
 
 
@@ -262,6 +285,14 @@ class Judge:
         late = self.waits and self.since > asked.within_ms
         self.waits = (self.waits or trigger) and not true
         return late
+
+
+def _follows(formula: z3.BoolRef) -> bool:
+    """Whether a formula is true of all values."""
+    solver = z3.Solver()
+    solver.set("timeout", LIMIT_MS)
+    solver.add(z3.Not(formula))
+    return bool(solver.check() == z3.unsat)
 
 
 def _random(values: random.Random, slot: Slot) -> Any:

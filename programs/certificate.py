@@ -8,21 +8,26 @@ sources and the relations; what is stored must be the same text, and is never be
 
 from __future__ import annotations
 
-import hashlib
-import json
-import platform
-import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Final
 
 import z3
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.places import root
 from programs.bind import Binding
+from programs.folder import (
+    VERSION,
+    Obligation,
+    Stored,
+    digest,
+    empty,
+    fill,
+    obligation,
+    record_in,
+    reference_files,
+    tools,
+)
 from programs.product import OUTPUTS, RANGES, START, Node, Pair, Product, shown
 from programs.relations import KINDS, Relation
 from programs.replay import Difference, Met, Replayed, Run, steps
@@ -30,8 +35,6 @@ from programs.search import Way, way_to
 from programs.smtlib import Printer
 
 FORMAT: Final = "modeproof-program-certificate"
-VERSION: Final = 1
-NAME: Final = "certificate.json"
 TYPES: Final = "the program stays within its types"
 LONGEST: Final = 40
 """Scans of a way to a pair."""
@@ -44,19 +47,9 @@ TRUSTED: Final = (
     "the path explorer, which reads the reference implementation",
 )
 """Besides the solver."""
-TOOLS: Final = ("z3-solver", "cvc5", "tree-sitter", "tree-sitter-iec61131-3-st")
 
 
 # ---------------------------------------------------------------- obligations
-
-
-@dataclass(frozen=True)
-class Obligation:
-    """One file of a certificate: its name, its text, and how many questions it asks; each must be `unsat`."""
-
-    file: str
-    text: str
-    count: int
 
 
 def obligations(product: Product) -> Iterator[Obligation]:
@@ -64,7 +57,7 @@ def obligations(product: Product) -> Iterator[Obligation]:
     printer = Printer()
     start = product.owed_at_start()
     asked = {f"not: {START}": z3.Not(start.formula)}
-    yield _obligation(printer, 0, "power-up", "What must hold at power-up.", {}, asked)
+    yield obligation(printer, 0, "power-up", "What must hold at power-up.", {}, asked)
     for number, pair in enumerate(sorted(product.nodes), 1):
         *owed, _ = product.owed(pair, whole=True)
         kinds: dict[str, list[z3.BoolRef]] = {OUTPUTS: [], TYPES: [], RANGES: []}
@@ -88,21 +81,7 @@ def obligations(product: Product) -> Iterator[Obligation]:
             },
         }
         sentence = f"What must hold in every scan from the pair {shown(pair)}."
-        yield _obligation(printer, number, shown(pair), sentence, known, asked)
-
-
-def _obligation(
-    printer: Printer,
-    number: int,
-    name: str,
-    sentence: str,
-    known: Mapping[str, z3.BoolRef],
-    asked: Mapping[str, z3.BoolRef],
-) -> Obligation:
-    words = re.findall("[A-Za-z0-9]+", name.replace(" -", " minus "))
-    comments = [sentence, f"Expected: unsat, {len(asked)} times"]
-    file = f"{number:03d}-{'-'.join(words)}.smt2"
-    return Obligation(file, printer.questions(comments, known, asked), len(asked))
+        yield obligation(printer, number, shown(pair), sentence, known, asked)
 
 
 # ---------------------------------------------------------------- writing
@@ -115,16 +94,14 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
 
     Raises Unjudged: the folder holds something else, or cannot be written.
     """
-    _empty(folder)
     try:
         texts = {owed.file: owed.text for owed in obligations(product)}
     except NotImplementedError as error:
         raise Unjudged(f"{folder}: no certificate can be written: {error}") from None
     record: dict[str, Any] = {
         **_claim(product),
-        "binding_file": {} if binding is None else {str(binding): _digest(binding)},
+        "binding_file": {} if binding is None else {str(binding): digest(binding)},
         "pairs": [],
-        "queries": {name: _sha256(text) for name, text in texts.items()},
     }
     ways = _ways(product, replayed)
     for pair in sorted(product.nodes):
@@ -138,26 +115,9 @@ def write(product: Product, replayed: Replayed, folder: Path, binding: Path | No
                 "reached_by": None if way is None else _run_written(way),
             }
         )
-    try:
-        for name, text in texts.items():
-            (folder / name).write_text(text, "utf-8")
-        (folder / NAME).write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", "utf-8")
-    except OSError as error:
-        raise Unjudged(f"{folder}: cannot be written: {error.strerror or error}") from None
+    empty(folder)
+    fill(folder, record, texts)
     return {pair: run for pair, run in ways.items() if run is not None}
-
-
-def _empty(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        there = list(folder.iterdir())
-        if there and not (folder / NAME).is_file():
-            raise Unjudged(f"{folder}: holds files that are no certificate; name another folder")
-        for path in there:
-            if path.suffix == ".smt2" or path.name == NAME:
-                path.unlink()
-    except OSError as error:
-        raise Unjudged(f"{folder}: cannot be written: {error.strerror or error}") from None
 
 
 def _claim(product: Product) -> dict[str, Any]:
@@ -184,31 +144,6 @@ def _claim(product: Product) -> dict[str, Any]:
         "trusted": list(TRUSTED),
         "tools": tools(),
     }
-
-
-def tools() -> dict[str, str]:
-    """Versions of what made the certificate."""
-    return {"python": platform.python_version(), **{name: version(name) for name in TOOLS}}
-
-
-def reference_files(document: str) -> dict[str, str]:
-    """The SHA-256 of every file that says what the reference implementation does."""
-    place = root()
-    found = [
-        *sorted((place / "refimpl").glob("*.py")),
-        *sorted((place / "refimpl" / document).glob("*.py")),
-        place / "spec" / document / "interface.toml",
-        place / "proofs" / document / "devices.py",
-    ]
-    return {str(path.relative_to(place)): _digest(path) for path in found}
-
-
-def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def _sha256(text: str) -> str:
-    return hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
 def _written(relation: Relation) -> dict[str, Any]:
@@ -268,6 +203,19 @@ def _unlike(product: Product, pair: Pair, run: Run) -> str:
     return ""
 
 
+def _outside(product: Product, run: Run) -> str:
+    """What scans start from or take that the claim is not about; nothing: it is about all of it."""
+    binding = product.binding
+    if not binding.allows(run.parameters):
+        return "their parameters are none of the claim"
+    for path, value in run.retained.items():
+        slot = product.every_slot[path]
+        if slot.initial is not None or not slot.type.low <= value <= slot.type.high:
+            return f"{path} is no RETAIN variable that may have {value}"
+    longest = max((dt_ms for dt_ms, _ in run.scans), default=0)
+    return "a scan is too long" if longest > (binding.longest_scan or longest) else ""
+
+
 def _run_written(run: Run) -> dict[str, Any]:
     return {
         "parameters": dict(run.parameters),
@@ -279,49 +227,15 @@ def _run_written(run: Run) -> dict[str, Any]:
 # ---------------------------------------------------------------- reading
 
 
-@dataclass(frozen=True)
-class Kept:
-    """A certificate as it was read: the record, and the product whose pairs and relations are its own."""
-
-    folder: Path
-    record: Mapping[str, Any]
-
-    @property
-    def sources(self) -> list[Path]:
-        """The files of the program. Raises Unjudged: one of them or the binding has changed or is gone."""
-        found = []
-        for name, digest in {**self.table("binding_file"), **self.table("sources")}.items():
-            path = next((path for path in (Path(name), root() / name) if path.is_file()), None)
-            if path is None:
-                raise self.refuse(f"{name} is not there; run it in the folder in which the proof was made")
-            if _digest(path) != digest:
-                raise self.refuse(f"{name} has changed since; prove the program again")
-            if name in self.table("sources"):
-                found.append(path)
-        return found
-
-    def table(self, name: str) -> dict[str, Any]:
-        """A table of the record. Raises Unjudged."""
-        found = self.record.get(name)
-        if not isinstance(found, dict):
-            raise self.refuse(f"{name} is not there")
-        return found
-
-    def refuse(self, text: str) -> Unjudged:
-        """The refusal of this certificate, in one line."""
-        return Unjudged(f"{self.folder / NAME}: {text}")
+class Kept(Stored):
+    """A certificate as it was read: its pairs and relations can be given to a product."""
 
     def fill(self, product: Product) -> dict[Pair, Run | None]:
         """Give the product the pairs and relations of the certificate; returns the way to each pair.
 
         Raises Unjudged for what is no pair or relation of this program.
         """
-        claim = json.loads(json.dumps(_claim(product)))
-        for key, value in claim.items():
-            if key != "tools" and self.record.get(key) != value:
-                raise self.refuse(
-                    f"{key} is not what the sources and the binding give; prove the program again"
-                )
+        self.claims(_claim(product))
         ways: dict[Pair, Run | None] = {}
         product.nodes = {}
         try:
@@ -365,24 +279,12 @@ class Kept:
         scans = [(int(scan["dt_ms"]), values(scan["in"])) for scan in row["scans"]]
         return Run(values(row["parameters"]), scans, dict(row["retained"]))
 
-    def compare(self, texts: Mapping[str, str]) -> None:
-        """Refuse a set of queries that is not the one that follows from the program. Raises Unjudged."""
-        stored = sorted(path.name for path in self.folder.glob("*.smt2"))
-        if stored != sorted(texts) or sorted(self.table("queries")) != sorted(texts):
-            odd = sorted(set(stored) ^ set(texts)) or ["the list in it"]
-            raise self.refuse(f"the queries are not those that follow from the program: {odd[0]}")
-        for name, text in texts.items():
-            if (self.folder / name).read_text("utf-8") != text or self.table("queries")[name] != _sha256(
-                text
-            ):
-                raise Unjudged(f"{self.folder / name}: not the obligation that follows from the program")
-
     def follow(self, product: Product, ways: Mapping[Pair, Run | None]) -> Sequence[Pair]:
         """Replay the way to each pair; the pairs that have none. Raises Unjudged: one leads elsewhere."""
         for pair, run in ways.items():
             if run is not None:
                 try:
-                    odd = _unlike(product, pair, run)
+                    odd = _outside(product, run) or _unlike(product, pair, run)
                 except (KeyError, TypeError, ValueError) as error:
                     odd = f"{error!r:.100}"
                 if odd:
@@ -392,20 +294,8 @@ class Kept:
 
 def read(folder: Path) -> Kept:
     """The certificate in a folder, its reference being what it was. Raises Unjudged."""
-    path = folder / NAME
-    try:
-        record = json.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise Unjudged(f"{path}: cannot be read: {error.strerror or error}") from None
-    except ValueError as error:
-        raise Unjudged(f"{path}: no JSON: {error}") from None
-    if not isinstance(record, dict) or record.get("format") != FORMAT or record.get("version") != VERSION:
-        raise Unjudged(f"{path}: no certificate of a program, version {VERSION}")
-    kept = Kept(folder, record)
-    document = record.get("document")
-    known = reference_files(document) if isinstance(document, str) and document.isidentifier() else {}
-    given = kept.table("reference")
-    for name in {**known, **given}:
-        if given.get(name) != known.get(name):
-            raise kept.refuse(f"{name} has changed since; prove the program again")
+    kept = Kept(folder, record_in(folder, FORMAT))
+    document = kept.record.get("document")
+    known = isinstance(document, str) and document.isidentifier()
+    kept.same("reference", reference_files(str(document)) if known else {})
     return kept

@@ -16,6 +16,7 @@ from programs.calls import (
     inner_bodies,
     sides,
 )
+from programs.length import check_length
 from programs.standard import BLOCKS
 from programs.tree import (
     Assign,
@@ -36,7 +37,6 @@ from programs.tree import (
     Return,
     Scalar,
     Source,
-    Stop,
     Type,
     Unit,
     Variable,
@@ -53,23 +53,37 @@ DEEPEST = 20
 
 def check(source: Source, unit: Unit) -> None:
     """Look at every statement of a unit and of the units below it. Raises Unjudged with file and line."""
-    for found in list(reached(source, unit, ())):
+    if unit.kind == "function":
+        raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
+    for name, variable in unit.of("in_out").items():
+        raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
+    if not unit.of("output"):
+        raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
+    check_below(source, unit)
+
+
+def check_below(source: Source, unit: Unit) -> None:
+    """The same for the statements alone, those of a FUNCTION too. Raises Unjudged with file and line."""
+    every = list(reached(source, unit, ()))
+    for found in every:
         if found.kind == "function":
             check_function(found)
-            if found is unit:
-                raise unit.place.refuse(f"{unit.name} is a FUNCTION: it has no memory to be compared")
-        for name, variable in found.of("in_out").items() if found is unit else ():
-            raise variable.place.refuse(f"{name} is VAR_IN_OUT: take a program that calls {unit.name}")
-        if not found.of("output") and found is unit:
-            raise unit.place.refuse(f"{unit.name} has no VAR_OUTPUT, so there is nothing to compare")
+    check_length(source, unit)
+    for found in every:
         _Statements(source, found).body(found.body)
 
 
 def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit]:
     """The unit and every unit that it has an instance of, each once."""
+    return _reached(source, unit, above, set())
+
+
+def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str]) -> Iterator[Unit]:
     if unit.name in above or len(above) > DEEPEST:
         raise unit.place.refuse(f"{' calls '.join((*above, unit.name))}: a block must not contain itself")
-    seen = {unit.name}
+    if unit.name in seen:
+        return
+    seen.add(unit.name)
     yield unit
     named = (source.units.get(name) for name in called_functions(unit.body))
     below = [found for found in named if found is not None and found.kind == "function"]
@@ -85,10 +99,10 @@ def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit
                 )
             if instance not in below:
                 below.append(instance)
-    for found in (found for inner in below for found in reached(source, inner, (*above, unit.name))):
-        if found.name not in seen:
-            seen.add(found.name)
-            yield found
+        if any(blocks_in(variable.type)) and variable.section != "var":
+            raise variable.place.refuse(f"{variable.name}: an instance of a block stands in VAR here")
+    for inner in below:
+        yield from _reached(source, inner, (*above, unit.name), seen)
 
 
 class _Statements(Types):
@@ -120,7 +134,9 @@ class _Statements(Types):
                         self.body(inner, looped)
                     self.body(otherwise, looped)
                 case For(control, start, end, step, inner, place):
-                    self.scalar(control, place, ("int",))
+                    kind = self.scalar(control, place, ("int",))
+                    for bound in (start, end, *([] if step is None else [step])):
+                        self.scalar(bound, place, ("int",), kind)
                     by = 1 if step is None else self.constant(step)
                     self.turns(control, self.constant(start), self.constant(end), by)
                     if any(self.writes(inner, control.name)):
@@ -133,7 +149,7 @@ class _Statements(Types):
                     raise place.refuse(f"{'CONTINUE' if turn else 'EXIT'} without a loop around it")
                 case Call():
                     self.call(statement)
-                case Return() | Leave() | Stop():
+                case Return() | Leave():
                     pass
 
     def turns(self, control: Name, low: int, high: int, by: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -13,7 +14,8 @@ from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
 from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
-from programs import certificate
+from programs import certificate, folder
+from programs.assumed import assumed
 from programs.bind import Binding, read_binding
 from programs.check import check
 from programs.output import Case, junit_of, vector_of, write_record
@@ -56,6 +58,8 @@ def run(args: argparse.Namespace) -> int:
     seconds = time.process_time() - started
     print("\n".join([*text_of(found, seconds), *lines]))
     record = record_of(found, seconds, ways)
+    if args.binding is not None:
+        record["binding_file"] = {str(args.binding): hashlib.sha256(args.binding.read_bytes()).hexdigest()}
     write_record(root(), record, args.json)
     if args.junit is not None:
         said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
@@ -146,7 +150,8 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     """What a verdict is about, in lines of a label and a text."""
     binding, signals = product.binding, product.binding.reference.signals("parameters")
     yield "compared", ", ".join(binding.compared)
-    yield "left out", ", ".join(binding.left_out) or "no output"
+    own = f"; of the program's own: {', '.join(binding.unasked)}" if binding.unasked else ""
+    yield "left out", (", ".join(binding.left_out) or "no output") + own
     narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
     free = []
     for name in binding.free_parameters:
@@ -170,6 +175,8 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
     yield "inputs", f"every value, {most} of whole milliseconds"
     yield "numbers", "wrap" if product.wrap else "stay within their types"
+    if choices := list(assumed(binding.source, binding.unit)):
+        yield "assumed", "; ".join(choices)
 
 
 def _difference(found: Difference) -> Iterator[str]:
@@ -214,10 +221,14 @@ def not_shown(found: Verdict) -> Iterator[str]:
     if found.missing:
         yield found.missing
     yield from (f"output {name}: it is not compared" for name in binding.left_out)
+    yield from (f"output {name} of the program: the target has none such" for name in binding.unasked)
     yield from (f"{name} other than {value}" for name, value in binding.values.items())
     yield from (f"parameters outside {text}" for text in binding.narrowed())
     if binding.longest_scan is not None:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
+    if found.product.wrap:
+        yield "whether numbers stay within their types: they wrap"
+    yield from (f"a tool for which this is not so: {text}" for text in assumed(binding.source, binding.unit))
     yield "what the compiler and the PLC make of the source"
 
 
@@ -244,8 +255,8 @@ def record_of(found: Verdict, seconds: float, ways: Mapping[Pair, Run]) -> dict[
         "unit": binding.unit.name,
         "sources": dict(binding.source.files),
         "target": binding.reference.device.name,
-        "reference": certificate.reference_files(binding.reference.document),
-        "tools": certificate.tools(),
+        "reference": folder.reference_files(binding.reference.document),
+        "tools": folder.tools(),
         "trusted": list(TRUSTED),
         "not_shown": list(not_shown(found)),
         "states": states(found.product, ways),

@@ -17,7 +17,7 @@ ATTRIBUTES = (
 )
 HARMLESS = (
     *("objectid", "fbdcalltype", "inputparamtypes", "attributes", "projectstructure", "buildproperties"),
-    "interfaceasplaintext",
+    *("interfaceasplaintext", "outputparamtypes", "sfcsettings"),
 )
 """Ends of the names of vendors' data that do not change what a program does."""
 MOST = 5_000
@@ -149,11 +149,16 @@ def read_nodes(body: Element, parse: Parse) -> dict[str, Node]:
 
 
 def _separates(element: Element) -> bool:
-    """Whether a vendor's element begins a network (3S); refuse any other."""
+    """Whether a vendor's element begins a network (3S), and does not only say how it is written; refuse any
+    other."""
     for data in (child for inner in element.all("addData") for child in inner.children):
+        name = data.attributes.get("name", "").rpartition("/")[2]
         kinds = [child.text.strip() for child in data.children]
-        if data.attributes.get("name", "").endswith("/fbdelementtype") and kinds == ["networktitle"]:
+        flags = [flag.attributes.get("name") for child in data.children for flag in child.children]
+        if name == "fbdelementtype" and kinds == ["networktitle"]:
             return True
+        if name == "implementationattributes" and flags == ["BoxInputFlagsSupported"]:
+            return False
     raise element.place.refuse("<vendorElement>: only a network's title is known")
 
 

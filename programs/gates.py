@@ -222,7 +222,7 @@ class Diagram:
     # ------------------------------------------------------------ blocks
 
     def block(self, node: Node) -> None:
-        own = self.source.units.get(node.block.upper())
+        own = self.source.find(node.block)
         if own is not None or node.block.upper() in BLOCKS:
             self.call(node)
             return

@@ -110,11 +110,11 @@ class System:
 
     @cached_property
     def first(self) -> z3.BoolRef:
-        """The memory at power-up."""
-        parts = [
-            term == self.start[path] for path, term in self.state.items() if self.start[path] is not None
-        ]
-        return z3.And([self.within, *parts])
+        """The memory at power-up: what begins with any value is within its range, the rest is what it is."""
+        known = {path: value for path, value in self.start.items() if value is not None}
+        free = {str(term) for path, term in self.state.items() if path not in known}
+        ranges = [part for part in conjuncts(self.within) if names_in([part]) <= free]
+        return z3.And([*ranges, *(self.state[path] == value for path, value in known.items())])
 
 
 @dataclass(frozen=True)
@@ -132,19 +132,26 @@ class Unrolled:
         self.system, self.lemmas = system, lemmas
         self.solver = z3.Solver()
         self.solver.set("timeout", LIMIT_MS)
+        self.facts: list[z3.BoolRef] = []
+        """What the solver was told."""
         self.states: list[dict[str, Any]] = []
         self.read: list[dict[str, Any]] = []
         self._at({path: named(term, 0) for path, term in system.state.items()})
         if from_start:
-            self.solver.add(self.put(system.first, 0, False))
+            self.add(self.put(system.first, 0, False))
+
+    def add(self, *facts: z3.BoolRef) -> None:
+        """Tell the solver."""
+        self.facts += facts
+        self.solver.add(*facts)
 
     def _at(self, state: dict[str, Any]) -> None:
         self.states.append(state)
         number = len(self.states) - 1
         self.read.append({name: named(term, number) for name, term in self.system.inputs.items()})
-        self.solver.add(self.put(self.system.within, number, False))
-        self.solver.add([self.put(lemma, number, False) for lemma in self.lemmas])
-        self.solver.add(self.put(self.system.assumed, number))
+        self.add(self.put(self.system.within, number, False))
+        self.add(*(self.put(lemma, number, False) for lemma in self.lemmas))
+        self.add(self.put(self.system.assumed, number))
 
     def put(self, term: Any, number: int, scan: bool = True) -> Any:
         """A term over the values before scan `number`, counted from 0, and its inputs."""
@@ -157,8 +164,8 @@ class Unrolled:
         """One scan more."""
         number = len(self.states) - 1
         state = {path: named(term, number + 1) for path, term in self.system.state.items()}
-        self.solver.add([new == self.put(self.system.after[path], number) for path, new in state.items()])
-        self.solver.add(self.put(self.system.inside, number))
+        self.add(*(new == self.put(self.system.after[path], number) for path, new in state.items()))
+        self.add(self.put(self.system.inside, number))
         self._at(state)
 
     def ask(self, *extra: Any) -> z3.CheckSatResult:
@@ -191,7 +198,7 @@ def shortest(system: System, bad: z3.BoolRef, most: int, until: float) -> tuple[
                 return unrolled.way(), number + 1
         except TimeoutError:
             return None, number
-        unrolled.solver.add(z3.Not(unrolled.put(bad, number)))
+        unrolled.add(z3.Not(unrolled.put(bad, number)))
     return None, most
 
 
@@ -234,7 +241,7 @@ def holds_up(system: System, bad: z3.BoolRef, proof: Proof) -> bool:
             last = number == proof.deep - 1
             if (from_start or last) and unrolled.ask(unrolled.put(bad, number)) != z3.unsat:
                 return False
-            unrolled.solver.add(z3.Not(unrolled.put(bad, number)))
+            unrolled.add(z3.Not(unrolled.put(bad, number)))
     return True
 
 
@@ -243,7 +250,7 @@ def is_inductive(system: System, lemmas: Sequence[z3.BoolRef]) -> bool:
     together = z3.And([system.within, *lemmas])
     where = [(term, system.after[path]) for path, term in system.state.items()]
     for known, then in (
-        (system.first, z3.And([z3.BoolVal(True), *lemmas])),
+        (system.first, together),
         (z3.And(together, system.assumed, system.inside), z3.substitute(together, *where)),
     ):
         solver = z3.Solver()

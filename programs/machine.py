@@ -21,7 +21,7 @@ import z3
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import typed
 from programs.cell import Asked, Cell
-from programs.certificate import Obligation
+from programs.folder import Obligation
 from programs.induction import System, conjuncts, is_inductive, named
 from programs.machine_lacking import EXPRESSIONS, lacking, observers_lacking
 from programs.machine_lemmas import Candidates, Sample, sample_of, state_of
@@ -255,7 +255,7 @@ class Machine:
         survive = [z3.substitute(lemma, *where) for lemma in (*conjuncts(system.within), *lemmas)]
         types = [] if z3.is_true(z3.simplify(system.inside)) else [system.inside]
         return [
-            _owed("start.smt2", [system.first], lemmas),
+            _owed("start.smt2", [system.first], [*conjuncts(system.within), *lemmas]),
             _owed("scan.smt2", [*scan, *moves], survive),
             _owed("properties.smt2", scan, [z3.Not(self.bad[one.id]) for one in asked]),
             *(_owed("types.smt2", [system.within, system.assumed, *lemmas], [part]) for part in types),

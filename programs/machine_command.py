@@ -20,7 +20,8 @@ from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
 from modeproof.registers.vector_files import ROOM
-from programs import certificate, machine_picture, machine_tlc, machine_vectors
+from programs import machine_picture, machine_tlc, machine_vectors
+from programs.folder import tools
 from programs.machine import Machine, Verdict
 from programs.machine_equal import Equality
 from programs.machine_killers import Killers, changed, read_killers
@@ -261,7 +262,7 @@ def record_of(
         "program": dict(machine.files),
         "wiring": {machine.file: hashlib.sha256(machine.text.encode()).hexdigest()},
         "files": dict(read),
-        "tools": certificate.tools(),
+        "tools": tools(),
         "trusted": list(TRUST),
         "scan_time_ms": list(machine.wiring.table.scan_ms),
         "status": status(found),

@@ -83,4 +83,6 @@ def read_xml(text: bytes, file: str) -> Element:
         raise Place(file, error.lineno).refuse(
             f"not well-formed XML: {expat.ErrorString(error.code)}"
         ) from None
+    except (LookupError, ValueError) as error:
+        raise Place(file, 1).refuse(f"the encoding of the XML: {error}") from None
     return roots[0]

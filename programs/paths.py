@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from programs.run import Frame, Standard, default
+from programs.run import Frame, default
+from programs.run_standard import Standard
 from programs.tree import Array, Struct, Type, Unit
 
 
@@ -85,6 +86,8 @@ def single_values(frame: Frame, now: int, above: str = "") -> Iterator[tuple[str
     if frame.unit.device is not None:
         yield f"{above}age", now - frame.since
     for key, value in frame.values.items():
+        if key in frame.temporary:
+            continue
         kind = frame.unit.variables[key].type if key in frame.unit.variables else None
         yield from _values(value, kind, f"{above}{key}", now)
 

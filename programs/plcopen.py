@@ -10,13 +10,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from modeproof.ground.errors import Unjudged
+from programs.actions import Actions
 from programs.diagrams import harmless, only, truth
 from programs.gates import Diagram
 from programs.markup import Element, read_xml
 from programs.st import read_text
-from programs.tree import Place, Source, Unit
+from programs.tree import Body, Place, Source, Unit
 
 SPACES = ("http://www.plcopen.org/xml/tc6_0201", "http://www.plcopen.org/xml/tc6_0200")
 POUS = {"functionBlock": "FUNCTION_BLOCK", "program": "PROGRAM", "function": "FUNCTION"}
@@ -65,16 +67,41 @@ def read_plcopen(text: bytes, file: str) -> tuple[list[tuple[Unit, Lower]], dict
 
 def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
     """One POU, behind the data types of the project."""
-    _declare(pou, text)
-    units = read_text("\n".join(text.lines), file)
-    if len(units) != 1 or units[0].name != pou.get("name"):
-        raise pou.place.refuse(f"{pou.get('name')}: the body begins or ends another unit")
-    (unit,) = units
+    body = _body(pou, pou.get("name"))
+    unit = _with_body(pou, _Text([*text.lines]), body, file)
     expected = [variable.get("name") for _, variable in _variables(pou)]
     expected += [unit.name] * (unit.kind == "function")
     if [variable.name for variable in unit.variables.values()] != expected:
         raise pou.place.refuse(f"{unit.name}: body or values declare other variables than the interface")
-    return replace(unit, place=pou.place), _lower(unit, _body(pou), pou.place)
+    bodies: dict[str, Callable[[], Body]] = {}
+    for action in (action for group in pou.all("actions") for action in group.children):
+        key = action.get("name").upper()
+        if key in bodies or key in unit.variables:
+            raise action.place.refuse(f"{unit.name}: {action.get('name')} stands for something else too")
+        bodies[key] = partial(_action, pou, action, text, file)
+    return replace(unit, place=pou.place), _lower(unit, body, pou.place, bodies)
+
+
+def _with_body(pou: Element, text: _Text, body: Element, file: str) -> Unit:
+    """A POU with one of its bodies, behind the data types of the project."""
+    _declare(pou, text, body)
+    units = read_text("\n".join(text.lines), file)
+    if len(units) != 1 or units[0].name != pou.get("name"):
+        raise body.place.refuse(f"{pou.get('name')}: the body begins or ends another unit")
+    return units[0]
+
+
+def _action(pou: Element, action: Element, text: _Text, file: str) -> Body:
+    """The statements of an action that is called."""
+    only(action, "body")
+    name = f"{pou.get('name')}.{action.get('name')}"
+    body = _body(action, name)
+    if body.name != "ST":
+        raise body.place.refuse(f"{name}: an action in {body.name} is not supported")
+    unit = _with_body(pou, _Text([*text.lines]), body, file)
+    if not unit.body:
+        raise body.place.refuse(f"{name}: the body has no statement")
+    return unit.body
 
 
 @dataclass
@@ -109,15 +136,14 @@ def _variables(pou: Element) -> Iterator[tuple[Element, Element]]:
                     yield group, variable
 
 
-def _declare(pou: Element, text: _Text) -> None:
+def _declare(pou: Element, text: _Text, body: Element) -> None:
     kind = pou.get("pouType")
     if kind not in POUS:
         raise pou.place.refuse(f"{pou.get('name')}: a POU of type {kind} is not supported")
     only(pou, "interface", "body", "actions", "transitions")
-    for name in ("actions", "transitions"):
-        for group in pou.all(name):
-            if group.children:
-                raise group.place.refuse(f"<{name}> of a POU are not supported")
+    for group in pou.all("transitions"):
+        if group.children:
+            raise group.place.refuse("<transitions> of a POU are not supported")
     result = [_type(given) for interface in pou.all("interface") for given in interface.all("returnType")]
     if len(result) != (kind == "function"):
         raise pou.place.refuse(
@@ -144,7 +170,6 @@ def _declare(pou: Element, text: _Text) -> None:
         value = "" if given is None else f" := {_value(given)}"
         name = _identifier(variable, "name")
         text.put(variable.place, f"{' '.join(words)} {name} : {_type(declared)}{value}; END_VAR")
-    body = _body(pou)
     if body.name == "ST":
         inner = _text_of(body)
         text.put(inner.place, inner.text, inner.text_line)
@@ -153,10 +178,9 @@ def _declare(pou: Element, text: _Text) -> None:
     text.put(pou.place, f"END_{POUS[kind]}")
 
 
-def _body(pou: Element) -> Element:
-    """The one body of a POU; an empty one is refused."""
+def _body(pou: Element, name: str) -> Element:
+    """The one body of a POU or of an action; an empty one is refused."""
     bodies = list(pou.all("body"))
-    name = pou.get("name")
     if len(bodies) != 1:
         raise pou.place.refuse(f"{name} has {len(bodies)} bodies; one is needed")
     harmless(bodies[0])
@@ -233,12 +257,14 @@ def _value(element: Element) -> str:
 # ---------------------------------------------------------------- bodies
 
 
-def _lower(unit: Unit, body: Element, place: Place) -> Lower:
+def _lower(unit: Unit, body: Element, place: Place, actions: dict[str, Callable[[], Body]]) -> Lower:
     def lower(source: Source) -> Unit:
         if body.name == "ST":
             if not unit.body:
                 raise body.place.refuse(f"{unit.name}: the body has no statement")
-            return replace(unit, place=place)
+            for key in set(actions) & set(source.units):
+                raise place.refuse(f"{unit.name}: {key} is an action and a unit")
+            return replace(unit, body=Actions(actions).inlined(unit.body), place=place)
         if unit.kind == "function" or unit.of("in_out"):
             raise body.place.refuse(
                 f"{unit.name}: a function, and a block with VAR_IN_OUT, has a body in ST here"

@@ -13,11 +13,12 @@ import z3
 from programs.blocks import instances
 from programs.cell import Asked, Cell, Judge, Scans, Trace
 from programs.houdini import Houdini
-from programs.induction import System, Way, induction, shortest, spacer
+from programs.induction import Proof, System, Way, induction, shortest, spacer
 from programs.questions import TYPES
 from programs.relations import like
 from programs.replay import memory_of
 from programs.terms import compared_with, in_range
+from programs.tree import Expression, Unary
 
 RUNS, LENGTH = 60, 50
 """Of the random runs from which the candidates of invariants come."""
@@ -39,8 +40,10 @@ class Found:
     how: str
     trace: Trace | None = None
     scans: int = 0
-    reached: int = 0
-    """Scans after which the trigger was true in a run; 0: the property has none."""
+    reached: tuple[Trace, ...] = ()
+    """For each trigger the fewest scans after which it is true."""
+    proof: Proof | None = None
+    """What shows it, if it is PROVED."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +63,21 @@ class Judgement:
     seconds: float
     tell: Callable[[str], None]
 
+    @property
+    def every(self) -> list[Asked]:
+        """The properties, that on types first."""
+        sentence, text = "The program stays within its types.", "no overflow, division by 0, wrong index"
+        if self.cell.wrap:
+            sentence, text = (
+                "The program does what its types allow.",
+                "no division by 0, wrong index; numbers wrap",
+            )
+        return [Asked(TYPES, sentence, text, None), *self.asked]
+
     def all(self) -> list[Found]:
-        """The verdict on each, that on types first."""
-        types = Asked(
-            TYPES, "The program stays within its types.", "no overflow, division by 0, wrong index", None
-        )
+        """The verdict on each."""
         found = []
-        for asked in (types, *self.asked):
+        for asked in self.every:
             self.tell(asked.id)
             found.append(self._judge(asked))
         if found[0].word != "PROVED":
@@ -104,10 +115,10 @@ class Judgement:
     @cached_property
     def system(self) -> System:
         """The program with the watchers, without the values that never change."""
-        return self._whole.without_constants()
+        return self.whole.without_constants()
 
     @cached_property
-    def _whole(self) -> System:
+    def whole(self) -> System:
         """The program with the watchers of the properties that have a time."""
         cell = self.cell
         state = {path: cell.symbols[path] for path in cell.slots}
@@ -145,23 +156,24 @@ class Judgement:
         return z3.And(z3.Or(z3.Bool(f"{asked.id} waits"), trigger), z3.Not(end))
 
     def bad(self, asked: Asked) -> z3.BoolRef:
-        """The scans after which a property is false, over the values before them."""
-        return self._put(self._bad(asked))
+        """The scans after which a property is false, over the values before them that can change."""
+        return self._put(self.plainly_bad(asked))
 
     def _put(self, term: z3.BoolRef) -> z3.BoolRef:
-        found: z3.BoolRef = z3.simplify(z3.substitute(term, *self._whole.constants))
+        found: z3.BoolRef = z3.simplify(z3.substitute(term, *self.whole.constants))
         return found
 
-    def _bad(self, asked: Asked) -> z3.BoolRef:
+    def plainly_bad(self, asked: Asked) -> z3.BoolRef:
+        """The scans after which a property is false, over the values before them."""
         if asked.holds is None:
-            return z3.Not(self._whole.inside)
+            return z3.Not(self.whole.inside)
         if asked.once is not None:
-            return z3.And(self._whole.inside, self._waits(asked), self.cell.holds(asked.holds))
+            return z3.And(self.whole.inside, self._waits(asked), self.cell.holds(asked.holds))
         if asked.within_ms is not None:
             since = z3.Int(f"{asked.id} since")
             late = z3.And(z3.Bool(f"{asked.id} waits"), since + self.cell.dt_ms > asked.within_ms)
-            return z3.And(self._whole.inside, late)
-        return z3.And(self._whole.inside, z3.Not(self.cell.holds(asked.holds)))
+            return z3.And(self.whole.inside, late)
+        return z3.And(self.whole.inside, z3.Not(self.cell.holds(asked.holds)))
 
     @cached_property
     def lemmas(self) -> list[z3.BoolRef]:
@@ -187,7 +199,7 @@ class Judgement:
         """Cheap questions first: few scans at once, few scans from power-up, Spacer, invariants."""
         bad, until = self.bad(asked), time.process_time() + self.seconds
         if z3.is_false(bad):
-            return self._proved(asked, "the terms of one scan", until)
+            return self._proved(asked, Proof(1, (), "the terms of one scan"), until)
         proof = induction(self.system, bad, [], until)
         if proof is None:
             way, _ = shortest(self.system, bad, FEW_SCANS, until)
@@ -198,22 +210,26 @@ class Judgement:
             proof = induction(self.system, bad, self.lemmas, until)
             proof = proof or spacer(self.system, bad, self.lemmas, self.seconds / 4)
         if proof is not None:
-            return self._proved(asked, proof.by, until)
+            return self._proved(asked, proof, until)
         return self._searched(asked, bad, time.process_time() + self.seconds / 2)
 
-    def _proved(self, asked: Asked, how: str, until: float) -> Found:
+    def _proved(self, asked: Asked, proof: Proof, until: float) -> Found:
         """PROVED, if what triggers it can be true."""
-        longest = 0
+        reached = []
         for text, trigger in asked.trigger:
-            term = self._put(z3.And(self._whole.inside, self.cell.holds(trigger)))
+            term = self._put(z3.And(self.whole.inside, self.cell.holds(trigger)))
             way, scans = shortest(self.system, term, MOST_SCANS // 2, until)
             if way is None:
                 if induction(self.system, term, [], until + 10) or spacer(self.system, term, [], 10):
                     return Found(asked, "EMPTY", f"`{text}` can never be true, so it says nothing")
                 why = f"it follows, but `{text}` was not seen to be true in {scans} scans"
                 return Found(asked, "UNKNOWN", why)
-            longest = max(longest, scans)
-        return Found(asked, "PROVED", how, reached=longest)
+            trace = self.cell.run(*self._plain(way), never(asked, trigger))
+            if trace is None:
+                why = f"it follows, but `{text}` is not true when the {scans} scans that were found are run"
+                return Found(asked, "UNKNOWN", why)
+            reached.append(trace)
+        return Found(asked, "PROVED", proof.by, reached=tuple(reached), proof=proof)
 
     def _searched(self, asked: Asked, bad: z3.BoolRef, until: float) -> Found:
         """REFUTED by scans from power-up, or HOLDS in as many as were looked at."""
@@ -246,3 +262,8 @@ class Judgement:
             (values["dt_ms"], {path: values[path] for path in self.cell.inputs}) for values in way.scans
         ]
         return retained, scans
+
+
+def never(asked: Asked, trigger: Expression) -> Asked:
+    """That a trigger is never true: scans that break this reach it."""
+    return Asked(asked.id, "", "", Unary("NOT", trigger, trigger.place))

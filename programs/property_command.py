@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 import sys
 import time
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,20 +12,19 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.kit.files import write_text
-from programs import certificate
+from programs import property_certificate
+from programs.assumed import assumed
 from programs.cell import Cell
 from programs.command import choose
+from programs.folder import digest, tools
 from programs.output import Case, junit_of, write_record
 from programs.property import Found, Judgement
 from programs.questions import read_questions
 from programs.sources import read_sources
 
-TRUSTED = (
-    "the reader and translator of programs",
-    "the model of the timers",
-    "the path explorer, which reads the blocks",
-    "z3",
-)
+TRUSTED = (*property_certificate.TRUSTED, "z3")
+
+WRAP = "wrap where they leave their types; that they never do was not asked"
 
 
 def run(args: argparse.Namespace) -> int:
@@ -39,10 +37,17 @@ def run(args: argparse.Namespace) -> int:
         if sys.stderr.isatty():
             print(f"\r{text:<100}", end="", file=sys.stderr, flush=True)
 
-    cell, found = judged(args.files, args.property, args.unit, args.wrap, args.seconds, tell)
+    judgement, found = judged(args.files, args.property, args.unit, args.wrap, args.seconds, tell)
+    cell, lines = judgement.cell, []
+    if args.certificate is not None and status(found) == 0:
+        tell("writing the certificate")
+        property_certificate.write(cell, judgement, found, args.property, args.certificate)
+        lines.append(f"  certificate {args.certificate}; check it with --recheck {args.certificate}")
+    elif args.certificate is not None:
+        lines.append("  certificate none: not every property is PROVED")
     tell("")
     seconds = time.process_time() - started
-    print("\n".join(text_of(cell, found, seconds)))
+    print("\n".join([*text_of(cell, found, seconds), *lines]))
     record = record_of(cell, found, args.property, seconds)
     write_record(root(), record, args.json)
     if args.junit is not None:
@@ -59,12 +64,13 @@ def _case(cell: Cell, found: Found) -> Case:
 
 def judged(
     files: Sequence[Path], properties: Path, unit: str | None, wrap: bool, seconds: float, tell: Any
-) -> tuple[Cell, list[Found]]:
-    """The program, and the verdict on each property. Raises Unjudged with file, line and cause."""
+) -> tuple[Judgement, list[Found]]:
+    """The program with its properties, and the verdict on each. Raises Unjudged with file, line and cause."""
     questions = read_questions(properties)
     source = read_sources(list(files))
     cell = Cell.of(source, choose(source, unit), questions.scan_time, wrap)
-    return cell, Judgement(cell, questions.asked(cell), seconds, tell).all()
+    judgement = Judgement(cell, questions.asked(cell), seconds, tell)
+    return judgement, judgement.all()
 
 
 def status(found: Sequence[Found]) -> int:
@@ -82,6 +88,12 @@ def text_of(cell: Cell, found: Sequence[Found], seconds: float) -> Iterator[str]
     blocks = [f"{name} ({block.reference.document})" for name, block in cell.blocks.items()]
     yield f"  blocks      {', '.join(blocks) or 'none of the documents'}"
     yield f"  scans       of {_times(cell)}; every input, from power-up, for ever"
+    if choices := list(assumed(cell.source, cell.unit)):
+        yield f"  assumed     {'; '.join(choices)}"
+    if cell.clock:
+        yield "  dt_ms       is the time since the scan before"
+    if cell.wrap:
+        yield f"  numbers     {WRAP}"
     for verdict in found:
         yield from _verdict(cell, verdict)
     yield f"  trusted     {', '.join(TRUSTED)}"
@@ -97,7 +109,8 @@ def _verdict(cell: Cell, found: Found) -> Iterator[str]:
     yield f"  {how:<11} {found.how}"
     if found.reached:
         texts = ", ".join(f"`{text}`" for text, _ in asked.trigger)
-        yield f"  not empty   {texts}: true within {found.reached} scans"
+        longest = max(len(trace.scans) for trace in found.reached)
+        yield f"  not empty   {texts}: true within {longest} scans"
     if found.trace is None:
         return
     names = {key: variable.name for key, variable in cell.unit.variables.items()}
@@ -134,6 +147,9 @@ def _not_shown(cell: Cell) -> Iterator[str]:
     """What the verdicts say nothing about, in words."""
     yield f"scans outside {_times(cell)}"
     yield "outputs, variables and pins that no property names"
+    if cell.wrap:
+        yield f"numbers: {WRAP}"
+    yield from (f"a tool for which this is not so: {text}" for text in assumed(cell.source, cell.unit))
     yield "what the compiler and the PLC make of the source"
 
 
@@ -148,13 +164,9 @@ def record_of(cell: Cell, found: Sequence[Found], properties: Path, seconds: flo
         "command": "prove-program",
         "unit": cell.unit.name,
         "sources": dict(cell.source.files),
-        "properties": {str(properties): hashlib.sha256(properties.read_bytes()).hexdigest()},
-        "reference": {
-            path: digest
-            for document in sorted({block.reference.document for block in cell.blocks.values()})
-            for path, digest in certificate.reference_files(document).items()
-        },
-        "tools": certificate.tools(),
+        "properties": {str(properties): digest(properties)},
+        "reference": property_certificate.reference_of(cell),
+        "tools": tools(),
         "trusted": list(TRUSTED),
         "not_shown": list(_not_shown(cell)),
         "blocks": {name: block.reference.device.name for name, block in cell.blocks.items()},

@@ -23,7 +23,9 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged, suggestion
+from programs.calls import called_functions
 from programs.cell import Asked, Cell
+from programs.check import check_below
 from programs.st import read_text
 from programs.tree import (
     BOOL,
@@ -108,8 +110,9 @@ def read_questions(path: Path, beside: Beside | None = None) -> Questions:
         or len(times) not in (1, 2)
         or not all(type(number) is int and number >= 0 for number in times)
         or times != sorted(times)
+        or times[1:] == [0]  # time would stand still
     ):
-        raise Unjudged(f"{path}: scan_time_ms = [shortest, longest] in whole ms")
+        raise Unjudged(f"{path}: scan_time_ms = [shortest, longest] in whole ms, the longest above 0")
     if len(times) == 1 and any("within_ms" in row for row in rows):
         raise Unjudged(f"{path}: a property with within_ms needs scan_time_ms = [shortest, longest]")
     return Questions((times[0], times[1] if len(times) == 2 else None), tuple(rows), str(path), text, table)
@@ -135,7 +138,11 @@ def _check_row(row: Mapping[str, Any], path: Path, seen: set[str], beside: Mappi
             raise Unjudged(f"{path}: {name}: unknown key {key!r}; {suggestion(key, sorted(known))}")
         if type(value) is not (int if key == "within_ms" else str):
             raise Unjudged(f"{path}: {name}: {key} is {'a number' if key == 'within_ms' else 'a text'}")
-    if "sentence" not in row:
+        if isinstance(value, str) and any(not (one.isprintable() or one in "\n\t") for one in value):
+            raise Unjudged(f"{path}: {key} {value!r}: a character that cannot be printed")
+    if not name.isprintable():
+        raise Unjudged(f"{path}: id {name!r}: one line is needed")
+    if not row.get("sentence", "").strip():
         raise Unjudged(f'{path}: {name}: say it in a sentence as well: sentence = "..."')
     if {*row} - {"id", "sentence", *beside} not in FORMS:
         raise Unjudged(
@@ -147,7 +154,8 @@ def _check_row(row: Mapping[str, Any], path: Path, seen: set[str], beside: Mappi
 
 
 def words_of(row: Mapping[str, Any]) -> str:
-    """A property as one text."""
+    """A property as one text in one line."""
+    row = {key: " ".join(value.split()) if isinstance(value, str) else value for key, value in row.items()}
     for key in ("never", "always"):
         if key in row:
             return f"{key} {row[key]}"
@@ -160,9 +168,9 @@ def words_of(row: Mapping[str, Any]) -> str:
 
 def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
     def read(key: str) -> tuple[str, Expression]:
-        return row[key], expression(row[key], cell, place)
+        return " ".join(row[key].split()), expression(row[key], cell, place)
 
-    head = row["id"], row["sentence"], words_of(row)
+    head = row["id"], " ".join(row["sentence"].split()), words_of(row)
     if "never" in row:
         _, found = read("never")
         parts = _both(found)
@@ -176,13 +184,18 @@ def _asked(row: Mapping[str, Any], cell: Cell, place: Place) -> Asked:
         return Asked(*head, implied, ((what, holds),))
     text, after = read("after")
     if "only_once" in row:
-        return Asked(*head, holds, ((text, after), (what, holds)), once=read("only_once")[1])
+        end, once = read("only_once")
+        waits = Binary("AND", after, Unary("NOT", once, place), place)
+        return Asked(*head, holds, ((f"({text}) AND NOT ({end})", waits), (what, holds)), once=once)
     return Asked(*head, holds, ((text, after),), row["within_ms"])
 
 
 def expression(text: str, cell: Cell, place: Place) -> Expression:
     """An expression of type BOOL over the program's values. Raises Unjudged with file, line and cause."""
     found = parsed(text, place)
+    for name in called_functions(found):
+        if (unit := cell.source.find(name)) is not None:
+            check_below(cell.source, unit)
     types = Types(cell.source, cell.unit)
     types.scalar(found, place, ("bool",), BOOL)
     for name in _names(found):

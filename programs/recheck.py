@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,25 +11,28 @@ import cvc5
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs.certificate import NAME, Obligation, obligations, read
+from programs import property_certificate
+from programs.cell import Asked
+from programs.certificate import FORMAT, obligations, read
 from programs.command import about, make
+from programs.folder import NAME, Obligation, record_in
+from programs.induction import Proof
 from programs.product import Pair, Product, shown
+from programs.property import Judgement
 
 LIMIT_MS = 300_000
 """For one obligation, of the clock."""
 
 
 @dataclass(frozen=True)
-class Rechecked:
-    """What came out. answers: for each solver its answers other than `unsat`, by file. seconds: of CPU."""
+class Answers:
+    """What both solvers said: answers other than `unsat`, by solver and file, and the seconds of CPU."""
 
-    product: Product
     folder: Path
     files: int
     count: int
-    answers: dict[str, dict[str, str]]
-    seconds: dict[str, float]
-    unreached: Sequence[Pair]
+    answers: Mapping[str, Mapping[str, str]]
+    seconds: Mapping[str, float]
 
     @property
     def status(self) -> int:
@@ -37,43 +40,61 @@ class Rechecked:
         found = {answer for answers in self.answers.values() for answer in answers.values()}
         return 1 if "sat" in found else 2 if found else 0
 
-    def lines(self, seconds: float) -> Iterator[str]:
-        """What is printed."""
-        binding = self.product.binding
-        name = f"{binding.unit.kind} {binding.unit.name} of {', '.join(binding.source.files)}"
-        target = f"{binding.reference.device.name} ({binding.reference.document})"
-        if self.status == 0:
-            yield f"PROVED, checked again: {name} has the outputs of {target} in every scan from power-up"
-        else:
-            word = "REFUSED" if self.status == 1 else "UNKNOWN"
-            yield f"{word}: {self.folder} does not show that {name} equals {target}"
+    @property
+    def word(self) -> str:
+        """The status as a word."""
+        return ("PROVED, checked again", "REFUSED", "UNKNOWN")[self.status]
+
+    def lines(self) -> Iterator[str]:
+        """What is printed of both solvers."""
         for solver, answers in self.answers.items():
             said = ", ".join(f"{file}: {answer}" for file, answer in list(answers.items())[:3])
             yield (
                 f"  {solver:<11} {self.files - len(answers)} of {self.files} files unsat, {self.count} "
                 f"questions in all, {self.seconds[solver]:.1f} s CPU{'; but ' + said if said else ''}"
             )
-        for label, text in about(self.product):
-            yield f"  {label:<11} {text}"
-        pairs = len(self.product.nodes)
-        way = "scans from power-up were replayed to each"
-        if self.unreached:
-            way = f"no scans are known to {', '.join(map(shown, self.unreached))}"
-        yield f"  pairs       {pairs}; {way}"
+
+
+@dataclass(frozen=True)
+class Rechecked:
+    """What came out. unreached: pairs to which no scans are known. about: the lines that say of what."""
+
+    answers: Answers
+    about: Sequence[str]
+    unreached: Sequence[Pair] = ()
+
+    @property
+    def status(self) -> int:
+        """As the answers'."""
+        return self.answers.status
+
+    def lines(self, seconds: float) -> Iterator[str]:
+        """What is printed."""
+        first, *rest = self.about
+        yield first
+        yield from self.answers.lines()
+        yield from rest
         yield f"  effort      {seconds:.1f} s CPU"
 
 
 def recheck(folder: Path) -> Rechecked:
-    """Make all obligations anew from the sources and the relations of the certificate, and judge them.
+    """Make all obligations anew from the sources and from what the certificate found, and judge them.
 
     Raises Unjudged: the sources, the binding or the reference have changed, or the certificate was edited.
     """
+    if record_in(folder, FORMAT, property_certificate.FORMAT)["format"] == FORMAT:
+        return _equality(folder)
+    return _properties(folder)
+
+
+def _equality(folder: Path) -> Rechecked:
     kept = read(folder)
     record = kept.record
     try:
         given = kept.table("binding")
         names = {"names": given["names"], "fixed": given["parameters"], "left_out": tuple(given["left_out"])}
-        files, unit, target = kept.sources, str(record["unit"]), str(record["target"])
+        kept.files("binding_file")
+        files, unit, target = kept.files("sources"), str(record["unit"]), str(record["target"])
         product = make(files, target, unit, names, bool(record["wrap"]), tuple(record["split"]))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise Unjudged(f"{folder / NAME}: not the form of a certificate: {error!r:.100}") from None
@@ -81,6 +102,55 @@ def recheck(folder: Path) -> Rechecked:
     unreached = kept.follow(product, ways)
     owed = list(obligations(product))
     kept.compare({part.file: part.text for part in owed})
+    answers = _asked(folder, owed)
+    return Rechecked(answers, list(_about_equality(product, answers, unreached)), unreached)
+
+
+def _about_equality(product: Product, answers: Answers, unreached: Sequence[Pair]) -> Iterator[str]:
+    binding = product.binding
+    name = f"{binding.unit.kind} {binding.unit.name} of {', '.join(binding.source.files)}"
+    target = f"{binding.reference.device.name} ({binding.reference.document})"
+    if answers.status == 0:
+        yield f"{answers.word}: {name} has the outputs of {target} in every scan from power-up"
+    else:
+        yield f"{answers.word}: {answers.folder} does not show that {name} equals {target}"
+    for label, text in about(product):
+        yield f"  {label:<11} {text}"
+    way = "scans from power-up were replayed to each"
+    if unreached:
+        way = f"no scans are known to {', '.join(map(shown, unreached))}"
+    yield f"  pairs       {len(product.nodes)}; {way}"
+
+
+def _properties(folder: Path) -> Rechecked:
+    kept = property_certificate.read(folder)
+    judgement = kept.judgement()
+    proofs = kept.proofs(judgement)
+    owed = list(property_certificate.obligations(judgement, proofs))
+    kept.compare({part.file: part.text for part in owed})
+    answers = _asked(folder, owed)
+    return Rechecked(answers, list(_about_properties(judgement, proofs, answers)))
+
+
+def _about_properties(
+    judgement: Judgement, proofs: Sequence[tuple[Asked, Proof]], answers: Answers
+) -> Iterator[str]:
+    cell = judgement.cell
+    name = f"{cell.unit.kind} {cell.unit.name} of {', '.join(cell.source.files)}"
+    if answers.status == 0:
+        yield f"{answers.word}: {len(proofs)} properties of {name} in every scan from power-up"
+    else:
+        yield f"{answers.word}: {answers.folder} does not show the properties of {name}"
+    for asked, proof in proofs:
+        count = len(proof.lemmas)
+        yield f"  {asked.id}: {asked.sentence}"
+        yield f"    {asked.text}; {count} invariant{'s' * (count != 1)}, over {proof.deep} scans"
+    triggers = sum(len(asked.trigger) for asked, _ in proofs)
+    yield f"  not empty   {triggers} triggers; scans from power-up to each were run again"
+
+
+def _asked(folder: Path, owed: Sequence[Obligation]) -> Answers:
+    """Both solvers on every text."""
     answers: dict[str, dict[str, str]] = {}
     seconds: dict[str, float] = {}
     for name, solver in SOLVERS.items():
@@ -88,8 +158,7 @@ def recheck(folder: Path) -> Rechecked:
         said = {part.file: solver(part) for part in owed}
         answers[name] = {file: answer for file, answer in said.items() if answer != "unsat"}
         seconds[name] = time.process_time() - started
-    count = sum(part.count for part in owed)
-    return Rechecked(product, folder, len(owed), count, answers, seconds, unreached)
+    return Answers(folder, len(owed), sum(part.count for part in owed), answers, seconds)
 
 
 def _z3(owed: Obligation) -> str:
@@ -107,6 +176,7 @@ def _cvc5(owed: Obligation) -> str:
         solver.setOption("tlimit-per", str(LIMIT_MS))
         solver.setOption("incremental", "true")
         solver.setOption("ite-simp", "true")  # the scans of the reference are deep trees of choices
+        solver.setOption("ext-rew-prep", "use")  # half the time for the words of the mode selection
         parser = cvc5.InputParser(solver)
         parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, owed.text, owed.file)
         while not (command := parser.nextCommand()).isNull():

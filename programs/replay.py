@@ -15,7 +15,7 @@ from programs.bind import Binding
 from programs.paths import put, single_values
 from programs.product import Pair, Product
 from programs.relations import Values
-from programs.run import Machine, Overflow
+from programs.run import Limit, Machine, Overflow
 
 SUITES = ("sequences", "times", "brief")
 MOST_SCANS = 6_000
@@ -146,6 +146,8 @@ def steps(binding: Binding, wrap: bool, run: Run, found_by: str = "") -> Iterato
         try:
             own = machine.scan(binding.plain_inputs(inputs, run.parameters, dt_ms), dt_ms)
             given.append(binding.plain_outputs(own))
+        except Limit:
+            raise
         except Overflow as error:
             stopped = error.message
         if stopped or given[-1] != expected[-1]:

@@ -13,7 +13,9 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from programs.calls import function_of, handed_to_block, handed_to_function, in_outs, own_arguments
-from programs.standard import BLOCKS, arguments, conversion
+from programs.ready import ready
+from programs.run_standard import Standard
+from programs.standard import arguments, conversion, converted_from
 from programs.tree import (
     MOST_TURNS,
     Array,
@@ -38,7 +40,6 @@ from programs.tree import (
     Return,
     Scalar,
     Source,
-    Stop,
     Struct,
     Type,
     Unary,
@@ -50,6 +51,10 @@ from programs.types import Types
 
 class Overflow(Unjudged):
     """A value left the range of its type, a divisor was zero, or an index was outside its array."""
+
+
+class Limit(Overflow):
+    """A limit of the reader was met, which is no fault of the program: nothing can be said of it."""
 
 
 class _Returned(Exception):
@@ -81,18 +86,19 @@ def default(kind: Type, initial: object) -> Any:
 
 
 class Frame:
-    """The memory of one unit: its variables, and below them those of its instances.
+    """The memory of one unit: its variables, and below them those of its instances."""
 
-    root: that of the program, which has the global variables.
-    """
-
-    def __init__(self, source: Source, unit: Unit, root: Frame | None = None) -> None:
-        self.source, self.unit, self.types = source, unit, Types(source, unit)
-        self.root = root or self
-        self.values: dict[str, Any] = {
-            key: self.made(variable.type, variable.initial)
+    def __init__(self, source: Source, unit: Unit) -> None:
+        self.source, self.unit = source, unit
+        self.types: Types = source.kept.setdefault(id(unit), Types(source, unit))
+        self.temporary = {
+            key: default(variable.type, variable.initial)
             for key, variable in unit.variables.items()
-            if variable.section != "external"
+            if variable.section == "temp"
+        }
+        """What VAR_TEMP holds when a call begins."""
+        self.values: dict[str, Any] = {
+            key: self.made(variable.type, variable.initial) for key, variable in unit.variables.items()
         }
         self.state: Any = None
         self.since = 0
@@ -104,7 +110,7 @@ class Frame:
         if isinstance(kind, Instance):
             block = kind.block.upper()
             known = self.source.units.get(block)
-            return Standard(block) if known is None else Frame(self.source, known, self.root)
+            return Standard(block) if known is None else Frame(self.source, known)
         if isinstance(kind, Array) and any(blocks_in(kind)):
             return [self.made(kind.element, None) for _ in range(kind.low, kind.high + 1)]
         if isinstance(kind, Struct) and any(blocks_in(kind)):
@@ -114,99 +120,6 @@ class Frame:
                 for name, inner, value in kind.members
             }
         return default(kind, initial)
-
-    def home(self, key: str) -> dict[str, Any]:
-        """The values among which a variable is: its own, or those of the program for a global one."""
-        return self.root.values if self.unit.variables[key].section == "external" else self.values
-
-
-class Standard:
-    """An instance of a standard block: its pins, and what it remembers."""
-
-    def __init__(self, block: str) -> None:
-        self.block = block
-        self.values: dict[str, Any] = {
-            "IN": False, "CLK": False, "S": False, "S1": False, "R": False, "R1": False,
-            "PT": 0, "ET": 0, "Q": False, "Q1": False,
-        }  # fmt: skip
-        if block.startswith("CT"):
-            self.values = {
-                name: False if kind.kind == "bool" else 0
-                for side in BLOCKS[block]
-                for name, kind in side.items()
-            }
-            self.highest = BLOCKS[block][0]["PV"].high
-            self.lowest = BLOCKS[block][0]["PV"].low
-        self.up = self.down = False
-        self.before = False
-        self.since = 0
-        self.running = False
-
-    def call(self, now: int) -> None:
-        """One call at this time, in ms since power-up."""
-        own = self.values
-        if self.block.startswith("CT"):
-            self.count(own)
-            return
-        match self.block:
-            case "TON":
-                if not own["IN"]:
-                    own["ET"], own["Q"] = 0, False
-                else:
-                    if not self.before:
-                        self.since = now
-                    own["ET"] = max(0, min(now - self.since, own["PT"]))
-                    own["Q"] = now - self.since >= own["PT"]
-            case "TOF":
-                if own["IN"]:
-                    own["ET"], own["Q"], self.running = 0, True, False
-                else:
-                    if self.before:
-                        self.since, self.running = now, True
-                    if self.running:
-                        own["ET"] = max(0, min(now - self.since, own["PT"]))
-                        own["Q"] = now - self.since < own["PT"]
-                        self.running = bool(own["Q"])
-            case "TP":
-                if not self.running and own["IN"] and not self.before:
-                    self.since, self.running = now, True
-                if self.running:
-                    own["ET"] = max(0, min(now - self.since, own["PT"]))
-                    own["Q"] = now - self.since < own["PT"]
-                    self.running = bool(own["Q"])
-                if not self.running and not own["IN"]:
-                    own["ET"] = 0
-            case "R_TRIG":
-                own["Q"] = own["CLK"] and not self.before
-            case "F_TRIG":
-                own["Q"] = not own["CLK"] and self.before
-            case "SR":
-                own["Q1"] = own["S1"] or (not own["R"] and own["Q1"])
-            case "RS":
-                own["Q1"] = not own["R1"] and (own["S"] or own["Q1"])
-        self.before = own["IN"] or own["CLK"]
-
-    def count(self, own: dict[str, Any]) -> None:
-        """One call of a counter: an edge of CU counts up, one of CD down, both together do nothing."""
-        up = own.get("CU", False) and not self.up
-        down = own.get("CD", False) and not self.down
-        if own.get("R", False):
-            own["CV"] = 0
-        elif own.get("LD", False):
-            own["CV"] = own["PV"]
-        elif up and not down and own["CV"] < self.highest:
-            own["CV"] += 1
-        elif down and not up and own["CV"] > self.lowest:
-            own["CV"] -= 1
-        reached, empty = own["CV"] >= own["PV"], own["CV"] <= 0
-        match self.block.partition("_")[0]:
-            case "CTU":
-                own["Q"] = reached
-            case "CTD":
-                own["Q"] = empty
-            case _:
-                own["QU"], own["QD"] = reached, empty
-        self.up, self.down = own.get("CU", False), own.get("CD", False)
 
 
 class Machine:
@@ -233,8 +146,8 @@ class Machine:
         if frame.unit.device is not None:
             frame.unit.device.call(frame, self.now)
             return
-        for name, variable in frame.unit.of("temp").items():
-            frame.values[name.upper()] = default(variable.type, variable.initial)
+        for key, value in frame.temporary.items():
+            frame.values[key] = value if isinstance(value, int) else deepcopy(value)
         with contextlib.suppress(_Returned):
             self.body(frame, frame.unit.body)
 
@@ -275,17 +188,14 @@ class Machine:
                     raise _Returned
                 case Leave(turn, _):
                     raise _Continue if turn else _Exit
-                case Stop(text, place):
-                    raise Overflow(f"{place.file}:{place.line}: not so: {text}")
 
     def turns(self, frame: Frame, going: Expression, inner: Body, first: bool, place: Place) -> None:
         """The turns of WHILE and REPEAT."""
         made = -1 if first else 0
         while made < 0 or self.value(frame, going):
             if made == MOST_TURNS:
-                raise Overflow(
-                    f"{place.file}:{place.line}: not so: the loop ends after {MOST_TURNS} turns at most"
-                )
+                what = f"the loop ends after {MOST_TURNS} turns at most; what takes more is not judged"
+                raise Limit(f"{place.file}:{place.line}: not so: {what}")
             with contextlib.suppress(_Continue):
                 self.body(frame, inner)
             made += 1
@@ -355,7 +265,7 @@ class Machine:
         """Where a variable is kept: the values among which it is, and its key or number there."""
         match target:
             case Name(name, _):
-                return frame.home(name.upper()), name.upper()
+                return frame.values, name.upper()
             case Member(of, name, _):
                 above = self.read(frame, of)
                 return (above if isinstance(above, dict) else above.values), name.upper()
@@ -389,19 +299,20 @@ class Machine:
 
     def value(self, frame: Frame, expression: Expression, wanted: Scalar | None = None) -> Any:
         """The value of an expression."""
-        if (member := frame.types.enum_member(expression)) is not None:
-            return member[1]
+        kept, key = self.source.kept, (id(frame.unit), id(expression), id(wanted))
+        if key not in kept:
+            kept[key] = ready(frame.types, expression, wanted), expression, wanted
+        return kept[key][0](self, frame)
+
+    def worked_out(self, frame: Frame, expression: Expression, wanted: Scalar | None) -> Any:
+        """The value of an expression that `ready` leaves to this."""
+        if isinstance(expression, Name | Member | Index | Bit):
+            return self.read(frame, expression)
         kind = frame.types.of(expression, wanted)
-        match expression:
-            case Literal(value, _, _):
-                return bool(value) if isinstance(kind, Scalar) and kind.kind == "bool" else int(value)
-            case Name() | Member() | Index() | Bit():
-                return self.read(frame, expression)
         assert isinstance(kind, Scalar)
         match expression:
             case Unary("NOT", operand, _):
-                value = self.value(frame, operand, wanted)
-                return not value if kind.kind == "bool" else kind.high ^ value
+                return kind.high ^ self.value(frame, operand, wanted)
             case Unary(_, operand, place):
                 return self.ranged(-self.value(frame, operand, wanted), kind, place)
             case Binary():
@@ -415,28 +326,9 @@ class Machine:
             if self.value(frame, node.left) == (node.operator == "OR_ELSE"):
                 return node.operator == "OR_ELSE"
             return self.value(frame, node.right)
-        compares = node.operator in ("=", "<>", "<", "<=", ">", ">=")
-        first, second = frame.types.pair(node.left, node.right, node.place, None if compares else wanted)
+        first, second = frame.types.pair(node.left, node.right, node.place, wanted)
         left, right = self.value(frame, node.left, first), self.value(frame, node.right, second)
         match node.operator:
-            case "=":
-                return left == right
-            case "<>":
-                return left != right
-            case "<":
-                return left < right
-            case "<=":
-                return left <= right
-            case ">":
-                return left > right
-            case ">=":
-                return left >= right
-            case "AND":
-                return left & right
-            case "OR":
-                return left | right
-            case "XOR":
-                return left ^ right
             case "+W" | "-W":
                 return (left + (right if node.operator == "+W" else -right)) & kind.high
             case "+":
@@ -488,8 +380,9 @@ class Machine:
         return called.values[unit.name.upper()]
 
     def converted(self, frame: Frame, node: Function, argument: Expression, kind: Scalar) -> Any:
-        given = frame.types.of(argument)
-        value = self.value(frame, argument)
+        start = converted_from(node.name)
+        given = start or frame.types.of(argument)
+        value = self.value(frame, argument, start)
         assert isinstance(given, Scalar)
         if given.numbers:
             value = given.numbers[value]

@@ -1,7 +1,8 @@
 """Siemens SCL into Structured Text: a pass over the text that keeps every line where it is.
 
-`#name` and `"name"` become names; REGION lines, attributes in braces, VERSION, TITLE and BEGIN go; TON_TIME
-is TON, and W#16#FF is WORD#16#FF. Comments and strings are left alone. The rest is Structured Text.
+`#name` and, in declarations and calls, `"name"` become names; REGION lines, attributes in braces, VERSION,
+TITLE and BEGIN go; TON_TIME is TON, and W#16#FF is WORD#16#FF. Comments and strings are left alone. The rest
+is Structured Text.
 """
 
 from __future__ import annotations
@@ -45,15 +46,24 @@ def structured_text(text: str, file: str) -> str:
     """SCL as Structured Text with the same lines. Raises Unjudged with the line."""
     line = 1
     parts = []
-    header, typed = False, False  # typed: between TYPE and what is behind the name
+    header = declares = typed = False  # typed: between TYPE and what is behind the name
+    declared: set[str] = set()
+    before = None
     for match in _TOKEN.finditer(text):
         found, kind = match[0], match.lastgroup
         if kind == "word" and found.upper() in HEADS:
-            header = True
+            header, declared = True, set()
         elif kind == "begin" or (kind == "word" and found.upper().startswith(("VAR", "STRUCT"))):
-            header = False
+            header, declares = False, kind == "word"
+        elif kind == "word" and found.upper() in ("END_VAR", "END_STRUCT"):
+            declares = False
         elif kind == "about" and not header:
             raise Place(file, line).refuse(f"{found.split()[0]} is understood in the head of a block only")
+        elif declares and kind in ("word", "quoted"):
+            declared.add(found.strip('"').upper())
+        elif kind == "quoted" and before != "hash" and not header and _is_global(match, declared):
+            raise Place(file, line).refuse(f"{found} is a global name, and those are not supported; #name?")
+        before = kind
         if kind == "word" and found.upper() == "TYPE":
             typed = True
         elif typed and (found == ":" or found.upper() in ("STRUCT", "END_TYPE")):
@@ -62,6 +72,12 @@ def structured_text(text: str, file: str) -> str:
         parts.append(_changed(found, kind or "", Place(file, line)))
         line += found.count("\n")
     return "".join(parts)
+
+
+def _is_global(match: re.Match[str], declared: set[str]) -> bool:
+    """Whether a quoted name in a body is no function of ours: what is declared in the block has a #."""
+    called = match.string[match.end() :].lstrip().startswith("(")
+    return not called or match[0].strip('"').upper() in declared
 
 
 def _changed(found: str, kind: str, place: Place) -> str:

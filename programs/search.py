@@ -95,12 +95,12 @@ def _routes(product: Product, known: Mapping[Pair, Route], longest: int, until: 
     paths = {pair: _paths(product, pair) for pair in product.nodes}
     heads = {pair: known.get(pair, path) for pair, path in paths[start].items()}
     told: set[Route] = set()
-    for head in sorted(heads.values(), key=len):
+    for head in sorted(heads.values(), key=len, reverse=True):
         for tail in paths[head[-1]].values():
             if time.process_time() > until:
                 return
             yield from _prefixes((*head, *tail[1:]), longest, told)
-    for head in sorted(heads.values(), key=len):
+    for head in sorted(heads.values(), key=len, reverse=True):
         for middle in paths[head[-1]].values():
             for tail in paths[middle[-1]].values():
                 if time.process_time() > until:

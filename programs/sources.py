@@ -50,7 +50,7 @@ def read_sources(paths: Sequence[Path]) -> Source:
             units[key] = unit
             if lower is not None:
                 bodies[key] = lower
-    declared = Source(units, files)
+    declared = Source(units, files, refused)
     for key, lower in bodies.items():
         try:
             units[key] = lower(declared)

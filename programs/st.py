@@ -18,6 +18,7 @@ from programs.constants import known
 from programs.st_body import Bodies
 from programs.st_declared import Declared, elements, is_fields, is_list, named, taken_apart
 from programs.st_text import NO_RESULT, prepared
+from programs.standard import BLOCKS
 from programs.terms import leaves
 from programs.tree import (
     SCALARS,
@@ -56,7 +57,7 @@ def read_text(text: str, file: str) -> list[Unit]:
         fault = next(_faults(root))
         shown = " ".join(fault.text.decode("utf-8", "replace").split())[:40]
         raise Place(file, fault.start_point[0] + 1).refuse(
-            f"{shown!r} is missing or not Structured Text"
+            f"{fault.type!r} is missing here, or what stands here is not Structured Text"
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
@@ -125,13 +126,13 @@ class _Reader(Bodies):
                 if unit.name.upper() in self.types:
                     raise unit.place.refuse(f"there is a type with the name {unit.name}")
                 yield unit
-            elif node.type != "pragma":
+            else:
                 raise self.refuse(node)
 
     def define(self, definition: Any, namespace: str) -> None:
         """Read one type and its first value."""
         name = self.text(self.field(definition, "name"))
-        if name.upper() in self.types:
+        if name.upper() in {*SCALARS, *BLOCKS, *self.types}:
             raise self.refuse(definition, f"there is another type with the name {name}")
         kind = self.type(self.field(definition, "definition"), name)
         if nodes := self.fields(definition, "default"):
@@ -157,6 +158,8 @@ class _Reader(Bodies):
         kind = node.type.removesuffix("_declaration").replace("_", " ")
         if kind == "function":
             result = self.field(node, "return_type")
+            if name.upper() in variables:
+                raise variables[name.upper()].place.refuse(f"{name} is declared twice: it is the result")
             if self.text(result).upper() != NO_RESULT:
                 variables[name.upper()] = Variable(
                     name, self.type(result, ""), "output", None, self.place(node)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
@@ -87,16 +88,20 @@ class Bodies:
     # ------------------------------------------------------------ statements
 
     def body(self, nodes: Iterable[Any]) -> Body:
-        return tuple(self.statement(node) for node in nodes if node.type not in ("empty_statement", "pragma"))
+        return tuple(self.statement(node) for node in nodes if node.type != "empty_statement")
 
     def statement(self, node: Any) -> Statement:
         self.read += 1
         place = self.place(node)
         match node.type:
             case "assignment_statement":
-                return Assign(
-                    self.target(self.field(node, "left")), self.expression(self.field(node, "right")), place
-                )
+                target, value = self.target(self.field(node, "left")), self.field(node, "right")
+                if value.type == "call_expression" and any(map(_gives, self.arguments(value))):
+                    called = self.call(value, place)
+                    if isinstance(called.instance, Name):
+                        result = (called.instance.name, target)
+                        return replace(called, outputs=(*called.outputs, result))
+                return Assign(target, self.expression(value), place)
             case "if_statement":
                 branches = [(self.field(node, "condition"), self.fields(node, "consequence"))]
                 otherwise: Body = ()
@@ -160,16 +165,20 @@ class Bodies:
         inputs: list[tuple[str, Expression]] = []
         outputs: list[tuple[str, Expression]] = []
         instance = self.target(self.field(node, "function"))
-        for argument in self.named(self.field(node, "arguments")):
+        for argument in self.arguments(node):
             if argument.type != "named_argument":
                 inputs.append(("", self.expression(argument)))
                 continue
             name = self.pin(instance, self.text(self.field(argument, "name")))
             pair = (name, self.expression(self.field(argument, "value")))
-            (outputs if any(child.type == "=>" for child in argument.children) else inputs).append(pair)
+            (outputs if _gives(argument) else inputs).append(pair)
         if len({name == "" for name, _ in (*inputs, *outputs)}) > 1:
             raise place.refuse("arguments with names and without in one call")
         return Call(instance, tuple(inputs), tuple(outputs), place)
+
+    def arguments(self, node: Any) -> list[Any]:
+        """The arguments of a call."""
+        return self.named(self.field(node, "arguments"))
 
     def pin(self, instance: Expression, name: str) -> str:
         """The name of a pin today."""
@@ -226,10 +235,12 @@ class Bodies:
                 return Binary({"&": "AND"}.get(operator, operator), left, right, place)
             case "call_expression":
                 arguments = []
-                for argument in self.named(self.field(node, "arguments")):
+                for argument in self.arguments(node):
                     if argument.type == "named_argument":
-                        if any(child.type == "=>" for child in argument.children):
-                            raise self.refuse(argument)
+                        if _gives(argument):
+                            raise self.refuse(
+                                argument, "=> within an expression: call the function before it"
+                            )
                         value = self.expression(self.field(argument, "value"))
                         arguments.append((self.text(self.field(argument, "name")).upper(), value))
                     else:
@@ -261,3 +272,8 @@ class Bodies:
         if not kind.low <= number <= kind.high:
             raise self.refuse(node, f"{self.text(node)}: outside {kind.low}..{kind.high}")
         return Literal(number, kind, place)
+
+
+def _gives(argument: Any) -> bool:
+    """Whether an argument of a call is an output."""
+    return any(child.type == "=>" for child in argument.children)

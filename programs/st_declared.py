@@ -1,6 +1,6 @@
 """What the grammar cannot read in declarations: a pass over the text that keeps every line where it is.
 
-Addresses (AT), initial values of arrays and structures, lists of names in a structure are taken out of the
+Initial values of arrays and structures, and lists of names in a structure, are taken out of the
 text and kept by the place where they stood. What is not asked for again is refused.
 """
 
@@ -16,14 +16,12 @@ _TOKEN = re.compile(
     r"""
     (?P<comment> //[^\n]* | \(\*.*?\*\) | /\*.*?\*/ )
     | (?P<string> '(?:\$.|[^'$\n])*' | "(?:\$.|[^"$\n])*" )
-    | (?P<at> \bAT\b(?=\s*%) )
     | (?P<word> [A-Za-z_]\w* )
     | (?P<value> :=\s*(?:\[|\(\s*[A-Za-z_]\w*\s*:=) )
     | (?P<end> ; ) | .
     """,
     re.VERBOSE | re.DOTALL | re.IGNORECASE,
 )  # fmt: skip
-_ADDRESS = re.compile(r"AT\s*(%[IQM][A-Z]?[\d.]*\*?)", re.IGNORECASE)
 _MEMBERS = re.compile(r"\s*([A-Za-z_]\w*)((?:\s*,\s*[A-Za-z_]\w*)+)\s*:(?!=)")
 _FIELDS = re.compile(r"\(\s*[A-Za-z_]\w*\s*:=")
 _REPEATED = re.compile(r"(\d[\d_]*)\s*\((.*)\)", re.DOTALL)
@@ -36,7 +34,6 @@ class Declared:
 
     text: str
     values: dict[int, tuple[int, str]] = field(default_factory=dict)
-    addresses: dict[int, tuple[int, str]] = field(default_factory=dict)
     members: dict[int, tuple[int, list[str]]] = field(default_factory=dict)
 
     def value(self, behind: int) -> str | None:
@@ -48,22 +45,15 @@ class Declared:
                 return self.values.pop(start)[1] if near else None
         return None
 
-    def address(self, low: int, high: int) -> str:
-        """The address that stood between these bytes."""
-        found = [start for start in self.addresses if low <= start < high]
-        return self.addresses.pop(found[0])[1].upper() if found else ""
-
     def also(self, start: int) -> list[str]:
         """The further names of the member of a structure whose name begins here."""
         return self.members.pop(start, (0, []))[1]
 
     def refuse_rest(self, file: str) -> None:
         """Raises Unjudged for what nobody asked for."""
-        for rest, what in ((self.values, "initial value"), (self.addresses, "address")):
-            for line, text in rest.values():
-                raise Place(file, line).refuse(
-                    f"this {what} is not supported here: {' '.join(text.split())[:40]}"
-                )
+        for line, text in self.values.values():
+            shown = " ".join(text.split())[:40]
+            raise Place(file, line).refuse(f"this initial value is not supported here: {shown}")
         for line, names in self.members.values():
             raise Place(file, line).refuse(f"these names are not expected here: {', '.join(names)}")
 
@@ -106,11 +96,6 @@ def taken_apart(text: str, file: str) -> Declared:
             rest = _COMMENT.sub("", text[match.end() :]).lstrip()
             found += ";" * (not rest.startswith((";", ":=")))
             start = structures > 0
-        elif kind == "at" and inside and (address := _ADDRESS.match(text, at)):
-            made.addresses[here()] = line, address[1]
-            parts.append(_blank(address[0]))
-            at = address.end()
-            continue
         elif kind == "value" and inside:
             end = _closed(text, at + 2, Place(file, line))
             made.values[here()] = line, _COMMENT.sub(" ", text[at + 2 : end])

@@ -31,7 +31,7 @@ _TOKEN = re.compile(
     | (?P<using> \bUSING\s+[A-Za-z_][\w.,\s]*; )
     | (?P<retain> \b(?:RETAIN\s+PERSISTENT|PERSISTENT\s+RETAIN|PERSISTENT)\b )
     | (?P<head> \b(?:FUNCTION_BLOCK|FUNCTION)\s+(?:(?:PUBLIC|INTERNAL|PRIVATE|PROTECTED|FINAL)\s+)+ )
-    | (?P<plain> \bFUNCTION\s+\w++(?=(?:\s|\(\*.*?\*\)|//[^\n]*\n)*+[^\s:]) )
+    | (?P<plain> \bFUNCTION\s+\w++(?=(?:\s|\(\*.*?\*\)|//[^\n]*\n)*+[^\s:;]) )
     | (?P<based> \)\s*(?:[US]?[SDL]?INT|BYTE|WORD|DWORD|LWORD)(?=\s*(?::=|;)) )
     | (?P<word> [A-Za-z_]\w* ) | .
     """,

@@ -45,6 +45,12 @@ def conversion(name: str) -> tuple[str, str] | None:
     return (start.removeprefix("_"), end) if there else None
 
 
+def converted_from(name: str) -> Scalar | None:
+    """The type from which a conversion such as INT_TO_WORD starts; None: it takes any (TO_WORD)."""
+    ends = conversion(name)
+    return None if ends is None else SCALARS.get(ends[0])
+
+
 def arguments(node: Function) -> list[Expression]:
     """The arguments in their order, whether they are given by position or by name."""
     names = _PARAMETERS.get(node.name, ("IN",))

@@ -184,8 +184,10 @@ class Instructions(Pieces):
             found = Binary(WORDS[op], left, right, place)
         elif op in SHIFTS and operands and isinstance(operands[0], Fixed):
             name, kind = SHIFTS[op]
-            count = Literal(min(operands[0].value, kind.width), None, place)
-            found = Function(name, (("", self.fitted(state.first, kind, place)), ("", count)), place)
+            value, count = self.fitted(state.first, kind, place), Literal(operands[0].value, None, place)
+            found = Function(name, (("", value), ("", count)), place)
+            if operands[0].value >= kind.width:  # nothing of it is left
+                found = Literal(0, kind, place)
         elif op in ("INVI", "INVD"):
             kind = WORD if op == "INVI" else DWORD
             found = Unary("NOT", self.fitted(state.first, kind, place), place)

@@ -44,7 +44,6 @@ from programs.tree import (
     Return,
     Scalar,
     Source,
-    Stop,
     Type,
     Unit,
 )
@@ -178,8 +177,6 @@ class Translator:
                 return self.turns(at, statement, MOST_TURNS, env, here)
             case Call():
                 self.invoke(at, statement, env, here)
-            case Stop(text, place):
-                self.owe(negated(here), text, place)
             case Return():
                 return Left(returned=TRUE)
             case Leave(turn, _):

@@ -54,14 +54,11 @@ def in_range(kind: Scalar, term: Any) -> z3.BoolRef:
 
 
 def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
-    """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants.
-
-    What a block below has in VAR_EXTERNAL is memory of the program.
-    """
+    """Every single value of a unit's memory, inputs and outputs, without VAR_TEMP and without constants."""
     if unit.device is not None:
         yield from unit.device.slots(above.removesuffix("."))
     for key, variable in unit.variables.items():
-        if variable.section in ("temp", "constant", "external"):
+        if variable.section in ("temp", "constant"):
             continue
         given = variable.section == "input" and not above
         for place, kind, initial in cells(variable.type, f"{above}{key}", variable.initial):
@@ -268,13 +265,13 @@ def rotated(term: Any, by: int) -> Any:
 
 
 def merge(env: Env, condition: z3.BoolRef, yes: Env, no: Env) -> None:
-    for key in {**yes, **no}:
-        if key in yes and key in no:
-            env[key] = choose(condition, yes[key], no[key])
+    for key, term in yes.items():
+        if key in no:
+            env[key] = choose(condition, term, no[key])
 
 
 def choose(condition: z3.BoolRef, yes: Any, no: Any) -> Any:
-    if z3.is_true(condition) or yes.eq(no):
+    if yes is no or z3.is_true(condition) or yes.eq(no):
         return yes
     return no if z3.is_false(condition) else z3.If(condition, yes, no)
 

@@ -310,15 +310,7 @@ class Leave:
     place: Place
 
 
-@dataclass(frozen=True)
-class Stop:
-    """What must not be reached: the PLC would stop there. text: what is true where it is not reached."""
-
-    text: str
-    place: Place
-
-
-Statement = Assign | If | Case | For | Loop | Call | Return | Leave | Stop
+Statement = Assign | If | Case | For | Loop | Call | Return | Leave
 Body = tuple[Statement, ...]
 
 
@@ -329,8 +321,7 @@ Body = tuple[Statement, ...]
 class Variable:
     """One declared variable.
 
-    section: input, output, in_out, var, temp, constant, retain; external: a global variable, whose value is
-    kept beside the program.
+    section: input, output, in_out, var, temp, constant or retain.
     """
 
     name: str
@@ -340,8 +331,6 @@ class Variable:
     """bool, int, or a tuple: of the elements of an array, or of the names (in upper case) and values of the
     members of a structure; None: the default of its type."""
     place: Place
-    address: str = ""
-    """Of AT, such as `%IX0.1` or `%Q*`."""
 
 
 class Device(Protocol):
@@ -392,10 +381,8 @@ class Source:
     """The SHA-256 of each file."""
     refused: Mapping[str, Unjudged] = field(default_factory=dict)
     """Units and types that are there and cannot be read, by their names in upper case."""
-    globals: Mapping[str, Variable] = field(default_factory=dict)
-    """The global variables by their names in upper case."""
-    scheduled: tuple[tuple[str, Place], ...] = ()
-    """The program instances of a CONFIGURATION: what each runs."""
+    kept: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
+    """What the interpreter has made ready of these units, by their identity."""
 
     def find(self, name: str) -> Unit | None:
         """The unit with this name; None: there is none. Raises Unjudged: it cannot be read."""
@@ -412,8 +399,8 @@ class Source:
             raise refusal
         used = {
             block.upper()
-            for variables in (self.globals, *(unit.variables for unit in self.units.values()))
-            for variable in variables.values()
+            for unit in self.units.values()
+            for variable in unit.variables.values()
             for block in blocks_in(variable.type)
         }
         found = [unit for name, unit in self.units.items() if name not in used and unit.kind != "function"]

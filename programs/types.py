@@ -69,6 +69,9 @@ class Types:
             for kind in self._enumerations():
                 number = kind.member(expression.name)
                 if kind.name.upper() == expression.of.name.upper() and number is not None:
+                    variable = self.unit.variables.get(kind.name.upper())
+                    if variable is not None and isinstance(variable.type, Instance):
+                        raise expression.place.refuse(f"{kind.name} is a type and an instance; rename one")
                     return kind, number
         return None
 
@@ -200,7 +203,12 @@ class Types:
                 return max(first, second, key=lambda kind: kind.high)
         elif node.operator in ("+", "-", "*", "/", "MOD"):
             if kinds == {"int"}:
-                return max(first, second, key=lambda kind: (kind.high - kind.low, kind.high))
+                wider = max(first, second, key=lambda kind: (kind.high - kind.low, kind.high))
+                if min(first.low, second.low) < wider.low or max(first.high, second.high) > wider.high:
+                    raise node.place.refuse(
+                        f"{node.operator} of {first.name} and {second.name}: compilers differ; convert one"
+                    )
+                return wider
             if kinds == {"time"} and node.operator in "+-":
                 return TIME
             if (first.kind, second.kind) == ("time", "int") and node.operator in "*/":
@@ -236,7 +244,13 @@ class Types:
             return first
         if node.name in SHIFTS:
             self.scalar(values[1], place, ("int",))
-            return self.scalar(values[0], place, ("bits",), wanted)
+            kind = self.scalar(values[0], place, ("bits",), wanted)
+            by = values[1].value if isinstance(values[1], Literal) else 0
+            if node.name in ("SHL", "SHR") and by >= kind.width:
+                raise place.refuse(
+                    f"{node.name} of {kind.name} by {by}: compilers differ from {kind.width} on"
+                )
+            return kind
         if ends is None:  # MOVE
             return self.scalar(values[0], place, ("bool", "bits", "int", "time", "enum"), wanted)
         start, end = ends
@@ -246,11 +260,15 @@ class Types:
 
     def own_function(self, node: Function) -> Unit | None:
         """The FUNCTION of the program's own that is called; None: it is one of the standard."""
-        found = self.source.units.get(node.name)
+        found = self.source.find(node.name)
         return found if found is not None and found.kind == "function" else None
 
     def own(self, node: Function, unit: Unit) -> Scalar:
         """The type of the result of a FUNCTION, after a look at its arguments."""
+        if unit.name.upper() not in unit.variables:
+            raise node.place.refuse(f"{unit.name} has no result: call it as a statement")
+        if unit.of("in_out"):
+            raise node.place.refuse(f"{unit.name} has VAR_IN_OUT: it is called as a statement here")
         for key, expression in own_arguments(node, unit).items():
             wanted = unit.variables[key].type
             assert isinstance(wanted, Scalar)
@@ -261,17 +279,15 @@ class Types:
             assert isinstance(given, Scalar)
             if wanted.kind == "bits" and given.high > wanted.high:
                 raise node.place.refuse(f"{unit.variables[key].name} := {given.name} needs a conversion")
-        if unit.name.upper() not in unit.variables:
-            raise node.place.refuse(f"{unit.name} has no result: call it as a statement")
-        if unit.of("in_out"):
-            raise node.place.refuse(f"{unit.name} has VAR_IN_OUT: it is called as a statement here")
         result = unit.variables[unit.name.upper()].type
         assert isinstance(result, Scalar)
         return result.base or result
 
     def conversion(self, node: Function, value: Expression, start: Scalar | None, end: Scalar) -> Scalar:
         given = self.scalar(value, node.place, ("bool", "bits", "int", "time", "enum"), start)
-        if start is not None and given.kind != start.kind:
+        if start is not None and (
+            given.kind != start.kind or not start.low <= given.low <= given.high <= start.high
+        ):
             raise node.place.refuse(f"{node.name} of a {given.name}")
         if given.kind != end.kind and "bool" in (given.kind, end.kind) and end.kind == "bool":
             raise node.place.refuse(f"{node.name} is not supported; compare with 0")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import z3
 
 from programs.calls import own_arguments
-from programs.standard import arguments, conversion
+from programs.standard import arguments, conversion, converted_from
 from programs.terms import (
     FALSE,
     TRUE,
@@ -79,8 +79,7 @@ class Context:
         """
         match target:
             case Name(name, _):
-                outer = self.types.unit.variables[name.upper()].section == "external"
-                return [(TRUE, name.upper() if outer else f"{self.above}{name.upper()}")]
+                return [(TRUE, f"{self.above}{name.upper()}")]
             case Member(of, name, _):
                 return [(there, f"{path}.{name.upper()}") for there, path in self.places(of, env, here)]
             case Index(of, index, place):
@@ -269,9 +268,11 @@ class Context:
     def converted(
         self, node: Function, argument: Expression, kind: Scalar, env: Env, here: z3.BoolRef
     ) -> Any:
-        given = self.types.of(argument)
-        term = self.value(argument, env, here)
+        start = converted_from(node.name)
+        given = start or self.types.of(argument)
+        term = self.value(argument, env, here, start)
         assert isinstance(given, Scalar)
+        term = self.translator.widened(term, self.types.of(argument, start), given)
         if given.numbers:
             place, *others = enumerate(given.numbers)
             found = z3.IntVal(place[1])

@@ -3,6 +3,7 @@
     python -m tests.bench_programs fuzz [PROGRAMS [SCANS]]     random programs, interpreter against terms
     python -m tests.bench_programs mutants [NUMBER [SEED]]     one-edit mutants of examples/st/sf_*.st
     python -m tests.bench_programs coverage FOLDER...          blocks of public collections: read, translated
+    python -m tests.bench_programs composed FOLDER [NAME]      specifications of a public collection, judged
 
 Exit status: 0 nothing found, 1 something that must not be.
 """
@@ -22,6 +23,7 @@ from programs import replay as replay_room
 from programs.command import make
 from programs.replay import Difference, published, replay
 from programs.verdict import judge
+from tests.programs import composed
 from tests.programs.coverage import Collection, table
 from tests.programs.fuzz import difference_of_text
 from tests.programs.generate import program
@@ -32,6 +34,8 @@ LIMIT_S = 400.0
 SEARCH_S = 20.0
 SUITES = ("sequences", "brief", "parameters", "sic", "times")
 MOST_SCANS = 30_000
+PROPERTY_S = 60.0
+"""CPU time for one specification."""
 
 
 def fuzz(programs: int, scans: int) -> int:
@@ -112,6 +116,26 @@ def try_mutants(number: int, seed: int) -> int:
     return 1 if wrong else 0
 
 
+# ---------------------------------------------------------------- composed programs
+
+
+def judge_composed(folder: Path, name: str) -> int:
+    """Judge the specifications of the units with this text in their names (see `tests.programs.composed`)."""
+    words: Counter[str] = Counter()
+    for of in composed.specifications(folder):
+        if name not in of.unit:
+            continue
+        found, seconds = composed.judge(of, folder, PROPERTY_S)
+        scans = len(found.trace.scans) if found.trace else found.scans or ""
+        words[found.word] += 1
+        print(
+            f"| {of.unit} | `{of.formula}` | {of.bound} | {found.word} | {scans} | {seconds:.1f} |",
+            flush=True,
+        )
+    print(f"{words.total()} specifications: {dict(words)}")
+    return 0 if words.total() and not {*words} - {"PROVED", "REFUTED", "EMPTY"} else 1
+
+
 def main(arguments: list[str]) -> int:
     """The command; see the module's text."""
     match arguments:
@@ -126,6 +150,8 @@ def main(arguments: list[str]) -> int:
                 print("\n".join(table(collection)), flush=True)
                 wrong += len(collection.wrong)
             return 1 if wrong else 0
+        case ["composed", folder, *names] if len(names) < 2:
+            return judge_composed(Path(folder), *(names or [""]))
     print(__doc__, file=sys.stderr)
     return 2
 

@@ -1,4 +1,4 @@
-"""Judges every faulty program of st.toml by `modeproof prove-program`.
+"""Judges every faulty program of st.toml (ST, SCL, FBD, LD, statement list) by `modeproof prove-program`.
 
     .venv/bin/python examples/faulty/st.py                        all faults
     .venv/bin/python examples/faulty/st.py st-edm-precedence      these
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import shutil
 import sys
 import tempfile
 import time
@@ -24,6 +25,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
 from modeproof.ground.errors import Unjudged  # noqa: E402
+from programs.bind import read_binding  # noqa: E402
 from programs.command import make  # noqa: E402
 from programs.replay import replay  # noqa: E402
 from programs.verdict import Verdict  # noqa: E402
@@ -32,6 +34,14 @@ from programs.verdict import judge as judge_product  # noqa: E402
 HERE = Path(__file__).resolve().parent
 PACK, PAGE = HERE / "st.toml", HERE / "st.md"
 SECONDS = 60.0
+LINE = r"^(?=\| ((?:st|scl|fbd|ld|stl)-\S+) \|)(.*)$"
+"""A line of the page, and the fault that it is about."""
+BINDINGS = {
+    "examples/st/sf_edm.scl": "examples/cautious.toml",
+    "examples/plcopen/sf_edm.xml": "examples/cautious.toml",
+    "examples/plcopen/sf_guard_locking.xml": "examples/plcopen/sf_guard_locking.toml",
+}
+"""Of the programs that do not make the choices of the letter."""
 
 
 @dataclass(frozen=True)
@@ -76,9 +86,15 @@ def load_faults(path: Path = PACK) -> tuple[Fault, ...]:
 
 def judge(fault: Fault, folder: Path) -> Verdict:
     """The verdict on the program with the fault; scans that refute it are replayed once more."""
-    path = folder / f"{fault.id}.st"
-    path.write_text((ROOT / fault.file).read_text("utf-8").replace(fault.old, fault.new), "utf-8")
-    product = make([path], fault.target)
+    whole = ROOT / fault.file
+    path = folder / fault.id / whole.name
+    path.parent.mkdir()
+    path.write_text(whole.read_text("utf-8").replace(fault.old, fault.new), "utf-8")
+    if path.suffix == ".awl":
+        for beside in whole.parent.glob("*.csv"):
+            shutil.copy(beside, path.parent)
+    binding = read_binding(ROOT / BINDINGS[fault.file]) if fault.file in BINDINGS else {}
+    product = make([path], fault.target, binding=binding)
     search = fault.target != "fplc"  # half a minute each, to save a few scans
     found = judge_product(product, ROOT / "vectors" / fault.target, SECONDS, lambda text: None, search)
     if found.difference is not None:
@@ -92,10 +108,11 @@ def as_page(faults: Sequence[Fault], rows: Mapping[str, str]) -> str:
     """st.md: every fault with what came out. rows: the line of each that is refuted."""
     refuted = [fault for fault in faults if not fault.reason]
     lines = [
-        "# Structured Text that is wrong in one place",
+        "# Programs that are wrong in one place, judged by a proof",
         "",
-        "Each fault is one edit of [a program in Structured Text](../st);",
-        "[`st.toml`](st.toml) has the edits.",
+        "Each fault is one edit of a program in [Structured Text or SCL](../st) (`st-`, `scl-`), of",
+        "[a function block diagram or a ladder](../plcopen) (`fbd-`, `ld-`), or of",
+        "[statement list](../awl) (`stl-`). [`st.toml`](st.toml) has the edits.",
         "",
         "```",
         ".venv/bin/python examples/faulty/st.py",
@@ -122,13 +139,13 @@ def row(fault: Fault, verdict: Verdict) -> str:
     """The line of the table for a fault that is refuted."""
     assert verdict.difference is not None
     by = verdict.difference.found_by
-    suite = f"suite `{by.split()[-1]}`" if by.startswith("published") else by
+    suite = f"suite `{by.partition(' of ')[2].partition(',')[0]}`" if by.startswith("published") else by
     return f"| {fault.id} | {fault.mistake} | {len(verdict.difference.scans)} | {suite} |"
 
 
 def main(argv: Sequence[str]) -> int:
     """The command; see the module's text."""
-    parser = argparse.ArgumentParser(description="Judge the faulty programs in Structured Text.")
+    parser = argparse.ArgumentParser(description="Judge the faulty programs.")
     parser.add_argument("ids", nargs="*", metavar="FAULT", help="only these")
     parser.add_argument("--render", action="store_true", help="write st.md anew, as far as judged")
     args = parser.parse_args(argv)
@@ -138,7 +155,7 @@ def main(argv: Sequence[str]) -> int:
         if unknown:
             raise Unjudged(f"no fault {', '.join(sorted(unknown))}")
         faults = [fault for fault in every if not args.ids or fault.id in args.ids]
-        rows, wrong = dict(re.findall(r"^(?=\| (st-\S+) \|)(.*)$", PAGE.read_text("utf-8"), re.M)), 0
+        rows, wrong = dict(re.findall(LINE, PAGE.read_text("utf-8"), re.M)), 0
         with tempfile.TemporaryDirectory() as folder:
             for fault in faults:
                 began = time.process_time()

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import ctypes
 import importlib
+import math
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.proofs import proofs_module
+
+SECONDS = 300
+"""Limit of a search, of CPU time, where --seconds names no other."""
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -38,7 +43,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdict as JUnit XML as well")
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdict there as well")
     parser.add_argument(
-        "--seconds", type=float, default=300, metavar="S", help="limit of the search for pairs (300)"
+        "--seconds", type=float, metavar="S", help=f"limit of the search for pairs ({SECONDS})"
     )
     parser.add_argument(
         "--property",
@@ -59,15 +64,27 @@ def run(args: argparse.Namespace) -> int:
             "your own; or a certificate alone, with --recheck"
         )
     beside = {
-        "recheck": ("binding", "unit", "wrap"),
-        "property": ("certificate", "vector"),
+        "recheck": ("binding", "unit", "wrap", "certificate", "vector", "junit", "json", "seconds"),
+        "property": ("vector",),
     }
     for name in beside.get(asked[0], ()):
-        if getattr(args, name):
-            raise Unjudged(f"--{name} goes with --target, not with --{asked[0]}")
+        if getattr(args, name) not in (None, False):
+            raise Unjudged(f"--{name} has no effect with --{asked[0]}; leave it out")
+    args.seconds = SECONDS if args.seconds is None else args.seconds
+    if not 0 < args.seconds < math.inf:
+        raise Unjudged(f"--seconds {args.seconds:g}: a time above 0 is needed")
     try:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
     room = "command" if args.property is None else "property_command"
-    return int(proofs_module(f"programs.{room}").run(args))
+    try:
+        return int(proofs_module(f"programs.{room}").run(args))
+    except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
+        if "recursion" not in f"{type(error).__name__} {error}".lower():
+            raise
+        files = ", ".join(map(str, args.files or [args.recheck]))
+        raise Unjudged(
+            f"{files}: an expression, or a list of ELSIF, CASE or RETURN, is too long or too deep for this "
+            "reader; split it"
+        ) from None

@@ -166,6 +166,8 @@ class _Atom:
 
     asked: z3.BoolRef
     question: z3.BoolRef
+    number: int
+    """z3's number of the question."""
     negated: bool
     always: bool | None
 
@@ -193,6 +195,7 @@ class _Explorer:
         self.questions = 0
         self.pruned = 0
         self.atoms: dict[int, _Atom] = {}
+        self.terms: dict[tuple[Any, int, int], tuple[Any, Any, Any]] = {}
 
     def explore(self, twice: bool = True) -> Exploration:
         if self.check(None) is None:
@@ -226,15 +229,23 @@ class _Explorer:
                 )
 
     def atom(self, question: z3.BoolRef) -> _Atom:
-        """The question in a simpler form, always the same. It is kept, so that ids of terms stay valid."""
-        known = self.atoms.get(question.get_id())
+        """The question in a simpler form, always the same. It is kept, so that its identity stays valid."""
+        known = self.atoms.get(id(question))
         if known is None:
             simple = z3.simplify(question)
             negated = z3.is_not(simple)
             always = True if z3.is_true(simple) else False if z3.is_false(simple) else None
-            known = _Atom(question, simple.arg(0) if negated else simple, negated, always)
-            self.atoms[question.get_id()] = known
+            simple = simple.arg(0) if negated else simple
+            known = _Atom(question, simple, simple.get_id(), negated, always)
+            self.atoms[id(question)] = known
         return known
+
+    def made(self, make: Callable[[Any, Any], Any], left: Any, right: Any) -> Any:
+        """The term that `make` makes of two; it is kept with them, so that their identities stay valid."""
+        key = make, id(left), id(right)
+        if key not in self.terms:
+            self.terms[key] = left, right, make(left, right)
+        return self.terms[key][2]
 
     def check(self, question: z3.BoolRef | None) -> z3.ModelRef | None:
         """A model of the answers on the stack and the question, or None when there is none."""
@@ -301,9 +312,8 @@ class _Run:
 
     def _answer(self, atom: _Atom, place: Place) -> bool:
         """The answer to the question of the atom, as it stands without its negation."""
-        asked = atom.question.get_id()
-        if asked in self.answered:  # asked before on this path
-            return self.answered[asked]
+        if atom.number in self.answered:  # asked before on this path
+            return self.answered[atom.number]
         if len(self.taken) >= MAX_DECISIONS:
             raise TooManyPathsError(f"more than {MAX_DECISIONS} decisions on one path, at {place}")
         number = len(self.taken)
@@ -312,7 +322,7 @@ class _Run:
         else:
             decision = self._new(atom.question, not atom.negated, place)
         self.taken.append(decision)
-        self.answered[asked] = decision.answer
+        self.answered[atom.number] = decision.answer
         return decision.answer
 
     def refuse(self, why: str) -> NoReturn:
@@ -322,6 +332,9 @@ class _Run:
 
     def spoken(self) -> None:
         self.said = True
+
+    def made(self, make: Callable[[Any, Any], Any], left: Any, right: Any) -> Any:
+        return self.explorer.made(make, left, right)
 
     # ---- the run
 
@@ -352,7 +365,7 @@ class _Run:
         return Path(tuple(self.taken), result, raised, self.model, frozenset(self.asked))
 
     def _replayed(self, expected: Decision, question: z3.BoolRef) -> Decision:
-        if expected.question.get_id() != question.get_id():
+        if expected.question is not question and not expected.question.eq(question):
             raise HiddenStateError(
                 f"the same path run again asks another question, {question} for {expected.question}: "
                 "the code keeps state"

@@ -131,14 +131,22 @@ def _integer(proxy: Any, found: z3.ExprRef) -> int:
 
 def terms(value: Any, place: str = "") -> Iterator[tuple[str, z3.ExprRef | object]]:
     """Each leaf of a result with its place, such as `after.selection`: a solver term, or a plain value."""
-    if isinstance(value, tuple):
+    found: list[tuple[str, z3.ExprRef | object]] = []
+    _leaves(value, place, found)
+    return iter(found)
+
+
+def _leaves(value: Any, place: str, found: list[tuple[str, z3.ExprRef | object]]) -> None:
+    if isinstance(value, Proxy):
+        found.append((place, value.term))
+    elif isinstance(value, tuple):
         for number, part in enumerate(value):
-            yield from terms(part, f"{place}[{number}]")
-    elif _is_record(value):
-        for name, part in _parts(value).items():
-            yield from terms(part, f"{place}.{name}" if place else name)
+            _leaves(part, f"{place}[{number}]", found)
+    elif (names := _fields_of(value)) is not None:
+        for name in names:
+            _leaves(getattr(value, name), f"{place}.{name}" if place else name, found)
     else:
-        yield place, value.term if isinstance(value, Proxy) else value
+        found.append((place, value))
 
 
 def check_result(value: object) -> None:
@@ -157,7 +165,7 @@ def same(result: Any, other: Any) -> bool:
     if type(result) is not type(other):
         return False
     if isinstance(result, Proxy):
-        return bool(result.term.eq(other.term))
+        return result.term is other.term or bool(result.term.eq(other.term))
     if isinstance(result, tuple):
         return len(result) == len(other) and all(map(same, result, other))
     if _is_record(result):

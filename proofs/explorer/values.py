@@ -11,8 +11,10 @@ is `lint`.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, NoReturn, Protocol
 
 import z3
@@ -31,6 +33,9 @@ class Run(Protocol):
 
     def spoken(self) -> None:
         """Remember that a symbolic value was turned into text, which only an error message may do."""
+
+    def made(self, make: Callable[[Any, Any], Any], left: Any, right: Any) -> Any:
+        """What `make` makes of two terms; every run of the same code asks for it again."""
 
 
 # ---------------------------------------------------------------- symbols
@@ -166,10 +171,20 @@ class Proxy:
         self._run.refuse(f"{self.what} is compared with {_shown(other)}")
 
     def __eq__(self, other: object) -> FlagProxy:  # type: ignore[override]
-        return FlagProxy(self.term == self._number(other), self._run)
+        return FlagProxy(self._run.made(operator.eq, self.term, self._number(other)), self._run)
 
     def __ne__(self, other: object) -> FlagProxy:  # type: ignore[override]
-        return FlagProxy(self.term != self._number(other), self._run)
+        return FlagProxy(self._run.made(operator.ne, self.term, self._number(other)), self._run)
+
+
+@cache
+def _constant(make: Callable[[Any], Any], value: bool | int) -> Any:
+    """A plain value as a term."""
+    return make(value)
+
+
+def _word(value: int) -> z3.BitVecNumRef:
+    return z3.BitVecVal(value, WORD_BITS)
 
 
 def _shown(value: object) -> str:
@@ -257,7 +272,7 @@ class FlagProxy(Proxy):
         if isinstance(other, FlagProxy):
             return other.term
         if type(other) is bool:
-            return z3.BoolVal(other)
+            return _constant(z3.BoolVal, other)
         return super()._number(other)
 
 
@@ -276,35 +291,38 @@ class WordProxy(Proxy):
             return other.term
         low, high = (-0x8000, 0x7FFF) if self._signed else (0, 0xFFFF)
         if type(other) is int and low <= other <= high:
-            return z3.BitVecVal(other, WORD_BITS)
+            return _constant(_word, other)
         return super()._number(other)
 
     def _ordered(
         self, other: object, signed: Callable[[Any, Any], Any], unsigned: Callable[[Any, Any], Any]
     ) -> FlagProxy:
         order = signed if self._signed else unsigned
-        return FlagProxy(order(self.term, self._number(other)), self._run)
+        return FlagProxy(self._run.made(order, self.term, self._number(other)), self._run)
 
     def __lt__(self, other: object) -> FlagProxy:
-        return self._ordered(other, lambda a, b: a < b, z3.ULT)
+        return self._ordered(other, operator.lt, z3.ULT)
 
     def __le__(self, other: object) -> FlagProxy:
-        return self._ordered(other, lambda a, b: a <= b, z3.ULE)
+        return self._ordered(other, operator.le, z3.ULE)
 
     def __gt__(self, other: object) -> FlagProxy:
-        return self._ordered(other, lambda a, b: a > b, z3.UGT)
+        return self._ordered(other, operator.gt, z3.UGT)
 
     def __ge__(self, other: object) -> FlagProxy:
-        return self._ordered(other, lambda a, b: a >= b, z3.UGE)
+        return self._ordered(other, operator.ge, z3.UGE)
+
+    def _joined(self, make: Callable[[Any, Any], Any], other: object) -> WordProxy:
+        return WordProxy(self._run.made(make, self.term, self._number(other)), self._run, self._signed)
 
     def __and__(self, other: object) -> WordProxy:
-        return WordProxy(self.term & self._number(other), self._run, self._signed)
+        return self._joined(operator.and_, other)
 
     def __or__(self, other: object) -> WordProxy:
-        return WordProxy(self.term | self._number(other), self._run, self._signed)
+        return self._joined(operator.or_, other)
 
     def __xor__(self, other: object) -> WordProxy:
-        return WordProxy(self.term ^ self._number(other), self._run, self._signed)
+        return self._joined(operator.xor, other)
 
     __rand__ = __and__
     __ror__ = __or__
@@ -321,29 +339,35 @@ class NumberProxy(Proxy):
         if isinstance(other, NumberProxy):
             return other.term
         if type(other) is int:
-            return z3.IntVal(other)
+            return _constant(z3.IntVal, other)
         return super()._number(other)
 
+    def _ordered(self, order: Callable[[Any, Any], Any], other: object) -> FlagProxy:
+        return FlagProxy(self._run.made(order, self.term, self._number(other)), self._run)
+
+    def _sum(self, make: Callable[[Any, Any], Any], left: Any, right: Any) -> NumberProxy:
+        return NumberProxy(self._run.made(make, left, right), self._run)
+
     def __lt__(self, other: object) -> FlagProxy:
-        return FlagProxy(self.term < self._number(other), self._run)
+        return self._ordered(operator.lt, other)
 
     def __le__(self, other: object) -> FlagProxy:
-        return FlagProxy(self.term <= self._number(other), self._run)
+        return self._ordered(operator.le, other)
 
     def __gt__(self, other: object) -> FlagProxy:
-        return FlagProxy(self.term > self._number(other), self._run)
+        return self._ordered(operator.gt, other)
 
     def __ge__(self, other: object) -> FlagProxy:
-        return FlagProxy(self.term >= self._number(other), self._run)
+        return self._ordered(operator.ge, other)
 
     def __add__(self, other: object) -> NumberProxy:
-        return NumberProxy(self.term + self._number(other), self._run)
+        return self._sum(operator.add, self.term, self._number(other))
 
     def __sub__(self, other: object) -> NumberProxy:
-        return NumberProxy(self.term - self._number(other), self._run)
+        return self._sum(operator.sub, self.term, self._number(other))
 
     def __rsub__(self, other: object) -> NumberProxy:
-        return NumberProxy(self._number(other) - self.term, self._run)
+        return self._sum(operator.sub, self._number(other), self.term)
 
     def __neg__(self) -> NumberProxy:
         return NumberProxy(-self.term, self._run)
@@ -365,7 +389,7 @@ class TextProxy(Proxy):
         if isinstance(other, TextProxy) and other._values == self._values:
             return other.term
         if type(other) is str and other in self._values:
-            return z3.IntVal(self._values.index(other))
+            return _constant(z3.IntVal, self._values.index(other))
         return super()._number(other)
 
 

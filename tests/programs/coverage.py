@@ -97,7 +97,10 @@ class Collection:
     @cached_property
     def units(self) -> dict[str, Unit | str]:
         """Each block that was read, or why not, by its name; functions as far as they are supported."""
-        types = "\n".join(piece.plain for piece in self.pieces if piece.kind == "TYPE" and _reads(piece))
+        known = {
+            _type_name(piece.text): piece for piece in self.pieces if piece.kind == "TYPE" and _reads(piece)
+        }
+        types = "\n".join(piece.plain for piece in known.values())
         found: dict[str, Unit | str] = {}
         for piece in self.pieces:
             if piece.kind not in ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION"):
@@ -156,7 +159,10 @@ def caller(unit: Unit) -> Unit:
     }
     given = tuple((found.name, Name(found.name, place)) for found in variables.values())
     body: Statement
-    if unit.kind == "function":
+    if unit.kind == "function" and (unit.of("in_out") or unit.name.upper() not in unit.variables):
+        variables["DONE"] = Variable("DONE", BOOL, "output", None, place)
+        body = Call(Name(unit.name, place), given, (), place)
+    elif unit.kind == "function":
         result = unit.variables[unit.name.upper()].type
         variables["RESULT_OF_CALL"] = Variable("RESULT_OF_CALL", result, "output", None, place)
         called = Function(unit.name.upper(), tuple((name.upper(), value) for name, value in given), place)
@@ -181,6 +187,12 @@ def _name(text: str) -> str:
         r"\b(?:FUNCTION_BLOCK|PROGRAM|FUNCTION)\s+(?:PUBLIC\s+|INTERNAL\s+)?\"?(\w+)", text, re.I
     )
     return found[1] if found else "?"
+
+
+def _type_name(text: str) -> str:
+    """The first name that a text with types declares; a collection may declare a type in several files."""
+    found = re.search(r"\bTYPE\s+(\w+)", text, re.I)
+    return found[1].upper() if found else text
 
 
 def _cause(error: Unjudged) -> str:

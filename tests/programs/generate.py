@@ -10,6 +10,20 @@ BITS = {"BYTE": 8, "WORD": 16, "DWORD": 32}
 LOW = {"SINT": -128, "USINT": 0, "INT": -32768, "UINT": 0, "DINT": -(2**31)}
 HIGH = {"SINT": 127, "USINT": 255, "INT": 32767, "UINT": 65535, "DINT": 2**31 - 1}
 DEEPEST = 3
+TYPES = """TYPE Colour : (Red, Green, Blue); Level : (Low := 10, Mid := 5, High) := Mid; END_TYPE
+TYPE Few : INT (-3..9) := 1; Count : DINT := 4; END_TYPE
+"""
+SPLIT = """FUNCTION Split
+VAR_INPUT of : INT; up : BOOL; END_VAR VAR_OUTPUT odd : BOOL; END_VAR VAR_IN_OUT sum : INT; END_VAR
+odd := of MOD 2 <> 0;
+FOR sum := 1 TO 3 DO IF up THEN RETURN; END_IF END_FOR
+sum := of / 2;
+END_FUNCTION
+FUNCTION Half : INT
+VAR_INPUT of : INT; END_VAR VAR_OUTPUT odd : BOOL; END_VAR
+Half := of / 2; odd := of MOD 2 <> 0;
+END_FUNCTION
+"""
 
 
 @dataclass
@@ -23,7 +37,7 @@ class Generator:
 
     def text(self) -> str:
         """A function block P, and a block Below that it may have instances of."""
-        return f"TYPE Colour : (Red, Green, Blue); END_TYPE\n{self._below()}\n{self._main()}"
+        return f"{TYPES}{SPLIT}{self._below()}\n{self._main()}"
 
     def _main(self) -> str:
         self.readable = {kind: [] for kind in (*INTEGERS, *BITS, "BOOL", "TIME", "Colour")}
@@ -33,15 +47,31 @@ class Generator:
         lines += self._section("VAR_OUTPUT", "o", 6, True)
         lines += self._section("VAR", "v", 6, True)
         lines += self._section("VAR_TEMP", "t", 2, True)
-        lines.append("VAR CONSTANT six : INT := 6; no : BOOL := FALSE; END_VAR")
+        lines.append("VAR CONSTANT six : INT := 6; no : BOOL := FALSE; two : INT := six / 3; END_VAR")
+        lines.append("VAR few : Few; some : Count; level : Level; word : WORD; octet : BYTE; END_VAR")
+        lines.append("VAR words : ARRAY [two - 1..two] OF WORD; up : CTU; down : CTD; both : CTUD; END_VAR")
         lines.append("VAR list : ARRAY [2..4] OF INT := [3(1)]; bits : ARRAY [0..2] OF BOOL; END_VAR")
-        lines.append("VAR n1, n2, n3 : INT; on : TON; off : TOF; pulse : TP; rise : R_TRIG; fall : F_TRIG;")
-        lines.append("set : SR; reset : RS; below, other : Below; END_VAR")
+        lines.append(
+            "VAR n1, n2, n3, m : INT; on : TON; off : TOF; pulse : TP; rise : R_TRIG; fall : F_TRIG;"
+        )
+        lines.append("set : SR; reset : RS; below, other : Below; spare : TIME; END_VAR")
         self.readable["INT"] += ["six", "below.total", "list[3]"]
         self.readable["BOOL"] += ["no", "on.Q", "off.Q", "pulse.Q", "rise.Q", "fall.Q", "set.Q1", "below.q"]
         self.readable["TIME"] += ["on.ET", "off.ET", "pulse.ET"]
-        self.writable["INT"] += ["list[2]"]
-        self.writable["BOOL"] += ["bits[1]"]
+        self.readable["INT"] += ["m", "up.CV", "both.CV", "few", "TO_INT(level)"]
+        self.readable["BOOL"] += [
+            "up.Q",
+            "down.Q",
+            "both.QU",
+            "both.QD",
+            "word.5",
+            "octet.%X7",
+            "words[1].15",
+        ]
+        self.readable["DINT"] += ["some"]
+        self.writable["INT"] += ["list[2]", "few"]
+        self.writable["BOOL"] += ["bits[1]", "word.5", "octet.%X7", "words[2].0"]
+        self.writable["WORD"] += ["word", "words[1]"]
         lines += self._body(0, self.values.randint(4, 9))
         return "\n".join([*lines, "END_FUNCTION_BLOCK", ""])
 
@@ -87,7 +117,7 @@ class Generator:
     def _statement(self, depth: int) -> str:
         plain = depth >= DEEPEST
         chosen = self.values.choices(
-            ("assign", "if", "case", "for", "call", "array", "return"),
+            ("assign", "if", "case", "for", "call", "array", "return", "leave"),
             (
                 6,
                 0 if plain else 3,
@@ -95,7 +125,8 @@ class Generator:
                 0 if plain else 1,
                 3,
                 1,
-                0 if plain or self.loops else 0.3,
+                0 if plain else 0.3,
+                2 if self.loops else 0,
             ),
         )[0]
         inner = "\n".join(self._body(depth + 1, self.values.randint(1, 2))) if not plain else ""
@@ -122,13 +153,17 @@ class Generator:
                 low, high = self.values.choice(((2, 4), (4, 2), (3, 2), (2, 4)))
                 by = " BY -1" if low > high and self._coin() else ""
                 body = f"list[{name}] := {self.of('INT', 2)};" if by or low < high else self._assignment()
+                more = self._statement(depth + 1) if self._coin() else ""
                 self.loops -= 1
+                body = f"{body} {more}"
                 if low < high and self._coin():
-                    turn = f"{body} {name} := {name} + 1;"
+                    turn = f"{name} := {name} + 1; {body}" if more else f"{body} {name} := {name} + 1;"
                     if self._coin():
                         return f"{name} := {low}; WHILE {name} < {high} DO {turn} END_WHILE"
                     ends = f"{self.of('BOOL', 1)} OR {name} > {high}"
                     return f"{name} := {low}; REPEAT {turn} UNTIL {ends} END_REPEAT"
+                if more and low == 2 and high == 4 and self._coin():
+                    high = "two * 2"  # type: ignore[assignment]
                 return f"FOR {name} := {low} TO {high}{by} DO {body} END_FOR"
             case "call":
                 return self._call()
@@ -136,6 +171,9 @@ class Generator:
                 return f"IF i_n THEN list[{self.of('INT', 2)}] := 1; END_IF".replace(
                     "i_n", self.of("BOOL", 2)
                 )
+            case "leave":
+                word = self.values.choice(("EXIT", "CONTINUE", "RETURN"))
+                return f"IF {self.of('BOOL', 1)} THEN {word}; END_IF"
             case "return":
                 return f"IF {self.of('BOOL', 1)} AND {self.of('BOOL', 1)} THEN RETURN; END_IF"
         return self._assignment()
@@ -154,6 +192,15 @@ class Generator:
                 f"reset(S := {one}, R1 := {two});",
                 f"below(up := {one}, n := {self.of('INT', 2)});",
                 f"other(n := {self.of('INT', 2)});",
+                f"below({one}, {self.of('INT', 2)});",
+                f"on({one}, T#10ms);",
+                f"on({one}, T#10ms, bits[0], {self.values.choice(self.writable['TIME'] or ['spare'])});",
+                f"up(CU := {one}, RESET := {two}, PV := {self.of('INT', 3)});",
+                f"down({one}, {two}, {self.of('INT', 2)});",
+                f"both(CU := {one}, CD := {two}, LOAD := {self.of('BOOL', 3)}, PV := {self.of('INT', 3)});",
+                f"Split(of := {self.of('INT', 2)}, up := {one}, odd => bits[2], sum := m);",
+                f"m := Half(of := {self.of('INT', 2)}, odd => bits[0]);",
+                f"level := {self.values.choice(('Low', 'Level.Mid', 'Level#High'))};",
             )
         )
 
@@ -182,7 +229,7 @@ class Generator:
                     f"({one} AND {two})",
                     f"({one} OR {two})",
                     f"({one} XOR NOT {two})",
-                    f"SHL({one}, {self.values.randint(0, 9)})",
+                    f"SHL({one}, {self.values.randint(0, 7)})",
                     f"SHR({one}, 3)",
                     f"ROL({one}, {self.values.randint(0, 40)})",
                     f"ROR({one}, 5)",
@@ -236,6 +283,8 @@ class Generator:
                 f"({one} OR {two})",
                 f"({one} XOR {two})",
                 f"NOT {one}",
+                f"({one} AND_THEN {two})",
+                f"({one} OR_ELSE {two})",
                 f"({self.of(kind, depth + 1)} {sign} {self.of(kind, depth + 1)})",
                 f"({self.of('Colour', 3)} = {self.of('Colour', 3)})",
                 f"bits[{self.values.randint(0, 2)}]" if "no" in self.readable["BOOL"] else one,

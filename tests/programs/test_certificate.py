@@ -14,14 +14,18 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
+from modeproof.kit.errors import Unjudged as KitUnjudged
 from programs import certificate
 from programs.command import make
+from programs.folder import NAME, digest, digest_of
 from programs.recheck import recheck
 from programs.relations import Relation
+from programs.replay import Run
 from programs.verdict import Verdict, judge
 
 ROOT = Path(__file__).parents[2]
 PLC = ROOT / "examples" / "st" / "plc.st"
+EDM = ROOT / "examples" / "st" / "sf_edm.st"
 
 
 def silent(text: str) -> None:
@@ -49,18 +53,18 @@ def folder(tmp_path: Path) -> Path:
 
 def record_of(folder: Path) -> Any:
     """certificate.json as it stands."""
-    return json.loads((folder / certificate.NAME).read_text("utf-8"))
+    return json.loads((folder / NAME).read_text("utf-8"))
 
 
 def keep(folder: Path, record: Any) -> None:
     """Put another record in its place."""
-    (folder / certificate.NAME).write_text(json.dumps(record), "utf-8")
+    (folder / NAME).write_text(json.dumps(record), "utf-8")
 
 
 def written_anew(folder: Path, spoil: Callable[[Any], None]) -> None:
     """A cheat that is consistent: the relations or pairs are spoilt, and the queries made to go with them."""
     kept = certificate.read(folder)
-    product = make(kept.sources, "plc")
+    product = make(kept.files("sources"), "plc")
     kept.fill(product)
     spoil(product)
     replayed = proved().replayed
@@ -71,7 +75,11 @@ def written_anew(folder: Path, spoil: Callable[[Any], None]) -> None:
 def test_a_certificate_is_shown_by_both_solvers(folder: Path) -> None:
     found = recheck(folder)
     assert found.status == 0 and not found.unreached
-    assert found.files == 5 and found.count >= 16 and set(found.answers) == {"z3", "cvc5"}
+    assert (
+        found.answers.files == 5
+        and found.answers.count >= 16
+        and set(found.answers.answers) == {"z3", "cvc5"}
+    )
     text = "\n".join(found.lines(0.0))
     assert text.startswith("PROVED, checked again: function block PLC") and "cvc5        5 of 5 files" in text
 
@@ -143,6 +151,16 @@ def other_reference(record: Any) -> None:
     record["reference"]["refimpl/mode_selection/plc.py"] = "0" * 64
 
 
+def another_beginning(record: Any) -> None:
+    """Scans from a memory that is not that of power-up."""
+    record["pairs"][1]["reached_by"]["retained"] = {"TURN": 0x22}
+
+
+def no_variable(record: Any) -> None:
+    """Scans from the value of nothing."""
+    record["pairs"][1]["reached_by"]["retained"] = {"NOTHING": 1}
+
+
 def no_queries(record: Any) -> None:
     """A shorter list of queries."""
     record["queries"].popitem()
@@ -158,6 +176,8 @@ EDITS = {
     unknown_kind: "is no relation|not the form",
     no_start: "the pair of power-up",
     other_reference: "refimpl/mode_selection/plc.py has changed since",
+    another_beginning: "TURN is no RETAIN variable",
+    no_variable: "do not lead there: KeyError",
     no_queries: "the queries are not those",
 }
 
@@ -188,10 +208,50 @@ def test_a_weaker_query_is_refused(folder: Path) -> None:
     path = sorted(folder.glob("*.smt2"))[1]
     path.write_text(path.read_text("utf-8").replace("(push 1)", "(push 1)\n(assert false)", 1), "utf-8")
     record = record_of(folder)
-    record["queries"][path.name] = certificate._sha256(path.read_text("utf-8"))
+    record["queries"][path.name] = digest_of(path.read_text("utf-8"))
     keep(folder, record)
     with pytest.raises(Unjudged, match="not the obligation that follows from the program"):
         recheck(folder)
+
+
+def test_a_certificate_that_is_no_text_is_refused(folder: Path) -> None:
+    sorted(folder.glob("*.smt2"))[1].write_bytes(b"\xff")
+    with pytest.raises(Unjudged, match="not the obligation that follows"):
+        recheck(folder)
+    (folder / NAME).write_text("[" * 100_000, "utf-8")
+    with pytest.raises(Unjudged, match="no JSON"):
+        recheck(folder)
+
+
+def test_scans_with_other_parameters_show_no_pair() -> None:
+    product, run = make([EDM], "sf_edm"), Run({"AFTER_RESET": "at_once", "MonitoringTime_ms": 5}, [])
+    assert not certificate._outside(product, run)
+    other = Run({"AFTER_RESET": "stop_first", "MonitoringTime_ms": 5}, [])
+    assert certificate._outside(product, other) == "their parameters are none of the claim"
+
+
+@pytest.mark.parametrize("stop", [OSError(28, "No space left on device"), KeyboardInterrupt()])
+def test_half_a_certificate_is_not_left_behind(
+    stop: BaseException, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from modeproof.kit import files
+
+    right, count = files.write_whole, iter(range(3))
+
+    def full(path: Path, content: bytes, mode: int = 0o644) -> None:
+        if next(count, None) is None:
+            raise stop
+        right(path, content, mode)
+
+    replayed = proved().replayed
+    assert replayed is not None
+    with monkeypatch.context() as patched:
+        patched.setattr(files, "write_whole", full)
+        with pytest.raises((KitUnjudged, KeyboardInterrupt)):
+            certificate.write(proved().product, replayed, folder)
+    assert not list(folder.iterdir())
+    certificate.write(proved().product, replayed, folder)
+    assert recheck(folder).status == 0
 
 
 @pytest.mark.parametrize("more", [True, False])
@@ -214,7 +274,7 @@ def test_a_changed_program_is_refused(folder: Path) -> None:
 def test_another_program_under_the_same_queries_is_refused(folder: Path) -> None:
     program, record = folder.parent / "plc.st", record_of(folder)
     program.write_text(program.read_text("utf-8").replace("MW03 := SelectMSO", "MW03 := SwitchMSO"), "utf-8")
-    record["sources"] = {str(program): certificate._digest(program)}
+    record["sources"] = {str(program): digest(program)}
     keep(folder, record)
     with pytest.raises(Unjudged, match=r"not the obligation that follows|the outputs differ on the way"):
         recheck(folder)
@@ -255,7 +315,21 @@ def test_consistent_cheats_are_not_shown(spoil: Callable[[Any], None], folder: P
         assert "do not lead there" in str(error) or "power-up" in str(error)
         return
     assert found.status == 1
-    assert all("sat" in answers.values() for answers in found.answers.values())
+    assert all("sat" in answers.values() for answers in found.answers.answers.values())
+
+
+@pytest.mark.parametrize(
+    "more", ["--json=x", "--junit=x", "--vector=x", "--certificate=x", "--seconds=5", "--wrap", "--unit=x"]
+)
+def test_an_option_without_effect_is_refused(more: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove-program", "--recheck", "folder", more]) == 2
+    assert "has no effect with --recheck; leave it out" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("seconds", ["0", "-1", "nan", "inf"])
+def test_a_limit_that_is_none_is_refused(seconds: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["prove-program", str(PLC), "--target", "plc", "--seconds", seconds]) == 2
+    assert "a time above 0 is needed" in capsys.readouterr().err
 
 
 def test_a_folder_with_other_files_is_not_emptied(tmp_path: Path) -> None:

@@ -41,6 +41,7 @@ PROJECTS = {
     "no XML": ("FUNCTION_BLOCK B", "b.xml:1: not well-formed XML"),
     "XML that ends early": (project(pou(GOOD))[:-9], "b.xml:9: not well-formed XML"),
     "entities": (f"<!DOCTYPE p [<!ENTITY e 'x'>]>{project(pou(GOOD))[21:]}", "b.xml:1: a document type"),
+    "an unknown encoding": ("<?xml version='1.0' encoding='latin9000'?><project/>", "b.xml:1: the encoding"),
     "another XML": ("<project/>", "b.xml:1: <project> in 'no namespace' is no PLCopen XML"),
     "another version": (project(pou(GOOD)).replace("0201", "0100"), "b.xml:2: <project> in"),
     "no POU": (project(), "the project has no POU"),
@@ -65,9 +66,9 @@ PROJECTS = {
         project(pou(f"<p {HTML}>q := a;</p><p {HTML}/>", language="ST")),
         "more than one",
     ),
-    "an action": (
-        project(pou(GOOD).replace("<body>", "<actions><action name='x'/></actions><body>")),
-        "<actions> of a POU are not supported",
+    "transitions of a chart": (
+        project(pou(GOOD).replace("<body>", "<transitions><transition name='x'/></transitions><body>")),
+        "<transitions> of a POU are not supported",
     ),
     "a method of a vendor": (
         project(pou(GOOD).replace("<body>", '<addData><data name="http://x/method"/></addData><body>')),

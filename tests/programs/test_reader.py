@@ -53,6 +53,49 @@ REFUSED = {
     "a nested comment of another kind": ("(* /* inner */ *) y := 1;", "a comment within a comment"),
     "an open comment": ("y := 1; /* inner", "begins a comment that does not end"),
     "a write to the loop variable": ("FOR y := 1 TO 3 DO y := 5; END_FOR", "writes its control variable y"),
+    "a loop from no number": (
+        "FOR y := FALSE TO 3 DO ; END_FOR",
+        "kind int is needed here, and this is BOOL",
+    ),
+    "a shift by all bits": ("VAR w : WORD; END_VAR w := SHR(w, 16);", "SHR of WORD by 16: compilers differ"),
+    "a conversion of more": (
+        "VAR d : DINT; END_VAR y := WORD_TO_INT(INT_TO_WORD(d));",
+        "INT_TO_WORD of a DINT",
+    ),
+    "numbers with and without sign": (
+        "VAR u : UINT; END_VAR y := x + u;",
+        "+ of INT and UINT: compilers differ",
+    ),
+    "an input given twice": ("VAR t : TON; END_VAR t(IN := TRUE, in := FALSE);", "IN of TON is given twice"),
+    "a timer for one scan": ("VAR_TEMP t : TON; END_VAR y := 1;", "t: an instance of a block stands in VAR"),
+    "a timer of another": ("VAR_INPUT t : TON; END_VAR y := 1;", "t: an instance of a block stands in VAR"),
+    "arrays in an array": (
+        "VAR a : ARRAY [0..1] OF ARRAY [0..1] OF INT; END_VAR y := 1;",
+        "a: an array of arrays is not supported",
+    ),
+    "too many first values": (
+        "VAR a : ARRAY [0..3] OF INT := [999999999(1)]; END_VAR y := 1;",
+        "999999999 times: 1 to 1,000 are possible",
+    ),
+    "fewer than no first values": (
+        "VAR a : ARRAY [0..3] OF INT := [0(1), 2]; END_VAR y := 1;",
+        "0 times: 1 to 1,000 are possible",
+    ),
+    "a label of another enumeration": (
+        "VAR s : (Red, Green); t : (Green, Red, Blue); END_VAR CASE t OF Green: y := 1; END_CASE",
+        "Green: which enumeration is meant?",
+    ),
+    "a member that stands twice": (
+        "VAR s : (Red, RED); END_VAR y := 1;",
+        "two members of an enumeration with one name",
+    ),
+    "a missing end": ("y := x", "';' is missing"),
+}
+LENT = "FUNCTION_BLOCK L VAR_IN_OUT z : INT; END_VAR VAR_OUTPUT o : INT; END_VAR z := 9; END_FUNCTION_BLOCK "
+TYPES = {
+    "two types of one name": ("TYPE T : (Red, Green); END_TYPE TYPE t : INT; END_TYPE", "with the name t"),
+    "a type named like ours": ("TYPE INT : (Red, Green); END_TYPE", "another type with the name INT"),
+    "a type named like a block": ("TYPE TON : (Red, Green); END_TYPE", "another type with the name TON"),
 }
 
 
@@ -69,6 +112,62 @@ def test_what_is_not_supported_is_refused(name: str) -> None:
     body, cause = REFUSED[name]
     said = refusal(HEAD + body + END)
     assert cause in said and said.startswith(("b.st:3:", "b.st:1: B calls"))
+
+
+def test_a_type_and_an_instance_of_one_name_are_refused() -> None:
+    types = "TYPE T : (Q1, R); END_TYPE "
+    said = refusal(f"{types}{HEAD}VAR t : SR; z : T; END_VAR z := T.Q1;{END}")
+    assert said == "b.st:3: T is a type and an instance; rename one"
+
+
+@pytest.mark.parametrize("name", TYPES)
+def test_a_type_that_would_be_read_wrongly_is_refused(name: str) -> None:
+    text, cause = TYPES[name]
+    said = refusal(f"{text}\n{HEAD}y := 1;{END}")
+    assert cause in said and said.startswith("b.st:1:")
+
+
+TWICE = (
+    "FUNCTION_BLOCK B{0} VAR_OUTPUT o : INT; END_VAR VAR x, y : B{1}; END_VAR {2} END_FUNCTION_BLOCK "
+    "FUNCTION F{0} : INT VAR_INPUT v : INT; END_VAR F{0} := F{1}(v) + F{1}(v); END_FUNCTION "
+)
+LAST = (
+    "FUNCTION_BLOCK B18 VAR_OUTPUT o : INT; END_VAR o := 1; END_FUNCTION_BLOCK "
+    "FUNCTION F18 : INT VAR_INPUT v : INT; END_VAR F18 := v; END_FUNCTION "
+)
+
+
+@pytest.mark.parametrize(
+    ("body", "calls", "cause"),
+    [
+        ("WHILE x > 0 DO " * 6 + "y := 1;" + "END_WHILE " * 6, "", "statements in a scan"),
+        ("FOR y := 0 TO 999 DO FOR z := 0 TO 999 DO ; END_FOR END_FOR", "", "1,002,001 statements in a scan"),
+        ("b();", "x(); y();", "statements in a scan"),
+        ("y := 1;", "o := 1;", "instances of blocks; at most 20,000"),
+        ("y := F0(x);", "o := 1;", "statements in a scan"),
+    ],
+)
+def test_a_scan_without_end_is_refused_at_once(body: str, calls: str, cause: str) -> None:
+    below = "".join(TWICE.format(n, n + 1, calls) for n in range(18)) + LAST if calls else ""
+    declared = "VAR z : INT; b : B0; END_VAR " if calls else "VAR z : INT; END_VAR "
+    assert cause in refusal(below + HEAD + declared + body + END)
+
+
+def test_comments_without_end_are_refused_at_once() -> None:
+    assert refusal(HEAD + "y := 1;\n" + "(*" * 400_000) == "b.st:4: (* begins a comment that does not end"
+
+
+def test_what_is_too_deep_is_refused_in_a_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "b.st"
+    path.write_text(HEAD + "y := " + " + ".join(["x"] * 1500) + ";" + END, "utf-8")
+    assert main(["prove-program", str(path), "--target", "sf_edm"]) == 2
+    said = capsys.readouterr().err
+    assert "b.st: an expression, or a list of ELSIF, CASE or RETURN, is too long" in said
+
+
+def test_a_loop_that_lends_its_variable_is_refused() -> None:
+    body = "VAR l : L; i : INT; END_VAR FOR i := 1 TO 3 DO l(z := i); END_FOR"
+    assert "the loop writes its control variable i" in refusal(LENT + HEAD + body + END)
 
 
 def test_a_program_without_outputs_is_refused() -> None:

@@ -51,7 +51,7 @@ def refusal(text: str) -> str:
 
 
 def test_names_are_read_without_their_marks() -> None:
-    of = block('#y := 3; IF #x THEN "y" := 4; #"w" := 16#1; END_IF;')
+    of = block('#y := 3; IF #x THEN #"y" := 4; #"w" := 16#1; END_IF;')
     assert of.scan({"x": False}, 1) == {"y": 3, "w": 0xF0}
     assert of.scan({"x": True}, 1) == {"y": 4, "w": 1}
 
@@ -94,8 +94,12 @@ def test_literals_with_a_hash_stay_as_they_are() -> None:
         ("REGION a #y := 1;\nEND_REGION", "b.scl:16: REGION: a statement in this line would be lost"),
         ("REGION a\nEND_REGION #y := 1;", "b.scl:17: END_REGION: a statement in this line would be lost"),
         ("VERSION : 1.0\n#y := 1;", "b.scl:16: VERSION is understood in the head of a block only"),
-        ('#y := "my number";', "a name with other characters than letters and digits"),
-        ('#y := "a;', "a name with other characters"),
+        ('#y := #"my number";', "a name with other characters than letters and digits"),
+        ('#y := #"a;', "a name with other characters"),
+        ('#y := "y";', '"y" is a global name'),
+        ('"y" := 1;', '"y" is a global name'),
+        ('#y := "Data".y;', '"Data" is a global name'),
+        ('"t"(IN := TRUE, PT := T#1s);', '"t" is a global name'),
         ("(* open\n#y := 1;", "b.scl:16: (* begins something that does not end"),
         ("#y := 'open;", "' begins something that does not end"),
         ("{ open\n#y := 1;", "b.scl:16: '{' is not expected here"),

@@ -10,7 +10,7 @@ import pytest
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs import run, symbolic, terms
+from programs import run_standard, symbolic, terms
 from programs.check import check
 from programs.run import Machine, Overflow
 from programs.st import read_text
@@ -94,6 +94,8 @@ def test_a_shift_by_a_variable_stays_below_the_width(name: str, whole: int) -> N
 def test_a_word_as_a_number_has_its_bits() -> None:
     assert once("INT", "WORD_TO_INT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == -1
     assert once("DINT", "WORD_TO_DINT(w)", "VAR w : WORD := 16#FFFF; END_VAR") == 65535
+    assert once("INT", "WORD_TO_INT(16#FFFF)") == -1
+    assert once("INT", "BYTE_TO_INT(NOT 16#0F)") == 0xF0
     assert once("WORD", "INT_TO_WORD(x)", x=-2) == 0xFFFE
 
 
@@ -391,13 +393,13 @@ def put(pin: str, term: Callable[[Callable[[str], Any]], Any]) -> Callable[[str,
     return lambda path, env: env.__setitem__(f"{path}.{pin}", term(lambda name: env[f"{path}.{name}"]))
 
 
-def late(self: Any, now: int, right: Any = run.Standard.call) -> None:
+def late(self: Any, now: int, right: Any = run_standard.Standard.call) -> None:
     """A standard block whose clock runs within a scan."""
     self.since -= 1
     right(self, now)
 
 
-def fresh(self: Any, now: int, right: Any = run.Standard.call) -> None:
+def fresh(self: Any, now: int, right: Any = run_standard.Standard.call) -> None:
     """A standard block that forgets its input."""
     self.before = False
     right(self, now)
@@ -427,8 +429,8 @@ SLIPS: dict[str, tuple[Any, str, Any]] = {
     "the element before": (symbolic, "choose", lambda condition, yes, no: no),
     "nothing is owed": (symbolic.Translator, "owe", lambda self, formula, text, place: None),
     "temporary variables have no value": (symbolic, "singles", lambda kind, path, value: ()),
-    "the clock runs within a scan": (run.Standard, "call", late),
-    "the interpreter forgets an input": (run.Standard, "call", fresh),
+    "the clock runs within a scan": (run_standard.Standard, "call", late),
+    "the interpreter forgets an input": (run_standard.Standard, "call", fresh),
 }
 
 

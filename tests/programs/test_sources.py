@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.errors import Unjudged
+from programs.cell import Cell
 from programs.command import make
 from programs.sources import LARGEST, read_sources
 from tests.programs.drawn import block, pou, project, reading, writing
@@ -32,6 +33,21 @@ def test_a_diagram_may_call_a_block_of_another_file(tmp_path: Path) -> None:
     source = read_sources(files)
     assert source.main().name == "B" and set(source.units) == {"B", "OWN"}
     assert list(source.files) == [str(path) for path in files]
+
+
+@pytest.mark.parametrize(
+    ("name", "body"), [("SF_EDM", "q := e.Ready;"), ("MAX", "n := MAX(1, 2); q := n = 2;")]
+)
+def test_an_own_unit_that_is_refused_is_replaced_by_none(name: str, body: str, tmp_path: Path) -> None:
+    kind = "INT" if name == "MAX" else name
+    declared = f"VAR_OUTPUT q : BOOL; END_VAR VAR n : INT; e : {kind}; END_VAR"
+    files = [
+        written(tmp_path, "own.xml", project(pou("", name=name, language="SFC"))),
+        written(tmp_path, "p.st", f"PROGRAM P {declared}\n{body}\nEND_PROGRAM\n"),
+    ]
+    with pytest.raises(Unjudged, match=f"{name}: a body in SFC is not supported"):
+        source = read_sources(files)
+        Cell.of(source, source.units["P"])
 
 
 @pytest.mark.parametrize(

@@ -330,6 +330,10 @@ MAPS = {
         "p.map.csv:2: x: DINT does not have the 16 bits of IW2",
     ),
     "a name twice": ("symbol,address,type\nx,IW2,WORD\nX,IW4,WORD\n", "p.map.csv:3: X stands twice"),
+    "an address twice": (
+        "symbol,address,type\nx,IW2,WORD\ny,IW2,WORD\n",
+        "p.map.csv:3: y: IW2 stands twice",
+    ),
     "a name that is none": ("symbol,address,type\na b,IW2,WORD\n", "p.map.csv:2: 'a b' is no name"),
     "a part of other memory": (
         "symbol,address,type\nx,I0.0,BOOL\nw,IW0,WORD\nq,Q0.0,BOOL\n",

@@ -126,10 +126,14 @@ def test_the_command_prints_and_writes_the_difference(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path, file = changed(tmp_path, *FAULTS["an output that stays on"]), tmp_path / "out.json"
-    assert main(["prove-program", str(path), "--target", "sf_edm", "--json", str(file)]) == 1
+    binding = tmp_path / "binding.toml"
+    binding.write_text("left_out = ['DiagCode']\n", "utf-8")
+    given = ["prove-program", str(path), "--target", "sf_edm", "--json", str(file)]
+    assert main([*given, "--binding", str(binding)]) == 1
     assert "S_EDM_Out        reference 0        program 1   <- differs" in capsys.readouterr().out
     record = json.loads(file.read_text("utf-8"))
     assert record["verdict"] == "REFUTED" and record["difference"]["differing"] == ["S_EDM_Out"]
+    assert list(record["binding_file"]) == [str(binding)]
 
 
 def test_a_proof_has_no_difference_in_its_record() -> None:
@@ -288,6 +292,9 @@ def test_flags_that_tell_states_apart_are_found(tmp_path: Path) -> None:
         ("[name]\n", "unknown key 'name'; did you mean 'names'"),
         (f"left_out = {EDM_OUTPUTS}\n", "no output is compared"),
         ("[names]\nS_EDM1 = 'S_EDM2'\n", "are both bound to S_EDM2"),
+        ("[names]\ndt_ms = 'MonitoringTime'\n", "MonitoringTime_ms and dt_ms are both bound"),
+        ("[names]\nError = 'Ready'\n", "Ready and Error are both bound to READY"),
+        ("left_out = ['Ready']\n[names]\nReady = 'Redy'\n", "under .names. and under left_out"),
     ],
 )
 def test_a_binding_that_cannot_be_right_is_refused(text: str, cause: str, tmp_path: Path) -> None:
@@ -295,6 +302,22 @@ def test_a_binding_that_cannot_be_right_is_refused(text: str, cause: str, tmp_pa
     path.write_text(text, "utf-8")
     with pytest.raises(Unjudged, match=cause):
         make([EDM], "sf_edm", binding=read_binding(path))
+
+
+def test_an_enumeration_in_another_order_is_refused(tmp_path: Path) -> None:
+    kinds = ("(stop_first, at_once)", "(Other, Names)")
+    for kind in kinds:
+        make([changed(tmp_path, "Activate : BOOL;", f"Activate : BOOL; AFTER_RESET : {kind};")], "sf_edm")
+    path = changed(tmp_path, "Activate : BOOL;", "Activate : BOOL; AFTER_RESET : (At_once, Stop_first);")
+    with pytest.raises(Unjudged, match="AFTER_RESET counts"):
+        make([path], "sf_edm")
+
+
+def test_an_output_of_nobody_is_named(tmp_path: Path) -> None:
+    path = changed(tmp_path, "Ready : BOOL;", "Ready : BOOL; Spare : BOOL;")
+    found = judged(path, "sf_edm", binding={"left_out": ("DiagCode",)})
+    assert "  left out    DiagCode; of the program's own: Spare" in text_of(found, 1)
+    assert "output Spare of the program: the target has none such" in record_of(found, 1, {})["not_shown"]
 
 
 def test_a_binding_gives_names_and_parameters(tmp_path: Path) -> None:

@@ -112,11 +112,17 @@ def test_a_program_that_changed_since_is_noted(root: Path) -> None:
     assert [(trouble.status, trouble.items) for trouble in troubles] == [(NOTE, ("box.st",))]
 
 
+def test_a_binding_that_changed_since_is_noted(root: Path) -> None:
+    found = kept(root, {**PROVED, "binding_file": {"box.toml": "0" * 64}})
+    assert [trouble.items for trouble in found.troubles] == [("box.toml",)]
+    assert found.data["rows"][0]["how"] == "3 pairs; of files that have changed since"
+
+
 def test_each_property_is_a_row_with_what_is_not_shown(root: Path) -> None:
     found = kept(root, PROPERTIES)
     assert [(row["about"], row["verdict"], row["how"]) for row in found.data["rows"]] == [
-        ("types: It fits.", "PROVED", "induction"),
-        ("shut: It shuts.", "REFUTED", "false after 2 scans"),
+        ("types: It fits.", "PROVED", "induction; of files that have changed since"),
+        ("shut: It shuts.", "REFUTED", "false after 2 scans; of files that have changed since"),
     ]
     assert [trouble.items for trouble in found.troubles] == [("spec/box/clauses.toml",)]
     html = make(root).html

@@ -28,7 +28,8 @@ def part(sources: Sources) -> Part:
             record = json.loads(sources.content(place) or b"")
             doubt = contradiction(record)
             changed = list(_changed(sources, record))
-            rows += _rows(record, path.stem, doubt)
+            since = "; of files that have changed since" if changed else ""
+            rows += [row | {"how": row["how"] + since} for row in _rows(record, path.stem, doubt)]
             programs.append(_program(record, path.stem, place, changed))
         except (LookupError, TypeError, ValueError, AttributeError) as error:
             doubt, changed = f"its figures cannot be judged ({type(error).__name__}: {error})", []
@@ -99,7 +100,8 @@ def _changed(sources: Sources, record: Mapping[str, Any]) -> Iterator[str]:
 
 def _files(record: Mapping[str, Any]) -> dict[str, str]:
     """The SHA-256 of everything that the verdict is about."""
-    return {**record["sources"], **record.get("properties", {}), **record.get("reference", {})}
+    named = ("binding_file", "properties", "reference")
+    return {**record["sources"], **{name: one for key in named for name, one in record.get(key, {}).items()}}
 
 
 def _rows(record: Mapping[str, Any], key: str, doubt: str) -> Iterator[dict[str, Any]]:
