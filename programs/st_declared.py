@@ -153,8 +153,8 @@ def _repeated(parts: list[str], place: Place) -> Iterator[str]:
             yield part.strip()
             continue
         times = int(again[1].replace("_", ""))
-        if times > 1000:
-            raise place.refuse(f"{times:,} times an initial value")
+        if not 0 < times <= 1000:
+            raise place.refuse(f"{times} times: 1 to 1,000 are possible")
         inner = list(_repeated(_split(again[2]), place))
         for _ in range(times):
             yield from inner

@@ -10,7 +10,9 @@ BITS = {"BYTE": 8, "WORD": 16, "DWORD": 32}
 LOW = {"SINT": -128, "USINT": 0, "INT": -32768, "UINT": 0, "DINT": -(2**31)}
 HIGH = {"SINT": 127, "USINT": 255, "INT": 32767, "UINT": 65535, "DINT": 2**31 - 1}
 DEEPEST = 3
-TYPES = """TYPE Colour : (Red, Green, Blue); Level : (Low := 10, Mid := 5, High) := Mid; END_TYPE
+TYPES = """TYPE Pair : STRUCT n : INT := 2; on, off : BOOL; l : ARRAY [1..2, 0..1] OF INT; END_STRUCT;
+END_TYPE
+TYPE Colour : (Red, Green, Blue); Level : (Low := 10, Mid := 5, High) := Mid; END_TYPE
 TYPE Few : INT (-3..9) := 1; Count : DINT := 4; END_TYPE
 """
 SPLIT = """FUNCTION Split
@@ -50,6 +52,11 @@ class Generator:
         lines.append("VAR CONSTANT six : INT := 6; no : BOOL := FALSE; two : INT := six / 3; END_VAR")
         lines.append("VAR few : Few; some : Count; level : Level; word : WORD; octet : BYTE; END_VAR")
         lines.append("VAR words : ARRAY [two - 1..two] OF WORD; up : CTU; down : CTD; both : CTUD; END_VAR")
+        lines.append("VAR pair : Pair; pairs : ARRAY [0..2] OF Pair; times : ARRAY [0..1] OF TON; END_VAR")
+        self.readable["INT"] += ["pair.n", "pairs[1].n", "pair.l[1, 0]"]
+        self.readable["BOOL"] += ["pair.on", "times[1].Q"]
+        self.writable["INT"] += ["pair.n", "pairs[1].l[2][1]"]
+        self.writable["BOOL"] += ["pairs[2].on"]
         lines.append("VAR list : ARRAY [2..4] OF INT := [3(1)]; bits : ARRAY [0..2] OF BOOL; END_VAR")
         lines.append(
             "VAR n1, n2, n3, m : INT; on : TON; off : TOF; pulse : TP; rise : R_TRIG; fall : F_TRIG;"
@@ -182,6 +189,10 @@ class Generator:
         one, two = self.of("BOOL", 1), self.of("BOOL", 1)
         return self.values.choice(
             (
+                "pair := pairs[1];",
+                f"pairs[{self.of('INT', 2)}] := pair;",
+                f"times[1](IN := {one}, PT := T#10ms);",
+                f"IF pair.n >= 0 AND pair.n <= 1 THEN times[pair.n](IN := {two}, PT := T#10ms); END_IF",
                 f"on(IN := {one}, PT := {self.of('TIME', 2)});",
                 f"off(IN := {one}, PT := T#20ms, Q => {self.values.choice(self.writable['BOOL'])});",
                 f"pulse(IN := {one}, PT := T#25ms);",
