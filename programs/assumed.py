@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from programs.check import reached
 from programs.standard import BLOCKS
-from programs.tree import Array, Instance, Source, Unit
+from programs.tree import Source, Unit, blocks_in
 
 EDGE = "F_TRIG shows no edge in its first scan; some tools show one if CLK is FALSE then"
 COUNT = "counters count on to the limits of their type; some tools stop at PV and at 0"
@@ -14,14 +14,10 @@ COUNT = "counters count on to the limits of their type; some tools stop at PV an
 
 def assumed(source: Source, unit: Unit) -> Iterator[str]:
     """One sentence for each such block in a unit or below it."""
-    used = set()
+    used: set[str] = set()
     for found in reached(source, unit, ()):
         for variable in found.variables.values():
-            kind = variable.type
-            while isinstance(kind, Array):
-                kind = kind.element
-            if isinstance(kind, Instance) and kind.block.upper() in BLOCKS:
-                used.add(kind.block.upper())
+            used |= {block.upper() for block in blocks_in(variable.type)} & set(BLOCKS)
     if "F_TRIG" in used:
         yield EDGE
     if any(name.startswith("CT") for name in used):

@@ -226,7 +226,7 @@ def test_a_false_invariant_with_its_questions_is_not_shown(folder: Path) -> None
 
 def test_what_tools_do_differently_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     program, properties = tmp_path / "lift.st", tmp_path / "lift.toml"
-    text = PROGRAM.replace("Wait : TON;", "Wait : TON; Edge : F_TRIG; Turns : CTU;")
+    text = PROGRAM.replace("Wait : TON;", "Wait : TON; Edges : ARRAY [0..1] OF F_TRIG; Turns : CTU;")
     program.write_text(text, "utf-8")
     properties.write_text(PROPERTIES, "utf-8")
     given = ["prove-program", "--property", str(properties), "--json", str(tmp_path / "out.json")]
