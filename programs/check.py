@@ -229,6 +229,13 @@ class _Statements(Types):
                 raise place.refuse(f"{variable.name} of {of} is VAR_IN_OUT: give it a single variable")
             if self.written(value, place) != variable.type:
                 raise place.refuse(f"{variable.name} of {of} is of another type")
+            part: Expression = value
+            while isinstance(part, Member | Index):
+                part = part.of
+                if isinstance(self.of(part), Instance):
+                    raise place.refuse(
+                        f"{variable.name} of {of} is VAR_IN_OUT: not a pin of an instance here"
+                    )
         names = [root_of(value) for value in given.values()]
         if len(set(names)) != len(names):
             raise place.refuse(f"two VAR_IN_OUT of {of} are the same variable")

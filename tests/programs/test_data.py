@@ -177,6 +177,7 @@ def test_inputs_and_outputs_may_be_structures() -> None:
         ("m : Mover; p : Box;", "m(both := p);", "both of Mover is of another type"),
         ("m : Mover; p : Point; q : Row;", "m(from := q[1].x, both := p);", "from of Mover is Point"),
         ("k : Pair2; p : Row;", "k(one := p[1], two := p[2]);", "VAR_IN_OUT of Pair2 are the same"),
+        ("k : Pair2; m : Mover; p : Point;", "k(one := m.from, two := p);", "not a pin of an instance"),
         ("p : STRUCT a : INT; A : BOOL; END_STRUCT;", "y := 1;", "A is declared twice"),
         ("p : STRUCT a : Missing; END_STRUCT;", "y := 1;", "no type or block 'Missing'"),
         ("a : ARRAY [0..1] OF B;", "y := 1;", "B calls B"),
