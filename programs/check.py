@@ -97,6 +97,8 @@ def _reached(source: Source, unit: Unit, above: tuple[str, ...], seen: set[str])
                     f"{variable.name}: no type or block {block!r} is known; "
                     + suggestion(block, [*BLOCKS, *(found.name for found in source.units.values())])
                 )
+            if instance.kind == "program":
+                raise variable.place.refuse(f"{variable.name}: {block} is a PROGRAM, which has no instances")
             if instance not in below:
                 below.append(instance)
         if any(blocks_in(variable.type)) and variable.section != "var":

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import re
 
-from programs.st import read_text
-from programs.tree import Place, Unit
+from programs.tree import Place
 
 TIMERS = {"TON_TIME": "TON", "TOF_TIME": "TOF", "TP_TIME": "TP"}
 HEADS = ("FUNCTION_BLOCK", "PROGRAM", "FUNCTION", "ORGANIZATION_BLOCK", "TYPE", "DATA_BLOCK")
@@ -35,11 +34,6 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL | re.MULTILINE | re.IGNORECASE,
 )  # fmt: skip
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-
-
-def read_scl(text: str, file: str) -> list[Unit]:
-    """The program units of one text. Raises Unjudged with the line."""
-    return read_text(structured_text(text, file), file)
 
 
 def structured_text(text: str, file: str) -> str:

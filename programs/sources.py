@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from programs.awl import beside, read_awl
 from programs.namespaces import resolved
 from programs.plcopen import Lower, read_plcopen
-from programs.scl import read_scl
-from programs.st import read_text
+from programs.scl import structured_text
+from programs.st import Known, read_text, types_in
 from programs.standard import BLOCKS
 from programs.tree import Source, Unit
 
@@ -29,13 +30,15 @@ def read_sources(paths: Sequence[Path]) -> Source:
     bodies: dict[str, Lower] = {}
     refused: dict[str, Unjudged] = {}
     files: dict[str, str] = {}
+    types = _types(paths)
     for path in paths:
         if path.suffix.lower() == ".csv" and str(path) in files:
             continue  # it belongs to a statement list that was read
         text = _bytes(path, files)
         for other in beside(path) if path.suffix.lower() in STATEMENT_LIST else ():
             _bytes(other, files)
-        found, without = _read(text, path)
+        apart = {name: kind for other, own in types.items() if other != path for name, kind in own.items()}
+        found, without = _read(text, path, apart)
         refused |= without
         for unit, lower in found:
             key = unit.name.upper()
@@ -84,14 +87,46 @@ def _bytes(path: Path, files: dict[str, str]) -> bytes:
     return text
 
 
-def _read(text: bytes, path: Path) -> tuple[Sequence[tuple[Unit, Lower | None]], Mapping[str, Unjudged]]:
-    if path.suffix.lower() == ".xml":
-        return read_plcopen(text, str(path))
-    if path.suffix.lower() in STATEMENT_LIST:
-        return [(unit, None) for unit in read_awl(path)], {}
+def _types(paths: Sequence[Path]) -> dict[Path, Known]:
+    """The types that each file of text declares; one may need those of another.
+
+    A file that cannot be read declares none here: it is refused when it is read whole.
+    """
+    texts: dict[Path, str] = {}
+    for path in paths:
+        if path.suffix.lower() not in (*STATEMENT_LIST, ".xml", ".csv"):
+            with suppress(Unjudged):
+                texts[path] = _plain(_bytes(path, {}), path)
+    found: dict[Path, Known] = {}
+    owner: dict[str, Path] = {}
+    for number in range(len(texts) if len(texts) > 1 else 0):
+        before, found = found, {}
+        for path, text in texts.items():
+            apart = {name: kind for other in before if other != path for name, kind in before[other].items()}
+            with suppress(Unjudged):
+                found[path] = types_in(text, str(path), apart)
+            for name in found.get(path, ()) if number == 0 else ():
+                if owner.setdefault(name, path) != path:
+                    raise Unjudged(f"{path}: the type {name} stands in {owner[name]} too; give one of them")
+        if found == before:
+            break
+    return found
+
+
+def _plain(text: bytes, path: Path) -> str:
+    """Structured Text. Raises Unjudged."""
     try:
         plain = text.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise Unjudged(f"{path}: byte {error.start} is not UTF-8") from None
-    reader = read_scl if path.suffix.lower() == ".scl" else read_text
-    return [(unit, None) for unit in reader(plain, str(path))], {}
+    return structured_text(plain, str(path)) if path.suffix.lower() == ".scl" else plain
+
+
+def _read(
+    text: bytes, path: Path, types: Known
+) -> tuple[Sequence[tuple[Unit, Lower | None]], Mapping[str, Unjudged]]:
+    if path.suffix.lower() == ".xml":
+        return read_plcopen(text, str(path))
+    if path.suffix.lower() in STATEMENT_LIST:
+        return [(unit, None) for unit in read_awl(path)], {}
+    return [(unit, None) for unit in read_text(_plain(text, path), str(path), types)], {}

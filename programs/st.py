@@ -6,14 +6,16 @@ file and line: nothing is skipped.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, TypeGuard
 
 import tree_sitter
 import tree_sitter_iec61131_3_st
 
 from modeproof.ground.errors import Unjudged
+from programs.addresses import Addresses
 from programs.constants import known
 from programs.st_body import Bodies
 from programs.st_declared import Declared, elements, is_fields, is_list, named, taken_apart
@@ -48,8 +50,23 @@ SECTIONS = {
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 
 
-def read_text(text: str, file: str) -> list[Unit]:
-    """The program units of one text. Raises Unjudged with file, line and cause."""
+Known = Mapping[str, tuple[Type, str]]
+"""Types by their names in upper case, each with its namespace."""
+
+
+def read_text(text: str, file: str, types: Known = MappingProxyType({})) -> list[Unit]:
+    """The program units of one text. types: those of other files. Raises Unjudged with file, line, cause."""
+    reader, root = _parsed(text, file, types)
+    return reader.units(root)
+
+
+def types_in(text: str, file: str, types: Known) -> Known:
+    """The types that one text declares; types: those of other files. Raises Unjudged as `read_text`."""
+    reader, root = _parsed(text, file, types)
+    return {name: kind for name, kind in reader.own_types(reader.named(root)).items() if name not in types}
+
+
+def _parsed(text: str, file: str, types: Known) -> tuple[_Reader, Any]:
     text, using = prepared(text, file)
     apart = taken_apart(text, file)
     root = _PARSER.parse(apart.text.encode("utf-8")).root_node
@@ -61,13 +78,13 @@ def read_text(text: str, file: str) -> list[Unit]:
             if fault.is_missing
             else f"syntax error at {shown!r}{_advice(shown)}"
         )
-    return _Reader(file, tuple((one.namespace, one.place) for one in using), apart).units(root)
+    return _Reader(file, tuple((one.namespace, one.place) for one in using), apart, types), root
 
 
 def _advice(shown: str) -> str:
     if shown.upper().startswith(("WORD (", "BYTE (", "DWORD (")):
         return "; named values of a bit string are not supported: declare them as CONSTANT"
-    return "; addresses are not supported: give the variable a name" * shown.startswith("%")
+    return "; an address stands in VAR alone (AT %IX0.0): give the variable a name" * shown.startswith("%")
 
 
 def _faults(node: Any) -> Iterator[Any]:
@@ -90,14 +107,29 @@ def _nodes(node: Any) -> Iterator[Any]:
 class _Reader(Bodies):
     """Reads the tree of one file."""
 
-    def __init__(self, file: str, using: tuple[tuple[str, Place], ...], apart: Declared) -> None:
+    def __init__(
+        self, file: str, using: tuple[tuple[str, Place], ...], apart: Declared, types: Known
+    ) -> None:
         super().__init__(file)
         self.using, self.apart = using, apart
-        self.types: dict[str, Type] = {}
-        self.spaces: dict[str, str] = {}
+        self.types: dict[str, Type] = {name: kind for name, (kind, _) in types.items()}
+        self.spaces: dict[str, str] = {name: space for name, (_, space) in types.items()}
         """The namespace of each type."""
+        self.addresses: Addresses | None = None
 
     # ------------------------------------------------------------ declarations
+
+    def own_types(self, nodes: Sequence[Any], namespace: str = "") -> dict[str, tuple[Type, str]]:
+        """The types that are declared here, and below in namespaces."""
+        for node in nodes:
+            if node.type == "namespace_declaration":
+                name = self.field(node, "name")
+                inner = [child for child in self.named(node) if child != name]
+                self.own_types(inner, _within(namespace, self.text(name)))
+            elif node.type == "type_declaration":
+                for definition in self.named(node):
+                    self.define(definition, namespace)
+        return {name: (kind, self.spaces[name]) for name, kind in self.types.items()}
 
     def units(self, root: Any) -> list[Unit]:
         found = list(self.declarations(self.named(root), ""))
@@ -116,8 +148,7 @@ class _Reader(Bodies):
             if node.type == "namespace_declaration":
                 name = self.field(node, "name")
                 inner = [child for child in self.named(node) if child != name]
-                whole = f"{namespace}.{_joined(self.text(name))}" if namespace else _joined(self.text(name))
-                yield from self.declarations(inner, whole)
+                yield from self.declarations(inner, _within(namespace, self.text(name)))
             elif node.type == "type_declaration":
                 for definition in self.named(node):
                     self.define(definition, namespace)
@@ -144,6 +175,7 @@ class _Reader(Bodies):
     def unit(self, node: Any) -> Unit:
         name = self.text(self.field(node, "name"))
         self.variables = variables = {}
+        self.addresses = Addresses() if node.type == "program_declaration" else None
         body_nodes = self.fields(node, "body")
         for child in self.named(node):
             if child in body_nodes or child in (self.field(node, "name"), self.field(node, "return_type")):
@@ -181,8 +213,6 @@ class _Reader(Bodies):
                 continue
             if child.type != "variable_declaration":
                 raise self.refuse(child)
-            if self.field(child, "address") is not None:
-                raise self.refuse(child, "AT: variables at addresses are not supported; give it a name alone")
             declared = self.type(self.field(child, "type"), "")
             nodes, place = self.fields(child, "initial_value"), self.place(child)
             initial = self.initial(nodes, self.field(child, "type").end_byte, declared, place)
@@ -192,8 +222,14 @@ class _Reader(Bodies):
                 raise self.refuse(child, f"a variable has at most {LONGEST:,} single values")
             if kind != "in_out" and initial is None and _undecided(declared):
                 raise self.refuse(child, f"{declared.name}: give it a first value; compilers differ here")
-            for name in self.fields(child, "names"):
-                yield Variable(self.text(name), declared, kind, initial, self.place(name))
+            names, own = self.fields(child, "names"), kind
+            if (address := self.field(child, "address")) is not None:
+                if self.addresses is None or kind != "var" or len(names) != 1 or initial is not None:
+                    what = "a variable in VAR of a PROGRAM, one alone, without a first value"
+                    raise self.refuse(child, f"AT: {what} has an address here")
+                own = self.addresses.section(self.text(address), declared, self.text(names[0]), place)
+            for name in names:
+                yield Variable(self.text(name), declared, own, initial, self.place(name))
 
     def type(self, node: Any, name: str) -> Type:
         if node.type in ("elementary_type", "identifier"):
@@ -358,3 +394,8 @@ def _undecided(kind: Type) -> TypeGuard[Scalar]:
 def _joined(text: str) -> str:
     """A name with namespaces, without blanks."""
     return "".join(text.split())
+
+
+def _within(namespace: str, name: str) -> str:
+    """A namespace in another one, or alone."""
+    return f"{namespace}.{_joined(name)}" if namespace else _joined(name)

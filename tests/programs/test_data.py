@@ -10,7 +10,7 @@ from modeproof.ground.errors import Unjudged
 from programs import terms, values
 from programs.check import check
 from programs.run import Machine, Overflow
-from programs.scl import read_scl
+from programs.scl import structured_text
 from programs.st import read_text
 from programs.tree import Source
 from tests.programs.fuzz import difference_of_text, difference_of_translator, source_of
@@ -242,7 +242,8 @@ BEGIN
    #s.level := #s.level + #t.a; #y := #s.level;
 END_FUNCTION_BLOCK
 """
-    source = Source({unit.name.upper(): unit for unit in read_scl(text, "b.scl")}, {"b.scl": ""})
+    units = read_text(structured_text(text, "b.scl"), "b.scl")
+    source = Source({unit.name.upper(): unit for unit in units}, {"b.scl": ""})
     check(source, source.main())
     assert difference_of_translator(source, source.main(), 1, 5) == ""
     assert Machine(source, source.main()).scan({"x": 0}, 1)["y"] == 6

@@ -28,7 +28,7 @@ REFUSED = {
     "a turn of no loop": ("CONTINUE;", "CONTINUE without a loop around it"),
     "a pointer": ("VAR p : POINTER TO INT; END_VAR y := 1;", "is not supported"),
     "a real number": ("VAR r : REAL; END_VAR y := 1;", "type REAL is not supported"),
-    "an address": ("VAR r AT %I0.0 : BOOL; END_VAR y := 1;", "AT: variables at addresses"),
+    "an address": ("VAR r AT %I0.0 : BOOL; END_VAR y := 1;", "AT: a variable in VAR of a PROGRAM"),
     "an in-out": ("VAR_IN_OUT z : INT; END_VAR y := 1;", "z is VAR_IN_OUT: take a program that calls B"),
     "an unknown function": ("y := SQRT(x);", "function SQRT is not supported"),
     "an unknown block": ("VAR t : TONE; END_VAR y := 1;", "did you mean 'TON'"),

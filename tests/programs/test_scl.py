@@ -11,8 +11,9 @@ from programs.bind import read_binding
 from programs.check import check
 from programs.command import make
 from programs.run import Machine
-from programs.scl import read_scl, structured_text
-from programs.tree import Source
+from programs.scl import structured_text
+from programs.st import read_text
+from programs.tree import Source, Unit
 from programs.verdict import judge
 
 ROOT = Path(__file__).parents[2]
@@ -34,6 +35,11 @@ VERSION : 0.1
 BEGIN
 """
 END = "\nEND_FUNCTION_BLOCK\n"
+
+
+def read_scl(text: str, file: str) -> list[Unit]:
+    """The units of a text in SCL."""
+    return read_text(structured_text(text, file), file)
 
 
 def block(body: str) -> Machine:

@@ -8,9 +8,12 @@ import pytest
 
 from modeproof.ground.errors import Unjudged
 from programs.cell import Cell
+from programs.check import check
 from programs.command import make
+from programs.run import Machine
 from programs.sources import LARGEST, read_sources
 from tests.programs.drawn import block, pou, project, reading, writing
+from tests.programs.fuzz import difference_of_translator
 
 ST = "FUNCTION_BLOCK {}\nVAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR\n{}\nEND_FUNCTION_BLOCK\n"
 
@@ -73,3 +76,35 @@ def test_files_that_cannot_be_read_are_refused(texts: dict[str, str], cause: str
     with pytest.raises(Unjudged) as caught:
         make([written(tmp_path, name, text) for name, text in texts.items()], "sf_edm")
     assert cause in caught.value.message
+
+
+TYPES = {
+    "row.st": "TYPE Row : ARRAY [0..1] OF Pair; END_TYPE\n",
+    "pair.scl": 'TYPE "Pair" STRUCT on : Bool; kind : "Colour"; END_STRUCT; END_TYPE\n',
+    "colour.st": "TYPE Colour : (Red, Green); END_TYPE\n",
+}
+USER = """FUNCTION_BLOCK B VAR_INPUT a : BOOL; END_VAR VAR_OUTPUT q : BOOL; END_VAR VAR r : Row; END_VAR
+r[1].on := a; r[0].kind := Green; q := r[1].on AND r[0].kind = Colour.Green;
+END_FUNCTION_BLOCK
+"""
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_type_may_stand_in_another_file(order: int, tmp_path: Path) -> None:
+    files = [written(tmp_path, name, text) for name, text in {"b.st": USER, **TYPES}.items()]
+    source = read_sources(files[::order])
+    check(source, source.main())
+    assert Machine(source, source.main()).scan({"a": True}, 1) == {"q": True}
+    assert difference_of_translator(source, source.main(), 1, 5) == ""
+
+
+def test_a_type_in_two_files_is_refused(tmp_path: Path) -> None:
+    texts = {"b.st": USER, **TYPES, "other.st": "TYPE Colour : (Green, Red); END_TYPE\n"}
+    with pytest.raises(Unjudged, match=r"other\.st: the type COLOUR stands in .*colour\.st too"):
+        read_sources([written(tmp_path, name, text) for name, text in texts.items()])
+
+
+def test_a_type_that_cannot_be_read_says_why(tmp_path: Path) -> None:
+    texts = {"b.st": USER, **TYPES, "colour.st": "TYPE Colour : (Red, red); END_TYPE\n"}
+    with pytest.raises(Unjudged, match=r"colour\.st:1: two members of an enumeration"):
+        read_sources([written(tmp_path, name, text) for name, text in texts.items()])
