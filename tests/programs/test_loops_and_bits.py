@@ -108,12 +108,12 @@ def test_a_bit_is_read_and_written(declared: str, body: str, expected: list[Any]
 
 
 def test_a_bit_beside_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    right = values.Context.store
+    right = values.Context.assign
 
     def wrong(self: Any, target: Any, term: Any, env: Any, here: Any) -> None:
         moved = Bit(target.of, target.number ^ 1, target.place) if isinstance(target, Bit) else target
         right(self, moved, term, env, here)
 
-    monkeypatch.setattr(values.Context, "store", wrong)
+    monkeypatch.setattr(values.Context, "assign", wrong)
     text = f"{HEAD}VAR_OUTPUT y : WORD; END_VAR y.6 := in;{END}"
     assert " the term gives " in difference_of_text(text, 1, 20)

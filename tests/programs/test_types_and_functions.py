@@ -47,7 +47,7 @@ def test_a_conversion_gives_the_number_of_a_member() -> None:
 def test_constants_and_their_expressions_are_bounds_and_labels() -> None:
     declared = (
         INT + "VAR CONSTANT n3 : INT := 3; m : INT := n3 * 2 - 1; END_VAR "
-        "VAR a : ARRAY [1..n3 + 1] OF INT := [n3(m), 9]; z : INT := m / 2; END_VAR"
+        "VAR a : ARRAY [1..n3 + 1] OF INT := [3(m), 9]; z : INT := m / 2; END_VAR"
     )
     body = "CASE x OF n3 + 1: y := a[4]; m..m + 2: y := a[1]; -n3: y := z; ELSE y := 0; END_CASE"
     assert given(declared, body, [{"x": 4}, {"x": 7}, {"x": -3}, {"x": 8}]) == [9, 5, 2, 0]
