@@ -10,7 +10,7 @@ import pytest
 import z3
 
 from modeproof.ground.errors import Unjudged
-from programs import run_standard, symbolic, terms
+from programs import run_standard, symbolic, terms, values
 from programs.check import check
 from programs.run import Machine, Overflow
 from programs.st import read_text
@@ -423,10 +423,10 @@ SLIPS: dict[str, tuple[Any, str, Any]] = {
         name: (symbolic, "standard_call", timer(block, put(pin, term)))
         for name, (block, pin, term) in BLOCKS.items()
     },
-    "division rounds down": (symbolic, "truncated", lambda left, right: left / right),
+    "division rounds down": (values, "truncated", lambda left, right: left / right),
     "a range without its upper end": (symbolic, "between", short),
     "the last branch is taken": (symbolic, "merge", lambda env, condition, yes, no: env.update(no)),
-    "the element before": (symbolic, "choose", lambda condition, yes, no: no),
+    "the element before": (values, "choose", lambda condition, yes, no: no),
     "nothing is owed": (symbolic.Translator, "owe", lambda self, formula, text, place: None),
     "temporary variables have no value": (symbolic, "singles", lambda kind, path, value: ()),
     "the clock runs within a scan": (run_standard.Standard, "call", late),
@@ -440,9 +440,10 @@ def test_a_planted_slip_is_noticed(name: str, monkeypatch: pytest.MonkeyPatch) -
     module, attribute, wrong = SLIPS[name]
     monkeypatch.setattr(module, attribute, wrong)
     try:
-        assert difference_of_text(KITCHEN, 1, 150) != ""
-    except KeyError:
-        assert name == "temporary variables have no value"
+        found = difference_of_text(KITCHEN, 1, 150)
+    except (KeyError, AssertionError):  # a value that is not there
+        found = "none" * (name == "temporary variables have no value")
+    assert found != ""
 
 
 def test_an_output_may_be_an_array() -> None:
