@@ -138,7 +138,7 @@ def _core(known: Sequence[Any], lemmas: Sequence[Any], put: Any) -> list[Any]:
 # ---------------------------------------------------------------- writing
 
 
-def write(cell: Cell, judgement: Judgement, found: Sequence[Found], properties: Path, folder: Path) -> None:
+def write(judgement: Judgement, found: Sequence[Found], properties: Path, folder: Path) -> None:
     """Write the certificate of properties that are all PROVED, into a folder that is new or an older one.
 
     Raises Unjudged: the folder holds something else, or no certificate can be written.
@@ -165,7 +165,7 @@ def write(cell: Cell, judgement: Judgement, found: Sequence[Found], properties: 
         for one, (asked, proof) in zip(found, proofs, strict=True)
     ]
     empty(folder)
-    fill(folder, {**claim(cell, judgement, properties), "proofs": rows}, texts)
+    fill(folder, {**claim(judgement, properties), "proofs": rows}, texts)
 
 
 def _kept(judgement: Judgement, found: Found) -> Proof:
@@ -191,8 +191,9 @@ def read_invariants(system: System, texts: Sequence[str]) -> tuple[z3.BoolRef, .
     return tuple(found)
 
 
-def claim(cell: Cell, judgement: Judgement, properties: Path) -> dict[str, Any]:
+def claim(judgement: Judgement, properties: Path) -> dict[str, Any]:
     """What a certificate is about."""
+    cell = judgement.cell
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -236,7 +237,7 @@ class Kept(Stored):
             self.record.get("wrap") is True,
         )
         found = Judgement(cell, asked.asked(cell), 0.0, lambda text: None)
-        self.claims(claim(cell, found, Path(next(iter(self.table("properties"))))))
+        self.claims(claim(found, Path(next(iter(self.table("properties"))))))
         return found
 
     def proofs(self, judgement: Judgement) -> list[tuple[Asked, Proof]]:

@@ -41,7 +41,7 @@ def run(args: argparse.Namespace) -> int:
     cell, lines = judgement.cell, []
     if args.certificate is not None and status(found) == 0:
         tell("writing the certificate")
-        property_certificate.write(cell, judgement, found, args.property, args.certificate)
+        property_certificate.write(judgement, found, args.property, args.certificate)
         lines.append(f"  certificate {args.certificate}; check it with --recheck {args.certificate}")
     elif args.certificate is not None:
         lines.append("  certificate none: not every property is PROVED")

@@ -144,7 +144,8 @@ def _about_properties(
     for asked, proof in proofs:
         count = len(proof.lemmas)
         yield f"  {asked.id}: {asked.sentence}"
-        yield f"    {asked.text}; {count} invariant{'s' * (count != 1)}, over {proof.deep} scans"
+        scans = f"{proof.deep} scan{'s' * (proof.deep != 1)}"
+        yield f"    {asked.text}; {count} invariant{'s' * (count != 1)}, over {scans}"
     triggers = sum(len(asked.trigger) for asked, _ in proofs)
     yield f"  not empty   {triggers} triggers; scans from power-up to each were run again"
 

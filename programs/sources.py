@@ -12,7 +12,7 @@ from programs.awl import beside, read_awl
 from programs.namespaces import resolved
 from programs.plcopen import Lower, read_plcopen
 from programs.scl import structured_text
-from programs.st import Known, read_text, types_in
+from programs.st import KnownTypes, read_text, types_in
 from programs.standard import BLOCKS
 from programs.tree import Source, Unit
 
@@ -87,19 +87,19 @@ def _bytes(path: Path, files: dict[str, str]) -> bytes:
     return text
 
 
-def _types(paths: Sequence[Path]) -> dict[Path, Known]:
+def _types(paths: Sequence[Path]) -> dict[Path, KnownTypes]:
     """The types that each file of text declares; one may need those of another.
 
     A file that cannot be read declares none here: it is refused when it is read whole.
     """
     texts: dict[Path, str] = {}
-    for path in paths:
+    for path in paths if len(paths) > 1 else ():
         if path.suffix.lower() not in (*STATEMENT_LIST, ".xml", ".csv"):
             with suppress(Unjudged):
                 texts[path] = _plain(_bytes(path, {}), path)
-    found: dict[Path, Known] = {}
+    found: dict[Path, KnownTypes] = {}
     owner: dict[str, Path] = {}
-    for number in range(len(texts) if len(texts) > 1 else 0):
+    for number in range(len(texts)):
         before, found = found, {}
         for path, text in texts.items():
             apart = {name: kind for other in before if other != path for name, kind in before[other].items()}
@@ -123,7 +123,7 @@ def _plain(text: bytes, path: Path) -> str:
 
 
 def _read(
-    text: bytes, path: Path, types: Known
+    text: bytes, path: Path, types: KnownTypes
 ) -> tuple[Sequence[tuple[Unit, Lower | None]], Mapping[str, Unjudged]]:
     if path.suffix.lower() == ".xml":
         return read_plcopen(text, str(path))

@@ -50,23 +50,23 @@ SECTIONS = {
 _PARSER = tree_sitter.Parser(tree_sitter.Language(tree_sitter_iec61131_3_st.language()))
 
 
-Known = Mapping[str, tuple[Type, str]]
+KnownTypes = Mapping[str, tuple[Type, str]]
 """Types by their names in upper case, each with its namespace."""
 
 
-def read_text(text: str, file: str, types: Known = MappingProxyType({})) -> list[Unit]:
+def read_text(text: str, file: str, types: KnownTypes = MappingProxyType({})) -> list[Unit]:
     """The program units of one text. types: those of other files. Raises Unjudged with file, line, cause."""
     reader, root = _parsed(text, file, types)
     return reader.units(root)
 
 
-def types_in(text: str, file: str, types: Known) -> Known:
+def types_in(text: str, file: str, types: KnownTypes) -> KnownTypes:
     """The types that one text declares; types: those of other files. Raises Unjudged as `read_text`."""
     reader, root = _parsed(text, file, types)
-    return {name: kind for name, kind in reader.own_types(reader.named(root)).items() if name not in types}
+    return {name: kind for name, kind in reader.own_types(root).items() if name not in types}
 
 
-def _parsed(text: str, file: str, types: Known) -> tuple[_Reader, Any]:
+def _parsed(text: str, file: str, types: KnownTypes) -> tuple[_Reader, Any]:
     text, using = prepared(text, file)
     apart = taken_apart(text, file)
     root = _PARSER.parse(apart.text.encode("utf-8")).root_node
@@ -108,7 +108,7 @@ class _Reader(Bodies):
     """Reads the tree of one file."""
 
     def __init__(
-        self, file: str, using: tuple[tuple[str, Place], ...], apart: Declared, types: Known
+        self, file: str, using: tuple[tuple[str, Place], ...], apart: Declared, types: KnownTypes
     ) -> None:
         super().__init__(file)
         self.using, self.apart = using, apart
@@ -119,20 +119,26 @@ class _Reader(Bodies):
 
     # ------------------------------------------------------------ declarations
 
-    def own_types(self, nodes: Sequence[Any], namespace: str = "") -> dict[str, tuple[Type, str]]:
-        """The types that are declared here, and below in namespaces."""
+    def within(self, nodes: Sequence[Any], namespace: str = "") -> Iterator[tuple[Any, str]]:
+        """What is declared here and below in namespaces, each with its namespace."""
         for node in nodes:
             if node.type == "namespace_declaration":
                 name = self.field(node, "name")
                 inner = [child for child in self.named(node) if child != name]
-                self.own_types(inner, _within(namespace, self.text(name)))
-            elif node.type == "type_declaration":
-                for definition in self.named(node):
-                    self.define(definition, namespace)
+                own = _joined(self.text(name))
+                yield from self.within(inner, f"{namespace}.{own}" if namespace else own)
+            else:
+                yield node, namespace
+
+    def own_types(self, root: Any) -> KnownTypes:
+        """The types that are known after those of this file were read."""
+        for node, namespace in self.within(self.named(root)):
+            if node.type == "type_declaration":
+                self.define_all(node, namespace)
         return {name: (kind, self.spaces[name]) for name, kind in self.types.items()}
 
     def units(self, root: Any) -> list[Unit]:
-        found = list(self.declarations(self.named(root), ""))
+        found = list(self.declarations(root))
         there = sum(
             node.is_named and node.type.endswith("_statement") and node.type != "empty_statement"
             for node in _nodes(root)
@@ -142,16 +148,11 @@ class _Reader(Bodies):
         self.apart.refuse_rest(self.file)
         return found
 
-    def declarations(self, nodes: Sequence[Any], namespace: str) -> Iterator[Unit]:
-        """The units among what is declared here, and below in namespaces."""
-        for node in nodes:
-            if node.type == "namespace_declaration":
-                name = self.field(node, "name")
-                inner = [child for child in self.named(node) if child != name]
-                yield from self.declarations(inner, _within(namespace, self.text(name)))
-            elif node.type == "type_declaration":
-                for definition in self.named(node):
-                    self.define(definition, namespace)
+    def declarations(self, root: Any) -> Iterator[Unit]:
+        """The units among what is declared."""
+        for node, namespace in self.within(self.named(root)):
+            if node.type == "type_declaration":
+                self.define_all(node, namespace)
             elif node.type in ("function_block_declaration", "program_declaration", "function_declaration"):
                 unit = replace(self.unit(node), namespace=namespace, using=self.using)
                 if unit.name.upper() in self.types:
@@ -159,6 +160,11 @@ class _Reader(Bodies):
                 yield unit
             else:
                 raise self.refuse(node)
+
+    def define_all(self, node: Any, namespace: str) -> None:
+        """Read the types of one declaration."""
+        for definition in self.named(node):
+            self.define(definition, namespace)
 
     def define(self, definition: Any, namespace: str) -> None:
         """Read one type and its first value."""
@@ -394,8 +400,3 @@ def _undecided(kind: Type) -> TypeGuard[Scalar]:
 def _joined(text: str) -> str:
     """A name with namespaces, without blanks."""
     return "".join(text.split())
-
-
-def _within(namespace: str, name: str) -> str:
-    """A namespace in another one, or alone."""
-    return f"{namespace}.{_joined(name)}" if namespace else _joined(name)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -76,7 +76,6 @@ def as_iec(text: str) -> str:
 def program(path: Path) -> str:
     """A program of the collection in the language that the reader knows."""
     text = re.sub(r"\b(TON|SF_\w+)X\b", r"\1", path.read_text("utf-8"))
-    text = re.sub(r"(?m)^(NAMESPACE|USING|END_NAMESPACE).*$", "", text)
     return re.sub(r"\bEND_(PROGRAM|FUNCTION_BLOCK)", r"END_\1\n", as_iec(text))
 
 
@@ -92,31 +91,8 @@ def judge(of: Specification, folder: Path, seconds: float) -> tuple[Found, float
         files = []
         for name in dict.fromkeys((LIBRARY, of.file)):
             files.append(Path(place, name))
-            files[-1].write_text(positional(program(folder / name), program(folder / LIBRARY)), "utf-8")
+            files[-1].write_text(program(folder / name), "utf-8")
         asked = Path(place, "asked.toml")
         asked.write_text(f"scan_time_ms = {SCAN_TIME}\n{of.row}", "utf-8")
         _, found = judged(files, asked, of.unit, False, seconds, lambda text: None)
     return found[-1], time.process_time() - began
-
-
-def positional(text: str, library: str) -> str:
-    """Calls by position as calls by name."""
-    inputs = _inputs(library)
-    types = dict(re.findall(r"(SF_\w+)\s*:\s*(SF_\w+)", text))
-
-    def named(found: re.Match[str]) -> str:
-        parts = found[2].split(",")
-        if found[1] not in types or ":=" in found[2]:
-            return found[0]
-        pairs = zip(inputs[types[found[1]]], parts, strict=False)
-        return f"{found[1]}({', '.join(f'{name} := {part.strip()}' for name, part in pairs)})"
-
-    return re.sub(r"\b(SF_\w+)\(([^()]*)\)", named, text)
-
-
-def _inputs(library: str) -> Mapping[str, list[str]]:
-    found = {}
-    for name, body in re.findall(r"FUNCTION_BLOCK (\w+)(.*?)END_FUNCTION_BLOCK", library, re.S):
-        section = re.search(r"VAR_INPUT(.*?)END_VAR", body, re.S)
-        found[name] = re.findall(r"(?m)^\s*(\w+)\s*:", section[1] if section else "")
-    return found

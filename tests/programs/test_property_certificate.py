@@ -8,10 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import z3
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs.folder import NAME, digest, digest_of
+from programs.induction import System, is_inductive
 from programs.recheck import recheck
 
 PROGRAM = """PROGRAM Lift
@@ -237,3 +239,10 @@ def test_what_tools_do_differently_is_said(tmp_path: Path, capsys: pytest.Captur
     program.write_text(PROGRAM, "utf-8")
     main([*given, str(program)])
     assert "assumed" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("start", "shown"), [(3, True), (4, False)])
+def test_ranges_at_power_up_are_shown_and_not_assumed(start: int, shown: bool) -> None:
+    x, true = z3.Int("X"), z3.BoolVal(True)
+    system = System({"X": x}, {}, {"X": z3.IntVal(start)}, {"X": x}, true, true, x <= 3)
+    assert is_inductive(system, []) is shown
