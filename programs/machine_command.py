@@ -89,7 +89,7 @@ def _vectors(args: argparse.Namespace, file: Path, use: Path, progress: Progress
     """Write the vectors of a wiring: the published ones, or those of one's own."""
     folder = args.vectors or root() / ROOM / machine_vectors.TARGET
     with _at_work(progress):
-        written = machine_vectors.write(folder, file, use, root(), lambda text: progress.update(NAME, text))
+        written = machine_vectors.write(folder, file, use, lambda text: progress.update(NAME, text))
         said = [f"{path}: {text}" for path, text in written]
     print("\n".join(said))
     if args.publish:

@@ -30,7 +30,8 @@ from modeproof.kit.vectors import EXACT, SETTLED, WIRING, Suite, open_suite
 from modeproof.kit.verdict import Verdict
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
-from modeproof.registers.vector_files import of_machine, published, published_files, remedy, suite_name
+from modeproof.registers.stale import stale
+from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
 from modeproof.suites.build import find_target, make_graphs, ready_suite, say
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
@@ -190,7 +191,8 @@ def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
     chosen = [path for path, name in zip(files, names, strict=True) if not asked or name in asked]
     for path in chosen:
         if published(place, args.target, suite_name(path)) is None:
-            raise Unjudged(f"{path.relative_to(place)} is of another text; {remedy(path)}")
+            what = why_stale(place, args.target) or f"{path.relative_to(place)} is not as it was published"
+            raise Unjudged(stale(what, args.target))
     found = [open_suite(path) for path in chosen]
     if chosen and not (found := [suite for suite in found if args.relation in suite.relations]):
         raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
