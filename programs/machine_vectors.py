@@ -163,9 +163,7 @@ class Writer:
         }
 
 
-def write(
-    folder: Path, file: Path, use: Path, say: Callable[[str], None]
-) -> Iterator[tuple[Path, str]]:
+def write(folder: Path, file: Path, use: Path, say: Callable[[str], None]) -> Iterator[tuple[Path, str]]:
     """Write all suites of a wiring; each file and what is in it. Raises Unjudged.
 
     say is told what is being made.
@@ -224,4 +222,3 @@ def _text(path: Path) -> str:
         return path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-

@@ -71,7 +71,7 @@ def read_vectors(packed: bytes) -> VectorFile:
     return VectorFile(header, tuple(cases))
 
 
-# --------------------------------------------------------------------------------------- what they are made of
+# ---------------------------------------------------------------------- what they are made of
 
 
 def document_of(root: Path, target: str) -> str:
@@ -139,6 +139,12 @@ def changed(root: Path, target: str) -> list[str]:
     return [name for name in dict.fromkeys((*now, *then)) if now.get(name) != then.get(name)]
 
 
+def _document(root: Path, target: str) -> str:
+    """The document to name in the command; none for a machine, which hangs on all of them."""
+    document = document_of(root, target)
+    return "" if document in machines(root) else document
+
+
 def _devices(root: Path, document: str) -> Mapping[str, Device]:
     there = (root / "spec" / document / "interface.toml").is_file()
     return load_interface(root, document).devices if there else {}
@@ -148,7 +154,7 @@ def _short(found: Mapping[str, str]) -> dict[str, str]:
     return {name: digest[:SHOWN] for name, digest in sorted(found.items())}
 
 
-# -------------------------------------------------------------------------------------------- what is published
+# ---------------------------------------------------------------------- what is published
 
 
 def check_vectors(root: Path) -> list[Problem]:
@@ -160,13 +166,12 @@ def check_vectors(root: Path) -> list[Problem]:
     for path in paths:
         shown = path.relative_to(root).as_posix()
         problems += [
-            Problem(shown, "", stale(text, document_of(root, path.parent.name)))
+            Problem(shown, "", stale(text, _document(root, path.parent.name)))
             for text in _faults(path, sums.get(_name(root, path)))
         ]
     for target in dict.fromkeys([*(path.parent.name for path in paths), *_sealed(root)]):
-        document = document_of(root, target)
         if text := why_stale(root, target):
-            problems.append(Problem(f"{ROOM}/{target}", "", stale(text, document)))
+            problems.append(Problem(f"{ROOM}/{target}", "", stale(text, _document(root, target))))
     return problems
 
 
@@ -178,6 +183,15 @@ def why_stale(root: Path, target: str) -> str:
     more = f" and {len(names) - 1} more" if len(names) > 1 else ""
     verb = "have" if more else "has"
     return f"{names[0]}{more} {verb} changed since it was published"
+
+
+def unfit(root: Path, target: str) -> str:
+    """Why the vectors of a target cannot be used as they lie there; empty where they can."""
+    sums = _sums(root)
+    paths = published_files(root, target)
+    lost = [name for name in sums if name.startswith(f"{target}/") and not (root / ROOM / name).is_file()]
+    faults = [f"{path.name} {text}" for path in paths for text in _faults(path, sums.get(_name(root, path)))]
+    return next(iter([*faults, *(f"{name} is not there" for name in lost)]), "") or why_stale(root, target)
 
 
 def published_files(root: Path, target: str = "*") -> list[Path]:
@@ -212,9 +226,13 @@ def seal(root: Path, targets: Collection[str]) -> None:
 
     Raises Unjudged when it cannot be written.
     """
-    rows = {name: of for name, of in _sealed(root).items() if any(published_files(root, name))}
+    rows: dict[str, Meanings] = {
+        name: of for name, of in _sealed(root).items() if any(published_files(root, name))
+    }
     rows |= {name: made_from(root, name) for name in targets if any(published_files(root, name))}
-    lines = [f"# {target} {digest} {name}" for target in sorted(rows) for name, digest in rows[target].items()]
+    lines = [
+        f"# {target} {digest} {name}" for target in sorted(rows) for name, digest in rows[target].items()
+    ]
     lines += [f"{_sha256(path)}  {_name(root, path)}" for path in published_files(root)]
     write_whole(root / ROOM / SUMS, "".join(f"{line}\n" for line in lines).encode())
 

@@ -260,9 +260,9 @@ def _builtin(args: argparse.Namespace) -> int:
     with only_one(place):
         make_graphs(place, runs, args.quiet)
         for kit_run in runs:
-            found.append((kit_run, _compare(place, kit_run, args.builtin, progress, args.codes)))
+            found.append((kit_run, compare_run(place, kit_run, args.builtin, progress, args.codes)))
     for kit_run, result in found:
-        print(_text(kit_run, result))
+        print(comparison_text(kit_run, result))
     status = max(0 if result.equal else 1 for _, result in found)
     if args.json is not None:
         rows = [{"run": kit_run.id, "verdict": result.verdict, **asdict(result)} for kit_run, result in found]
@@ -270,7 +270,8 @@ def _builtin(args: argparse.Namespace) -> int:
     return status
 
 
-def _compare(place: Path, run: Run, builtin: str, progress: Progress, codes: bool) -> Comparison:
+def compare_run(place: Path, run: Run, builtin: str, progress: Progress, codes: bool = False) -> Comparison:
+    """Compare the graph of a run with a program, and write the evidence. Raises Unjudged like `compared`."""
     folder = evidence.OURS if builtin == REFERENCE else evidence.YOURS
     name = f"{builtin}_{run.id}"
     evidence.discard(place, run.document, name, folder)
@@ -351,7 +352,8 @@ def comparison_record(
     )
 
 
-def _text(run: Run, found: Comparison) -> str:
+def comparison_text(run: Run, found: Comparison) -> str:
+    """What was compared, step by step, and the shortest way to the first difference."""
     lines = [f"{run.name} and {found.implementation}"]
     width = max(len(step) for step in found.covered)
     for step, (have, total) in found.covered.items():

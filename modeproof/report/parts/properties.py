@@ -7,9 +7,11 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.killers import Falls, Killers, load_killers, stamps_of, ways_to_fall
+from modeproof.registers.pins import load_pins
 from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
+from modeproof.registers.stale import renew_command
 from modeproof.registers.tla import closure
 from modeproof.report.campaigns import KINDS, Campaign, campaign
 from modeproof.report.claims import Claim, Result, claims, result_of, steps_of, texts_of, theorem_rows
@@ -193,19 +195,17 @@ def _falls(sources: Sources, document: Document, prop: Property, troubles: list[
         return ways_to_fall(document, texts), killers, stamps_of(document, texts, killers)
 
     every, killers, stamps = sources.once(f"killers {document.name}", read)
-    falls = every[prop.id]
+    falls, pinned = every[prop.id], load_pins(document).killers
     edits = [
         {
             **{key: getattr(killers.edits[name], key) for key in ("module", "old", "new", "slip")},
-            "judged": killers.edits[name].stamp == stamps[name],
+            "judged": pinned.get(name) == stamps[name],
         }
         for name in falls.edits
     ]
     if not all(edit["judged"] for edit in edits):
         what = f"{document.name}: an edit of {prop.id} was not judged on this text"
-        troubles.append(
-            Trouble(HOLE, ID, what, f"modeproof mutate spec --killers --document {document.name}")
-        )
+        troubles.append(Trouble(HOLE, ID, what, renew_command(document.name)))
     return {"negatives": list(falls.negatives), "edits": edits, "reason": falls.reason}
 
 
