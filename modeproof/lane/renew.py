@@ -1,7 +1,7 @@
-"""The command `modeproof renew`: after a change, makes anew whatever was made from the text before it.
+"""The command `modeproof renew`: after a change, makes anew what was made from the text before.
 
-It works in a copy of the tree (modeproof.lane.staging), one document after another, and puts what it made into
-the tree only when the specification has accepted the change: all of a document, or nothing.
+It works in a copy of the tree (modeproof.lane.staging), one document after another, and puts what it made
+into the tree only when the specification has accepted the change: all of a document, or nothing.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import argparse
 import sys
 import tempfile
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from modeproof.ground.proofs import proofs_module
 from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.lane.machine import judge_machine
 from modeproof.lane.renewal import Refused, Renewal, conform, renew_document, stale_of
-from modeproof.lane.staging import Copy, copied, finish
+from modeproof.lane.staging import copied, finish
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.machine_pins import check_machine_pins, repin_machine
 from modeproof.registers.tables import check_pages, pages, render_blocks
@@ -56,24 +57,21 @@ def run(args: argparse.Namespace) -> int:
     with only_one(place):
         if finish(place):
             print("a renewal that was cut short while it put its files has been finished")
-        work: list[tuple[str, Callable[[Copy], list[str]]]] = [
-            (name, lambda copy, name=name: _document(copy.tree, name, _reason(args), progress))
-            for name in names
+        work = [(name, _document) for name in names]
+        work += [(name, _machine) for name in machines(place)]
+        work += [(BLOCKS, _blocks)]
+        status = [
+            _carry_out(place, name, partial(make, name=name, reason=_reason(args), progress=progress))
+            for name, make in work
         ]
-        work += [
-            (name, lambda copy, name=name: _machine(copy.tree, name, _reason(args), progress))
-            for name in machines(place)
-        ]
-        work.append((BLOCKS, lambda copy: _blocks(copy.tree)))
-        status = [_carry_out(place, name, make) for name, make in work]
     return EXIT_UNJUDGED if EXIT_UNJUDGED in status else max(status)
 
 
-def _carry_out(place: Path, name: str, make: Callable[[Copy], list[str]]) -> int:
+def _carry_out(place: Path, name: str, make: Callable[[Path], list[str]]) -> int:
     """Make one document anew in a copy, and put it; the exit status."""
     try:
         with copied(place) as copy:
-            said = make(copy)
+            said = make(copy.tree)
             files = copy.put()
     except Refused as refused:
         print(f"{name}: REFUSED, and nothing of it was written\n{_indented(str(refused))}")
@@ -180,7 +178,7 @@ def _machine_vectors(tree: Path, name: str, progress: Progress) -> list[str]:
     return said
 
 
-def _blocks(tree: Path) -> list[str]:
+def _blocks(tree: Path, name: str, reason: Reason, progress: Progress) -> list[str]:
     """The rendered blocks of README.md and docs/."""
     loaded = [load_document(tree, name) for name in documents(tree)]
     if not check_pages(tree, loaded):

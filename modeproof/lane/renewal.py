@@ -100,7 +100,7 @@ def stale_of(place: Path, name: str) -> Stale:
     known = load_pins(document).killers
     judged = {edit for edit, stamp in stamps.items() if known.get(edit) == stamp}
     killers = [edit for edit in (*stamps, *(known.keys() - stamps.keys())) if edit not in judged]
-    targets = [target for target, of in published(place).items() if of == name and _published(place, target)]
+    targets = [target for target, of in published(place).items() if of == name]
     page = [one.file for one in check_document_page(document, sources)]
     return Stale(
         tuple(pins),
@@ -109,11 +109,6 @@ def stale_of(place: Path, name: str) -> Stale:
         tuple(unrecorded(document)),
         tuple(dict.fromkeys(page)),
     )
-
-
-def _published(place: Path, target: str) -> bool:
-    """Whether a target has a folder in the room: a new document may not have been published yet."""
-    return (place / ROOM / target).is_dir()
 
 
 def renew_document(work: Renewal, stale: Stale) -> None:
@@ -144,15 +139,14 @@ def _accept(work: Renewal, stale: Stale) -> None:
 
 
 def _runs_to_check(work: Renewal, stale: Stale) -> Iterator[Run]:
-    """If vectors or stories are stale, the specification has changed: every run of lane full, and those of the
-    stories. If only pinned texts have, the runs that check one of them.
+    """If vectors or stories are stale, the specification has changed: every run of lane full, and those of
+    the stories. If only pinned texts have, the runs that check one of them.
     """
     checked = {pin.removeprefix("checked.") for pin in stale.pins}
     for run in load_runs(work.tree, work.name):
         full = "full" in run.lanes
-        if (full and (stale.targets or stale.stories)) or run.id in stale.stories:
-            yield run
-        elif full and checked & {*run.properties, *_names(work.tree, run)}:
+        changed = stale.targets or stale.stories or checked & {*run.properties, *_names(work.tree, run)}
+        if run.id in stale.stories or (full and changed):
             yield run
 
 

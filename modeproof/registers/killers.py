@@ -263,5 +263,6 @@ def write_stamps(document: Document, stamps: Mapping[str, str]) -> None:
     """Write these stamps, and take away all others. Raises Unjudged when the file cannot be written."""
     path = document.root / document.source("pins")
     rows = tomlkit.parse(read_text(document.root, path) if path.is_file() else HEADER)
+    rows.setdefault("document", document.name)
     rows["killers"] = dict(stamps)
     write_whole(path, tomlkit.dumps(rows).encode("utf-8"))

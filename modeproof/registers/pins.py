@@ -38,7 +38,7 @@ Texts = Mapping[str, str]
 
 HEADER = """\
 # What each checked name (TLA+) and each theorem (Python) says: a hash of its text and of what that refers to.
-# Of each edit in killers.toml: a hash of the text on which it broke its property. `modeproof renew` writes all.
+# Of each edit (killers.toml): a hash of the text on which it broke its property. `modeproof renew` writes it.
 """
 _FAIR = re.compile(r"\b[WS]F_")
 """Fairness is part of what a specification says, and no step shows it."""

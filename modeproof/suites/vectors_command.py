@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.graph.device import open_runs
-from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged, suggestion
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import build, root
 from modeproof.kit.text import write_json
