@@ -21,6 +21,7 @@ from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
 from modeproof.registers.vector_files import ROOM
 from programs import machine_picture, machine_tlc, machine_vectors
+from programs.assumed import assumed
 from programs.folder import tools
 from programs.machine import Machine, Verdict
 from programs.machine_equal import Equality
@@ -193,6 +194,8 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     yield f"  properties  {asked} ({whose}; {CLAIM})"
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
+    if choices := taken(machine):
+        yield f"  assumed     {'; '.join(choices)}"
     for verdict in found:
         yield from _verdict(machine, verdict)
     words = [verdict.word for verdict in found]
@@ -254,6 +257,13 @@ def _values(
         yield dt_ms, inputs, {name: values[name] for name in chosen}
 
 
+def taken(machine: Machine) -> list[str]:
+    """What a verdict on a source takes as given."""
+    return (
+        list(assumed(machine.cell.source, machine.cell.unit)) if isinstance(machine, ProgramMachine) else []
+    )
+
+
 def record_of(
     machine: Machine, found: Sequence[Verdict], seconds: float, read: Mapping[str, str]
 ) -> dict[str, Any]:
@@ -266,6 +276,7 @@ def record_of(
         "files": dict(read),
         "tools": tools(),
         "trusted": list(TRUST),
+        "assumed": taken(machine),
         "scan_time_ms": list(machine.wiring.table.scan_ms),
         "status": status(found),
         "verdicts": verdict_rows(found),
