@@ -1,12 +1,16 @@
 """What spec/<document>/contracts.toml says of a device, as it stands in the header of its vector files.
 
-    [contract.lamp]                     by device
+    [[contract]]
+    device = "lamp"
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
-    [contract.lamp.rules]               a value, { recent = .. }, or { memory = .., starts = .. }
-    codes = { recent = "word == CODE" }
+    [[contract.rule]]                   kind: value (when left out), memory (then with starts), recent
+    name = "codes"
+    kind = "recent"
+    is = "word == CODE"
 
-    [contract.lamp.property.LightNeedsCode]     by the id of properties.toml, which gives the clauses
+    [[contract.property]]               id: one of properties.toml, which gives the clauses
+    id = "LightNeedsCode"
     says = "The lamp goes on only with its code."
     when = "LAMP and not was_LAMP"
     holds = "True in codes"
@@ -30,8 +34,9 @@ from modeproof.registers.rows import Device, Signal
 from modeproof.registers.typed import tables
 
 FILE = "contracts.toml"
-_ROW = {"tables", "constants", "rules", "property"}
-_PROPERTY = {"says", "when", "holds"}
+_ROW = {"device", "tables", "constants", "rule", "property"}
+_RULE = {"name", "kind", "starts", "is"}
+_PROPERTY = {"id", "says", "when", "holds"}
 
 
 def _tables(place: Path, document: str, names: list[str], where: str) -> dict[str, list[int]]:
@@ -54,19 +59,25 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
     if not path.is_file():
         return None
     where = f"spec/{document}/{FILE}"
-    row = _toml(path, where).get("contract", {}).get(device.id)
-    if row is None:
+    rows = [row for row in _toml(path, where).get("contract", []) if row.get("device") == device.id]
+    if not rows:
         return None
+    if len(rows) > 1:
+        raise Unjudged(f"{where}: {device.id} has two contracts")
+    row = rows[0]
     where = f"{where}: {device.id}"
     _only(row, _ROW, where)
     clauses = _clauses(place, document)
-    rules = [_rule(name, rule, where) for name, rule in row.get("rules", {}).items()]
+    rules = []
+    for rule in row.get("rule", []):
+        _only(rule, _RULE, f"{where}: rule {rule.get('name')!r}")
+        rules.append({"kind": "value", **rule})
     properties = []
-    for id, entry in row.get("property", {}).items():
-        _only(entry, _PROPERTY, f"{where}: property {id!r}")
-        if id not in clauses:
-            raise Unjudged(f"{where}: property {id!r} is not in properties.toml")
-        properties.append({"id": id, **entry, "clauses": clauses[id]})
+    for entry in row.get("property", []):
+        _only(entry, _PROPERTY, f"{where}: property {entry.get('id')!r}")
+        if entry.get("id") not in clauses:
+            raise Unjudged(f"{where}: property {entry.get('id')!r} is not in properties.toml")
+        properties.append({**entry, "clauses": clauses[entry["id"]]})
     constants = {**_tables(place, document, row.get("tables", []), where), **row.get("constants", {})}
     table = {"constants": constants, "rules": rules, "properties": properties}
     try:
@@ -77,22 +88,6 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     return table
-
-
-def _rule(name: str, rule: Any, where: str) -> dict[str, Any]:
-    """A rule as the header has it."""
-    if isinstance(rule, str):
-        return {"kind": "value", "name": name, "is": rule}
-    kind = next((kind for kind in ("recent", "memory") if kind in rule), None)
-    if kind is None:
-        raise Unjudged(f"{where}: rule {name!r} is a text, or a table with recent, or with memory and starts")
-    _only(rule, {kind, *(("starts",) if kind == "memory" else ())}, f"{where}: rule {name!r}")
-    return {
-        "kind": kind,
-        "name": name,
-        **{key: rule[key] for key in ("starts",) if key in rule},
-        "is": rule[kind],
-    }
 
 
 def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[str, Any]]:

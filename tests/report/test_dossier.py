@@ -23,7 +23,7 @@ from tests.report.paper import change, entry, make_whole, put, without
 ROOT = Path(__file__).resolve().parents[2]
 
 
-CONTRACT = '[contract.box.property.ShutsOverDoor]\nsays = "x"\n'
+CONTRACT = '[[contract]]\ndevice = "box"\n[[contract.property]]\nid = "ShutsOverDoor"\nsays = "x"\n'
 
 
 @pytest.fixture

@@ -18,13 +18,17 @@ from tests.suites.test_command import toy as toy  # the fixture
 
 PROPERTIES = '[[property]]\nid = "LightNeedsCode"\nclauses = ["TOY-1"]\n'
 CONTRACT = """
-[contract.lamp]
+[[contract]]
+device = "lamp"
 constants = { CODE = 0x0FF0 }
 
-[contract.lamp.rules]
-codes = { recent = "press and word == CODE" }
+[[contract.rule]]
+name = "codes"
+kind = "recent"
+is = "press and word == CODE"
 
-[contract.lamp.property.LightNeedsCode]
+[[contract.property]]
+id = "LightNeedsCode"
 says = "The lamp goes on only with its code."
 when = "LAMP and not was_LAMP"
 holds = "True in codes"
@@ -62,16 +66,16 @@ def test_a_contract_enters_the_header_with_clauses_and_rebuilds(toy: Path) -> No
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        (".LightNeedsCode]", ".LightNeedsCod]", "'LightNeedsCod' is not in properties.toml"),
+        ('id = "LightNeedsCode"', 'id = "LightNeedsCod"', "'LightNeedsCod' is not in properties.toml"),
         ("True in codes", "True in code", "unknown name 'code'"),
-        ("{ recent", "{ rescent", "rule 'codes' is a text, or a table with recent"),
-        ('CODE" }', 'CODE", starts = true }', "rule 'codes': unknown key starts"),
+        ('kind = "recent"', 'kind = "rescent"', "one of the kinds"),
         ("CODE = 0x0FF0", "CODA = 0x0FF0", "unknown name 'CODE'"),
         ('says = "', 'say = "', "unknown key say"),
-        ("lamp.property", "lamp.properties", "unknown key properties"),
+        ("[[contract.property]]", "[[contract.properties]]", "unknown key properties"),
         ("was_LAMP", "was_lamp", "unknown name 'was_lamp'"),
-        ("[contract.lamp]", "[contract.lamp", "spec/toy/contracts.toml"),
-        ("[contract.lamp]", '[contract.lamp]\ntables = ["REE"]', "has no table 'REE'"),
+        ('device = "lamp"', 'device = "lamp', "spec/toy/contracts.toml"),
+        ('device = "lamp"', 'device = "lamp"\ntables = ["REE"]', "has no table 'REE'"),
+        ("[[contract.rule]]", '[[contract]]\ndevice = "lamp"\n[[contract.rule]]', "has two contracts"),
     ],
 )
 def test_what_does_not_fit_is_refused(toy: Path, old: str, new: str, said: str) -> None:
