@@ -1,5 +1,5 @@
-"""`modeproof renew`, in the tree of the sixth document: what is stale is made anew, what the specification does
-not accept is not.
+"""`modeproof renew`, in the tree of the sixth document: what is stale is made anew, and nothing that the
+specification does not accept.
 """
 
 from __future__ import annotations
