@@ -38,15 +38,15 @@ _ATTRIBUTE = re.compile(r"\s*(\w+)\s*:=\s*'((?:\$.|[^'$])*)'\s*", re.ASCII)
 _DROPPED = frozenset({
     "s7_optimized_access", "externalaccessible", "externalvisible", "externalwritable", "instructionname",
     "libversion", "s7_m_c", "s7_shortcut", "s7_unit", "s7_visible", "s7_dynamic", "s7_param", "s7_link",
-    "s7_string_0", "s7_string_1", "s7_tasklist", "s7_blockview",
+    "s7_string_0", "s7_string_1", "s7_tasklist", "s7_blockview", "s7_setpoint",
 })  # fmt: skip
-"""Attributes that say how data are kept and shown. What they mean for retention, `open_at_power_up` says."""
+"""How data are kept and shown. What some mean at power-up, `_set_later` and `open_at_power_up` say."""
 
 
 def structured_text(text: str, file: str) -> str:
     """SCL as Structured Text with the same lines. Raises Unjudged with the line."""
     line = 1
-    parts = []
+    parts: list[str] = []
     header = declares = typed = False  # typed: between TYPE and what is behind the name
     declared: set[str] = set()
     before = None
@@ -64,6 +64,9 @@ def structured_text(text: str, file: str) -> str:
             declared.add(found.strip('"').upper())
         elif kind == "quoted" and before != "hash" and not header and _is_global(match, declared):
             raise Place(file, line).refuse(f"{found} is a global name, and those are not supported; #name?")
+        if kind == "attributes" and _set_later(found):  # before the name, where Structured Text has it
+            name = next((n for n in range(len(parts) - 1, -1, -1) if parts[n].strip()), 0)
+            parts.insert(name, "{attribute 'TcInitSymbol'}")
         before = kind
         if kind == "word" and found.upper() == "TYPE":
             typed = True
@@ -97,15 +100,17 @@ def open_at_power_up(text: str) -> set[str]:
     return found
 
 
+def _set_later(found: str) -> bool:
+    """Whether attributes say that the first value of a variable is one that was set at commissioning."""
+    given = _ATTRIBUTE.findall(found)
+    return any(name.lower() == "s7_setpoint" and value.lower() != "false" for name, value in given)
+
+
 def _attributes(found: str, place: Place) -> str:
     """The line breaks of attributes that change nothing. Raises Unjudged for others."""
     left = _ATTRIBUTE.sub("", found[1:-1]).replace(";", "").strip()
-    for name, value in _ATTRIBUTE.findall(found):
-        if name.lower() == "s7_setpoint":
-            if value.lower() != "false":
-                text = "its value may be set at commissioning, so say VAR RETAIN (any value), or take it out"
-                raise place.refuse(f"attribute {name}: {text}")
-        elif name.lower() not in _DROPPED:
+    for name, _ in _ATTRIBUTE.findall(found):
+        if name.lower() not in _DROPPED:
             raise place.refuse(f"attribute {name} may change what the program does; take it out")
     if left:
         raise place.refuse(f"{' '.join(found.split())[:40]}: NAME := 'value' is understood in braces")

@@ -117,10 +117,8 @@ def test_structured_text_begins_with_first_values(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("attribute", "cause"),
     [
-        ("S7_SetPoint := 'True'", "attribute S7_SetPoint: its value may be set at commissioning"),
         ("S7_server := 'alarm_archiv'", "attribute S7_server may change what the program does"),
         ("odd", "NAME := 'value' is understood in braces"),
-        ("LibVersion := '1.0'; S7_SetPoint := 'True'", "attribute S7_SetPoint"),
     ],
 )
 def test_an_attribute_that_may_change_something_is_refused(
@@ -143,7 +141,17 @@ def test_retention_that_the_source_leaves_open_is_said(tmp_path: Path) -> None:
         )
 
 
-def test_retained_variables_begin_anywhere(tmp_path: Path) -> None:
-    head = HEAD.replace("VAR d", "VAR RETAIN\n k : Bool; END_VAR VAR d")
+@pytest.mark.parametrize(
+    "declared",
+    ["RETAIN\n k : Bool", "k { S7_SetPoint := 'True'} : Bool", "\"k\"\n {S7_SetPoint:='TRUE'} : Bool"],
+)
+def test_what_is_kept_or_set_later_begins_anywhere(declared: str, tmp_path: Path) -> None:
+    head = HEAD.replace("VAR d", f"VAR {declared}; END_VAR VAR d")
     source = looked_at(tmp_path, "#q := #k; #k := #x;", head=head)
     assert [slot.path for slot in slots(source, source.units["B"]) if slot.initial is None] == ["K"]
+
+
+def test_an_input_that_is_set_later_is_refused(tmp_path: Path) -> None:
+    head = HEAD.replace("n : Int", "n { S7_SetPoint := 'True'} : Int")
+    with pytest.raises(Unjudged, match=r"b\.scl:3: this attribute retains one variable in VAR"):
+        looked_at(tmp_path, "#q := #x;", head=head)
