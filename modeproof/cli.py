@@ -24,23 +24,23 @@ from modeproof.ground.places import root
 GROUPS = {
     "commands": {
         "verify": "modeproof.lane.verify",
-        "conform": "modeproof.suites.command",
-        "prove-program": "modeproof.lane.prove_program",
-        "machine": "modeproof.lane.machine",
-        "trace": "modeproof.trace.command",
-        "simulate": "modeproof.simulate.command",
-        "report": "modeproof.report.command",
+        "conform": "modeproof.suites.conform_command",
+        "prove-program": "modeproof.lane.prove_program_command",
+        "machine": "modeproof.lane.machine_command",
+        "trace": "modeproof.trace.trace_command",
+        "simulate": "modeproof.simulate.simulate_command",
+        "report": "modeproof.report.report_command",
         "doctor": "modeproof.lane.doctor",
     },
     "commands for maintainers": {
-        "check": "modeproof.tlc.command",
-        "prove": "modeproof.lane.prove",
-        "registers": "modeproof.registers.command",
+        "check": "modeproof.tlc.check_command",
+        "prove": "modeproof.lane.prove_command",
+        "registers": "modeproof.registers.registers_command",
         "render": "modeproof.lane.render",
         "walks": "modeproof.lane.walks",
         "vectors": "modeproof.suites.vectors_command",
         "map": "modeproof.suites.map_command",
-        "mutate": "modeproof.strength.command",
+        "mutate": "modeproof.strength.mutate_command",
     },
 }
 """The commands as the help groups them, each with the module that has its `add_parser`."""

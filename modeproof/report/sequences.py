@@ -12,8 +12,8 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device, Document
 from modeproof.registers.vector_files import VectorFile, drift, read_vectors, vectors_path
-from modeproof.report.cells import NONE
 from modeproof.report.codes import Codes, codes_of
+from modeproof.report.scan_table_cells import NONE
 from modeproof.report.sources import Sources
 from modeproof.report.story import OUTSIDE, POWER_UP, Lane, Message, Row, Story
 

@@ -18,8 +18,8 @@ from modeproof.registers.made import cfg_text, root_module
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.tlc import children
-from modeproof.tlc.judge import VIOLATED, Judgement, judge
 from modeproof.tlc.process import run_tlc
+from modeproof.tlc.run_judge import VIOLATED, Judgement, judge
 from modeproof.tlc.toolchain import Toolchain
 
 ROOT = "Killed"

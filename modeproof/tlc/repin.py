@@ -22,7 +22,7 @@ from tomlkit.exceptions import TOMLKitError
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.tlc.check import Checked, read_cfg
-from modeproof.tlc.judge import HOLDS, REACHED, VIOLATED, judge
+from modeproof.tlc.run_judge import HOLDS, REACHED, VIOLATED, judge
 
 _HISTORY = 200
 """So many commits back the pinned version of a cfg is looked for."""

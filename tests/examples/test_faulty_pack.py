@@ -33,7 +33,7 @@ from modeproof.ground.processes import in_forks
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.diagnosis import unseen
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite, read_lines
 from modeproof.registers.vector_files import drift
 from tests.any_machine import PATIENCE_S

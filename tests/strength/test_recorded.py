@@ -14,8 +14,8 @@ from modeproof.ground.places import documents, root
 from modeproof.registers.scores import load_scores, scores_path
 from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.campaign import Answers, Campaign, Judged, Judges
-from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Edit, Mutant
+from modeproof.strength.mutant_judge import Bench
 from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
 from modeproof.strength.scores import record_score, stale

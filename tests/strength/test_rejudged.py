@@ -6,7 +6,7 @@ import pytest
 
 from modeproof.ground.places import documents, root
 from modeproof.registers.scores import load_scores
-from modeproof.strength.judge import judge
+from modeproof.strength.mutant_judge import judge
 from modeproof.strength.register import Rejudged
 from tests.strength.shipped import bench_of, mutants_of
 

@@ -17,7 +17,7 @@ from modeproof.registers.vector_files import check_vectors
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.publish import _same
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 
 
 def test_what_was_built_is_published_unless_it_is_the_same(
