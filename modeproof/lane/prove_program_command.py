@@ -77,9 +77,9 @@ def run(args: argparse.Namespace) -> int:
         importlib.import_module("tree_sitter_iec61131_3_st")
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
-    room = "command" if args.property is None else "property_command"
+    room = "prove_program" if args.property is None else "prove_properties"
     try:
-        return int(proofs_module(f"programs.{room}").run(args))
+        return int(proofs_module(f"programs.commands.{room}").run(args))
     except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
         if "recursion" not in f"{type(error).__name__} {error}".lower():
             raise
