@@ -21,7 +21,6 @@ from machines.missing_names import EXPRESSIONS
 from machines.verdicts import Machine
 from machines.wiring import STANDARD, Wiring, leaves, names
 from modeproof.ground.errors import Unjudged, suggestion
-from programs.equality.replay import memory_of
 from programs.language.calls import inner_bodies
 from programs.language.tree import (
     BOOL,
@@ -42,6 +41,7 @@ from programs.properties.transition_system import Cell
 from programs.readers.sources import read_sources
 from programs.semantics import document_blocks as blocks
 from programs.semantics.interpreter import Machine as Interpreter
+from programs.semantics.value_paths import memory_of
 from refimpl.machine_cell.expression import Value
 
 TRIES = 60

@@ -19,8 +19,8 @@ from pathlib import Path
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.processes import in_forks
-from programs.commands.prove_program import make
 from programs.equality import replay as replay_room
+from programs.equality.comparison import make
 from programs.equality.replay import Difference, published, replay
 from programs.equality.verdict import judge
 from tests.programs import composed

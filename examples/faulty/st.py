@@ -25,8 +25,8 @@ if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
 from modeproof.ground.errors import Unjudged  # noqa: E402
-from programs.commands.prove_program import make  # noqa: E402
 from programs.equality.binding import read_binding  # noqa: E402
+from programs.equality.comparison import make  # noqa: E402
 from programs.equality.replay import replay  # noqa: E402
 from programs.equality.verdict import Verdict  # noqa: E402
 from programs.equality.verdict import judge as judge_product  # noqa: E402

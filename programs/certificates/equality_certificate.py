@@ -30,8 +30,8 @@ from programs.certificates.certificate_folder import (
 from programs.certificates.smt_lib import Printer
 from programs.equality.binding import Binding
 from programs.equality.product import OUTPUTS, RANGES, START, Node, Pair, Product, shown
-from programs.equality.replay import Difference, Met, Replayed, Run, steps
-from programs.equality.shortest_path import Way, way_to
+from programs.equality.replay import Difference, Met, Replayed, Run, run_of, steps
+from programs.equality.shortest_path import way_to
 from programs.invariants.relations import KINDS, Relation
 
 FORMAT: Final = "modeproof-program-certificate"
@@ -174,16 +174,6 @@ def _ways(product: Product, replayed: Replayed) -> dict[Pair, Run | None]:
             run = None if way is None else run_of(product, way)
         found[pair] = run if run is not None and not _unlike(product, pair, run) else None
     return found
-
-
-def run_of(product: Product, way: Way) -> Run:
-    """What a solver found, as values of the code."""
-    reference = product.binding.reference
-    return Run(
-        reference.plain("parameters", way.parameters),
-        [(int(scan["dt_ms"]), reference.plain("inputs", scan)) for scan in way.scans],
-        dict(way.retained),
-    )
 
 
 def _unlike(product: Product, pair: Pair, run: Run) -> str:

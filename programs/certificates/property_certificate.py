@@ -28,7 +28,6 @@ from programs.certificates.certificate_folder import (
     tools,
 )
 from programs.certificates.smt_lib import Printer
-from programs.commands.prove_program import choose
 from programs.invariants.induction import DEEPEST, Proof, System, Unrolled, conjuncts
 from programs.properties.property_file import read_questions
 from programs.properties.property_verdicts import Found, Judgement, never
@@ -232,7 +231,7 @@ class Kept(Stored):
         source = read_sources(sources)
         cell = Cell.of(
             source,
-            choose(source, str(self.record.get("unit"))),
+            source.chosen(str(self.record.get("unit"))),
             asked.scan_time,
             self.record.get("wrap") is True,
         )

@@ -14,7 +14,7 @@ from modeproof.ground.errors import Unjudged
 from programs.certificates import property_certificate
 from programs.certificates.certificate_folder import NAME, Obligation, record_in
 from programs.certificates.equality_certificate import FORMAT, obligations, read
-from programs.commands.prove_program import about, make
+from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
 from programs.invariants.induction import Proof
 from programs.properties.property_verdicts import Judgement

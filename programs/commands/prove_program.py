@@ -10,22 +10,18 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
-from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
 from programs.certificates import certificate_folder as folder
 from programs.certificates import equality_certificate as certificate
+from programs.certificates.recheck import recheck
 from programs.commands.results import Case, junit_of, vector_of, write_record
-from programs.equality.binding import Binding, read_binding
+from programs.equality.binding import read_binding
+from programs.equality.comparison import about, make
 from programs.equality.product import Pair, Product, shown
 from programs.equality.replay import Difference, Run
 from programs.equality.verdict import Verdict, judge
-from programs.language.subset import check
 from programs.language.tool_differences import assumed
-from programs.language.tree import Source, Unit
-from programs.readers.sources import read_sources
-from programs.semantics.reference import reference
 
 EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
 TRUSTED = (*certificate.TRUSTED, "z3")
@@ -84,38 +80,9 @@ def _keep(found: Verdict, path: Path | None) -> str:
 
 
 def _recheck(args: argparse.Namespace, started: float) -> int:
-    from programs.certificates.recheck import recheck
-
     found = recheck(args.recheck)
     print("\n".join(found.lines(time.process_time() - started)))
     return found.status
-
-
-def make(
-    files: list[Path],
-    target: str,
-    unit: str | None = None,
-    binding: Mapping[str, Any] | None = None,
-    wrap: bool = False,
-    split: tuple[str, ...] = (),
-) -> Product:
-    """The program beside the target; binding: see `read_binding`. Raises Unjudged with file, line, cause."""
-    of = reference(target)
-    source = read_sources(files)
-    chosen = choose(source, unit)
-    check(source, chosen)
-    return Product(Binding(of, source, chosen, **(binding or {})), wrap, split)
-
-
-def choose(source: Source, unit: str | None) -> Unit:
-    """The unit of this name; None: the one that no other has an instance of. Raises Unjudged."""
-    if unit is None:
-        return source.main()
-    found = source.find(unit)
-    if found is not None:
-        return found
-    names = [found.name for found in source.units.values()]
-    raise Unjudged(f"{', '.join(source.files)}: no unit {unit!r}; {suggestion(unit, names)}")
 
 
 # ---------------------------------------------------------------- what is printed
@@ -145,39 +112,6 @@ def text_of(found: Verdict, seconds: float) -> Iterator[str]:
         yield f"  trusted     {'; '.join(TRUSTED)}"
     pairs, queries = len(found.product.nodes), found.product.queries
     yield f"  effort      {pairs} pairs, {queries} questions, {seconds:.1f} s CPU"
-
-
-def about(product: Product) -> Iterator[tuple[str, str]]:
-    """What a verdict is about, in lines of a label and a text."""
-    binding, signals = product.binding, product.binding.reference.signals("parameters")
-    yield "compared", ", ".join(binding.compared)
-    own = f"; of the program's own: {', '.join(binding.unasked)}" if binding.unasked else ""
-    yield "left out", (", ".join(binding.left_out) or "no output") + own
-    narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
-    free = []
-    for name in binding.free_parameters:
-        signal = signals[name]
-        whole = f"{name} {signal.minimum or 0}..{signal.maximum}" if signal.type in ("ms", "int") else name
-        free.append(narrowed.get(name, whole))
-    yield (
-        "parameters",
-        "; ".join(
-            [
-                f"any {', '.join(free)}" if free else "none is an input of the program",
-                *(f"{name} = {value}" for name, value in binding.values.items()),
-            ]
-        ),
-    )
-    if known := profiles_of(binding.reference.device.register):
-        given = {name: value for name, value in binding.values.items() if name in known[LETTER]}
-        same = [profile for profile, values in known.items() if given.items() <= values.items()]
-        yield "profile", " and ".join(same) or NEITHER
-    longest = binding.longest_scan
-    most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
-    yield "inputs", f"every value, {most} of whole milliseconds"
-    yield "numbers", "wrap" if product.wrap else "stay within their types"
-    if choices := list(assumed(binding.source, binding.unit)):
-        yield "assumed", "; ".join(choices)
 
 
 def _difference(found: Difference) -> Iterator[str]:

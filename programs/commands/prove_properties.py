@@ -14,7 +14,6 @@ from modeproof.ground.places import root
 from modeproof.kit.files import write_text
 from programs.certificates import property_certificate
 from programs.certificates.certificate_folder import digest, tools
-from programs.commands.prove_program import choose
 from programs.commands.results import Case, junit_of, write_record
 from programs.language.tool_differences import assumed
 from programs.properties.property_file import read_questions
@@ -68,7 +67,7 @@ def judged(
     """The program with its properties, and the verdict on each. Raises Unjudged with file, line and cause."""
     questions = read_questions(properties)
     source = read_sources(list(files))
-    cell = Cell.of(source, choose(source, unit), questions.scan_time, wrap)
+    cell = Cell.of(source, source.chosen(unit), questions.scan_time, wrap)
     judgement = Judgement(cell, questions.asked(cell), seconds, tell)
     return judgement, judgement.all()
 

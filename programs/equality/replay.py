@@ -13,9 +13,10 @@ from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import open_suite
 from programs.equality.binding import Binding
 from programs.equality.product import Pair, Product
+from programs.equality.shortest_path import Way
 from programs.invariants.relations import Values
 from programs.semantics.interpreter import Limit, Machine, Overflow
-from programs.semantics.value_paths import put, single_values
+from programs.semantics.value_paths import memory_of, put
 
 SUITES = ("sequences", "times", "brief")
 MOST_SCANS = 6_000
@@ -174,9 +175,14 @@ def _parameters(binding: Binding, parameters: Mapping[str, Any]) -> Values:
     return found
 
 
-def memory_of(machine: Machine) -> dict[str, Any]:
-    """Every value in a program's memory by the paths of `terms.slots`."""
-    return dict(single_values(machine.memory, machine.now))
+def run_of(product: Product, way: Way) -> Run:
+    """What a solver found, as values of the code."""
+    reference = product.binding.reference
+    return Run(
+        reference.plain("parameters", way.parameters),
+        [(int(scan["dt_ms"]), reference.plain("inputs", scan)) for scan in way.scans],
+        dict(way.retained),
+    )
 
 
 def published(binding: Binding, wrap: bool, folder: Path) -> Difference | Replayed:

@@ -8,10 +8,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from programs.certificates.equality_certificate import run_of
 from programs.equality.fixpoint import Search, prune
 from programs.equality.product import OUTPUTS, Owed, Product, shown
-from programs.equality.replay import Difference, Replayed, published, replay
+from programs.equality.replay import Difference, Replayed, published, replay, run_of
 from programs.equality.shorten import shortened
 from programs.equality.shortest_path import shortest, through
 from programs.semantics.terms import names_in

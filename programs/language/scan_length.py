@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from programs.language.calls import called_functions, function_of, inner_bodies
+from programs.language.memory import elements
 from programs.language.tree import (
     MOST_TURNS,
     Array,
@@ -28,7 +29,6 @@ from programs.language.tree import (
     Unit,
 )
 from programs.language.types import Types
-from programs.semantics.terms import cells
 
 MOST = 20_000
 """More would take hours to translate."""
@@ -104,7 +104,7 @@ class _Lengths:
 
 def _instances(kind: Type) -> Iterator[str]:
     """The block of each instance in a variable."""
-    return (one.block for _, one, _ in cells(kind, "", None) if isinstance(one, Instance))
+    return (one.block for _, one, _ in elements(kind, "", None) if isinstance(one, Instance))
 
 
 def _choices(instance: Expression, types: Types) -> int:

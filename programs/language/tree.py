@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Final, Protocol
 
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import Unjudged, suggestion
 
 
 @dataclass(frozen=True)
@@ -413,3 +413,13 @@ class Source:
                 f"{', '.join(self.files)}: which program is meant? {names}; choose with --unit NAME"
             )
         return found[0]
+
+    def chosen(self, unit: str | None) -> Unit:
+        """The unit of this name; None: the one that no other has an instance of. Raises Unjudged."""
+        if unit is None:
+            return self.main()
+        found = self.find(unit)
+        if found is not None:
+            return found
+        names = [found.name for found in self.units.values()]
+        raise Unjudged(f"{', '.join(self.files)}: no unit {unit!r}; {suggestion(unit, names)}")

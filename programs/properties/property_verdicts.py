@@ -10,7 +10,6 @@ from typing import Any
 
 import z3
 
-from programs.equality.replay import memory_of
 from programs.invariants.houdini import Houdini
 from programs.invariants.induction import Proof, System, Way, induction, shortest, spacer
 from programs.invariants.relations import like
@@ -19,6 +18,7 @@ from programs.properties.property_file import TYPES
 from programs.properties.transition_system import Asked, Cell, Judge, Scans, Trace
 from programs.semantics.document_blocks import instances
 from programs.semantics.terms import compared_with, in_range
+from programs.semantics.value_paths import memory_of
 
 RUNS, LENGTH = 60, 50
 """Of the random runs from which the candidates of invariants come."""

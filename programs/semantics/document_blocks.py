@@ -17,6 +17,7 @@ import z3
 from modeproof.ground.errors import Unjudged
 from modeproof.registers import Signal
 from programs.language.calls import function_of, handed_to_block, inner_bodies
+from programs.language.memory import elements
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import (
     BOOL,
@@ -40,7 +41,7 @@ from programs.language.tree import (
 )
 from programs.language.types import Types
 from programs.semantics.reference import Reference, reference, targets
-from programs.semantics.terms import INT, Env, Slot, cells, choose
+from programs.semantics.terms import INT, Env, Slot, choose
 
 CONTROL, AGE = "control", "age"
 """What a block remembers beside its memory: the number of its control state, and the time since its call."""
@@ -224,7 +225,7 @@ def with_blocks(source: Source) -> Source:
 def instances(source: Source, unit: Unit, above: str = "") -> Iterator[tuple[str, Block]]:
     """The path of each instance of a published block in a unit, and the block."""
     for key, variable in unit.variables.items():
-        for path, kind, _ in cells(variable.type, f"{above}{key}", None):
+        for path, kind, _ in elements(variable.type, f"{above}{key}", None):
             below = source.units.get(kind.block.upper()) if isinstance(kind, Instance) else None
             if below is not None and isinstance(below.device, Block):
                 yield path, below.device

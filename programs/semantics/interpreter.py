@@ -13,6 +13,7 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from programs.language.calls import function_of, handed_to_block, handed_to_function, in_outs, own_arguments
+from programs.language.memory import default
 from programs.language.standard_blocks import arguments, conversion, converted_from
 from programs.language.tree import (
     MOST_TURNS,
@@ -67,22 +68,6 @@ class _Exit(Exception):
 
 class _Continue(Exception):
     pass
-
-
-def default(kind: Type, initial: object) -> Any:
-    """The value of a variable at power-up; that of its type, or 0, FALSE, where none is declared."""
-    if isinstance(kind, Array):
-        given = list(initial) if isinstance(initial, tuple) else []
-        size = kind.high - kind.low + 1
-        return [default(kind.element, value) for value in [*given, *[None] * (size - len(given))]]
-    if isinstance(kind, Struct):
-        own = dict(initial) if isinstance(initial, tuple) else {}
-        return {
-            name.upper(): default(inner, own.get(name.upper(), value)) for name, inner, value in kind.members
-        }
-    assert isinstance(kind, Scalar)
-    value = kind.start if initial is None else initial
-    return bool(value) if kind.kind == "bool" else int(value)  # type: ignore[call-overload]
 
 
 class Frame:

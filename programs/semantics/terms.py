@@ -8,9 +8,9 @@ from typing import Any
 
 import z3
 
+from programs.language.memory import default, elements
 from programs.language.standard_blocks import BLOCKS
-from programs.language.tree import BOOL, TIME, Array, Instance, Scalar, Source, Struct, Type, Unit
-from programs.semantics.interpreter import default
+from programs.language.tree import BOOL, TIME, Scalar, Source, Type, Unit
 
 TRUE, FALSE = z3.BoolVal(True), z3.BoolVal(False)
 Env = dict[str, Any]
@@ -61,7 +61,7 @@ def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
         if variable.section in ("temp", "constant"):
             continue
         given = variable.section == "input" and not above
-        for place, kind, initial in cells(variable.type, f"{above}{key}", variable.initial):
+        for place, kind, initial in elements(variable.type, f"{above}{key}", variable.initial):
             if isinstance(kind, Scalar):
                 value = None if variable.section == "retain" else default(kind, initial)
                 yield Slot(place, kind, value, variable.section, given)
@@ -69,25 +69,6 @@ def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
                 yield from slots(source, source.units[kind.block.upper()], f"{place}.")
             else:
                 yield from _standard(kind.block.upper(), place)
-
-
-def cells(kind: Type, path: str, initial: object) -> Iterator[tuple[str, Scalar | Instance, object]]:
-    """The single values and instances in a variable: path, type, and the initial value that is declared."""
-    if isinstance(kind, Array):
-        given = initial if isinstance(initial, tuple) else ()
-        for n, number in enumerate(range(kind.low, kind.high + 1)):
-            yield from cells(kind.element, f"{path}[{number}]", given[n] if n < len(given) else None)
-    elif isinstance(kind, Struct):
-        own = dict(initial) if isinstance(initial, tuple) else {}
-        for name, inner, value in kind.members:
-            yield from cells(inner, f"{path}.{name.upper()}", own.get(name.upper(), value))
-    else:
-        yield path, kind, initial
-
-
-def leaves(kind: Type) -> list[str]:
-    """The ends of the paths of the single values of this type; `""` for a type of single values."""
-    return [path for path, _, _ in cells(kind, "", None)]
 
 
 def parts(terms: Iterable[Any]) -> Iterator[Any]:
@@ -146,7 +127,7 @@ def live(asked: Iterable[Any], after: Mapping[str, tuple[str, Any]]) -> set[str]
 
 def singles(kind: Type, path: str, initial: object) -> Iterator[tuple[str, Scalar, Any]]:
     """The single values of a variable: path, type, and the value at power-up."""
-    for place, single, value in cells(kind, path, initial):
+    for place, single, value in elements(kind, path, initial):
         if isinstance(single, Scalar):
             yield place, single, default(single, value)
 

@@ -14,6 +14,7 @@ from typing import Any
 import z3
 
 from programs.language.calls import function_of, handed_to_block, handed_to_function, in_outs
+from programs.language.memory import leaves
 from programs.language.tree import (
     MOST_TURNS,
     Assign,
@@ -42,7 +43,6 @@ from programs.semantics.terms import (
     constant,
     either,
     in_range,
-    leaves,
     merge,
     negated,
     singles,

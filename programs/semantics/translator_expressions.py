@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import z3
 
 from programs.language.calls import own_arguments
+from programs.language.memory import leaves
 from programs.language.standard_blocks import arguments, conversion, converted_from
 from programs.language.tree import (
     Array,
@@ -37,7 +38,6 @@ from programs.semantics.terms import (
     choose,
     constant,
     either,
-    leaves,
     negated,
     rotated,
     shifted,

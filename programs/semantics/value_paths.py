@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from programs.language.memory import default
 from programs.language.tree import Array, Struct, Type, Unit
-from programs.semantics.interpreter import Frame, default
+from programs.semantics.interpreter import Frame, Machine
 from programs.semantics.interpreter_blocks import Standard
 
 
@@ -79,6 +80,11 @@ def put(frame: Frame, path: str, value: Any) -> None:
         else:
             key, kind = step, kind.member(step)
     here[key] = value
+
+
+def memory_of(machine: Machine) -> dict[str, Any]:
+    """Every value in a program's memory by the paths of `terms.slots`."""
+    return dict(single_values(machine.memory, machine.now))
 
 
 def single_values(frame: Frame, now: int, above: str = "") -> Iterator[tuple[str, Any]]:

@@ -17,6 +17,7 @@ import tree_sitter_iec61131_3_st
 from modeproof.ground.errors import Unjudged
 from programs.language.addresses import Addresses
 from programs.language.constants import known
+from programs.language.memory import leaves
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import (
     SCALARS,
@@ -43,7 +44,6 @@ from programs.readers.structured_text.declaration_text import (
 )
 from programs.readers.structured_text.source_text import NO_RESULT, prepared
 from programs.readers.structured_text.statements import Bodies
-from programs.semantics.terms import leaves
 
 LONGEST = 1000
 """Elements of an array."""

@@ -18,7 +18,7 @@ from modeproof.kit.errors import Unjudged as KitUnjudged
 from programs.certificates import equality_certificate as certificate
 from programs.certificates.certificate_folder import NAME, digest, digest_of
 from programs.certificates.recheck import recheck
-from programs.commands.prove_program import make
+from programs.equality.comparison import make
 from programs.equality.replay import Run
 from programs.equality.verdict import Verdict, judge
 from programs.invariants.relations import Relation

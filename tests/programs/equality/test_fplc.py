@@ -8,7 +8,7 @@ import pytest
 
 from programs.certificates import equality_certificate as certificate
 from programs.certificates.recheck import recheck
-from programs.commands.prove_program import make
+from programs.equality.comparison import make
 from programs.equality.replay import replay
 from programs.equality.verdict import Verdict, judge
 

@@ -14,8 +14,9 @@ import z3
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.kit.vectors import open_suite
-from programs.commands.prove_program import make, record_of, text_of
+from programs.commands.prove_program import record_of, text_of
 from programs.equality.binding import read_binding
+from programs.equality.comparison import make
 from programs.equality.fixpoint import Search
 from programs.equality.product import Product
 from programs.equality.replay import Difference, Run, replay

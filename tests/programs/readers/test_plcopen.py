@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from programs.commands.prove_program import make
 from programs.equality.binding import read_binding
+from programs.equality.comparison import make
 from programs.equality.verdict import Verdict, judge
 from programs.semantics.interpreter import Machine
 from tests.programs.drawn import block, machine, pou, reading, rows, wire, writing

@@ -9,7 +9,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
-from programs.commands.prove_program import make
+from programs.equality.comparison import make
 from programs.readers.sources import read_sources
 from programs.semantics.interpreter import Machine
 from tests.programs.drawn import block, pou, project, read, reading, wire, writing

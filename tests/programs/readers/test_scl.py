@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.errors import Unjudged
-from programs.commands.prove_program import make
 from programs.equality.binding import read_binding
+from programs.equality.comparison import make
 from programs.equality.verdict import judge
 from programs.language.subset import check
 from programs.language.tree import Source, Unit

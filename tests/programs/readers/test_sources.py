@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.errors import Unjudged
-from programs.commands.prove_program import make
+from programs.equality.comparison import make
 from programs.language.subset import check
 from programs.properties.transition_system import Cell
 from programs.readers.sources import LARGEST, read_sources

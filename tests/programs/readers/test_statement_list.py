@@ -13,7 +13,7 @@ import z3
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
-from programs.commands.prove_program import make
+from programs.equality.comparison import make
 from programs.equality.verdict import Verdict, judge
 from programs.language.tree import Place
 from programs.readers.sources import read_sources
