@@ -50,6 +50,7 @@ RULES = (
             "modeproof.registers",
             "modeproof.ground.evidence",
             "modeproof.ground.errors",
+            "modeproof.ground.meaning",
             "modeproof.ground.places",
             "modeproof.ground.progress",
             *(
@@ -64,6 +65,7 @@ RULES = (
         (
             "modeproof.registers",
             *("modeproof.ground.errors", "modeproof.ground.evidence.files"),
+            *("modeproof.ground.comments", "modeproof.ground.meaning"),
             *("modeproof.ground.places", "modeproof.ground.progress", "modeproof.ground.reason"),
         ),
     ),

@@ -15,8 +15,9 @@ from functools import partial
 from modeproof.ground.errors import Unjudged
 from programs.language.pou_actions import Actions
 from programs.language.tree import Body, Place, Source, Unit
+from programs.readers.attributes import retained
 from programs.readers.plcopen.diagram_statements import Diagram
-from programs.readers.plcopen.diagrams import harmless, only, truth
+from programs.readers.plcopen.diagrams import attributes_of, harmless, only, truth
 from programs.readers.plcopen.xml_tree import Element, read_xml
 from programs.readers.structured_text.units import read_text
 
@@ -169,6 +170,7 @@ def _declare(pou: Element, text: _Text, body: Element) -> None:
             raise variable.place.refuse("the variable has no <type>")
         value = "" if given is None else f" := {_value(given)}"
         name = _identifier(variable, "name")
+        words += [f"{{attribute '{said}'}}" for said, _, _ in attributes_of(variable) if retained(said)]
         text.put(variable.place, f"{' '.join(words)} {name} : {_type(declared)}{value}; END_VAR")
     if body.name == "ST":
         inner = _text_of(body)
