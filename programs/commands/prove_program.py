@@ -163,7 +163,8 @@ def not_shown(found: Verdict) -> Iterator[str]:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
     if found.product.wrap:
         yield "whether numbers stay within their types: they wrap"
-    yield from (f"a tool for which this is not so: {text}" for text in assumed(binding.source, binding.unit))
+    choices = assumed(binding.source, binding.unit, binding.steady)
+    yield from (f"a tool for which this is not so: {text}" for text in choices)
     yield "what the compiler and the PLC make of the source"
 
 

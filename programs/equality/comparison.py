@@ -60,5 +60,5 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
     yield "inputs", f"every value, {most} of whole milliseconds"
     yield "numbers", "wrap" if product.wrap else "stay within their types"
-    if choices := list(assumed(binding.source, binding.unit)):
+    if choices := list(assumed(binding.source, binding.unit, binding.steady)):
         yield "assumed", "; ".join(choices)
