@@ -13,11 +13,12 @@ from programs.language.namespaces import resolved
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import Source, Unit
 from programs.readers.plcopen.project import Lower, read_plcopen
-from programs.readers.scl import structured_text
+from programs.readers.scl import open_at_power_up, structured_text
 from programs.readers.statement_list.program import beside, read_awl
 from programs.readers.structured_text.units import KnownTypes, read_text, types_in
 
 STATEMENT_LIST = (".awl", ".stl")
+NOT_KEPT = "the instance data block of {} is not retentive, which the source leaves open"
 LARGEST = 1_000_000
 """Bytes of a source file."""
 
@@ -130,6 +131,12 @@ def _read(
         return read_plcopen(text, str(path))
     if path.suffix.lower() in STATEMENT_LIST:
         return [(unit, None) for unit in read_awl(path)], {}
-    fresh = path.suffix.lower() != ".scl"
     units = read_text(_plain(text, path), str(path), types)
-    return [(replace(unit, fresh=fresh), None) for unit in units], {}
+    if path.suffix.lower() == ".scl":
+        units = [replace(unit, fresh=False) for unit in units]
+        doubtful = open_at_power_up(text.decode("utf-8-sig"))
+        units = [
+            replace(unit, notes=(NOT_KEPT.format(unit.name),)) if unit.name.upper() in doubtful else unit
+            for unit in units
+        ]
+    return [(unit, None) for unit in units], {}
