@@ -184,7 +184,7 @@ REFUSED = {
         "the specification does not hold any more:",
     ),
     "a specification that the code does not follow": (
-        (GATE, 'gateState\' = "Calling"', 'gateState\' = IF i.BeaconLit THEN "Open" ELSE "Calling"'),
+        (GATE, 'gateState\' = "Calling"', 'gateState\' = (IF i.BeaconLit THEN "Open" ELSE "Calling")'),
         "specification and reference implementation differ",
     ),
 }
