@@ -15,14 +15,12 @@ from modeproof.ground.places import build, root
 from modeproof.ground.proofs import proofs_module
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.runs import Run
-from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
+from modeproof.tlc.process import FEW_STATES, SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.run_judge import HOLDS, VIOLATED, Judgement, judge
 from modeproof.tlc.toolchain import find_toolchain
 
 FOLDER = "machine_cell"
 HEAP_MB, TIMEOUT_S = 2048, 900
-FEW_STATES = 150_000
-"""Of generated states: a run that had fewer with the shipped wiring needs little heap (SMALL_HEAP_MB)."""
 
 
 def run(args: argparse.Namespace) -> int:
