@@ -1,4 +1,4 @@
-"""Mutants of the specification, judged by its properties: see judge.py for how TLC is asked."""
+"""Mutants of the specification, judged by its properties: see mutant_judge.py for how TLC is asked."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.made import cfg_text
 from modeproof.strength.campaign import Answers, Judges
-from modeproof.strength.judge import Bench, as_record, judge
 from modeproof.strength.mutant import Mutant
+from modeproof.strength.mutant_judge import Bench, as_record, judge
 from modeproof.strength.operators import mutants
 from modeproof.strength.register import Tier, path_of
 from modeproof.strength.results import digest, without_comments
@@ -66,10 +66,10 @@ class ByProperties(Judges):
 
     @property
     def rests_on(self) -> Sequence[Path]:
-        """The register, the device modules, and the cfgs of the tiers."""
+        """The register, the device modules, and the runs of the tiers."""
         folder, strength = self.bench.folder, self.bench.strength
         modules = [folder / f"{module}.tla" for module in strength.rules]
-        return [self.register, *modules, *(folder / tier.run.cfg for tier in strength.tiers)]
+        return [self.register, *modules, folder / "runs.toml"]
 
     @property
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:
