@@ -132,7 +132,7 @@ def tree(tmp_path: Path) -> Path:
     """A copy of one document's specification, theorems and reference, and the times of the others."""
     for folder in ("spec/edm", "spec/common", "proofs/edm", "refimpl/edm"):
         shutil.copytree(root() / folder, tmp_path / folder)
-    for times in root().glob("spec/*/response.toml"):
+    for times in root().glob("spec/*/properties.toml"):
         (place := tmp_path / times.relative_to(root())).parent.mkdir(exist_ok=True)
         shutil.copy(times, place)
     return tmp_path
@@ -180,23 +180,15 @@ def test_verify_names_a_property_that_became_true(tree: Path) -> None:
     assert told() == ("DIFFERS", ["spec/edm/killers.toml"])
 
 
-ROW = re.compile(r'\n\[\[killer\]\]\nproperty = "IdleShowsNothing"\n(?:.+\n)+')
+HEAD = "[[killer.IdleShowsNothing]]\n"
+ROW = re.compile(r"\n\[\[killer\.IdleShowsNothing\]\]\n(?:.+\n)+")
 WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
     "falls with nothing": (ROW, ""),
     "was judged on another text": ('state = "Idle" -> 1', 'state = "Idle" -> 2'),
-    "unknown property": ('property = "IdleShowsNothing"', 'property = "IdleShowsAll"'),
-    "unknown run": (
-        re.compile(r'(property = "IdleShowsNothing"\nrun = ")\w+'),
-        r"\1MC_SF_EDM_nowhere",
-    ),
-    "does not check IdleShowsNothing": (
-        re.compile(r'(property = "IdleShowsNothing"\nrun = ")\w+'),
-        r"\1MC_SF_EDM_activate_held",
-    ),
-    "which is no device's": (
-        re.compile(r'(property = "IdleShowsNothing"\n.+\nmodule = ")\w+'),
-        r"\1EDMOpen",
-    ),
+    "unknown property": (HEAD, "[[killer.IdleShowsAll]]\n"),
+    "unknown run": (HEAD, f'{HEAD}run = "MC_SF_EDM_nowhere"\n'),
+    "does not check IdleShowsNothing": (HEAD, f'{HEAD}run = "MC_SF_EDM_activate_held"\n'),
+    "which is no device's": (HEAD, f'{HEAD}in = "EDMOpen"\n'),
     "not once": ("old = 'state = \"Idle\" -> 0'", "old = 'state = \"Idle\"'"),
     "edits nothing": ('state = "Idle" -> 1', 'state = "Idle" -> 0'),
     "edits the property": (
@@ -209,7 +201,7 @@ WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
     ),
     "falls with MissedPickUpIsAnError": (
         re.compile(r"\Z"),
-        '\n[[by_construction]]\nproperty = "IdleShowsNothing"\nreason = "none"\n',
+        '\n[by_construction]\nIdleShowsNothing = "none"\n',
     ),
 }
 

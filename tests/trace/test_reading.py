@@ -270,9 +270,9 @@ def test_a_comparison_that_no_device_makes_is_refused(
     tmp_path: Path, old: str, new: str, expected: str
 ) -> None:
     shutil.copytree(root() / "spec" / "mode_selection", tmp_path / "spec" / "mode_selection")
-    path = tmp_path / "spec" / "mode_selection" / "traces.toml"
+    path = tmp_path / "spec" / "mode_selection" / "replay.toml"
     text = path.read_text()
     assert COPIES in text and old in text
     path.write_text(text.replace(old, new))
-    with pytest.raises(Unjudged, match=rf"\[\[target\]\] {expected}"):
+    with pytest.raises(Unjudged, match=rf"target {expected}"):
         targets_of(tmp_path, "mode_selection")

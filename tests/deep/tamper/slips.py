@@ -421,8 +421,8 @@ MODELS = (
     Case(
         "a count is pinned by hand",
         RUNS,
-        'counts = [81, 15553]\n\n[run.MC_SF_EDM_cautious]',
-        'counts = [80, 15553]\n\n[run.MC_SF_EDM_cautious]',
+        "counts = [81, 15553]\n\n[run.MC_SF_EDM_cautious]",
+        "counts = [80, 15553]\n\n[run.MC_SF_EDM_cautious]",
         "check MC_SF_EDM_arbitrary --quiet",
         1,
         "81",
