@@ -14,7 +14,7 @@ from pathlib import Path
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.rows import Document, Interface, Problem
 
-OURS = ("modeproof", "refimpl", "scenes", "proofs", "programs", "examples", "tests")
+OURS = ("modeproof", "refimpl", "scenes", "proofs", "programs", "machines", "examples", "tests")
 
 ORDINARY = frozenset({"ERROR"})
 """Declared names that are also ordinary words of any program."""
@@ -34,10 +34,11 @@ RULES = (
     Rule("scenes", ("scenes", "refimpl", "modeproof.simulate.program"), stdlib_only=True),
     Rule("modeproof/simulate/program", ("modeproof.simulate.program",)),
     Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
+    Rule("programs", ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit")),
     Rule(
-        "programs",
+        "machines",
         (
-            *("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
+            *("machines", "programs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
             *("refimpl.machine_cell", "refimpl.errors"),
         ),
     ),
@@ -52,7 +53,11 @@ RULES = (
             "modeproof.ground.meaning",
             "modeproof.ground.places",
             "modeproof.ground.progress",
-            *("modeproof.ground.proofs", "modeproof.tlc.again", "modeproof.graph.equal"),  # judged again
+            *(
+                "modeproof.ground.proofs",
+                "modeproof.tlc.run_judge_again",
+                "modeproof.graph.equal",
+            ),  # judged again
         ),
     ),
     Rule(
