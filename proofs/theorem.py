@@ -74,7 +74,8 @@ class Theorem:
         document = self.build.__module__.split(".")[1]
         found = {row.id: row for row in load_responses(ROOT, document).rows}
         if lost := [name for name in self.responses if name not in found]:
-            raise TheoremError(f"theorem {self.name}: spec/{document}/properties.toml has no {', '.join(lost)}")
+            file = f"spec/{document}/properties.toml"
+            raise TheoremError(f"theorem {self.name}: {file} has no {', '.join(lost)}")
         return tuple(found[name] for name in self.responses)
 
     def queries(self) -> tuple[Query, ...]:

@@ -112,7 +112,7 @@ def grouped(source: str, data: Table, key: str, name: str) -> list[Table]:
     if not isinstance(found, dict) or not all(
         isinstance(rows, list) and all(isinstance(row, dict) for row in rows) for rows in found.values()
     ):
-        raise Unjudged(f"{source}: `{key}` must be lists of tables ([[{key}.NAME]])")
+        raise Unjudged(f"{source}: `{key}` must be a list of tables for each name ([[{key}.NAME]])")
     usual = data.get(DEFAULT, {}).get(key, {})
     return [{name: id, **usual, **row} for id, rows in found.items() for row in rows]
 

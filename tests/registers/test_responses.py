@@ -87,7 +87,12 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
         (FILE, "{ T_HOLD_ms = 200 }", "{ T_HOLD_ms = 200, T_OFF_ms = 3 }", "with a bound needs T_OFF_ms"),
         (FILE, 'then = "the lamp"\n', "", "DRC-1: give both `then` and `then_ms`, or neither"),
         (FILE, "then_ms = 7\n", "", "DRC-1: give both `then` and `then_ms`, or neither"),
-        (FILE, '"DR-1-1"', '"DR-1-0"', "DRR-1: cites DR-1-0, which no register"),
+        (
+            FILE,
+            'in"\nclauses = ["DR-1-1"',
+            'in"\nclauses = ["DR-1-0"',
+            "DRR-1: cites DR-1-0, which no register",
+        ),
     ],
 )
 def test_a_contradiction_is_found(timed: Any, file: str, old: str, new: str, expected: str) -> None:

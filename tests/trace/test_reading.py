@@ -258,10 +258,10 @@ COPIES = 'copies = { one = "33CC", other = "0001", compares = ["ReadAuthorizatio
             "plc: copies: plc has no output that it remembers",
         ),
         ('["ReadAuthorization", "MW01"]', '["MW03", "MW03"]', "plc: copies: plc has no input 'MW03'"),
-        ('id = "hmi"\n', f'id = "hmi"\n{COPIES}', "hmi: copies: hmi has no output that it remembers"),
+        ("[target.hmi]\n", f"[target.hmi]\n{COPIES}", "hmi: copies: hmi has no output that it remembers"),
         (
-            'id = "key_flows"\n',
-            f'id = "key_flows"\n{COPIES}',
+            "[target.key_flows]\n",
+            f"[target.key_flows]\n{COPIES}",
             "key_flows: copies: belongs to a target of one",
         ),
     ],
