@@ -59,8 +59,8 @@ def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copytree(ROOT / "spec" / NAME, tmp_path / "spec" / NAME)
     for file in ("safety.toml", "killers.toml"):
         path = tmp_path / "spec" / NAME / file
-        head, *rows = re.split(r"(?m)^(?=\[\[(?:property|killer)\]\]$)", path.read_text("utf-8"))
-        kept = [row for row in rows if any(f'= "{id}"\n' in row for id in KEPT)]
+        head, *rows = re.split(r"(?m)^(?=\[\[(?:property\]\]|killer\.))", path.read_text("utf-8"))
+        kept = [row for row in rows if any(f'= "{id}"\n' in row or f".{id}]]" in row for id in KEPT)]
         assert len(kept) == len(KEPT)
         path.write_text(head + "".join(kept), "utf-8")
     (tmp_path / "spec" / NAME / "tlc.toml").unlink()  # its runs ask for properties that are not kept
