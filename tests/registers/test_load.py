@@ -52,7 +52,7 @@ def paper(tree: Any) -> str:
     return str(text[: text.index("[[clause]]")])
 
 
-def test_rows_by_their_ids_take_from_the_default_what_they_leave_out(tree: Any) -> None:
+def test_rows_by_id_take_the_rest_from_the_default(tree: Any) -> None:
     tree.write("spec/door/clauses.toml", paper(tree) + KEYED)
     first, second = load_document(tree.root, "door").clauses
     assert (first.id, first.kind, first.device) == ("DR-1-1", "behaviour", ("latch",))

@@ -157,7 +157,7 @@ def made_tree(root: Path, rows: str = ROWS) -> Path:
     return root
 
 
-def test_a_cfg_is_made_of_its_row_the_constants_and_the_default(tmp_path: Path) -> None:
+def test_a_cfg_is_made_of_row_constants_and_default(tmp_path: Path) -> None:
     root = made_tree(tmp_path)
     toy, less, negative = load_runs(root, "toy")
     cfg = parse_cfg(cfg_text(root, less), "x.cfg")

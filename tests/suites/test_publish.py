@@ -45,7 +45,7 @@ def test_what_was_built_is_published_unless_it_is_the_same(
     assert files[0].read_bytes() == packed_otherwise
 
 
-def test_a_file_with_the_same_lines_is_kept_however_it_is_packed(tmp_path: Path) -> None:
+def test_a_file_with_the_same_lines_is_kept(tmp_path: Path) -> None:
     def packed(name: str, level: int, case: str = "{}") -> Path:
         (tmp_path / name).write_bytes(gzip.compress(f'{{"cases": 1}}\n{case}\n'.encode(), level))
         return tmp_path / name
