@@ -33,7 +33,11 @@ EDITS = [pytest.param(*edit, marks=[pytest.mark.long] if at % 6 else []) for at,
 BOUNDS = sorted(
     {(name, killer.run) for name, killers in KILLERS.items() for killer in killers.edits.values()}
 )
-SMALLER = [(name, bounds) for name, bounds in BOUNDS if bounds in KILLERS[name].bounds]
+SMALLER = [
+    pytest.param(name, bounds, marks=[pytest.mark.long] * bool(at % 3))
+    for at, (name, bounds) in enumerate(BOUNDS)
+    if bounds in KILLERS[name].bounds
+]
 
 
 @pytest.mark.sampled(24)
