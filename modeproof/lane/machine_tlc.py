@@ -22,7 +22,7 @@ from modeproof.tlc.toolchain import find_toolchain
 FOLDER = "machine_cell"
 HEAP_MB, TIMEOUT_S = 2048, 900
 FEW_STATES = 150_000
-"""Of generated states: a run that had fewer with the shipped wiring is a small one (SMALL_HEAP_MB)."""
+"""Of generated states: a run that had fewer with the shipped wiring needs little heap (SMALL_HEAP_MB)."""
 
 
 def run(args: argparse.Namespace) -> int:
