@@ -22,7 +22,7 @@ ORDINARY = frozenset({"ERROR"})
 
 @dataclass(frozen=True)
 class Rule:
-    """Which of our folders and files those below a folder may import; `stdlib_only` forbids other packages."""
+    """Which of our folders and files those below a folder may import; `stdlib_only`: no other packages."""
 
     folder: str
     allowed: tuple[str, ...]
