@@ -13,7 +13,7 @@ import pytest
 from xdist.scheduler import LoadScopeScheduling
 
 HERE = Path(__file__).resolve().parent
-# Modules beside the tests assert too, and say with what values it failed. This must come before they are imported.
+# Modules beside the tests assert too and show their values. This must come before they are imported.
 pytest.register_assert_rewrite(*(f"tests.{path.stem}" for path in HERE.iterdir()))
 
 from tests.any_machine import PATIENCE_S, no_hurry  # noqa: E402
