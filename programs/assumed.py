@@ -1,4 +1,4 @@
-"""What tools do differently with the standard blocks, for those that a program uses."""
+"""What a verdict takes as given: what tools do differently with blocks, and what a source leaves open."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ COUNT = "counters count on to the limits of their type; some tools stop at PV an
 
 
 def assumed(source: Source, unit: Unit) -> Iterator[str]:
-    """One sentence for each such block in a unit or below it."""
+    """One sentence for each such block in a unit or below it, and for what its reader noted."""
     used: set[str] = set()
     for found in reached(source, unit, ()):
+        yield from found.notes
         for variable in found.variables.values():
             used |= {block.upper() for block in blocks_in(variable.type)} & set(BLOCKS)
     if "F_TRIG" in used:

@@ -57,7 +57,7 @@ def check_function(unit: Unit) -> None:
     """Refuse a FUNCTION that remembers something, or whose pins are not single values."""
     for variable in unit.variables.values():
         handed = variable.section in ("input", "output", "in_out")
-        if not isinstance(variable.type, Scalar | Array) or variable.section == "retain":
+        if not isinstance(variable.type, Scalar | Array) or variable.retained:
             raise variable.place.refuse(f"{variable.name}: a FUNCTION has plain variables here")
         if handed and not isinstance(variable.type, Scalar):
             raise variable.place.refuse(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from programs.attributes import dropped, refusal, retained
 from programs.markup import Element
 from programs.tree import Expression, Index, Member, Name, Place
 
@@ -88,6 +89,21 @@ def harmless(element: Element) -> None:
         name = data.attributes.get("name", "?")
         if name.rpartition("/")[2].lower() not in HARMLESS:
             raise data.place.refuse(f"addData {name!r} may change what the program does: it is not supported")
+        for part in (part for inner in data.all("BuildProperties") for part in inner.children):
+            if part.name != "LinkAlways":
+                raise part.place.refuse(
+                    f"<{part.name}> may leave this out of the program; it is not supported"
+                )
+    for attribute, value, place in attributes_of(element):
+        if not dropped(attribute, value) and not (element.name == "variable" and retained(attribute)):
+            raise place.refuse(refusal(attribute))
+
+
+def attributes_of(element: Element) -> Iterator[tuple[str, str, Place]]:
+    """The attributes that CODESYS and TwinCAT keep beside an element: name and value."""
+    for data in (child for inner in element.all("addData") for child in inner.children):
+        for one in data.below("Attribute"):
+            yield one.get("Name"), one.attributes.get("Value", ""), one.place
 
 
 def only(element: Element, *names: str) -> None:

@@ -14,7 +14,8 @@ from functools import partial
 
 from modeproof.ground.errors import Unjudged
 from programs.actions import Actions
-from programs.diagrams import harmless, only, truth
+from programs.attributes import retained
+from programs.diagrams import attributes_of, harmless, only, truth
 from programs.gates import Diagram
 from programs.markup import Element, read_xml
 from programs.st import read_text
@@ -169,6 +170,7 @@ def _declare(pou: Element, text: _Text, body: Element) -> None:
             raise variable.place.refuse("the variable has no <type>")
         value = "" if given is None else f" := {_value(given)}"
         name = _identifier(variable, "name")
+        words += [f"{{attribute '{said}'}}" for said, _, _ in attributes_of(variable) if retained(said)]
         text.put(variable.place, f"{' '.join(words)} {name} : {_type(declared)}{value}; END_VAR")
     if body.name == "ST":
         inner = _text_of(body)

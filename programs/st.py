@@ -19,7 +19,7 @@ from programs.addresses import Addresses
 from programs.constants import known
 from programs.st_body import Bodies
 from programs.st_declared import Declared, elements, is_fields, is_list, named, taken_apart
-from programs.st_text import NO_RESULT, prepared
+from programs.st_text import NO_RESULT, RETAINS, prepared
 from programs.standard import BLOCKS
 from programs.terms import leaves
 from programs.tree import (
@@ -116,6 +116,8 @@ class _Reader(Bodies):
         self.spaces: dict[str, str] = {name: space for name, (_, space) in types.items()}
         """The namespace of each type."""
         self.addresses: Addresses | None = None
+        self.retaining: set[int] = set()
+        """The marks RETAINS that were read, by their bytes."""
 
     # ------------------------------------------------------------ declarations
 
@@ -146,6 +148,14 @@ class _Reader(Bodies):
         if self.read != there:
             raise Unjudged(f"{self.file}: {self.read} of {there} statements were read: a defect of ours")
         self.apart.refuse_rest(self.file)
+        for node in _nodes(root):
+            if (
+                node.type == "comment"
+                and self.text(node) == RETAINS
+                and node.start_byte not in self.retaining
+            ):
+                text = "this attribute retains one variable in VAR or VAR_OUTPUT: say which with VAR RETAIN"
+                raise self.refuse(node, text)
         return found
 
     def declarations(self, root: Any) -> Iterator[Unit]:
@@ -205,15 +215,21 @@ class _Reader(Bodies):
         return Unit(name, kind, variables, self.body(body_nodes), self.place(node), enumerations)
 
     def declared(self, section: Any) -> Iterator[Variable]:
-        kind = SECTIONS[section.type]
-        for child in self.named(section):
+        kind, retained = SECTIONS[section.type], False
+        marks: set[int] = set()
+        for child in (child for child in section.children if child.is_named):
+            if child.type == "comment":
+                marks |= {child.start_byte} if self.text(child) == RETAINS else set()
+                continue
             if child.type == "var_qualifier_list":
                 for qualifier in self.named(child):
                     word = self.text(qualifier).upper()
                     if word == "CONSTANT" and kind == "input":
                         continue  # a unit never writes its inputs here
-                    if word in ("CONSTANT", "RETAIN") and kind == "var":
-                        kind = word.lower()
+                    if word == "CONSTANT" and kind == "var":
+                        kind = "constant"
+                    elif word == "RETAIN" and kind in ("var", "output"):
+                        retained = True
                     elif word not in ("NON_RETAIN", "PRIVATE", "PUBLIC", "INTERNAL", "PROTECTED"):
                         raise self.refuse(qualifier, f"{word} is not supported here")
                 continue
@@ -222,20 +238,24 @@ class _Reader(Bodies):
             declared = self.type(self.field(child, "type"), "")
             nodes, place = self.fields(child, "initial_value"), self.place(child)
             initial = self.initial(nodes, self.field(child, "type").end_byte, declared, place)
-            if kind in ("retain", "constant") and any(blocks_in(declared)):
-                raise self.refuse(child, f"{kind.upper()}: an instance of a block is not supported there")
+            kept = retained or bool(marks)
+            if (kept or kind == "constant") and any(blocks_in(declared)):
+                word = "RETAIN" if kept else "CONSTANT"
+                raise self.refuse(child, f"{word}: an instance of a block is not supported there")
+            self.retaining |= marks if kind in ("var", "output") else set()
+            marks = set()
             if len(leaves(declared)) > LONGEST:
                 raise self.refuse(child, f"a variable has at most {LONGEST:,} single values")
             if kind != "in_out" and initial is None and _undecided(declared):
                 raise self.refuse(child, f"{declared.name}: give it a first value; compilers differ here")
             names, own = self.fields(child, "names"), kind
             if (address := self.field(child, "address")) is not None:
-                if self.addresses is None or kind != "var" or len(names) != 1 or initial is not None:
+                if self.addresses is None or kind != "var" or len(names) != 1 or initial is not None or kept:
                     what = "a variable in VAR of a PROGRAM, one alone, without a first value"
                     raise self.refuse(child, f"AT: {what} has an address here")
                 own = self.addresses.section(self.text(address), declared, self.text(names[0]), place)
             for name in names:
-                yield Variable(self.text(name), declared, own, initial, self.place(name))
+                yield Variable(self.text(name), declared, own, initial, self.place(name), kept)
 
     def type(self, node: Any, name: str) -> Type:
         if node.type in ("elementary_type", "identifier"):

@@ -1,7 +1,8 @@
 """A pass over Structured Text that keeps every line where it is: what the grammar does not know otherwise.
 
-Comments of both kinds stay comments, pragmas without a meaning for the scan go, `X.3` and `X.%X3` become a
-member that stands for a bit, USING is taken out and kept. AND_THEN and OR_ELSE get a mark behind AND and OR.
+Comments of both kinds stay comments, pragmas that cannot change what is computed go, one that retains a
+variable becomes a mark before it. `X.3` and `X.%X3` become a member that stands for a bit, USING is taken out
+and kept. AND_THEN and OR_ELSE get a mark behind AND and OR.
 """
 
 from __future__ import annotations
@@ -9,12 +10,15 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
+from programs.attributes import dropped, refusal, retained
 from programs.tree import SCALARS, Place
 
 BIT = "__BIT"
 """Begins the name that stands for a bit of a bit string; no other name may begin so."""
 THEN = "(*\x01*)"
 """Behind AND and OR: the right side counts only where the left one leaves it open."""
+RETAINS = "(*\x02*)"
+"""Before a variable that holds any value at power-up."""
 NO_RESULT = "VOID"
 _PREFIXES = {*SCALARS, "T", "LTIME", "LT", "DATE", "D", "TOD", "DT"}
 _TOKEN = re.compile(
@@ -37,13 +41,9 @@ _TOKEN = re.compile(
     """,
     re.VERBOSE | re.DOTALL | re.IGNORECASE,
 )  # fmt: skip
-_WITHOUT_MEANING = re.compile(
-    r"\{\s*(?:(?:end)?region\b|text\b|info\b|warning\b|"
-    r"attribute\s*'(?:hide|hide_all_locals|symbol|qualified_only|strict|to_string|obsolete|monitoring|"
-    r"linkalways|reflection|displaymode|tc\w+|opc[\w.]*|analysis\S*)'"
-    r").*\}",
-    re.IGNORECASE | re.DOTALL,
-)
+_SAID = re.compile(r"\{\s*(?:(?:end)?region|text|info|warning)\b.*\}", re.IGNORECASE | re.DOTALL)
+"""What a compiler prints or folds."""
+_ATTRIBUTE = re.compile(r"\{\s*attribute\s*'([^']*)'(?:\s*:=\s*'([^']*)')?\s*\}", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -82,10 +82,7 @@ def _changed(match: re.Match[str], kind: str, place: Place) -> str:
         case "open":
             raise place.refuse(f"{found} begins a comment that does not end")
         case "pragma":
-            if not _WITHOUT_MEANING.fullmatch(found):
-                shown = " ".join(found.split())[:50]
-                raise place.refuse(f"pragma {shown} may change what the program does; take it out")
-            return _blank(found)
+            return _pragma(found, place)
         case "using" | "based":
             return _blank(found) if kind == "using" else ")" + _blank(found[1:])
         case "time":
@@ -106,9 +103,21 @@ def _changed(match: re.Match[str], kind: str, place: Place) -> str:
             return found.partition("_")[0] + THEN
         case "word" if found.upper().startswith(BIT):
             raise place.refuse(f"{found}: give this another name")
-    if "\x01" in found:
+    if "\x01" in found or "\x02" in found:
         raise place.refuse("a control character is not expected here")
     return found
+
+
+def _pragma(found: str, place: Place) -> str:
+    attribute = _ATTRIBUTE.fullmatch(found)
+    if attribute is None and not _SAID.fullmatch(found):
+        shown = " ".join(found.split())[:50]
+        raise place.refuse(f"pragma {shown} may change what the program does; take it out")
+    if attribute is not None and retained(attribute[1]):
+        return RETAINS + _blank(found)
+    if attribute is not None and not dropped(attribute[1], attribute[2] or ""):
+        raise place.refuse(refusal(attribute[1]))
+    return _blank(found)
 
 
 def _blank(text: str) -> str:

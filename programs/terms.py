@@ -22,7 +22,7 @@ INT = Scalar("DINT", "int", -(2**31), 2**31 - 1)
 
 @dataclass(frozen=True)
 class Slot:
-    """One single value of memory: its path, its type, its value at power-up (None: any, RETAIN)."""
+    """One single value of memory: its path, its type, its value at power-up (None: any, it is retained)."""
 
     path: str
     type: Scalar
@@ -63,7 +63,7 @@ def slots(source: Source, unit: Unit, above: str = "") -> Iterator[Slot]:
         given = variable.section == "input" and not above
         for place, kind, initial in cells(variable.type, f"{above}{key}", variable.initial):
             if isinstance(kind, Scalar):
-                value = None if variable.section == "retain" else default(kind, initial)
+                value = None if variable.retained else default(kind, initial)
                 yield Slot(place, kind, value, variable.section, given)
             elif kind.block.upper() in source.units:
                 yield from slots(source, source.units[kind.block.upper()], f"{place}.")

@@ -321,7 +321,7 @@ Body = tuple[Statement, ...]
 class Variable:
     """One declared variable.
 
-    section: input, output, in_out, var, temp, constant or retain.
+    section: input, output, in_out, var, temp or constant.
     """
 
     name: str
@@ -331,6 +331,8 @@ class Variable:
     """bool, int, or a tuple: of the elements of an array, or of the names (in upper case) and values of the
     members of a structure; None: the default of its type."""
     place: Place
+    retained: bool = False
+    """It may hold any value at power-up, such as that from before."""
 
 
 class Device(Protocol):
@@ -364,6 +366,8 @@ class Unit:
     namespace: str = ""
     using: tuple[tuple[str, Place], ...] = ()
     """The namespaces whose names its file uses, and where it says so."""
+    notes: tuple[str, ...] = ()
+    """What the source leaves open and was taken as said here, one sentence each."""
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""

@@ -49,6 +49,7 @@ RULES = (
             "modeproof.registers",
             "modeproof.ground.evidence",
             "modeproof.ground.errors",
+            "modeproof.ground.meaning",
             "modeproof.ground.places",
             "modeproof.ground.progress",
             *("modeproof.ground.proofs", "modeproof.tlc.again", "modeproof.graph.equal"),  # judged again
@@ -59,6 +60,7 @@ RULES = (
         (
             "modeproof.registers",
             *("modeproof.ground.errors", "modeproof.ground.evidence.files"),
+            *("modeproof.ground.comments", "modeproof.ground.meaning"),
             *("modeproof.ground.places", "modeproof.ground.progress", "modeproof.ground.reason"),
         ),
     ),

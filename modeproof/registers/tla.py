@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from modeproof.ground.comments import split
 from modeproof.registers.files import read_text, shown
 
 WORD = re.compile(r"[A-Za-z_]\w*")
@@ -100,7 +101,7 @@ def closure(modules: Mapping[str, Module], name: str, instances: bool = True) ->
 @cache
 def scan(text: str, name: str, file: str) -> Module:
     """Read one module; what stands before its header or after its end is not part of it."""
-    code, bare, comments = _split(text)
+    code, bare, comments = split(text)
     header = MODULE.search(bare)
     body_start = header.end() if header else 0
     last = END.search(bare, body_start)
@@ -131,47 +132,6 @@ def scan(text: str, name: str, file: str) -> Module:
         words=frozenset(WORD.findall(bare)),
         stray="\n".join(stray),
     )
-
-
-def _split(text: str) -> tuple[str, str, list[tuple[int, int]]]:
-    """The text without comments, the same without strings, and the spans of the comments."""
-    code, bare = list(text), list(text)
-    comments: list[tuple[int, int]] = []
-    n = 0
-    while n < len(text):
-        end = n
-        if text.startswith("\\*", n):
-            newline = text.find("\n", n)
-            end = len(text) if newline < 0 else newline
-        elif text.startswith("(*", n):
-            end = _block_end(text, n)
-        elif text[n] == '"':
-            match = re.compile(r'"(?:[^"\\\n]|\\.)*"?').match(text, n)
-            stop = match.end() if match else n + 1
-            bare[n:stop] = [" "] * (stop - n)
-            n = stop
-            continue
-        if end > n:
-            comments.append((n, end))
-            for at in range(n, end):
-                if text[at] != "\n":
-                    code[at] = bare[at] = " "
-            n = end
-        else:
-            n += 1
-    return "".join(code), "".join(bare), comments
-
-
-def _block_end(text: str, start: int) -> int:
-    depth, n = 1, start + 2
-    while n < len(text) and depth:
-        if text.startswith("(*", n):
-            depth, n = depth + 1, n + 2
-        elif text.startswith("*)", n):
-            depth, n = depth - 1, n + 2
-        else:
-            n += 1
-    return n
 
 
 def _spans(bare: str, body_start: int) -> list[tuple[str, int, int]]:

@@ -217,8 +217,9 @@ def test_a_start_without_its_cause_is_refuted() -> None:
     assert found.word == "REFUTED" and len(found.trace.scans) == 3  # type: ignore[union-attr]
 
 
-def test_any_value_is_retained_at_power_up() -> None:
-    found = verdict("q := kept;", "holds = 'q'\nonly_if = 'a'", "VAR RETAIN kept : BOOL; END_VAR")
+@pytest.mark.parametrize("section", ["VAR RETAIN", "VAR {attribute 'TcRetain' := '1'}"])
+def test_any_value_is_retained_at_power_up(section: str) -> None:
+    found = verdict("q := kept;", "holds = 'q'\nonly_if = 'a'", f"{section} kept : BOOL; END_VAR")
     assert words(found)[1] == "REFUTED" and found[1].trace.retained == {"KEPT": True}  # type: ignore[union-attr]
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from modeproof.ground.errors import Unjudged
 from programs.run import Machine
+from programs.terms import slots
 from tests.programs.drawn import machine, pou, project, read, reading, rows, writing
 from tests.programs.fuzz import difference_of_translator
 
@@ -124,3 +125,42 @@ def test_how_boxes_are_written_changes_nothing(tmp_path: Path) -> None:
     assert rows(machine(tmp_path, known + body), "0 1") == "01"
     with pytest.raises(Unjudged, match="only a network's title is known"):
         machine(tmp_path, vendor("fbd/implementationattributes", flag.format("Reversed")) + body)
+
+
+def attributed(name: str, where: str) -> str:
+    """A block with a variable and an attribute, as CODESYS saves it."""
+    given = (
+        '<addData><data name="http://www.3s-software.com/plcopenxml/attributes">'
+        f'<Attributes><Attribute Name="{name}" Value="1"/></Attributes></data></addData>'
+    )
+    made = pou(f"<p {HTML}>q := k; k := a;</p>", "k BOOL", language="ST")
+    at = {"variable": '<variable name="k"><type><BOOL/></type>', "pou": "</interface>"}[where]
+    assert made.count(at) == 1
+    return project(made.replace(at, at + given))
+
+
+def test_an_attribute_beside_a_variable_retains_it(tmp_path: Path) -> None:
+    for name, initial in (("TcRetain", None), ("hide", False)):
+        source = read(attributed(name, "variable"), tmp_path)
+        found = {slot.path: slot.initial for slot in slots(source, source.units["B"])}
+        assert found["K"] is initial
+
+
+@pytest.mark.parametrize(("name", "where"), [("TcRetain", "pou"), ("no_init", "variable")])
+def test_an_attribute_that_may_change_something_is_refused(name: str, where: str, tmp_path: Path) -> None:
+    with pytest.raises(Unjudged, match=f"attribute '{name}' may change what the program does"):
+        read(attributed(name, where), tmp_path)
+
+
+@pytest.mark.parametrize("part", ["ExcludeFromBuild", "External"])
+def test_a_block_that_is_not_built_is_refused(part: str, tmp_path: Path) -> None:
+    data = (
+        '<addData><data name="http://www.3s-software.com/plcopenxml/buildproperties">'
+        f"<BuildProperties><{part}>true</{part}></BuildProperties></data></addData>"
+    )
+    made = project(
+        pou(f"<p {HTML}>q := a;</p>", language="ST").replace("</interface>", "</interface>" + data)
+    )
+    with pytest.raises(Unjudged, match=f"<{part}> may leave this out of the program"):
+        read(made, tmp_path)
+    assert read(made.replace(part, "LinkAlways"), tmp_path)

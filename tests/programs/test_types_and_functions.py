@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from programs import terms
+from modeproof.ground.errors import Unjudged
+from programs import attributes, terms
 from programs.run import Machine, Overflow
 from tests.programs.fuzz import difference_of_text, source_of
 from tests.programs.generate import program
@@ -162,10 +163,50 @@ def test_pragmas_without_a_meaning_and_both_comments_go() -> None:
 
 
 @pytest.mark.parametrize(
-    "pragma", ["{IF defined (a)}", "{attribute 'no_init'}", "{attribute 'initialize_on_call'}"]
+    ("pragma", "cause"),
+    [
+        ("{IF defined (a)}", "pragma {IF defined (a)} may change"),
+        ("{attribute 'no_init'}", "attribute 'no_init' may change"),
+        ("{attribute 'initialize_on_call'}", "attribute 'initialize_on_call' may change"),
+        ("{attribute 'TcCallAfterOutputUpdate'}", "attribute 'TcCallAfterOutputUpdate' may change"),
+        ("{attribute 'TcSwapWord'}", "attribute 'TcSwapWord' may change"),
+        ("{attribute 'hide' 'TcRetain'}", "pragma {attribute 'hide' 'TcRetain'} may change"),
+        ("{attribute 'monitoring' := 'call'}", "attribute 'monitoring' may change"),
+        ("{attribute 'symbol' := 'readwrite'}", "attribute 'symbol' lets a client write"),
+        ("{attribute 'OPC.UA.DA' := '1'}", "attribute 'OPC.UA.DA' lets a client write"),
+    ],
 )
-def test_a_pragma_that_may_change_something_is_refused(pragma: str) -> None:
-    assert refusal(BOOL, f"\n{pragma}\ny := in;").startswith(f"b.st:5: pragma {pragma}")
+def test_a_pragma_that_may_change_something_is_refused(pragma: str, cause: str) -> None:
+    assert refusal(BOOL, f"\n{pragma}\ny := in;").startswith(f"b.st:5: {cause}")
+
+
+@pytest.mark.parametrize("pragma", sorted(attributes.RETAINED))
+def test_an_attribute_that_retains_is_read_as_retain(pragma: str) -> None:
+    declared = f"VAR {{attribute '{pragma}' := '1'}} {{attribute 'hide'}}\n a, b : INT := 3; c : INT; END_VAR"
+    source = source_of(f"{HEAD}{BOOL}{declared} y := a = c;{END}")
+    found = {slot.path: slot.initial for slot in terms.slots(source, source.units["B"])}
+    assert (found["A"], found["B"], found["C"]) == (None, None, 0)
+
+
+def test_an_attribute_that_retains_a_block_is_refused() -> None:
+    declared = BOOL + "VAR {attribute 'TcRetain' := '1'} t : TON; END_VAR"
+    assert "RETAIN: an instance of a block is not supported" in refusal(declared, "y := in;")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{a}" + HEAD + BOOL + "y := in;" + END,
+        HEAD + BOOL + "{a} VAR k : BOOL; END_VAR y := k;" + END,
+        HEAD + BOOL + "VAR k : BOOL; {a} END_VAR y := k;" + END,
+        HEAD + BOOL + "VAR_TEMP {a} k : BOOL; END_VAR y := k;" + END,
+        HEAD + BOOL + "VAR CONSTANT {a} k : BOOL := TRUE; END_VAR y := k;" + END,
+        "TYPE s : STRUCT {a} k : BOOL; END_STRUCT; END_TYPE " + HEAD + BOOL + "y := in;" + END,
+    ],
+)
+def test_an_attribute_that_retains_what_is_not_clear_is_refused(text: str) -> None:
+    with pytest.raises(Unjudged, match="this attribute retains one variable in VAR or VAR_OUTPUT"):
+        source_of(text.replace("{a}", "{attribute 'TcRetain' := '1'}"))
 
 
 def test_retained_and_persistent_variables_begin_anywhere() -> None:
