@@ -187,10 +187,10 @@ def a_difference_names_the_last_step_that_moves_the_output(kit: Kit) -> None:
 
 
 def outputs_that_are_not_seen_cover_nothing(kit: Kit) -> None:
-    cases = [case([(0, True, True), (0, True, True), (0, False, True)])]
+    cases = [case([(0, True, True), (0, True, True), (0, True, True), (0, False, True)])]
     blind = lambda: Spoiled({}, unobserved=["B"])  # noqa: E731
     verdict = kit.run(suite(cases, contract=None), blind)
-    assert verdict.covered["Fire"] == (0, 1) and verdict.covered["Arm"] == (1, 1)
+    assert verdict.covered["Fire"] == (0, 1) and verdict.covered["Arm"] == verdict.covered["Hold"] == (1, 1)
     assert verdict.unobserved == ("B",) and verdict.not_compared == ("CODE",) and verdict.outputs == (1, 2)
     blind = lambda: Spoiled({}, unobserved=["A", "B"])  # noqa: E731
     verdict = kit.run(suite(cases, contract=None), blind, codes=True)
@@ -240,6 +240,27 @@ def a_property_that_fails_is_named_with_what_it_rests_on(kit: Kit) -> None:
     assert found.broken == "BNeedsGo" and found.expected == {"B": False}
 
 
+def a_property_is_shown_with_its_own_outputs_alone(kit: Kit) -> None:
+    never = {"id": "P", "says": "", "clauses": [], "when": "True", "holds": "A"}
+    of = suite([case([(0, True, True)])], ["monitor"], {"constants": {}, "rules": [], "properties": [never]})
+    (found,) = kit.run(of, lambda: Spoiled({(1, "A"): False, (1, "B"): True}), "monitor").differences
+    assert (found.expected, found.got) == ({"A": True}, {"A": False})
+
+
+def what_settles_is_not_compared_before(kit: Kit) -> None:
+    of = suite([case([(0, True, False), (0, True, True)])], ["exact"], None)
+    odd = {(1, "B"): True}
+    for start in (
+        lambda: Spoiled(odd),
+        lambda: Wired(Spoiled(odd)),
+        lambda: Wired(Spoiled(odd), lists=False),
+    ):
+        verdict = kit.run(of, start)  # type: ignore[arg-type]
+        assert (verdict.word, verdict.compared) == ("CONFORMS", 1)
+    late = suite([requested(of.given[0], 0)], ["exact"], None)
+    assert kit.run(late, lambda: Wired(Spoiled(odd))).word == "CONFORMS"
+
+
 def where_nothing_differs_what_the_property_rests_on_is_shown(kit: Kit) -> None:
     never = {
         "constants": {},
@@ -259,23 +280,27 @@ def the_monitor_says_what_was_put(kit: Kit) -> None:
         [case([(0, True, True), (0, True, True)]), case([(10, True, True), (0, True, True)])], ["monitor"]
     )
     verdict = kit.run(of, Program, "monitor")
-    assert (verdict.word, verdict.properties) == ("CONFORMS", {"BNeedsGo": 2, "AFirst": 2})
+    assert (verdict.word, verdict.properties) == ("CONFORMS", {"BNeedsGo": 2, "AFirst": 2, "BLasts": 0})
     assert verdict.compared == 4 and verdict.scans == 4 and verdict.cases_total == 2
     dark = {(n, "B"): False for n in range(1, 9)}
     verdict = kit.run(of, lambda: Spoiled(dark), "monitor")
-    assert verdict.word == "UNJUDGED" and verdict.reason.startswith("2 of 2 safety properties were never put")
+    assert verdict.word == "UNJUDGED" and verdict.reason.startswith("3 of 3 safety properties were never put")
     half = {(n, "A"): False for n in range(1, 9)}
     verdict = kit.run(of, lambda: Spoiled(half), "monitor")
-    assert verdict.reason.startswith("1 of 2 safety properties") and verdict.reason.endswith(": AFirst")
+    assert verdict.reason.startswith("1 of 3 safety properties") and verdict.reason.endswith(": AFirst")
     few = suite([case([(0, True, True), (0, True, True), (0, False, True)])], ["monitor"])
     verdict = kit.run(few, Program, "monitor")
     assert verdict.word == "CONFORMS", "no case of the suite puts the other one to a right program"
     verdict = kit.run(of, lambda: Spoiled({}, unobserved=["A"]), "monitor")
-    assert verdict.word == "CONFORMS" and verdict.unjudged == ("AFirst",)
+    assert verdict.word == "CONFORMS" and verdict.unjudged == ("AFirst", "BLasts")
     verdict = kit.run(of, lambda: Spoiled({}, unobserved=["B"]), "monitor")
     assert "no safety property can be judged" in verdict.reason
     verdict = kit.run(replace(of, header={**of.header, "contract": None}), Program, "monitor")
     assert "no safety property can be judged" in verdict.reason
+    lowered = case([(0, True, True), (0, True, True), (0, False, True)])
+    stuck = {(n, "B"): False for n in range(3, 9)}
+    verdict = kit.run(suite([lowered], ["monitor"]), lambda: Spoiled(stuck), "monitor")
+    assert verdict.reason.startswith("1 of 3 safety properties") and verdict.reason.endswith(": BLasts")
     refused = suite([requested(of.given[1], 1), *of.given], ["monitor"])
     assert kit.run(refused, lambda: Wired(Spoiled(half)), "monitor").word == "UNJUDGED"
 
@@ -319,6 +344,10 @@ def times_are_those_of_the_case_and_longer_where_asked(kit: Kit) -> None:
     assert of_run() == [{}, 10, 250, 7]
     assert of_run("exact", slow=3) == [{"T_ms": 1500}, 30, 750, 21]
     assert of_run("settled") == [{}, 10, 250, 0, 0, 7, 0, 0]
+    held = replace(of, given=(case([(10, True, False), (0, True, True)]),))
+    sent.clear()
+    kit.run(held, Noting, "settled", hold_ms=5)
+    assert sent[1:] == [{}, 10, 5, 5, 5]
     assert of_run("settled", latency=3, hold_ms=5) == [{}, 10, 250, 5, 5, 5, 5, 7, 5, 5, 5, 5, 5]
     assert of_run("settled", slow=2) == [{"T_ms": 1000}, 20, 500, 0, 0, 14, 0, 0]
     bare = replace(of, given=(replace(of.given[0], params={"T_ms": 300, "N": 4}),))
@@ -396,6 +425,16 @@ def an_answer_of_another_form_is_unjudged(kit: Kit) -> None:
         assert "true or false expected, got 1" in reason(lambda out: {**out, "A": 1}, relation)
         assert "hex digits" in reason(lambda out: {**out, "CODE": 1}, relation, codes=True)
     place = f"{of.given[0].id}, scan 2"
+    third = type("Third", (Odd,), {"answer": staticmethod(lambda out: 3)})
+    assert kit.run(of, lambda: Wired(third())).reason.startswith(f"{place}: out must be")
+    held = kit.run(of, lambda: Wired(third()), "settled").reason
+    assert held.startswith(f"{of.given[0].id}, scan 1, held for 1 scans: out must be"), held
+    deaf = type("Deaf", (Wired,), {"scans": lambda self, scans: [][1]})
+    assert kit.run(of, lambda: deaf(Program())).reason.startswith(
+        f"{of.given[0].id}, scan 1 to 3: IndexError"
+    )
+    held = kit.run(of, lambda: deaf(Program()), "settled").reason
+    assert held.startswith(f"{of.given[0].id}, scan 1, held for 0 scans and more: IndexError"), held
     assert reason(lambda out: 3, "exact").startswith(f"{place}: ")
     assert reason(lambda out: 3, "settled").startswith(f"{of.given[0].id}, scan 1, held for 1 scans: ")
 
@@ -606,7 +645,7 @@ def several_at_once_judge_alike(kit: Kit) -> None:
         assert (verdict.word, verdict.cases, verdict.properties) == (
             "CONFORMS",
             9,
-            {"BNeedsGo": 9, "AFirst": 9},
+            {"BNeedsGo": 9, "AFirst": 9, "BLasts": 0},
         )
         assert len(made) == jobs and all(one.program.closed == 1 for one in made)
         assert kit.run(of, lambda: Spoiled({(2, "B"): False}), jobs=jobs).word == "DIFFERS"
@@ -738,6 +777,10 @@ def where_nothing_is_expected_any_scan_may_be_left_out(kit: Kit) -> None:
 
     (found,) = kit.run(of, Eager, "monitor", effort=40).differences
     assert (found.broken, found.part, found.confirmed) == ("AFirst", "6", True)
+    for effort, runs in ((0, 1), (1, 2), (2, 3), (3, 4)):
+        tried: list[Program] = []
+        kit.run(of, lambda tried=tried: tried.append(Eager()) or tried[0], "monitor", effort=effort)
+        assert tried[0].resets == 1 + runs, (effort, tried[0].resets)
 
 
 def only_the_first_of_a_cause_is_made_short(kit: Kit) -> None:

@@ -38,6 +38,13 @@ CONTRACT = {
             "holds": "True in asked",
         },
         {"id": "AFirst", "says": "A.", "clauses": ["S-8"], "when": "B and not was_B and A", "holds": "was_A"},
+        {
+            "id": "BLasts",
+            "says": "BL.",
+            "clauses": [],
+            "when": "was_A and was_B and not A and B",
+            "holds": "not go or True",
+        },
     ],
 }
 
