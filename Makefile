@@ -18,12 +18,13 @@ verify: $(STAMP) $(GRAMMAR)
 smoke: $(STAMP) $(GRAMMAR)
 	@$(PY) -m modeproof verify --lane smoke
 
-# Hours: every run of TLC, and every mutant by rule. What fits already is kept, so it can be stopped and started again.
+# Hours: every run of TLC, every mutant by rule, every edit of our wiring. What fits already is kept, so it can be stopped and started again.
 exhaustive: $(STAMP) $(GRAMMAR)
 	@$(PY) -m modeproof check --lane exhaustive --resume
 	@$(PY) -m modeproof mutate spec
 	@$(PY) -m modeproof mutate impl
 	@$(PY) -m modeproof mutate impl --judge vectors
+	@$(PY) -m modeproof machine --trial
 
 # Two processes; tests that share what is made once are in one of them (tests/groups.py). The first tier sees every kind of
 # check fail once; the second (marked deep) has every planted fault, samples of the campaigns and the compiled programs.

@@ -5,18 +5,20 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from programs.awl import beside, read_awl
 from programs.namespaces import resolved
 from programs.plcopen import Lower, read_plcopen
-from programs.scl import structured_text
+from programs.scl import open_at_power_up, structured_text
 from programs.st import KnownTypes, read_text, types_in
 from programs.standard import BLOCKS
 from programs.tree import Source, Unit
 
 STATEMENT_LIST = (".awl", ".stl")
+NOT_KEPT = "the instance data block of {} is not retentive, which the source leaves open"
 LARGEST = 1_000_000
 """Bytes of a source file."""
 
@@ -129,4 +131,12 @@ def _read(
         return read_plcopen(text, str(path))
     if path.suffix.lower() in STATEMENT_LIST:
         return [(unit, None) for unit in read_awl(path)], {}
-    return [(unit, None) for unit in read_text(_plain(text, path), str(path), types)], {}
+    units = read_text(_plain(text, path), str(path), types)
+    if path.suffix.lower() == ".scl":
+        units = [replace(unit, fresh=False) for unit in units]
+        doubtful = open_at_power_up(text.decode("utf-8-sig"))
+        units = [
+            replace(unit, notes=(NOT_KEPT.format(unit.name),)) if unit.name.upper() in doubtful else unit
+            for unit in units
+        ]
+    return [(unit, None) for unit in units], {}

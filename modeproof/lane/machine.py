@@ -25,7 +25,7 @@ MODELS = "tlc.toml"
 ROOMS = ("programs", "proofs", "refimpl")
 """Whose Python a verdict on a machine rests on."""
 FILES = ("program", "picture", "model")
-WORKS = (("vectors", "publish"), ("tlc",), ("trial",), ("killers",), ("evidence",))
+WORKS = (("vectors",), ("tlc",), ("trial",), ("killers",), ("evidence",))
 """What is done in the place of a judgement; those in a row are one."""
 JUDGED = ("json", "junit", "recheck")
 """What belongs to a judgement."""
@@ -74,9 +74,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="write test vectors of the machine there, for `conform`",
     )
-    parser.add_argument(
-        "--publish", action="store_true", help="write those of the shipped wiring to vectors/"
-    )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
     parser.add_argument("--model", type=Path, metavar="FILE", help="write the wiring as a TLA+ module there")
     parser.add_argument(
@@ -93,7 +90,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="PART",
         help="judge edits of the wiring whose name has PART in it",
     )
-    parser.add_argument("--record", action="store_true", help="with --trial: write trial.toml")
     parser.add_argument(
         "--killers",
         action="store_true",
@@ -201,8 +197,6 @@ def _look(args: argparse.Namespace) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdicts. Raises Unjudged."""
     _look(args)
-    if args.record and args.trial != "":
-        raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
     others = [name for name in ("file", "properties", "use") if getattr(args, name) is not None]
     if others and (args.evidence or args.killers):
         raise Unjudged("machine: --evidence and --killers are about the project's own files; leave yours out")
@@ -214,8 +208,6 @@ def run(args: argparse.Namespace) -> int:
             if not record["as_expected"]:
                 print(f"NOT AS EXPECTED  {record['reason']}")
         return max(map(status_of, records), default=2)
-    if args.publish and (args.file, args.use, args.vectors) != (None, None, None):
-        raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
     try:

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import within
 
 SCHEMA_VERSION = 1
 _OF_THE_RUN = frozenset({"started", "seconds", "machine", "tools", "command"})
@@ -40,7 +41,7 @@ def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
     found: dict[str, str] = {}
     for path in paths:
         try:
-            found[path.resolve().relative_to(place.resolve()).as_posix()] = sha256(path)
+            found[within(place, path)] = sha256(path)
         except ValueError:
             raise Unjudged(f"{path}: lies outside {place}") from None
     return dict(sorted(found.items()))
