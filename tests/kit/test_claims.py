@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.strength.mutant import Mutant, applied
+from modeproof.strength.mutant import Mutant
 from modeproof.strength.python_module import Module
 from modeproof.strength.python_operators import PythonRule, python_mutants
 from tests.kit.claims import CLAIMS, Kit, judge_with
