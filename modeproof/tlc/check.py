@@ -99,7 +99,9 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
     """
     folder = place / "spec" / document
     runs = load_runs(place, document)
-    problems = [f"run {run.id}: {run.cfg} is missing" for run in runs if not (folder / run.cfg).is_file()]
+    problems = [
+        f"run {run.id}: {run.cfg} is missing" for run in runs if run.cfg and not (folder / run.cfg).is_file()
+    ]
     problems += [
         f"run {run.id}: {run.module}.tla is missing"
         for run in runs
@@ -110,7 +112,7 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
         for run in runs
         if not run.properties and run.kind != "WIT"
     ]
-    for run in (based for based in runs if based.base):
+    for run in (made for made in runs if made.base or not made.cfg):
         try:
             module_text(place, run)
         except Unjudged as error:
@@ -262,7 +264,7 @@ def _record(
 ) -> dict[str, Any]:
     folder = place / "spec" / run.document
     paths = {folder / "runs.toml"}
-    made = (place / run.config).with_suffix(".tla") if run.base else place / run.config
+    made = (place / run.config).with_suffix(".tla") if run.base or not run.cfg else place / run.config
     needed = (folder / run.cfg, folder / f"{run.module}.tla", place / run.config, made)
     paths |= {path for path in needed if path.is_file()}
     if outcome is not None:
