@@ -159,6 +159,7 @@ def exact_is_the_first_wrong_scan(kit: Kit) -> None:
         _agree(kit, of, start, "exact", 0, ())
         _agree(kit, of, start, "exact", 0, ("CODE",))
         _agree(kit, of, lambda start=start: Wired(start()), "exact", 0, ())
+        _agree(kit, of, lambda start=start: Wired(start()), "exact", 0, ("CODE",))
         _agree(kit, of, lambda start=start: Wired(start(), lists=False), "exact", 0, ())
 
 
@@ -191,6 +192,7 @@ def outputs_that_are_not_seen_cover_nothing(kit: Kit) -> None:
     blind = lambda: Spoiled({}, unobserved=["B"])  # noqa: E731
     verdict = kit.run(suite(cases, contract=None), blind)
     assert verdict.covered["Fire"] == (0, 1) and verdict.covered["Arm"] == verdict.covered["Hold"] == (1, 1)
+    assert verdict.covered["Lower"] == (1, 2)
     assert verdict.unobserved == ("B",) and verdict.not_compared == ("CODE",) and verdict.outputs == (1, 2)
     blind = lambda: Spoiled({}, unobserved=["A", "B"])  # noqa: E731
     verdict = kit.run(suite(cases, contract=None), blind, codes=True)

@@ -142,7 +142,7 @@ def case(moves: Sequence[tuple[int, bool, bool]], why: str = "by hand", reset: b
     device, scans = Stages(), []
     for dt_ms, go, compared in moves:
         step, to = device.scan(dt_ms, {"go": go})
-        scans.append(Scan(dt_ms, {"go": go}, ROWS[to], step, to, 2 * to + go, compared))
+        scans.append(Scan(dt_ms, {"go": go}, dict(ROWS[to]), step, to, 2 * to + go, compared))
     return Case(case_id("stages", {}, changes(scans)), why, "document", (), {}, 0, OFF, tuple(scans), reset)
 
 

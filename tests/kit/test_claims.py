@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.strength.mutant import Mutant
+from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.python_module import Module
 from modeproof.strength.python_operators import PythonRule, python_mutants
 from tests.kit.claims import CLAIMS, Kit, judge_with
@@ -83,3 +83,52 @@ def broken(name: str, text: str) -> str:
 def test_the_judge_keeps(claim: Callable[[Kit], None]) -> None:
     with judge_with({}) as kit:
         claim(kit)
+
+
+EXPLAINED: dict[str, str] = {
+    "times by the clock, and how long something waits": """
+        judge-51393391 judge-bab97deb judge-04bb6755 judge-8e095e5a judge-ad9faa06 judge-ccc32c17
+        judge-1fbaf871
+        relation-4bbeee97 relation-34d841e7 relation-3f948da3 relation-faeec462 relation-098fba2c""",
+    "a verdict that is not DIFFERS has a reason, or no difference": """
+        judge-31ae0bf1 judge-57a299fa judge-0fa96af2 judge-0e372bdf""",
+    "two questions that are not both answered with yes, in the other order": """
+        judge-4c8a10ee judge-e4e856fa judge-b3c53dba judge-321d362f judge-0aa40231 judge-32236298
+        judge-62b8dade
+        relation-6b497a6b relation-dcaf3ee0 relation-a25a7f87""",
+    "the first scan of a case always shows, so at least one transition does": """
+        judge-67d562b3 judge-3110d602 judge-3bf9771d judge-13bcc697""",
+    "a way round that saves time and gives the same": """
+        judge-a6cbaa63 judge-3d2572a6 judge-ff65bcb9 judge-f0c8fe33
+        relation-390f382c relation-acf0ce47 relation-799728df relation-01166de2 relation-911dcd1c
+        relation-14ce80a2 relation-b2184386 relation-177d0f58 relation-9869fb3f relation-c2f377b6""",
+    "an earlier line has refused what is refused here": """
+        relation-868e30a8 relation-2f1e4733 relation-583612d5 relation-95dd6238 relation-8d1ce505
+        relation-08623fe1
+        relation-eeff641a""",
+    "it stands in no message and no verdict": """
+        relation-cd0b4e00 relation-78915529 relation-5d547c50 relation-5910364b relation-00dad8c3
+        relation-07c1c148 judge-a44b9cdd judge-05709487 judge-11ce6320""",
+    "a machine's own vectors (tests/kit/test_machine.py), real time, and rules over the past": """
+        judge-014c99c6 judge-92022dd9 judge-42122110 judge-f01247d5 judge-d9258abe""",
+}
+"""The mutants that break no claim, by the reason."""
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("name", ["judge", "relation", "verdict"])
+def test_each_mutant_of_the_judge_breaks_a_claim(name: str) -> None:
+    lines = (KIT / f"{name}.py").read_text(encoding="utf-8").splitlines()
+    ids = {id for those in EXPLAINED.values() for id in those.split() if id.startswith(name)}
+    left = {one.id: str(one) for one in mutants(name) if not broken(name, applied(lines, one.edit))}
+    assert {id: one for id, one in left.items() if id not in ids} == {}, "these break no claim"
+    assert ids <= {one.id for one in mutants(name)}, "an explanation of a mutant that is gone"
+
+
+def test_a_step_too_few_is_noticed() -> None:
+    """The fault that all tests of the kit once let pass: of several scans the last one is not looked at."""
+    text = (KIT / "judge.py").read_text(encoding="utf-8")
+    right, short = "range(failure.first, failure.at + 1):", "range(failure.first, failure.at):"
+    assert right in text
+    assert broken("judge", text) == ""
+    assert broken("judge", text.replace(right, short)) == "settled_names_the_steps_over_several_scans"
