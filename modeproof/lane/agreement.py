@@ -16,7 +16,7 @@ from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import first_of
-from modeproof.report.again import agreement_problems
+from modeproof.report.evidence_judge import agreement_problems
 
 ID = "agreement"
 

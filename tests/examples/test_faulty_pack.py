@@ -31,7 +31,7 @@ from modeproof.ground.processes import in_forks
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.diagnosis import unseen
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
 from tests.any_machine import PATIENCE_S
 from tests.examples.test_diagnosis import leads_there
