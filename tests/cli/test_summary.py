@@ -65,7 +65,8 @@ def test_a_property_of_another_lane_is_named_and_not_counted() -> None:
 
 def test_a_lane_says_how_many_properties_it_checked() -> None:
     other = PropertyRow("Other", "Other", ("honest",))
-    lines = property_lines([SAFE, other], [tlc("MC_a")], DECLARED)
+    declared = {**DECLARED, "MC_b": {("Other", "honest")}}
+    lines = property_lines([SAFE, other], [tlc("MC_a")], declared)
     said = "properties   1 of 2 checked in this lane, 1 of 1 hold, by environment"
     assert said in total(2, lines, [], 1.0)
     assert "properties   1 of 1 hold, by environment" in total(2, lines[:1], [], 1.0)

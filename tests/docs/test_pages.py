@@ -37,7 +37,7 @@ def test_no_line_is_too_long_and_no_page_too_large(path: Path) -> None:
     assert len(text.encode()) <= LARGEST or path.name == "CHANGELOG.md"
 
 
-def test_a_line_of_one_more_is_found_unless_it_is_code() -> None:
+def test_a_line_of_one_more_is_found() -> None:
     good, bad = "x" * WIDTH, "y" * (WIDTH + 1)
     assert too_long(f"{good}\n{bad}\n```\n{bad}\n```\n| {bad} |\n") == [2, 6]
     assert too_long(f"[{good[4:]}](https://example.org)") == []
@@ -49,7 +49,7 @@ def test_readme_has_at_most_six_hundred_words() -> None:
     assert "```mermaid" in text and words("one ```mermaid\ntwo\n``` three") == 2
 
 
-def test_a_wide_table_becomes_a_list_and_a_narrow_one_stays() -> None:
+def test_a_wide_table_alone_becomes_a_list() -> None:
     narrow = "| a | b |\n|---|---|\n| 1 | 2 |\n"
     assert fitted(narrow) == narrow
     wide = fitted(f"| a | b |\n|---|---|\n| 1 | {'two ' * 60}|\n| 3 |  |\n")

@@ -35,7 +35,7 @@ from tests.kit.stages import (
     walks,
 )
 
-JUDGING = ("verdict", "relation", "shrink", "diagnosis", "judge")
+JUDGING = ("verdict", "relation", "shrink", "diagnosis", "suite_judge")
 """The modules of the kit that make a verdict, each after those that it imports."""
 
 
@@ -73,7 +73,7 @@ def judge_with(texts: Mapping[str, str]) -> Iterator[Kit]:
                 continue
             module = sys.modules[name] = ModuleType(name)
             exec(compile(texts[short], name, "exec"), module.__dict__)
-        yield Kit(*(sys.modules[f"modeproof.kit.{name}"] for name in ("verdict", "relation", "judge")))
+        yield Kit(*(sys.modules[f"modeproof.kit.{name}"] for name in ("verdict", "relation", "suite_judge")))
     finally:
         for name in names:
             sys.modules.pop(name, None)

@@ -17,6 +17,8 @@ from modeproof.strength.python_operators import PythonRule, python_mutants
 from tests.kit.claims import CLAIMS, Kit, judge_with
 
 KIT = Path(__file__).resolve().parents[2] / "modeproof" / "kit"
+FILES = {"judge": "suite_judge", "relation": "relation", "verdict": "verdict"}
+"""The files that are edited, by the names that their mutants have."""
 LONGEST_S = 20
 """An edit that makes the judge wait for ever is noticed by this; the claims together take two seconds."""
 
@@ -36,7 +38,7 @@ class WithMethods(Module):
 
 def mutants(name: str) -> list[Mutant]:
     """The mutants by rule of a module of the kit, but for what only has to do with types."""
-    module = WithMethods(name, (KIT / f"{name}.py").read_text(encoding="utf-8"))
+    module = WithMethods(name, (KIT / f"{FILES[name]}.py").read_text(encoding="utf-8"))
     found = python_mutants(module, module.functions, frozenset(), PythonRule())
     return [
         one.mutant
@@ -66,7 +68,7 @@ def at_most(seconds: int) -> Iterator[None]:
 def broken(name: str, text: str) -> str:
     """The first claim that a judge with this text breaks; nothing where it breaks none."""
     try:
-        with at_most(LONGEST_S), judge_with({name: text}) as kit:
+        with at_most(LONGEST_S), judge_with({FILES[name]: text}) as kit:
             for claim in CLAIMS:
                 try:
                     claim(kit)
@@ -118,7 +120,7 @@ EXPLAINED: dict[str, str] = {
 @pytest.mark.deep
 @pytest.mark.parametrize("name", ["judge", "relation", "verdict"])
 def test_each_mutant_of_the_judge_breaks_a_claim(name: str) -> None:
-    lines = (KIT / f"{name}.py").read_text(encoding="utf-8").splitlines()
+    lines = (KIT / f"{FILES[name]}.py").read_text(encoding="utf-8").splitlines()
     ids = {id for those in EXPLAINED.values() for id in those.split() if id.startswith(name)}
     left = {one.id: str(one) for one in mutants(name) if not broken(name, applied(lines, one.edit))}
     assert {id: one for id, one in left.items() if id not in ids} == {}, "these break no claim"
@@ -127,7 +129,7 @@ def test_each_mutant_of_the_judge_breaks_a_claim(name: str) -> None:
 
 def test_a_step_too_few_is_noticed() -> None:
     """The fault that all tests of the kit once let pass: of several scans the last one is not looked at."""
-    text = (KIT / "judge.py").read_text(encoding="utf-8")
+    text = (KIT / "suite_judge.py").read_text(encoding="utf-8")
     right, short = "range(failure.first, failure.at + 1):", "range(failure.first, failure.at):"
     assert right in text
     assert broken("judge", text) == ""
