@@ -68,13 +68,14 @@ class Theorem:
     """Ids of the response times of the document that it proves; `build` takes their rows in this order."""
 
     def rows(self) -> tuple[Response, ...]:
-        """The rows of response.toml that it proves. Raises TheoremError for an id that is not there."""
+        """The rows of properties.toml that it proves. Raises TheoremError for an id that is not there."""
         if not self.responses:
             return ()
         document = self.build.__module__.split(".")[1]
         found = {row.id: row for row in load_responses(ROOT, document).rows}
         if lost := [name for name in self.responses if name not in found]:
-            raise TheoremError(f"theorem {self.name}: spec/{document}/response.toml has no {', '.join(lost)}")
+            file = f"spec/{document}/properties.toml"
+            raise TheoremError(f"theorem {self.name}: {file} has no {', '.join(lost)}")
         return tuple(found[name] for name in self.responses)
 
     def queries(self) -> tuple[Query, ...]:

@@ -90,8 +90,8 @@ def rendered(document: Document) -> dict[str, str]:
         page_name(name): page(document, read_sources(document), _tables(document)),
         **findings_pages(document),
     }
-    if (document.folder / "scaling.toml").is_file():
-        texts[picture_name(name)] = chart(curves_of(place, name))
+    if curves := curves_of(place, name):
+        texts[picture_name(name)] = chart(curves)
     return texts
 
 

@@ -30,7 +30,7 @@ from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.vector_files import ROOM, unfit
 from modeproof.simulate.recorded import record, unrecorded
 from modeproof.suites.build import make_graphs, published, ready_suite, suite_file
-from modeproof.suites.conform_command import compare_run, comparison_text
+from modeproof.suites.conform_command import compare_run, difference_text
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.publish import publish
 from modeproof.suites.write import NoCases
@@ -192,7 +192,7 @@ def conform(work: Renewal, target: str) -> None:
         found = compare_run(work.tree, run, REFERENCE, work.progress)
         if not found.equal:
             said = f"{target}: specification and reference implementation differ, so nothing is published:"
-            raise Refused(f"{said}\n{comparison_text(run, found)}")
+            raise Refused(f"{said}\n{difference_text(run, found)}")
     work.accepted.add(target)
 
 

@@ -262,7 +262,7 @@ def _builtin(args: argparse.Namespace) -> int:
         for kit_run in runs:
             found.append((kit_run, compare_run(place, kit_run, args.builtin, progress, args.codes)))
     for kit_run, result in found:
-        print(comparison_text(kit_run, result))
+        print(_text(kit_run, result))
     status = max(0 if result.equal else 1 for _, result in found)
     if args.json is not None:
         rows = [{"run": kit_run.id, "verdict": result.verdict, **asdict(result)} for kit_run, result in found]
@@ -352,8 +352,7 @@ def comparison_record(
     )
 
 
-def comparison_text(run: Run, found: Comparison) -> str:
-    """What was compared, step by step, and the shortest way to the first difference."""
+def _text(run: Run, found: Comparison) -> str:
     lines = [f"{run.name} and {found.implementation}"]
     width = max(len(step) for step in found.covered)
     for step, (have, total) in found.covered.items():
@@ -364,10 +363,17 @@ def comparison_text(run: Run, found: Comparison) -> str:
         f"  {found.scans:,} scans, {found.class_scans:,} more with other members of classes; "
         f"{found.implementation_states:,} states of the implementation"
     )
-    for difference in found.differences[:1]:
-        lines += _shown(difference)
-    lines.append(found.summary())
-    return "\n".join(lines)
+    return "\n".join([*lines, *_first(found)])
+
+
+def difference_text(run: Run, found: Comparison) -> str:
+    """The shortest way to the first difference."""
+    return "\n".join([f"{run.name} and {found.implementation}", *_first(found)])
+
+
+def _first(found: Comparison) -> list[str]:
+    shown = [line for difference in found.differences[:1] for line in _shown(difference)]
+    return [*shown, found.summary()]
 
 
 def _shown(difference: Difference) -> list[str]:
