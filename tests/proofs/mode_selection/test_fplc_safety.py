@@ -100,7 +100,7 @@ FAULTS = [
         _state(fplc_safety.words_zero_without_key),
         [
             ("elif c == AWAIT_SELECTION or", "elif c == CLEAR or c == AWAIT_SELECTION or"),
-            ("state=CLEAR, accepted=NONE, authority=NONE,", "state=CLEAR, accepted=NONE,"),
+            ("State(s.params, CLEAR, NONE, NONE,", "State(s.params, CLEAR, NONE, s.authority,"),
         ],
     ),
     (
@@ -211,8 +211,8 @@ FAULTS = [
         fplc_prompt.no_needless_wait,
         [
             (
-                "if output == NO_OUTPUT:\n        return replace(\n            s, state=ONE",
-                "if output == NO_OUTPUT and elapsed > 0:\n        return replace(\n            s, state=ONE",
+                "if output == NO_OUTPUT:\n        return State(s.params, ONE",
+                "if output == NO_OUTPUT and elapsed > 0:\n        return State(s.params, ONE",
             )
         ],
     ),
@@ -248,7 +248,7 @@ FAULTS = [
         "NothingIsKept",
         "AwaitSelection",
         _state(fplc_prompt.nothing_is_kept),
-        [("state=CLEAR, accepted=NONE,", "state=CLEAR,")],
+        [("State(s.params, CLEAR, NONE, NONE,", "State(s.params, CLEAR, s.accepted, NONE,")],
     ),
     (
         "StepsInOrder",
@@ -321,8 +321,8 @@ FAULTS = [
         _kept,
         [
             (
-                "== NO_OUTPUT:\n        return replace(\n            s, state=ONE",
-                "!= ALL_OUTPUTS:\n        return replace(\n            s, state=ONE",
+                "== NO_OUTPUT:\n        return State(s.params, ONE",
+                "!= ALL_OUTPUTS:\n        return State(s.params, ONE",
             )
         ],
     ),
@@ -330,7 +330,7 @@ FAULTS = [
         "NothingWithoutKey",
         "Error",
         _kept,
-        [("state=IDLE, accepted=NONE,", "state=IDLE, accepted=0,")],
+        [("State(s.params, IDLE, NONE, NONE, NONE,", "State(s.params, IDLE, 0, NONE, NONE,")],
     ),
     (
         "ZerosWereSeen",
@@ -354,13 +354,13 @@ FAULTS = [
         "OneOutputAccepted",
         "OneOutput",
         _kept,
-        [("accepted=output,", "accepted=NONE,")],
+        [("State(s.params, AUTHORIZE, output,", "State(s.params, AUTHORIZE, NONE,")],
     ),
     (
         "ValuesInRange",
         "OneOutput",
         _kept,
-        [("accepted=output,", "accepted=5,")],
+        [("State(s.params, AUTHORIZE, output,", "State(s.params, AUTHORIZE, 5,")],
     ),
 ]
 
