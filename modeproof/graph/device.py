@@ -108,7 +108,7 @@ def compared_files(place: Path, run: Run, package: str) -> list[Path]:
     """Every file that a comparison of this run's graph with `package` rests on, for its evidence."""
     folders = [place / package, place / package / run.document]
     code = [path for folder in folders for path in sorted(folder.glob("*.py"))]
-    registers = [place / "spec" / run.document / f"{name}.toml" for name in ("interface", "classes", "runs")]
+    registers = [place / "spec" / run.document / f"{name}.toml" for name in ("interface", "runs")]
     return [path for path in [*code, *registers, graph_file(place, run)] if path.is_file()]
 
 

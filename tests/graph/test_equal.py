@@ -150,7 +150,7 @@ def test_only_existing_files_of_a_comparison_are_listed(tmp_path: Path) -> None:
     wanted = [
         tmp_path / "code" / "errors.py",
         tmp_path / "code" / "toy" / "lamp.py",
-        *(tmp_path / "spec" / "toy" / f"{name}.toml" for name in ("interface", "classes", "runs")),
+        *(tmp_path / "spec" / "toy" / f"{name}.toml" for name in ("interface", "runs")),
         graph_file(tmp_path, run),
     ]
     for path in wanted:
