@@ -17,8 +17,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
+from machines.signal_names import names as leaves
 from machines.wiring import Wiring
-from machines.wiring import names as leaves
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Entry, Text, typed
 from programs.language.tree import Binary, Expression, Member, Name, Place, Unary

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +12,7 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import machines, root
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of, verdict_on_machine
@@ -117,7 +116,9 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
     result: dict[str, Any] = {}
     tools = evidence.solvers()
     try:
-        result = proofs_module("machines.evidence").judged(folder)
+        with needing_solvers():
+            from machines.evidence import judged
+        result = judged(folder)
         result["models"] = []
         if (folder / MODELS).exists():
             toolchain = find_toolchain()
@@ -153,7 +154,9 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
 
 def _models(place: Path, folder: Path) -> Iterator[dict[str, Any]]:
     """The runs of TLC: that each block keeps its contract, and the cell over them. Raises Unjudged."""
-    for task in proofs_module("machines.tlc_runs").tasks(None, folder):
+    with needing_solvers():
+        from machines.tlc_runs import tasks
+    for task in tasks(None, folder):
         verdict, outcome = machine_tlc.judged(place, task, shipped=True)
         counts = outcome.log.counts
         yield {
@@ -172,7 +175,9 @@ def _models(place: Path, folder: Path) -> Iterator[dict[str, Any]]:
 def troubles_of_machine(place: Path, name: str) -> str:
     """What is wrong with it as far as is seen in a second: the reader, and that each property can fall."""
     try:
-        return first_of(proofs_module("machines.evidence").looked_at(place / "spec" / name))
+        with needing_solvers():
+            from machines.evidence import looked_at
+        return first_of(looked_at(place / "spec" / name))
     except Unjudged as error:
         return error.message
 
@@ -211,9 +216,11 @@ def run(args: argparse.Namespace) -> int:
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
     try:
-        importlib.import_module("tree_sitter_iec61131_3_st")
+        import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
         raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
     if args.tlc is not None:
         return machine_tlc.run(args)
-    return int(proofs_module("machines.machine_command").run(args))
+    with needing_solvers():
+        from machines import machine_command
+    return machine_command.run(args)

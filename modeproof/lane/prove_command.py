@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import fnmatch
 import functools
-import importlib
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -20,7 +19,8 @@ from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, build, chosen_documents, root
 from modeproof.ground.processes import Task, in_processes, meanwhile
 from modeproof.ground.progress import Progress
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
+from modeproof.kit.by_name import module_named
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents
@@ -159,7 +159,7 @@ def prove_documents(
         records += made[len(beside) :]
     for document in names:
         if whole and document not in troubles and _has_agreement(place, document):
-            module = importlib.import_module(f"proofs.{document}.agreement")
+            module = module_named(f"proofs.{document}.agreement")
             verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
             records.append(agreement.compare(place, document, module, verdicts, inputs[document], tools))
     return records, troubles
@@ -194,7 +194,7 @@ def _prepared(document: str) -> Iterator[float]:
     begun = time.process_time()
     with contextlib.ExitStack() as stack:
         with contextlib.suppress(Exception):
-            stack.enter_context(importlib.import_module(f"proofs.{document}.prepared").prepared())
+            stack.enter_context(module_named(f"proofs.{document}.prepared").prepared())
         yield time.process_time() - begun
 
 
@@ -203,9 +203,10 @@ def _has_agreement(place: Path, document: str) -> bool:
 
 
 def _theorems_of(document: str) -> list[Any]:
-    theorem = proofs_module("proofs.theorem")
+    with needing_solvers():
+        from proofs import theorem
     # libz3 refuses wrong sorts by itself; its Python layer would check every argument once more.
-    vars(importlib.import_module("z3.z3"))["Z3_DEBUG"] = False
+    vars(module_named("z3.z3"))["Z3_DEBUG"] = False
     try:
         return list(theorem.theorems_of(document))
     except (theorem.TheoremError, ImportError) as error:
@@ -223,7 +224,8 @@ def prove_theorem(
     if str(place) not in sys.path:
         sys.path.insert(0, str(place))
     one = next(theorem for theorem in _theorems_of(document) if theorem.name == name)
-    runner = importlib.import_module("proofs.runner")
+    with needing_solvers():
+        from proofs import runner
     out = build(place) / "proofs" / document
     evidence.discard(place, document, name)
     started = time.time()
