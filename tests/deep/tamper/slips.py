@@ -617,6 +617,13 @@ REGISTERS = (
         "vectors/sf_edm/brief.jsonl.gz: is not in SHA256SUMS",
     ),
     register(
+        "a state has no code",
+        "spec/edm/interface.toml",
+        'InitError = "C100"\n',
+        "",
+        "InitError: each state has a code, and no other",
+    ),
+    register(
         "main runs are moved to the exhaustive lane",
         RUNS,
         "[run.MC_SF_EDM_arbitrary]\n",
@@ -626,6 +633,15 @@ REGISTERS = (
 )
 
 CODE = (
+    Case(
+        "unsafe code is not published, also not in the vectors of the machine",
+        "refimpl/guard_locking/sf_guard_locking.py",
+        "if i.UnlockRequest and i.S_SafetyActive:",
+        "if i.UnlockRequest:",
+        "renew --document guard_locking --quiet",
+        1,
+        "specification and reference implementation differ",
+    ),
     Case(
         "the code ends nothing with Activate",
         "refimpl/edm/sf_edm.py",
