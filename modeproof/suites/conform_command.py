@@ -171,7 +171,7 @@ def _record(
         seconds=verdict.seconds,
         inputs=evidence.hashes(place, inputs),
         result={**about, **as_record(verdict), "says": suite.says},
-        reason="" if verdict.status == 0 else verdict.reason or "the program differs",
+        reason="" if verdict.status == 0 else verdict.reason,
     )
 
 

@@ -2,7 +2,7 @@
 
 It fits when it is as expected, and nothing has changed since: the run's declaration with its pins, every file
 that TLC read, the printed graph. A lane that goes on asks for the same tools too. TLC's own checkpoints are
-not used (docs/decisions.md).
+not used (docs/decisions-models.md).
 """
 
 from __future__ import annotations
