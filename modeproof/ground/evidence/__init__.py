@@ -10,9 +10,9 @@ from modeproof.ground.evidence.files import (
     read_document,
     write,
 )
+from modeproof.ground.evidence.kept import Rests, why_again
 from modeproof.ground.evidence.record import (
     SCHEMA_VERSION,
-    hashes,
     machine,
     make,
     other_tools,
@@ -23,10 +23,12 @@ from modeproof.ground.evidence.record import (
     solvers,
     tool,
 )
+from modeproof.ground.meaning import meanings as hashes
 
 __all__ = [
     "OURS",
     "SCHEMA_VERSION",
+    "Rests",
     "YOURS",
     "discard",
     "discard_undeclared",
@@ -43,5 +45,6 @@ __all__ = [
     "sha256",
     "solvers",
     "tool",
+    "why_again",
     "write",
 ]

@@ -14,9 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.meaning import key
+from modeproof.ground.places import TREE
 
 SCHEMA_VERSION = 1
-_OF_THE_RUN = frozenset({"started", "seconds", "machine", "tools", "command"})
+_OF_THE_RUN = frozenset({"started", "seconds", "machine", "tools", "command", "seal"})
 _OF_TIME_AND_HOST = frozenset(
     {"seconds", "work", "shared", "first_difference_s", "tlc_command", "log", "workers", "heap_mb"}
 )
@@ -30,20 +32,6 @@ def sha256(path: Path) -> str:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError as error:
         raise Unjudged(f"{path}: {error.strerror or error}") from None
-
-
-def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
-    """SHA-256 of each file, by its path relative to the root `place`.
-
-    Raises Unjudged when a file cannot be read or lies outside the root.
-    """
-    found: dict[str, str] = {}
-    for path in paths:
-        try:
-            found[path.resolve().relative_to(place.resolve()).as_posix()] = sha256(path)
-        except ValueError:
-            raise Unjudged(f"{path}: lies outside {place}") from None
-    return dict(sorted(found.items()))
 
 
 def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
@@ -82,7 +70,10 @@ def other_tools(record: Mapping[str, Any]) -> tuple[str, ...]:
     Solvers of another system are other files of the same package, so only those of one like this are.
     """
     alike = all(record["machine"][key] == machine()[key] for key in ("system", "arch"))
-    now = {**own_tools(), **(solvers() if alike else {})}
+    try:
+        now = {**own_tools(*record.get("code", ())), **(solvers() if alike else {})}
+    except Unjudged:  # a module that judged it is there no more
+        now = {"modeproof": tool("another", None)}
     return tuple(
         f"{name} (the tool)"
         for name, entry in record["tools"].items()
@@ -102,15 +93,35 @@ def result_sha256(record: Mapping[str, Any]) -> str:
         return list(map(kept, value)) if isinstance(value, (list, tuple)) else value
 
     found = {key: kept(value) for key, value in record.items() if key not in _OF_THE_RUN}
-    return hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()
+    return _sha256(found)
+
+
+def seal_of(record: Mapping[str, Any]) -> str:
+    """SHA-256 of all that a record says: who edits it without thought is found out."""
+    return _sha256({key: value for key, value in record.items() if key != "seal"})
+
+
+def is_sealed(record: Mapping[str, Any]) -> bool:
+    """Whether a record says what it said when it was written."""
+    return "seal" in record and record["seal"] == seal_of(record)
+
+
+def _sha256(value: Any) -> str:
+    return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
 @cache
-def own_tools() -> dict[str, dict[str, str | None]]:
-    """Version and hash of modeproof itself (all its Python), and the version of Python."""
-    package = Path(__file__).resolve().parents[2]
+def own_tools(*code: str) -> dict[str, dict[str, str | None]]:
+    """Version and hash of modeproof itself, and the version of Python.
+
+    The hash is of the meaning of these modules, and of all of ours that they need; none named: of all Python
+    of the package, byte for byte. Raises Unjudged when a module is not there.
+    """
     digest = hashlib.sha256()
-    for source in sorted(package.rglob("*.py")):
+    if code:
+        digest.update(key(TREE, code).digest.encode())
+    package = TREE / "modeproof"
+    for source in () if code else sorted(package.rglob("*.py")):
         digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")
     try:
         version = metadata.version("modeproof")
@@ -159,14 +170,16 @@ def make(
     strength: str = "",
     inputs: Mapping[str, str] | None = None,
     tools: Mapping[str, Mapping[str, str | None]] | None = None,
+    code: Iterable[str] = (),
     result: Mapping[str, Any] | None = None,
     reason: str = "",
 ) -> dict[str, Any]:
     """One piece of evidence, ready to be written.
 
-    `started` is seconds since the epoch, `seconds` the duration. The machine, the Python and modeproof itself
-    are recorded in every piece.
+    `started` is seconds since the epoch, `seconds` the duration; `inputs` are the meanings of the files that
+    it rests on, `code` the modules of ours that judged. The machine and the Python are recorded in every piece.
     """
+    code = tuple(code)
     return {
         "schema_version": SCHEMA_VERSION,
         "kind": kind,
@@ -181,7 +194,8 @@ def make(
         "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started)),
         "seconds": round(seconds, 3),
         "inputs": dict(inputs or {}),
-        "tools": {**own_tools(), **{name: dict(entry) for name, entry in (tools or {}).items()}},
+        "code": list(code),
+        "tools": {**own_tools(*code), **{name: dict(entry) for name, entry in (tools or {}).items()}},
         "machine": machine(),
         "result": dict(result or {}),
         "reason": " ".join(reason.split()),

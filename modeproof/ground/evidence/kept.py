@@ -1,0 +1,69 @@
+"""Whether a result of an earlier day still stands: what it rests on is the same, and nobody touched it.
+
+It is judged again if it was not as expected; if a file, a tool or a module that judged it means something
+else now; if its evidence, or a file that it made, is not what was written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.record import is_sealed, own_tools
+from modeproof.ground.meaning import meaning
+
+_NO_PART_OF_A_RESULT = frozenset({"start-up cache"})
+"""Tools that make a result come sooner and no other."""
+
+
+@dataclass(frozen=True)
+class Rests:
+    """What a result rests on: the meanings of files by path, the modules that judge it, the tools."""
+
+    inputs: Mapping[str, str]
+    code: tuple[str, ...] = ()
+    tools: Mapping[str, Mapping[str, str | None]] = field(default_factory=dict)
+
+
+def why_again(place: Path, record: Mapping[str, Any], rests: Rests) -> str:
+    """Why a result must be judged again; empty where it stands. Raises Unjudged as `own_tools` does."""
+    if not record["as_expected"]:
+        return f"it was {record['verdict']}, not as expected"
+    if not is_sealed(record):
+        return "its evidence was changed since it was written"
+    for name in sorted({*record["inputs"], *rests.inputs}):
+        if record["inputs"].get(name) != rests.inputs.get(name):
+            return f"{name} has changed"
+    if tuple(record.get("code", ())) != rests.code:
+        return "other modules judge it now"
+    tools = {**own_tools(*rests.code), **rests.tools}
+    for name in sorted({*record["tools"], *tools} - _NO_PART_OF_A_RESULT):
+        if _which(record["tools"].get(name)) != _which(tools.get(name)):
+            return "the code that judges it has changed" if name == "modeproof" else f"{name} is another"
+    return next((f"{name} is not what it made" for name, digest in made(record) if not _is(place / name, digest)), "")
+
+
+def made(record: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """The files that a result left beside its evidence, each with the hash of its meaning."""
+    result = record["result"]
+    graph = result.get("graph", {})
+    if "file" in graph:
+        yield graph["file"], graph["sha256"]
+    yield from result.get("artefacts", {}).items()
+    for query in result.get("queries", ()):
+        yield query["smt2"], query.get("smt2_sha256", "")
+
+
+def _which(entry: Mapping[str, str | None] | None) -> str | None:
+    """The hash of a tool, or its version where it has none."""
+    return None if entry is None else entry["sha256"] or entry["version"]
+
+
+def _is(path: Path, digest: str) -> bool:
+    try:
+        return meaning(path) == digest
+    except Unjudged:
+        return False
