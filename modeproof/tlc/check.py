@@ -6,10 +6,9 @@ import fnmatch
 import hashlib
 import shlex
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from modeproof.ground import evidence
@@ -25,7 +24,6 @@ from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc import children
 from modeproof.tlc.again import declared
-from modeproof.tlc.distributed import Where, run_distributed
 from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
@@ -140,10 +138,8 @@ def read_cfg(place: Path, run: Run) -> tuple[Cfg, str]:
     return parse_cfg(text, f"{run.name}: {run.config}"), hashlib.sha256(text.encode("utf-8")).hexdigest()
 
 
-def check_one(
-    place: Path, run: Run, tools: Toolchain, progress: Progress, where: Where | None = None
-) -> Checked:
-    """Run TLC once, judge the outcome and write the evidence; in distributed mode if `where` says where.
+def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Checked:
+    """Run TLC once, judge the outcome and write the evidence.
 
     A run whose files are missing or that TLC cannot start is UNJUDGED, with evidence that says so. Raises
     Unjudged only when the evidence itself cannot be written.
@@ -166,10 +162,7 @@ def check_one(
             whole = (run.graph.states or 0) + (run.graph.edges or 0) if run.graph is not None else 0
             progress.update(run.id, f"{lines:,} lines of the graph", lines / whole if whole else 0.0)
 
-        if where is None:
-            outcome = run_tlc(place, run, tools, on_progress, on_lines)
-        else:
-            outcome = run_distributed(place, run, cfg, tools, where, on_progress, progress.say)
+        outcome = run_tlc(place, run, tools, on_progress, on_lines)
         judgement = _about_reading(place, run, judge(run, cfg, digest, outcome), outcome)
         if read_cfg(place, run)[1] != digest:
             judgement = Judgement(UNJUDGED, False, f"{run.config} was changed while TLC ran")
@@ -211,22 +204,15 @@ def check_all(
     tools: Toolchain,
     progress: Progress,
     on_checked: Callable[[Checked], None] = lambda checked: None,
-    where: Mapping[str, Where] = MappingProxyType({}),
 ) -> list[Checked]:
-    """Check the runs, as many at once as the machine allows, longest first; results in the order given.
-
-    `where` holds, by their names, the runs that are checked in distributed mode; each has all cores.
-    """
+    """Check the runs, as many at once as the machine allows, longest first; results in the order given."""
     core_limit = cores()
     exhaustive = any(set(run.lanes) == {"exhaustive"} for run in runs)
-    jobs = [
-        Job(run.id, core_limit if run.name in where else _share(run), run.heap_mb, _estimate(place, run))
-        for run in runs
-    ]
+    jobs = [Job(run.id, _share(run), run.heap_mb, _estimate(place, run)) for run in runs]
     progress.expect(len(runs))
 
     def work(index: int) -> Checked:
-        checked = check_one(place, runs[index], tools, progress, where.get(runs[index].name))
+        checked = check_one(place, runs[index], tools, progress)
         on_checked(checked)
         return checked
 
@@ -272,7 +258,6 @@ def _record(
         spec = (place / "spec").resolve()
         parsed = (Path(name) if Path(name).is_absolute() else folder / name for name in outcome.log.files)
         paths |= {path for path in parsed if path.resolve().is_relative_to(spec) and path.is_file()}
-    option = "--distributed " if outcome is not None and outcome.how.get("mode") == "distributed" else ""
     return evidence.make(
         kind="tlc",
         id=run.id,
@@ -282,7 +267,7 @@ def _record(
         as_expected=judgement.as_expected,
         environment=run.environment,
         strength=strength_of(place, run),
-        command=f"modeproof check {option}{run.name}",
+        command=f"modeproof check {run.name}",
         started=started,
         seconds=outcome.seconds if outcome is not None else time.time() - started,
         inputs=evidence.hashes(place, sorted(paths)),
@@ -315,8 +300,6 @@ def _result(
         "collision": log.collision,
         "printed": dict(sorted(log.tags.items())),
     }
-    if outcome.how:
-        result["how"] = dict(outcome.how)
     if judgement.violated:
         result["violated"] = judgement.violated
     if log.trace:

@@ -12,14 +12,12 @@ from modeproof.ground.errors import EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import root
-from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
 from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.load import load_interface
 from modeproof.registers.replay import has_replay, load_replay, meanings
 from modeproof.registers.runs import LANES
-from modeproof.tlc.check import Checked, check_all, kept, read_cfg, register_problems, select
-from modeproof.tlc.distributed import Where, refusal
+from modeproof.tlc.check import Checked, check_all, kept, register_problems, select
 from modeproof.tlc.messages import essence, format_trace
 from modeproof.tlc.repin import Move, apply, cfg_diff, moves
 from modeproof.tlc.resume import why_stale
@@ -35,19 +33,6 @@ def add_parser(commands: Any) -> None:
     )
     check.add_argument("--lane", choices=LANES, help="only runs of this lane")
     check.add_argument("--document", metavar="NAME", help="only runs of this document")
-    spread = check.add_argument_group("TLC's distributed mode (docs/distributed.md)")
-    spread.add_argument("--distributed", action="store_true", help="a server and workers, over RMI")
-    spread.add_argument(
-        "--workers", type=int, metavar="N", help="worker processes on this machine (default: its cores)"
-    )
-    spread.add_argument(
-        "--listen",
-        metavar="ADDRESS[:PORT]",
-        help="where workers of other machines reach the server (default: nobody else can)",
-    )
-    spread.add_argument(
-        "--wait-for", type=int, metavar="N", help="begin when N workers of other machines are there"
-    )
     check.add_argument("--trace", action="store_true", help="show expected counterexamples too")
     check.add_argument("--all-variables", action="store_true", help="show every variable in every state")
     check.add_argument("--list", action="store_true", help="list the runs, run nothing")
@@ -79,15 +64,12 @@ def run(args: argparse.Namespace) -> int:
         return 0
     tools = find_toolchain()
     progress = Progress(quiet=args.quiet)
-    spread = _spread(args, place, runs)
     with only_one(place):
         still = _resumed(args, place, runs, tools, progress)
         again = [run for run in runs if run.name not in still]
         done = list(still.values())
         if again:
-            done += check_all(
-                place, again, tools, progress, lambda checked: progress.say(line_of(checked)), spread
-            )
+            done += check_all(place, again, tools, progress, lambda checked: progress.say(line_of(checked)))
         for checked in done if not args.repin or args.trace else ():
             _show_trace(place, checked, args, tools)
         status: int = max(checked.status for checked in done)
@@ -118,41 +100,6 @@ def _resumed(
         else:
             found[run.name] = kept(place, run)
             progress.say(line_of(found[run.name]))
-    return found
-
-
-def _spread(args: argparse.Namespace, place: Path, runs: Sequence[Any]) -> dict[str, Any]:
-    """Which runs are checked in distributed mode, by their names, and where.
-
-    Of a lane, those that this mode cannot judge are checked as usual, and that is said; a run that was named
-    is refused. Raises Unjudged for that, and for options that do not fit.
-    """
-    given = [name for name in ("workers", "listen", "wait_for") if getattr(args, name) is not None]
-    if not args.distributed:
-        if given:
-            raise Unjudged(f"--{given[0].replace('_', '-')} belongs to --distributed")
-        return {}
-    if args.repin:
-        raise Unjudged("pins are taken from local runs: --repin without --distributed")
-    address, _, port = (args.listen or "").partition(":")
-    if (args.listen is not None and not address) or (port and not (port.isdigit() and 0 < int(port) < 65536)):
-        raise Unjudged(f"--listen takes ADDRESS or ADDRESS:PORT, not {args.listen!r}")
-    waited = args.wait_for or 0
-    workers = cores() if args.workers is None else args.workers
-    if workers < 0 or waited < 0 or workers + waited == 0:
-        raise Unjudged("--workers and --wait-for are 0 or more, and together at least 1")
-    if waited and not address:
-        raise Unjudged("--wait-for needs --listen ADDRESS, under which the others reach this machine")
-    where = Where(workers, address, int(port or 0), waited)
-    found: dict[str, Any] = {}
-    for run in runs:
-        reason = refusal(run, read_cfg(place, run)[0])
-        if reason and args.runs:
-            raise Unjudged(f"{run.name} cannot be judged in distributed mode: {reason}")
-        if reason:
-            print(f"{run.name}: on this machine alone: {reason}")
-        else:
-            found[run.name] = where
     return found
 
 

@@ -52,7 +52,7 @@ def judge(run: Run, cfg: Cfg, cfg_sha256: str, outcome: Outcome) -> Judgement:
     found = _verdict(run, cfg, outcome)
     if not found.judged:
         return found
-    problem = _declaration(run, cfg, cfg_sha256) or outcome.doubt or _expectation(run, found, outcome)
+    problem = _declaration(run, cfg, cfg_sha256) or _expectation(run, found, outcome)
     return replace(found, as_expected=not problem, reason=problem)
 
 

@@ -30,11 +30,6 @@ ASSUMPTION = (2104, 2105)
 OUT_OF_MEMORY = (1001, 1002, 1003)
 GENERAL = 1000
 TRACE = 2121
-SERVER_READY = 7000
-WORKER_REGISTERED = 7001
-WORKER_DISCONNECTED = 7002
-WORKER_STATS = 7003
-BLOCK_TOO_BIG = 7007
 
 _FRAME = re.compile(rb"@!@!@(STARTMSG|ENDMSG) (\d+)(?::(\d+))? @!@!@")
 _COUNTS = re.compile(r"([\d,.]+) states generated.*?([\d,.]+) distinct states found.*?([\d,.]+) states left")

@@ -7,10 +7,10 @@ import shutil
 import subprocess
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build
@@ -54,10 +54,6 @@ class Outcome:
     stopped: bool = False
     broken_off: str = ""
     """Why the run was ended before TLC had finished; empty when it was not."""
-    doubt: str = ""
-    """Why the counts of a finished run are not exact; empty when they are."""
-    how: Mapping[str, Any] = field(default_factory=dict)
-    """What is to be said in the evidence of how TLC was run, besides its command."""
 
 
 def command_line(
