@@ -26,7 +26,6 @@ def compare(
     document: str,
     module: ModuleType,
     verdicts: Mapping[str, str],
-    inputs: Mapping[str, str],
     tools: Mapping[str, Mapping[str, str | None]],
 ) -> dict[str, Any]:
     """Compare the rows with the verdicts on the theorems, by name, and write one piece of evidence.
@@ -58,7 +57,9 @@ def compare(
         command=f"modeproof prove --document {document}",
         started=started,
         seconds=time.time() - started,
-        inputs=inputs,
+        inputs=evidence.hashes(place, sorted((place / "spec" / document).glob("*.toml"))),
+        code=("modeproof.lane.agreement", module.__name__),
+        place=place,
         tools=tools,
         result={"rows": rows, "problems": problems},
         reason=first_of(problems),

@@ -23,7 +23,7 @@ from modeproof.suites.at import every_pair
 from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
-from modeproof.tlc.resume import why_stale
+from modeproof.tlc.rests import why_stale
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
@@ -69,18 +69,11 @@ def ready_suite(
     `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when a graph is
     missing, of another text, or not complete.
     """
+    if (path := current_suite(place, document, target, suite)) is not None:
+        return open_suite(path)
     path = suite_file(place, document, target, suite)
     runs = open_runs(place, document, target)
-    if not runs:
-        raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
     sources = _sources(place, document, [current_graph(place, run) for run in runs])
-    if path.is_file():
-        try:
-            there = open_suite(path)
-            if there.header.get("sources") == sources:
-                return there
-        except KitUnjudged:
-            pass  # a leftover of another version is built anew
     devices = [load_device_graph(place, run) for run in runs]
     if suite in SUITES and SUITES[suite].pairs:
         devices += every_pair(place, document, devices, on_built)
@@ -96,6 +89,23 @@ def ready_suite(
     )
     on_built(f"{target} {suite}: {stats}")
     return open_suite(path)
+
+
+def current_suite(place: Path, document: str, target: str, suite: str) -> Path | None:
+    """The file of a suite that was built of the present text; None: it has to be built.
+
+    Raises Unjudged when a graph is missing or of another text.
+    """
+    path = suite_file(place, document, target, suite)
+    runs = open_runs(place, document, target)
+    if not runs:
+        raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
+    sources = _sources(place, document, [current_graph(place, run) for run in runs])
+    try:
+        there = path.is_file() and open_suite(path).header.get("sources") == sources
+    except KitUnjudged:
+        there = False  # a leftover of another version is built anew
+    return path if there else None
 
 
 def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) -> list[Suite]:

@@ -14,7 +14,7 @@ from modeproof.registers.runs import Run
 from modeproof.tlc.judge import REACHED, VIOLATED, judge
 from modeproof.tlc.messages import Counts, Log, TraceState
 from modeproof.tlc.process import Outcome
-from modeproof.tlc.resume import declaration_sha256
+from modeproof.tlc.rests import declaration_sha256
 
 
 def declared(run: Run) -> dict[str, Any]:

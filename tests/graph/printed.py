@@ -18,7 +18,7 @@ from modeproof.graph.read import read_graph
 from modeproof.graph.values import ValueForms
 from modeproof.ground import evidence
 from modeproof.registers.rows import Device, Signal
-from modeproof.tlc.resume import declaration_sha256
+from modeproof.tlc.rests import declaration_sha256
 
 CODE, OTHER, TICK_MS, LIMIT = 0x0FF0, 1, 250, 2
 

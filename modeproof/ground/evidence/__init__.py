@@ -13,6 +13,8 @@ from modeproof.ground.evidence.files import (
 from modeproof.ground.evidence.kept import Rests, why_again
 from modeproof.ground.evidence.record import (
     SCHEMA_VERSION,
+    day,
+    is_sealed,
     machine,
     make,
     other_tools,
@@ -28,12 +30,14 @@ from modeproof.ground.meaning import meanings as hashes
 __all__ = [
     "OURS",
     "SCHEMA_VERSION",
-    "Rests",
     "YOURS",
+    "Rests",
+    "day",
     "discard",
     "discard_undeclared",
     "evidence_path",
     "hashes",
+    "is_sealed",
     "machine",
     "make",
     "other_tools",

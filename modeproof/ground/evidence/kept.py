@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.record import is_sealed, own_tools
+from modeproof.ground.evidence.record import is_sealed, own_tools, sha256_of
 from modeproof.ground.meaning import meaning
 
 _NO_PART_OF_A_RESULT = frozenset({"start-up cache"})
@@ -21,15 +21,30 @@ _NO_PART_OF_A_RESULT = frozenset({"start-up cache"})
 
 @dataclass(frozen=True)
 class Rests:
-    """What a result rests on: the meanings of files by path, the modules that judge it, the tools."""
+    """What a result rests on: the meanings of files by path, the modules that judge it, the tools.
+
+    `said`: what its `result` must say as well, such as the hash of the row of its register.
+    """
 
     inputs: Mapping[str, str]
     code: tuple[str, ...] = ()
     tools: Mapping[str, Mapping[str, str | None]] = field(default_factory=dict)
+    said: Mapping[str, str] = field(default_factory=dict)
+
+    def digest(self, place: Path) -> str:
+        """One hash of it all, for a part of a result that is kept by itself. Raises Unjudged."""
+        tools = {
+            name: _which(entry) for name, entry in self.tools.items() if name not in _NO_PART_OF_A_RESULT
+        }
+        own = {name: _which(entry) for name, entry in own_tools(place, *self.code).items()}
+        return sha256_of([sorted(self.inputs.items()), self.code, tools | own, sorted(self.said.items())])
 
 
-def why_again(place: Path, record: Mapping[str, Any], rests: Rests) -> str:
-    """Why a result must be judged again; empty where it stands. Raises Unjudged as `own_tools` does."""
+def why_again(place: Path, record: Mapping[str, Any], rests: Rests, alone: bool = False) -> str:
+    """Why a result must be judged again; empty where it stands. Raises Unjudged as `own_tools` does.
+
+    alone: whatever judged it.
+    """
     if not record["as_expected"]:
         return f"it was {record['verdict']}, not as expected"
     if not is_sealed(record):
@@ -37,13 +52,18 @@ def why_again(place: Path, record: Mapping[str, Any], rests: Rests) -> str:
     for name in sorted({*record["inputs"], *rests.inputs}):
         if record["inputs"].get(name) != rests.inputs.get(name):
             return f"{name} has changed"
-    if tuple(record.get("code", ())) != rests.code:
+    for name in rests.said:
+        if record["result"].get(name) != rests.said[name]:
+            return f"its {name} has changed"
+    if not alone and tuple(record["code"]) != rests.code:
         return "other modules judge it now"
-    tools = {**own_tools(*rests.code), **rests.tools}
-    for name in sorted({*record["tools"], *tools} - _NO_PART_OF_A_RESULT):
+    tools = {} if alone else {**own_tools(place, *rests.code), **rests.tools}
+    for name in sorted({*record["tools"], *tools} - _NO_PART_OF_A_RESULT) if tools else ():
         if _which(record["tools"].get(name)) != _which(tools.get(name)):
             return "the code that judges it has changed" if name == "modeproof" else f"{name} is another"
-    return next((f"{name} is not what it made" for name, digest in made(record) if not _is(place / name, digest)), "")
+    return next(
+        (f"{name} is not what it made" for name, digest in made(record) if not _is(place / name, digest)), ""
+    )
 
 
 def made(record: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.meaning import key
+from modeproof.ground.meaning import is_there, meaning, reached
 from modeproof.ground.places import TREE
 
 SCHEMA_VERSION = 1
@@ -64,14 +64,14 @@ def solvers() -> dict[str, dict[str, str | None]]:
     return {"z3": package("z3-solver"), "cvc5": package("cvc5")}
 
 
-def other_tools(record: Mapping[str, Any]) -> tuple[str, ...]:
+def other_tools(place: Path, record: Mapping[str, Any]) -> tuple[str, ...]:
     """The tools that made a piece of evidence and have changed since, as far as they can be compared.
 
     Solvers of another system are other files of the same package, so only those of one like this are.
     """
     alike = all(record["machine"][key] == machine()[key] for key in ("system", "arch"))
     try:
-        now = {**own_tools(*record.get("code", ())), **(solvers() if alike else {})}
+        now = {**own_tools(place, *record["code"]), **(solvers() if alike else {})}
     except Unjudged:  # a module that judged it is there no more
         now = {"modeproof": tool("another", None)}
     return tuple(
@@ -93,12 +93,12 @@ def result_sha256(record: Mapping[str, Any]) -> str:
         return list(map(kept, value)) if isinstance(value, (list, tuple)) else value
 
     found = {key: kept(value) for key, value in record.items() if key not in _OF_THE_RUN}
-    return _sha256(found)
+    return sha256_of(found)
 
 
 def seal_of(record: Mapping[str, Any]) -> str:
     """SHA-256 of all that a record says: who edits it without thought is found out."""
-    return _sha256({key: value for key, value in record.items() if key != "seal"})
+    return sha256_of({key: value for key, value in record.items() if key != "seal"})
 
 
 def is_sealed(record: Mapping[str, Any]) -> bool:
@@ -106,23 +106,33 @@ def is_sealed(record: Mapping[str, Any]) -> bool:
     return "seal" in record and record["seal"] == seal_of(record)
 
 
-def _sha256(value: Any) -> str:
+def day(started: float) -> str:
+    """When something began, as evidence says it; `started` is seconds since the epoch."""
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started))
+
+
+def sha256_of(value: Any) -> str:
+    """SHA-256 of a value as JSON."""
     return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
 @cache
-def own_tools(*code: str) -> dict[str, dict[str, str | None]]:
+def own_tools(place: Path = TREE, *code: str) -> dict[str, dict[str, str | None]]:
     """Version and hash of modeproof itself, and the version of Python.
 
-    The hash is of the meaning of these modules, and of all of ours that they need; none named: of all Python
-    of the package, byte for byte. Raises Unjudged when a module is not there.
+    The hash is of the meaning of these modules, which lie below `place` or in the tree of this package, and
+    of all of ours that they need; none named: of all Python of the package, byte for byte. Raises Unjudged
+    when a module is not there.
     """
     digest = hashlib.sha256()
-    if code:
-        digest.update(key(TREE, code).digest.encode())
+    found: dict[str, str] = {}
+    for entry in code:
+        root = place if is_there(place, entry) else TREE
+        found |= {path.relative_to(root).as_posix(): meaning(path) for path in reached(root, entry)}
     package = TREE / "modeproof"
     for source in () if code else sorted(package.rglob("*.py")):
-        digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")
+        found[source.relative_to(package).as_posix()] = sha256(source)
+    digest.update(repr(sorted(found.items())).encode())
     try:
         version = metadata.version("modeproof")
     except metadata.PackageNotFoundError:
@@ -171,13 +181,14 @@ def make(
     inputs: Mapping[str, str] | None = None,
     tools: Mapping[str, Mapping[str, str | None]] | None = None,
     code: Iterable[str] = (),
+    place: Path = TREE,
     result: Mapping[str, Any] | None = None,
     reason: str = "",
 ) -> dict[str, Any]:
     """One piece of evidence, ready to be written.
 
     `started` is seconds since the epoch, `seconds` the duration; `inputs` are the meanings of the files that
-    it rests on, `code` the modules of ours that judged. The machine and the Python are recorded in every piece.
+    it rests on, `code` the modules below `place` that judged. The machine and the Python are always recorded.
     """
     code = tuple(code)
     return {
@@ -191,11 +202,11 @@ def make(
         "environment": environment,
         "strength": strength,
         "command": command,
-        "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started)),
+        "started": day(started),
         "seconds": round(seconds, 3),
         "inputs": dict(inputs or {}),
         "code": list(code),
-        "tools": {**own_tools(*code), **{name: dict(entry) for name, entry in (tools or {}).items()}},
+        "tools": {**own_tools(place, *code), **{name: dict(entry) for name, entry in (tools or {}).items()}},
         "machine": machine(),
         "result": dict(result or {}),
         "reason": " ".join(reason.split()),
