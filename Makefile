@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 # Compiled modules are kept, whatever the environment says: each of the many processes starts in half the time
 unexport PYTHONDONTWRITEBYTECODE
-.PHONY: verify smoke test test-deep bench kit doctor lint lock clean venv
+.PHONY: verify smoke exhaustive test test-deep bench kit doctor lint lock clean venv
 
 PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && echo $$p && break; done)
 PY := .venv/bin/python
@@ -17,6 +17,14 @@ verify: $(STAMP) $(GRAMMAR)
 
 smoke: $(STAMP) $(GRAMMAR)
 	@$(PY) -m modeproof verify --lane smoke
+
+# Hours: every run of TLC, every mutant by rule, every edit of our wiring. What fits already is kept, so it can be stopped and started again.
+exhaustive: $(STAMP) $(GRAMMAR)
+	@$(PY) -m modeproof check --lane exhaustive --resume
+	@$(PY) -m modeproof mutate spec
+	@$(PY) -m modeproof mutate impl
+	@$(PY) -m modeproof mutate impl --judge vectors
+	@$(PY) -m modeproof machine --trial
 
 # Two processes; tests that share what is made once are in one of them (tests/groups.py). The first tier sees every kind of
 # check fail once; the second (marked deep) has every planted fault, samples of the campaigns and the compiled programs.

@@ -1,8 +1,9 @@
 """Statement list (STL, AWL) of an S7-300 into the language of `tree`: program, memory and signals.
 
 awlsim's parser reads the source in a process of its own (examples/awl/tree.py). What OB100 leaves behind is
-the memory at power-up, and a scan is OB1. The map beside the source says where each signal lies: what the
-program never writes is an input, unless it lies in Q; the rest are outputs. Calls are written out.
+the memory at power-up (`awl_start`), and a scan is OB1. The map beside the source says where each signal
+lies: what the program never writes is an input, unless it lies in Q; the rest are outputs. Calls are written
+out.
 """
 
 from __future__ import annotations
@@ -18,15 +19,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import z3
-
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
+from programs.awl_start import NON_RETENTIVE, Cleared, at_power_up, keeps, must_not_matter
 from programs.steps import Access, Cells, Fixed, Operand, Step
 from programs.stl import statements
-from programs.symbolic import Translator
-from programs.terms import constant, slots, symbol
-from programs.tree import BOOL, SCALARS, Place, Scalar, Source, Unit, Variable
+from programs.tree import BOOL, SCALARS, Place, Scalar, Unit, Variable
 
 READER = Path("examples", "awl", "tree.py")
 LONGEST_S = 60
@@ -41,7 +39,7 @@ _WIDTHS = {"X": 1, "": 1, "B": 8, "W": 16, "D": 32}
 def read_awl(path: Path) -> list[Unit]:
     """The program of one source as one unit, named like the file. Raises Unjudged with the line."""
     raw = _parsed(path)
-    signals = _signals(path.with_suffix(".map.csv"))
+    signals, cleared = _signals(path.with_suffix(".map.csv"))
     scan = _Flat(raw, path, "OB 1").steps
     if "OB 1" not in raw["blocks"]:
         raise Unjudged(f"{path}: no ORGANIZATION_BLOCK OB 1, so nothing is carried out in a scan")
@@ -49,21 +47,22 @@ def read_awl(path: Path) -> list[Unit]:
     for name in raw["blocks"]:
         if name.startswith("OB ") and name not in ("OB 1", "OB 100"):
             raise Unjudged(f"{path}: {name} is not supported; OB 1 and OB 100 are")
-    memory = _Memory(path, raw, signals, [*scan, *start])
+    memory = _Memory(path, raw, signals, cleared, [*scan, *start])
     place = Place(str(path), scan[0].place.line if scan else 1)
     body, temporaries = statements(scan, memory.cells(scan))
     if not any(access for step in scan for access in step.writes()):
         raise Unjudged(f"{path}: OB 1 writes nothing")
-    unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place)
+    notes = tuple(area.text for area in cleared)
+    unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place, notes=notes)
     for name in memory.unnamed:
-        _must_not_matter(unit, name)
+        must_not_matter(unit, name)
         memory.variables[name] = replace(memory.variables[name], section="constant")
     unit = replace(unit, variables={**memory.variables, **temporaries})
     if not start:
         return [unit]
     begin, others = statements(start, memory.cells(start))
     first = Unit(path.stem, "program", {**memory.variables, **others}, begin, place)
-    return [_at_power_up(unit, first)]
+    return [at_power_up(unit, first)]
 
 
 def beside(path: Path) -> list[Path]:
@@ -99,12 +98,13 @@ class Signal:
     type: Scalar
 
 
-def _signals(path: Path) -> list[Signal]:
-    """The map beside a source: symbol, address, type, as for the kit over S7.
+def _signals(path: Path) -> tuple[list[Signal], list[Cleared]]:
+    """The map beside a source: symbol, address, type, as for the kit over S7; and what is not retentive.
 
     DB3 is what a test harness copies to the inputs before each scan; the program reads I.
     """
     found: list[Signal] = []
+    cleared: list[Cleared] = []
     try:
         with path.open(newline="", encoding="utf-8") as stream:
             rows = list(csv.DictReader(stream))
@@ -113,6 +113,8 @@ def _signals(path: Path) -> list[Signal]:
     for line, row in enumerate(rows, 2):
         place = Place(str(path), line)
         name, address, kind = (row.get(key) or "" for key in ("symbol", "address", "type"))
+        if name == NON_RETENTIVE:
+            cleared.append(Cleared.of(address.replace(" ", ""), place))
         if name.startswith("@") and name != "@dt_ms":
             continue
         match = _ADDRESS.fullmatch(address.replace(" ", ""))
@@ -130,7 +132,7 @@ def _signals(path: Path) -> list[Signal]:
         if access in {other.access for other in found}:
             raise place.refuse(f"{name}: {address} stands twice")
         found.append(Signal(name, access, SCALARS[kind]))
-    return found
+    return found, cleared
 
 
 # ---------------------------------------------------------------- calls in place of themselves
@@ -269,10 +271,11 @@ class _Memory:
     path: Path
     raw: Any
     signals: Sequence[Signal]
+    cleared: Sequence[Cleared]
     steps: Sequence[Step]
     variables: dict[str, Variable] = field(default_factory=dict)
     unnamed: list[str] = field(default_factory=list)
-    """Inputs that are read and are no signals of the map."""
+    """Inputs and flags that are read, are never written, and are no signals of the map."""
 
     def __post_init__(self) -> None:
         written = {access for step in self.steps for access in step.writes()}
@@ -291,14 +294,15 @@ class _Memory:
             kind = signal.type if signal is not None else self._declared(unit)
             if unit.area == "I" and changes:
                 raise Unjudged(f"{self.path}: input {unit} is written")
-            if unit.area == "I" and signal is None:
+            if signal is None and (unit.area == "I" or (unit.area == "M" and not changes)):
                 self.unnamed.append(unit.name.upper())
             section = "var" if signal is None else "output" if changes or unit.area == "Q" else "input"
             name = unit.name if signal is None else signal.name
             if name.upper() in self.variables:
                 raise Unjudged(f"{self.path}: {name} of the map is also the name of another piece of memory")
             initial = None if section == "input" else self._loaded(unit, kind)
-            self.variables[name.upper()] = Variable(name, kind, section, initial, place)
+            kept = changes and keeps(unit, self.cleared)
+            self.variables[name.upper()] = Variable(name, kind, section, initial, place, kept)
         for signal in self.signals:
             if signal.access not in self.units:
                 raise Unjudged(f"{self.path}: {signal.name} of the map overlaps other memory in part")
@@ -365,47 +369,3 @@ def _pieces(group: Sequence[Access]) -> Iterator[Access]:
     bits = any(one.width == 1 for one in group)
     for number in range(low, high + 1, 1 if bits else 8):
         yield Access(group[0].area, number // 8, number % 8, 1 if bits else 8)
-
-
-def _must_not_matter(unit: Unit, name: str) -> None:
-    """Refuse a program to which an input without a name makes a difference; the others take it as 0."""
-    source = Source({unit.name.upper(): unit}, {})
-    memory = {slot.path: symbol(slot.type, slot.path) for slot in slots(source, unit)}
-    scan = Translator(source, unit, wrap=True).scan(memory, z3.IntVal(0))
-    kind = unit.variables[name].type
-    assert isinstance(kind, Scalar)
-    where = [(memory[name], constant(kind, False))]
-    solver = z3.Solver()
-    solver.set("timeout", 1000 * LONGEST_S)
-    solver.add(
-        z3.Or([z3.substitute(term, *where) != term for path, term in scan.after.items() if path != name])
-    )
-    if solver.check() != z3.unsat:
-        raise unit.place.refuse(f"the program reads input {name}, which is no signal of the map")
-
-
-def _at_power_up(unit: Unit, first: Unit) -> Unit:
-    """The unit with the memory that OB100 leaves. Raises Unjudged if that depends on an input."""
-    source = Source({first.name.upper(): first}, {})
-    known = {slot.path: slot for slot in slots(source, first)}
-    memory = {
-        path: symbol(slot.type, path) if slot.section == "input" else constant(slot.type, slot.initial or 0)
-        for path, slot in known.items()
-    }
-    scan = Translator(source, first).scan(memory, z3.IntVal(0))
-    variables = dict(unit.variables)
-    for owed in scan.obligations:
-        if not z3.is_true(z3.simplify(owed.formula)):
-            raise owed.place.refuse(f"OB 100: {owed.text}: that is not clear")
-    for path, slot in known.items():
-        if slot.section == "input":
-            continue
-        term = z3.simplify(scan.after[path])
-        if z3.is_true(term) or z3.is_false(term):
-            value: bool | int = z3.is_true(term)
-        elif z3.is_bv_value(term) or z3.is_int_value(term):
-            value = term.as_long()
-        else:
-            raise first.place.refuse(f"OB 100: what it leaves in {variables[path].name} depends on an input")
-        variables[path] = replace(variables[path], initial=value)
-    return replace(unit, variables=variables)

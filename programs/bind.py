@@ -203,6 +203,12 @@ class Binding:
         return tuple(name for name in self.reference.signals("parameters") if name in places)
 
     @cached_property
+    def steady(self) -> frozenset[str]:
+        """The inputs of the program that are parameters: they keep their values as long as it runs."""
+        known = self.reference.signals("parameters")
+        return frozenset(path for path, (place, _) in self._given.items() if place.partition("[")[0] in known)
+
+    @cached_property
     def values(self) -> dict[str, Any]:
         """The value of each other parameter. Raises Unjudged: it has no default and no value is given."""
         found = {}

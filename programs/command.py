@@ -175,7 +175,7 @@ def about(product: Product) -> Iterator[tuple[str, str]]:
     most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
     yield "inputs", f"every value, {most} of whole milliseconds"
     yield "numbers", "wrap" if product.wrap else "stay within their types"
-    if choices := list(assumed(binding.source, binding.unit)):
+    if choices := list(assumed(binding.source, binding.unit, binding.steady)):
         yield "assumed", "; ".join(choices)
 
 
@@ -228,7 +228,8 @@ def not_shown(found: Verdict) -> Iterator[str]:
         yield f"a time above {binding.longest_scan:,} ms between two scans"
     if found.product.wrap:
         yield "whether numbers stay within their types: they wrap"
-    yield from (f"a tool for which this is not so: {text}" for text in assumed(binding.source, binding.unit))
+    choices = assumed(binding.source, binding.unit, binding.steady)
+    yield from (f"a tool for which this is not so: {text}" for text in choices)
     yield "what the compiler and the PLC make of the source"
 
 

@@ -21,13 +21,14 @@ from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
 from modeproof.registers.vector_files import ROOM
 from programs import machine_picture, machine_tlc, machine_vectors
+from programs.assumed import assumed
 from programs.folder import tools
 from programs.machine import Machine, Verdict
 from programs.machine_equal import Equality
 from programs.machine_killers import Killers, changed, read_killers
 from programs.machine_killers import as_toml as as_rows
 from programs.machine_program import ProgramMachine, ProgramRunner
-from programs.machine_record import as_toml, basis_of, read_record
+from programs.machine_record import as_json, basis_of, outcomes_path, read_outcomes
 from programs.machine_runs import Scan
 from programs.machine_trial import Outcome, Trial, edits
 from programs.output import Case, junit_of
@@ -70,7 +71,9 @@ def run(args: argparse.Namespace) -> int:
         if args.killers:
             return _killers(machine, folder)
         if args.trial is not None:
-            return _trial(machine, args.trial, progress, folder / "trial.toml" if args.record else None)
+            ours = args.file is args.properties is args.use is None and not args.source
+            kept = outcomes_path(root(), folder.name) if ours else None
+            return _trial(machine, args.trial, progress, kept)
         started = time.process_time()
         shipped = folder / "wiring.toml"
         own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() and not args.source else None
@@ -191,6 +194,8 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     yield f"  properties  {asked} ({whose}; {CLAIM})"
     low, high = table.scan_ms
     yield f"  scans       of {low} to {high} ms, set to {table.cycle_ms}; any inputs, from power-up, for ever"
+    if choices := taken(machine):
+        yield f"  assumed     {'; '.join(choices)}"
     for verdict in found:
         yield from _verdict(machine, verdict)
     words = [verdict.word for verdict in found]
@@ -252,6 +257,13 @@ def _values(
         yield dt_ms, inputs, {name: values[name] for name in chosen}
 
 
+def taken(machine: Machine) -> list[str]:
+    """What a verdict on a source takes as given."""
+    return (
+        list(assumed(machine.cell.source, machine.cell.unit)) if isinstance(machine, ProgramMachine) else []
+    )
+
+
 def record_of(
     machine: Machine, found: Sequence[Verdict], seconds: float, read: Mapping[str, str]
 ) -> dict[str, Any]:
@@ -264,6 +276,7 @@ def record_of(
         "files": dict(read),
         "tools": tools(),
         "trusted": list(TRUST),
+        "assumed": taken(machine),
         "scan_time_ms": list(machine.wiring.table.scan_ms),
         "status": status(found),
         "verdicts": verdict_rows(found),
@@ -296,7 +309,7 @@ def verdict_rows(found: Sequence[Verdict]) -> list[dict[str, Any]]:
 def _killers(machine: Machine, folder: Path) -> int:
     """Renew the rows of killers.toml; 1 if a property has none."""
     path, judge = folder / "killers.toml", Killers(machine)
-    found = judge.renewed(read_killers(path), folder / "trial.toml")
+    found = judge.renewed(read_killers(path), outcomes_path(root(), folder.name))
     write_text(path, as_rows(found))
     left = judge.problems(found)
     said = [f"{id}: {why}" for id, why in left.items()]
@@ -304,17 +317,17 @@ def _killers(machine: Machine, folder: Path) -> int:
     return 1 if left else 0
 
 
-def _trial(machine: Machine, part: str, progress: Progress, record: Path | None) -> int:
-    """Judge the edits; with a record, those that it does not have, and write it after each."""
+def _trial(machine: Machine, part: str, progress: Progress, kept: Path | None) -> int:
+    """Judge the edits; with a file of outcomes, those that it does not have, and write it after each."""
     trial, every = Trial(machine), list(edits(machine.text, machine.wiring))
     chosen = [edit for edit in every if part in f"{edit.kind}: {edit.id}"]
     if not chosen:
         raise Unjudged(f"machine: no edit has {part!r} in its name")
-    basis = basis_of(machine) if record is not None else {}
-    known = read_record(record.read_text("utf-8"), basis) if record is not None and record.exists() else {}
+    basis = basis_of(machine) if kept is not None else {}
+    known = read_outcomes(kept, basis) if kept is not None else {}
     found = {
-        edit.id: Outcome(edit, row["verdict"], row["by"], row.get("scans", 0))
-        for edit in chosen
+        edit.id: Outcome(edit, row["verdict"], row["by"], row["scans"])
+        for edit in every
         if (row := known.get(edit.id)) is not None
     }
     for judge in (trial.run, trial.prove, trial.of):  # what takes long comes last
@@ -325,9 +338,9 @@ def _trial(machine: Machine, part: str, progress: Progress, record: Path | None)
             found[edit.id] = outcome
             scans = f" in {outcome.scans} scans" if outcome.scans else ""
             progress.say(f"{outcome.word}{scans}: {edit.kind}: {edit.id}: {', '.join(outcome.by)}")
-            if record is not None:
-                done = [found[edit.id] for edit in chosen if edit.id in found]
-                write_text(record, as_toml(done, len(every), basis))
-    words = [outcome.word for outcome in found.values()]
+            if kept is not None:
+                kept.parent.mkdir(parents=True, exist_ok=True)
+                write_text(kept, as_json([found[edit.id] for edit in every if edit.id in found], basis))
+    words = [found[edit.id].word for edit in chosen]
     print(", ".join(f"{words.count(word)} {word}" for word in sorted({*words})))
     return 1 if "SURVIVED" in words else 0

@@ -13,7 +13,7 @@ from programs.machine import Machine
 from programs.machine_command import OWN, TRUST, rows_of_trace, verdict_rows
 from programs.machine_killers import Killer, Killers, name_of, read_killers
 from programs.machine_picture import boxes_and_wires, matrix_rows
-from programs.machine_record import basis_of, read_record
+from programs.machine_record import basis_of, outcomes_path, read_outcomes
 from programs.machine_trial import edits
 
 SECONDS = 240
@@ -67,7 +67,7 @@ def judged(folder: Path, tell: Callable[[str], None] = lambda text: None) -> dic
         "picture": {"boxes": boxes, "wires": wires},
         "matrix": {"safeguards": list(table.safeguards), "rows": matrix_rows(machine.wiring)},
         "killers": [_killer(machine, killer) for killer in killers if killer.property not in hidden],
-        "trial": _trial(machine, folder / "trial.toml"),
+        "trial": _trial(machine, outcomes_path(folder.parents[1], folder.name)),
         "work": {"cpu_s": round(time.process_time() - began, 1)},
     }
 
@@ -99,14 +99,12 @@ def _was(machine: Machine, row: str) -> str:
 
 
 def _trial(machine: Machine, path: Path) -> dict[str, Any]:
-    """What became of the edits of this wiring, and with how many of them each property falls."""
+    """What became of the edits of this very wiring, and with how many of them each property falls."""
     names = {edit.id for edit in edits(machine.text, machine.wiring)}
-    text = path.read_text("utf-8") if path.exists() else ""
-    rows = {name: row for name, row in read_record(text, basis_of(machine)).items() if name in names}
+    rows = {name: row for name, row in read_outcomes(path, basis_of(machine)).items() if name in names}
     return {
         "edits": len(names),
         "judged": len(rows),
-        "of_another_text": len(read_record(text)) - len(rows),
         "counts": dict(sorted(Counter(row["verdict"] for row in rows.values()).items())),
         "falls": {
             row["id"]: sum(row["id"] in one["by"] for one in rows.values()) for row in machine.every.rows

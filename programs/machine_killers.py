@@ -18,7 +18,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Entry, Text, typed
 from programs.machine import Machine
-from programs.machine_record import read_record
+from programs.machine_record import basis_of, read_outcomes
 from programs.machine_runs import Runner, Scan, Seen, look, rule_of
 from programs.machine_trial import Edit, edits
 from refimpl.machine_cell.expression import Value
@@ -141,16 +141,16 @@ class Killers:
                     found[id] = killer
         return found
 
-    def renewed(self, killers: Sequence[Killer], recorded: Path) -> list[Killer]:
+    def renewed(self, killers: Sequence[Killer], outcomes: Path) -> list[Killer]:
         """The rows that still show something, and new ones for the other properties where there are any.
 
-        First an edit is sought that was in the row or that is recorded to break the property, then any.
+        First an edit is sought that was in the row or that the trial found to break the property, then any.
         """
         good = {killer.property: killer for killer in killers if not self.doubt(killer)}
-        record = read_record(recorded.read_text("utf-8")) if recorded.exists() else {}
+        record = read_outcomes(outcomes, basis_of(self.machine))
         for id in self.rows:
             if id not in good:
-                names = [name for name, row in record.items() if id in row["by"] and row.get("scans")]
+                names = [name for name, row in record.items() if id in row["by"] and row["scans"]]
                 names.sort(key=lambda name: (record[name]["by"][0] != id, record[name]["scans"]))
                 was = [name_of(killer) for killer in killers if killer.property == id]
                 good |= self.sought([id], [*was, *names])

@@ -1,4 +1,4 @@
-"""The record of a trial: what became of each edit, and what that rests on."""
+"""The outcomes of a trial: what became of each edit, and what that rests on."""
 
 from __future__ import annotations
 
@@ -10,12 +10,17 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import build
 from programs import machine_runs, wired
 from programs import wiring as wiring_module
 from programs.machine import Machine
 from programs.machine_trial import Outcome
 from refimpl.machine_cell import cell as reference
 from refimpl.machine_cell import expression, standard
+
+LASTING = ("HARMLESS", "REFUSED")
+"""Verdicts that do not rest on how the cell is used."""
 
 
 def basis_of(machine: Machine) -> dict[str, str]:
@@ -52,44 +57,43 @@ def _without_words(table: Any) -> Any:
     return {key: _without_words(value) for key, value in table.items() if key not in words}
 
 
-def as_toml(outcomes: Sequence[Outcome], count: int, basis: Mapping[str, str]) -> str:
-    """The outcomes as data. count: of all edits that there are; basis: what they rest on."""
-    lines = [
-        "# The wiring on trial: what became of one edit of wiring.toml at a time.",
-        "# Made by `modeproof machine --trial --record`. Our own design: no claim about a paper.",
-        "# scans: of the shortest way from power-up that was found",
-        f"# {len(outcomes)} of {count} edits were judged; of the others nothing is said.",
-        "# basis: hashes of what the outcomes rest on; an outcome is taken over as long as they are the same",
-        "",
-        "[basis]",
-        *(f"{name} = {json.dumps(value)}" for name, value in basis.items()),
-        "",
+def outcomes_path(root: Path, name: str) -> Path:
+    """Where the outcomes of a machine of the project lie: with the other results, not in git."""
+    return build(root) / "machine" / name / "trial.json"
+
+
+def as_json(outcomes: Sequence[Outcome], basis: Mapping[str, str]) -> str:
+    """The outcomes, and what they rest on."""
+    rows = [
+        {
+            "kind": outcome.edit.kind,
+            "row": outcome.edit.row,
+            "text": outcome.edit.text,
+            "verdict": outcome.word,
+            "by": list(outcome.by),
+            "scans": outcome.scans,
+        }
+        for outcome in outcomes
     ]
-    for outcome in outcomes:
-        lines += [
-            "[[edit]]",
-            f"kind = {json.dumps(outcome.edit.kind)}",
-            f"row = {json.dumps(outcome.edit.row)}",
-            f"text = {json.dumps(outcome.edit.text)}",
-            f"verdict = {json.dumps(outcome.word)}",
-            f"by = {json.dumps(list(outcome.by))}",
-            *([f"scans = {outcome.scans}"] if outcome.scans else []),
-            "",
-        ]
-    return "\n".join(lines)
+    return json.dumps({"basis": dict(basis), "edits": rows}, indent=1) + "\n"
 
 
-def read_record(text: str, basis: Mapping[str, str] | None = None) -> Mapping[str, Mapping[str, Any]]:
-    """The recorded outcomes by the names of the edits; with a basis, those that still rest on it.
+def read_outcomes(path: Path, basis: Mapping[str, str]) -> Mapping[str, Mapping[str, Any]]:
+    """The outcomes that still rest on what there is now, by the names of the edits; none without a file.
 
     Scans that break a property, a refusal and a proof do so however a cell is used. What runs did not reach
-    is asked again when the file that guides them is another.
+    is asked again when the file that guides them is another. Raises Unjudged for a file that is damaged.
     """
-    table = tomllib.loads(text)
-    rows = {f"{row['row']} = {row['text']}": row for row in table.get("edit", [])}
-    if basis is None or (known := table.get("basis", {})) == basis:
-        return rows
-    if {**known, "use": ""} != {**basis, "use": ""}:
+    if not path.exists():
         return {}
-    lasting = ("HARMLESS", "REFUSED")
-    return {id: row for id, row in rows.items() if row["verdict"] in lasting or "scans" in row}
+    try:
+        table = json.loads(path.read_text("utf-8"))
+        known, rows = table["basis"], {f"{row['row']} = {row['text']}": row for row in table["edits"]}
+        lasting = {id: row for id, row in rows.items() if row["verdict"] in LASTING or row["scans"]}
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise Unjudged(
+            f"{path}: not an outcome of `modeproof machine --trial`: {error!r}; delete it"
+        ) from None
+    if known == basis:
+        return rows
+    return lasting if {**known, "use": ""} == {**basis, "use": ""} else {}

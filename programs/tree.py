@@ -366,6 +366,8 @@ class Unit:
     namespace: str = ""
     using: tuple[tuple[str, Place], ...] = ()
     """The namespaces whose names its file uses, and where it says so."""
+    notes: tuple[str, ...] = ()
+    """What the source leaves open and was taken as said here, one sentence each."""
 
     def of(self, *sections: str) -> dict[str, Variable]:
         """The variables of these sections, by the names in the source."""

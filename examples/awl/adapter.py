@@ -164,13 +164,13 @@ def read_map(path: Path) -> dict[str, Place]:
     places = {}
     with path.open(newline="", encoding="utf-8") as stream:
         for row in csv.DictReader(stream):
+            if row["symbol"] in ("@magic", "@non_retentive"):
+                continue
             found = ADDRESS.fullmatch(row["address"])
             if found is None:
                 raise SystemExit(f"{path.name}: {row['symbol']}: no address: {row['address']}")
             bit = -1 if found["bit"] is None else int(found["bit"])
             area = found["block"] or found["area"]
-            if row["symbol"] == "@magic":
-                continue
             area = "I" if area == "DB3" else area
             places[row["symbol"]] = Place(area, int(found["byte"]), bit, LENGTHS[found["size"]])
     return places

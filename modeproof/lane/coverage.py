@@ -38,7 +38,7 @@ def cover_document(place: Path, document: str, progress: Any) -> dict[str, Any]:
     """
     id = "coverage"
     evidence.discard(place, document, id)
-    register = place / "proofs" / document / "unreached.toml"
+    register = place / "proofs" / document / "strength.toml"
     started = time.time()
     devices: dict[str, Any] = {}
     try:

@@ -97,7 +97,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="PART",
         help="judge edits of the wiring whose name has PART in it",
     )
-    parser.add_argument("--record", action="store_true", help="with --trial: write trial.toml")
     parser.add_argument(
         "--killers",
         action="store_true",
@@ -257,8 +256,6 @@ def _look(args: argparse.Namespace) -> None:
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdicts. Raises Unjudged."""
     _look(args)
-    if args.record and args.trial != "":
-        raise Unjudged("machine: --record goes with --trial and no PART: the record has every edit")
     others = [name for name in ("file", "properties", "use") if getattr(args, name) is not None]
     if others and (args.evidence or args.killers):
         raise Unjudged("machine: --evidence and --killers are about the project's own files; leave yours out")

@@ -21,7 +21,6 @@ from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_o
 from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import ASKING, Run
-from modeproof.registers.scores import load_scores
 
 REMEDY = "run modeproof render"
 CLASSES = {
@@ -182,7 +181,6 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof prove --document {name}`",
         ],
     ]
-    rows += [score.row for score in load_scores(document.root, name)]
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
@@ -193,8 +191,7 @@ def _shown(document: Document, sources: Sources) -> str:
     return (
         "## What was shown\n\n"
         f"The registers declare these results, with counts; {verify} fails if a run or a proof gives "
-        "another one.\nThe last rows say how strong the checks are: we planted small faults and counted the "
-        "noticed ones.\n\n" + markdown(["what", "how much", "command"], rows) + more
+        "another one.\n\n" + markdown(["what", "how much", "command"], rows) + more
     )
 
 

@@ -1,4 +1,4 @@
-"""The recorded campaigns of mutants: what each judge killed, what survived and why, from evidence alone."""
+"""Campaigns of mutants over the present texts, from evidence alone: what was killed, what not and why."""
 
 from __future__ import annotations
 
@@ -78,6 +78,7 @@ def id_of(kind: str) -> str:
 
 
 def campaign(sources: Sources, document: str, kind: str) -> Campaign | None:
-    """The recorded campaign; None where there is none."""
+    """The campaign over the present texts; None where there is no evidence of one."""
     found = sources.evidence[document].get(id_of(kind))
-    return None if found is None or found.record["kind"] != "strength" else Campaign(kind, found)
+    there = found is not None and found.record["kind"] == "strength" and not found.changed
+    return Campaign(kind, found) if found is not None and there else None

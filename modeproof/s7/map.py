@@ -37,6 +37,8 @@ BYTES = {"BOOL": 1, "BYTE": 1, "WORD": 2, "INT": 2, "DINT": 4, "TIME": 4}
 SIZES = {1: "B", 2: "W", 4: "D"}
 RESET, STEP, DONE, TIME, CYCLE = "@reset", "@scan", "@done", "@dt_ms", "@cycle"
 MAGIC = "@magic"
+NON_RETENTIVE = "@non_retentive"
+"""Such a line is for `prove-program` alone."""
 MAGIC_NUMBER = int.from_bytes(b"RIG!", "big")
 """What the test harness in a PLC holds at @magic, in a data block of its own: 16#52494721."""
 CONTROLS = {
@@ -198,7 +200,7 @@ def _rows(path: Path) -> Iterable[tuple[int, Mapping[str, str]]]:
     for number, cells in enumerate(lines[1:], 2):
         if len(cells) > 3 or (cells and len(cells) < 3):
             raise Unjudged(f"{path.name}: line {number}: three cells expected, got {len(cells)}")
-        if cells:
+        if cells and cells[0] != NON_RETENTIVE:
             yield number, dict(zip(COLUMNS, cells, strict=True))
 
 

@@ -72,18 +72,6 @@ class ByProperties(Judges):
         return [self.register, *modules, *(folder / tier.run.cfg for tier in strength.tiers)]
 
     @property
-    def texts(self) -> Sequence[str]:
-        """The register, every module that a tier uses, and the cfgs."""
-        folder, common = self.bench.folder, self.place / "spec" / "common"
-        found = [self.register, folder / "interface.toml"]
-        for tier in self.bench.strength.tiers:
-            for module in self.bench.texts(tier):
-                own = folder / f"{module}.tla"
-                found.append(own if own.is_file() else common / own.name)
-        names = {path.relative_to(self.place).as_posix() for path in found if path.is_file()}
-        return sorted(names | {f"run {tier.run.id}" for tier in self.bench.strength.tiers})
-
-    @property
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:
         """TLC and its Java."""
         tools = self.bench.tools

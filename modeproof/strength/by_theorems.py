@@ -12,7 +12,7 @@ from modeproof.ground import evidence
 from modeproof.strength.campaign import Answers, Judges
 from modeproof.strength.code import Code, programs
 from modeproof.strength.mutant import Mutant
-from modeproof.strength.register import theorems_path
+from modeproof.strength.register import code_path
 from modeproof.strength.results import digest
 
 LIMIT_S = 600.0
@@ -30,8 +30,8 @@ class ByTheorems(Judges):
         self.code = code
         self.place, self.document = code.place, code.document
         self.command = f"modeproof mutate impl --document {self.document}"
-        self.register = theorems_path(self.place, self.document)
-        self.explained = code.register.explained
+        self.register = code_path(self.place, self.document)
+        self.explained = code.register.explained("theorems")
         self._bench: Any = None
 
     @property
@@ -53,14 +53,6 @@ class ByTheorems(Judges):
         """The register, the code, and the document's room of proofs."""
         proofs = sorted((self.place / "proofs" / self.document).glob("*.py"))
         return [self.register, *self.code.files, *proofs]
-
-    @property
-    def texts(self) -> Sequence[str]:
-        """The registers, and the programs that explore, compare and judge the code, which they import."""
-        modules = dict.fromkeys([*self._starts, *self._theorems.values()])
-        files = [self.register, self.place / "spec" / self.document / "interface.toml"]
-        named = [path.relative_to(self.place).as_posix() for path in files if path.is_file()]
-        return sorted([*named, *(f"program {module}" for module in modules)])
 
     @property
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:

@@ -27,14 +27,13 @@ from modeproof.graph.implementation import from_module, load_implementation
 from modeproof.graph.values import ValueForms
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.load import load_interface
-from modeproof.registers.vector_files import ROOM
 from modeproof.strength import replay
 from modeproof.strength.by_theorems import ByTheorems
 from modeproof.strength.campaign import Answers, Judges
 from modeproof.strength.code import files_of, programs
 from modeproof.strength.mutant import Mutant
 from modeproof.strength.published import Published
-from modeproof.strength.register import load_vectors, vectors_path
+from modeproof.strength.register import code_path
 from modeproof.strength.replay import Vectors, vectors_of
 from modeproof.strength.results import Results, digest
 
@@ -91,8 +90,8 @@ class ByVectors(Judges):
         self.copies, self.observer, self.suites, self.limit = copies, observer, suites, limit
         self.place, self.document = self.code.place, self.code.document
         self.command = f"modeproof mutate impl --judge vectors --document {self.document}"
-        self.register = vectors_path(self.place, self.document)
-        self.explained = load_vectors(self.place, self.document).explained
+        self.register = code_path(self.place, self.document)
+        self.explained = theorems.code.register.explained("vectors")
         self.interface = load_interface(self.place, self.document)
         self._vectors: dict[tuple[str, str], tuple[Vectors, float]] = {}
         self._observer_bench: Any = None
@@ -153,16 +152,7 @@ class ByVectors(Judges):
     @property
     def rests_on(self) -> Sequence[Path]:
         """The register, the code, and the vector files."""
-        register = [self.register] if self.register.is_file() else []
-        return [*register, *self.code.files, *(suite.suite.path for suite in self.suites)]
-
-    @property
-    def texts(self) -> Sequence[str]:
-        """The register, the code, and the vectors as published; the slow suites are of the same graphs."""
-        paths = [self.place / ROOM / suite.target / suite.suite.path.name for suite in self.suites]
-        files = [path for path in (self.register, *paths) if path.is_file()]
-        code = [f"program {module}" for module in self.targets.values()]
-        return sorted([*code, *(path.relative_to(self.place).as_posix() for path in files)])
+        return [self.register, *self.code.files, *(suite.suite.path for suite in self.suites)]
 
     @property
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:

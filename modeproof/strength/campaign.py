@@ -77,11 +77,6 @@ class Judges(ABC):
 
     @property
     @abstractmethod
-    def texts(self) -> Sequence[str]:
-        """The names of all texts that the campaign rests on, as scores.py knows them."""
-
-    @property
-    @abstractmethod
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:
         """The tools that judge."""
 

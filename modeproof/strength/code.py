@@ -18,7 +18,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.strength.mutant import Mutant, applied
 from modeproof.strength.python_module import Module
 from modeproof.strength.python_operators import PythonMutant, PythonRule, python_mutants
-from modeproof.strength.register import TheoremsRegister, load_theorems
+from modeproof.strength.register import CodeStrength, load_code
 
 
 class Room(Protocol):
@@ -47,10 +47,10 @@ class Code:
     place: Path
     document: str
     room: Room
-    register: TheoremsRegister = field(init=False)
+    register: CodeStrength = field(init=False)
 
     def __post_init__(self) -> None:
-        self.register = load_theorems(self.place, self.document)
+        self.register = load_code(self.place, self.document)
 
     @cached_property
     def reached(self) -> Mapping[str, tuple[Path, frozenset[str]]]:

@@ -28,9 +28,8 @@ from modeproof.strength.campaign import (
     unexplained,
 )
 from modeproof.strength.mutant import Mutant, diff
-from modeproof.strength.register import load_strength, load_vectors, path_of, theorems_path
+from modeproof.strength.register import code_path, edited, load_strength, path_of
 from modeproof.strength.results import read_results
-from modeproof.strength.scores import record_score
 from modeproof.tlc.killers import judge_killers
 from modeproof.tlc.schedule import memory_mb
 from modeproof.tlc.toolchain import find_toolchain
@@ -60,9 +59,6 @@ def add_parser(commands: Any) -> None:
         "--first",
         action="store_true",
         help="explore a mutant of the specification to the first broken property: quicker, names no other",
-    )
-    parser.add_argument(
-        "--record", action="store_true", help="write the counts to spec/<document>/scores.toml"
     )
     parser.add_argument(
         "--killers",
@@ -127,12 +123,12 @@ def _killers(place: Path, kind: str, args: argparse.Namespace) -> int:
 
 def _documents(place: Path, kind: str, named: str | None) -> list[str]:
     """The documents that have the register of a campaign. Raises Unjudged when there is none."""
-    register = path_of if kind == "spec" else theorems_path
-    known = [name for name in documents(place) if register(place, name).is_file()]
+    register = path_of if kind == "spec" else code_path
+    known = [name for name in documents(place) if edited(place, register(place, name))]
     if named is not None and named not in known:
         raise Unjudged(f"{named!r} has no mutants; there are those of: {', '.join(known) or 'no document'}")
     if not known:
-        raise Unjudged("no document has a strength.toml")
+        raise Unjudged("no document has a strength.toml that says what is edited")
     return known if named is None else [named]
 
 
@@ -148,15 +144,11 @@ def _of_document(place: Path, document: str, kind: str, args: argparse.Namespace
             return 0
         if args.show is not None:
             return _show(campaign, chosen[0])
-        if args.record and len(chosen) < len(campaign.mutants):
-            raise Unjudged("--record is of all mutants of a document: name no module and no mutant")
         jobs = args.jobs or (cores() if kind != "spec" else max(1, min(cores(), memory_mb() // TLC_MB)))
         judged = campaign.run(chosen, Progress(quiet=args.quiet), jobs, args.complete)
         whole = len(chosen) == len(campaign.mutants)
         if whole:
             campaign.record(judged)
-        if args.record:
-            record_score(campaign, judged)
     return _report(campaign, judged, whole, args)
 
 
@@ -179,7 +171,7 @@ def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first
     from modeproof.strength.published import published
     from modeproof.suites.build import ready_suites
 
-    names = load_vectors(place, document).suites
+    names = theorems.code.register.suites
     try:
         suites = published(ready_suites(place, document, names, quiet))
     except KitUnjudged as error:

@@ -1,26 +1,34 @@
-"""The registers of the three campaigns: what is edited, who judges, why survivors survive.
+"""strength.toml: what is edited, who judges the mutants, and what nobody notices, with the reason.
 
-spec/<document>/strength.toml is that of the specification, proofs/<document>/strength.toml of the code judged
-by theorems, and refimpl/<document>/adequacy.toml of the code judged by vectors.
+spec/<document>/strength.toml is about the specification, proofs/<document>/strength.toml about the code. Both
+have one form: a rule for names, modules and tiers (specification), suites (code), what survives, and, for the
+code, the places that no path passes, which `modeproof prove --coverage` reads.
 """
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Literal
 
-from modeproof.ground.errors import Unjudged
+import msgspec
+
+from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.registers.files import read_toml
+from modeproof.registers.load import load_interface
 from modeproof.registers.runs import Run, load_runs
+from modeproof.registers.typed import Count, Entry, Name, Names, RunId, SomeNames, Text, typed
 from modeproof.strength.operators import Rule
 
-ASKS = ("properties", "graph", "liveness")
-WHEN = ("always", "complete", "left")
-KINDS = ("harmless", "seen by comparison", "outside the model")
+Asks = Literal["properties", "graph", "liveness"]
+When = Literal["always", "complete", "left"]
+Judge = Literal["properties", "theorems", "vectors"]
 AS_PRINTED = "AsPrinted"
 """The name of a module that holds readings ends so."""
+_OFF = {"graph": "RECORD_STEPS", "properties": "PRINT_GRAPH"}
+"""Of a run that prints a graph: the constant that is FALSE where its graph is compared, or is not wanted."""
+Ids = Annotated[tuple[Text, ...], msgspec.Meta(min_length=1)]
 
 
 @dataclass(frozen=True)
@@ -38,8 +46,8 @@ class Tier:
     id: str
     modules: tuple[str, ...]
     run: Run
-    asks: str
-    when: str
+    asks: Asks
+    when: When
     constants: Mapping[str, str]
     definitions: str
     types: tuple[str, ...]
@@ -48,27 +56,79 @@ class Tier:
     heap_mb: int
 
 
-@dataclass(frozen=True)
-class Explained:
+class Explained(Entry, frozen=True):
     """Why a survivor survives, given by a person. `ids` may hold patterns of one explanation."""
 
-    ids: tuple[str, ...]
-    kind: str
-    why: str
+    ids: Ids
+    kind: Literal["harmless", "seen by comparison", "outside the model"]
+    why: Text
+    judge: Judge = "properties"
 
 
-@dataclass(frozen=True)
-class Rejudged:
+class Rejudged(Entry, frozen=True):
     """A mutant that the tests judge again each time, and what must come of it; `killer` is the first one."""
 
-    id: str
-    verdict: str
-    killer: str
+    id: Text
+    verdict: Text
+    killer: str = ""
+
+
+class _Rule(Entry, frozen=True):
+    """`leave`: names that are not edited; in `cycles` a name becomes the next one, in `turns` the second."""
+
+    leave: Names = ()
+    cycles: tuple[tuple[str, ...], ...] = ()
+    turns: tuple[tuple[str, str], ...] = ()
+
+
+class _Module(Entry, frozen=True):
+    """A module that is edited: what makes up its behaviour, and definitions that only sort actions."""
+
+    name: Name
+    behaviour: SomeNames
+    groups: Names = ()
+    device: str = ""
+
+
+class _Tier(Entry, frozen=True):
+    """A tier as it is written; what is left out follows from its run (`_made`)."""
+
+    run: RunId
+    modules: Names = ()
+    id: str = ""
+    asks: Asks | None = None
+    when: When | None = None
+    constants: dict[Name, Text] = msgspec.field(default_factory=dict)
+    definitions: str = ""
+    types: Names = ()
+    decides: bool = True
+    timeout_s: Annotated[float, msgspec.Meta(gt=0)] = 120
+    heap_mb: Count = 512
+
+
+class _Unreached(Entry, frozen=True):
+    """What no feasible path of these devices passes; proofs/explorer/coverage.py judges it."""
+
+    devices: Ids
+    places: Ids
+    why: Text
+
+
+class _File(Entry, frozen=True):
+    document: str = ""
+    rule: _Rule = _Rule()
+    module: tuple[_Module, ...] = ()
+    definitions: dict[Name, Text] = msgspec.field(default_factory=dict)
+    tier: tuple[_Tier, ...] = ()
+    suites: Names = ()
+    rejudged: tuple[Rejudged, ...] = ()
+    survivor: tuple[Explained, ...] = ()
+    unreached: tuple[_Unreached, ...] = ()
 
 
 @dataclass(frozen=True)
 class Strength:
-    """strength.toml as read: a rule for each module, tiers in the order of judging, explanations."""
+    """What edits and judges a specification: a rule for each module, tiers in the order of judging."""
 
     document: str
     rules: Mapping[str, Rule]
@@ -81,217 +141,125 @@ class Strength:
         return tuple(tier for tier in self.tiers if module in tier.modules)
 
 
+@dataclass(frozen=True)
+class CodeStrength:
+    """What edits the code, and the suites that judge it (empty: every suite); survivors by their judge."""
+
+    cycles: tuple[tuple[str, ...], ...] = ()
+    turns: tuple[tuple[str, str], ...] = ()
+    suites: tuple[str, ...] = ()
+    survivors: tuple[Explained, ...] = ()
+
+    def explained(self, judge: Judge) -> tuple[Explained, ...]:
+        """The survivors of one judge."""
+        return tuple(row for row in self.survivors if row.judge == judge)
+
+
 def path_of(place: Path, document: str) -> Path:
-    """Where the register lies."""
+    """Where the register of the specification lies."""
     return place / "spec" / document / "strength.toml"
+
+
+def code_path(place: Path, document: str) -> Path:
+    """Where the register of the code lies."""
+    return place / "proofs" / document / "strength.toml"
+
+
+def edited(place: Path, path: Path) -> bool:
+    """Whether there is a register that says what is edited. Raises Unjudged."""
+    return path.is_file() and _read(place, path)[1].rule != _Rule()
 
 
 def load_strength(place: Path, document: str) -> Strength:
     """Read the register. Raises Unjudged with place and cause for whatever is not understood."""
     path = path_of(place, document)
-    source = f"spec/{document}/strength.toml"
     if not path.is_file():
-        raise Unjudged(f"{source}: not found; it says what is edited and which runs judge it")
-    data = _read(place, path)
-    data.pop("document", None)
-    runs = {run.id: run for run in load_runs(place, document)}
-    shared = _table(source, data, "rule", {"leave", "cycles"})
-    rules: dict[str, Rule] = {}
-    for values in _tables(source, data, "module"):
-        name = _text(source, values, "name")
-        at = f"{source}: module {name}"
-        if name.endswith(AS_PRINTED):
-            raise Unjudged(f"{at}: a module of readings is not mutated")
-        refuse_unknown(at, values, {"name", "behaviour", "groups", "device"})
-        rules[name] = Rule(
-            behaviour=_names(at, values, "behaviour", required=True),
-            leave=frozenset(_names(source, shared, "leave")),
-            kinds=_kinds(place, document, values.get("device")),
-            cycles=tuple(tuple(cycle) for cycle in shared.get("cycles", [])),
-            groups=frozenset(_names(at, values, "groups")),
-        )
-    tiers = tuple(_tier(source, values, runs, rules) for values in _tables(source, data, "tier"))
-    explained = tuple(read_explained(source, values) for values in _tables(source, data, "survivor"))
-    rejudged = tuple(_rejudged(source, values) for values in _tables(source, data, "rejudged"))
-    refuse_unknown(source, data, set())
-    if not rules or not tiers:
+        raise Unjudged(f"spec/{document}/strength.toml: not found; it says what is edited and who judges it")
+    source, file = _read(place, path)
+    if not file.module or not file.tier:
         raise Unjudged(f"{source}: no module or no tier is declared")
-    seen: set[str] = set()
-    for tier in tiers:
-        if tier.id in seen:
+    rules = {row.name: _rule(place, document, source, file, row) for row in file.module}
+    runs = {run.id: run for run in load_runs(place, document)}
+    tiers: list[Tier] = []
+    for row in file.tier:
+        tier = _made(source, file, row, runs, tiers)
+        if tier.id in (other.id for other in tiers):
             raise Unjudged(f"{source}: tier {tier.id} is declared twice")
-        seen.add(tier.id)
+        tiers.append(tier)
     for module in rules:
         if not any(module in tier.modules for tier in tiers):
             raise Unjudged(f"{source}: no tier judges module {module}")
-    return Strength(document, rules, tiers, explained, rejudged)
+    return Strength(document, rules, tuple(tiers), file.survivor, file.rejudged)
 
 
-@dataclass(frozen=True)
-class TheoremsRegister:
-    """proofs/<document>/strength.toml: what is put in the place of a name, and the explanations."""
-
-    cycles: tuple[tuple[str, ...], ...] = ()
-    turns: tuple[tuple[str, str], ...] = ()
-    explained: tuple[Explained, ...] = ()
+def load_code(place: Path, document: str) -> CodeStrength:
+    """Read the register of the code. Raises Unjudged with place and cause for whatever is not understood."""
+    _, file = _read(place, code_path(place, document))
+    return CodeStrength(file.rule.cycles, file.rule.turns, file.suites, file.survivor)
 
 
-def theorems_path(place: Path, document: str) -> Path:
-    """Where it lies."""
-    return place / "proofs" / document / "strength.toml"
-
-
-def load_theorems(place: Path, document: str) -> TheoremsRegister:
-    """Read it. Raises Unjudged with place and cause for whatever is not understood."""
-    path = theorems_path(place, document)
-    data, source = _read(place, path), path.relative_to(place).as_posix()
-    rule = _table(source, data, "rule", {"cycles", "turns"})
-    explained = tuple(read_explained(source, values) for values in _tables(source, data, "survivor"))
-    refuse_unknown(source, data, set())
-    return TheoremsRegister(
-        tuple(tuple(cycle) for cycle in rule.get("cycles", [])),
-        tuple((before, after) for before, after in rule.get("turns", [])),
-        explained,
-    )
-
-
-@dataclass(frozen=True)
-class VectorsRegister:
-    """refimpl/<document>/adequacy.toml: the suites that judge (empty: every suite), the explanations."""
-
-    suites: tuple[str, ...] = ()
-    explained: tuple[Explained, ...] = ()
-
-
-def vectors_path(place: Path, document: str) -> Path:
-    """Where it lies."""
-    return place / "refimpl" / document / "adequacy.toml"
-
-
-def load_vectors(place: Path, document: str) -> VectorsRegister:
-    """Read it; empty where there is no file. Raises Unjudged for whatever is not understood."""
-    path = vectors_path(place, document)
-    if not path.is_file():
-        return VectorsRegister()
-    data, source = _read(place, path), path.relative_to(place).as_posix()
-    suites = _names(source, data, "suites")
-    explained = tuple(read_explained(source, values) for values in _tables(source, data, "survivor"))
-    refuse_unknown(source, data, {"suites"})
-    return VectorsRegister(suites, explained)
-
-
-def _read(place: Path, path: Path) -> dict[str, Any]:
+def _read(place: Path, path: Path) -> tuple[str, _File]:
     source = path.relative_to(place).as_posix()
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise Unjudged(f"{source}: {error.strerror or error}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise Unjudged(f"{source}: {error}") from None
+    return source, typed(_File, read_toml(place, path), source)
 
 
-def _tier(source: str, values: dict[str, Any], runs: Mapping[str, Run], rules: Mapping[str, Rule]) -> Tier:
-    name = _text(source, values, "id")
-    at = f"{source}: tier {name}"
-    known = {"id", "modules", "run", "asks", "when", "constants", "definitions", "types", "decides"}
-    refuse_unknown(at, values, known | {"timeout_s", "heap_mb"})
-    run = _text(at, values, "run")
-    if run not in runs:
-        raise Unjudged(f"{at}: run {run} is not in runs.toml")
-    asks, when = _text(at, values, "asks"), values.get("when", "always")
-    if asks not in ASKS or when not in WHEN:
-        raise Unjudged(f"{at}: asks must be one of {', '.join(ASKS)}, when one of {', '.join(WHEN)}")
-    modules = _names(at, values, "modules", required=True)
-    strange = [module for module in modules if module not in rules]
-    if strange:
-        raise Unjudged(f"{at}: module {strange[0]} is not declared")
-    if asks == "graph" and runs[run].kind != "OPEN":
-        raise Unjudged(f"{at}: a graph is printed by a run of kind OPEN only")
-    if asks == "liveness" and len(runs[run].properties) != 1:
-        raise Unjudged(f"{at}: TLC does not name a violated temporal property, so a run must have one only")
-    return Tier(
-        id=name,
-        modules=modules,
-        run=runs[run],
-        asks=asks,
-        when=when,
-        constants={key: str(value) for key, value in values.get("constants", {}).items()},
-        definitions=str(values.get("definitions", "")),
-        types=_names(at, values, "types"),
-        decides=bool(values.get("decides", asks == "graph")),
-        timeout_s=float(values.get("timeout_s", 120)),
-        heap_mb=int(values.get("heap_mb", 512)),
+def _rule(place: Path, document: str, source: str, file: _File, row: _Module) -> Rule:
+    if row.name.endswith(AS_PRINTED):
+        raise Unjudged(f"{source}: module {row.name}: a module of readings is not mutated")
+    return Rule(
+        behaviour=row.behaviour,
+        leave=frozenset(file.rule.leave),
+        kinds=_kinds(place, document, source, row.device) if row.device else (),
+        cycles=file.rule.cycles,
+        groups=frozenset(row.groups),
     )
 
 
-def read_explained(source: str, values: dict[str, Any]) -> Explained:
-    """One explanation of survivors. Raises Unjudged when a field is missing, unknown, or of another kind."""
-    ids = _names(f"{source}: survivor", values, "ids", required=True)
-    at = f"{source}: survivor {ids[0]}"
-    refuse_unknown(at, values, {"ids", "kind", "why"})
-    kind = _text(at, values, "kind")
-    if kind not in KINDS:
-        raise Unjudged(f"{at}: kind must be one of {', '.join(KINDS)}")
-    return Explained(ids, kind, _text(at, values, "why"))
+def _made(source: str, file: _File, row: _Tier, runs: Mapping[str, Run], before: list[Tier]) -> Tier:
+    """The tier of a row. Of itself it asks what a run of its kind can say, of the modules that are edited,
+    always where it is the first of a module; a type invariant of its run stops it.
+    """
+    at = f"{source}: tier {row.id or row.run}"
+    if row.run not in runs:
+        raise Unjudged(f"{at}: run {row.run} is not in runs.toml; {suggestion(row.run, runs)}")
+    run = runs[row.run]
+    asks: Asks = row.asks or ("liveness" if run.kind == "LIVE" else "properties")
+    known = tuple(module.name for module in file.module)
+    modules = row.modules or known
+    for module in modules:
+        if module not in known:
+            raise Unjudged(f"{at}: module {module} is not declared; {suggestion(module, known)}")
+    if asks == "graph" and run.kind != "OPEN":
+        raise Unjudged(f"{at}: a graph is printed by a run of kind OPEN only")
+    if asks == "liveness" and len(run.properties) != 1:
+        raise Unjudged(f"{at}: TLC does not name a violated temporal property, so a run must have one only")
+    if row.definitions and row.definitions not in file.definitions:
+        raise Unjudged(f"{at}: definitions: {suggestion(row.definitions, file.definitions)}")
+    first = not any(set(modules) & set(tier.modules) for tier in before)
+    types = [name for name in run.properties if name.endswith("TypeOK")] if asks == "properties" else []
+    off = {_OFF[asks]: "FALSE"} if run.kind == "OPEN" and asks in _OFF else {}
+    return Tier(
+        id=row.id or f"{row.run}{', graph' if asks == 'graph' else ''}",
+        modules=modules,
+        run=run,
+        asks=asks,
+        when=row.when or ("always" if first else "left"),
+        constants={**off, **row.constants},
+        definitions=file.definitions.get(row.definitions, ""),
+        types=(*types, *row.types),
+        decides=asks == "graph" and row.decides,
+        timeout_s=row.timeout_s,
+        heap_mb=row.heap_mb,
+    )
 
 
-def _rejudged(source: str, values: dict[str, Any]) -> Rejudged:
-    id = _text(f"{source}: rejudged", values, "id")
-    at = f"{source}: rejudged {id}"
-    refuse_unknown(at, values, {"id", "verdict", "killer"})
-    return Rejudged(id, _text(at, values, "verdict"), str(values.get("killer", "")))
-
-
-def _kinds(place: Path, document: str, device: Any) -> tuple[tuple[str, ...], ...]:
+def _kinds(place: Path, document: str, source: str, name: str) -> tuple[tuple[str, ...], ...]:
     """The lists of strings that interface.toml declares for a device: its states, and the values of texts."""
-    if device is None:
-        return ()
-    path = place / "spec" / document / "interface.toml"
-    try:
-        declared = tomllib.loads(path.read_text(encoding="utf-8"))["devices"][device]
-    except (OSError, tomllib.TOMLDecodeError, KeyError, TypeError):
-        raise Unjudged(f"spec/{document}/interface.toml: device {device} cannot be read") from None
-    kinds = [tuple(declared.get("states", []))]
-    for group in ("inputs", "outputs", "parameters"):
-        for values in declared.get(group, {}).values():
-            if isinstance(values, dict) and "values" in values:
-                kinds.append(tuple(str(entry) for entry in values["values"]))
+    devices = load_interface(place, document).devices
+    if name not in devices:
+        raise Unjudged(f"{source}: device {name} is not in interface.toml; {suggestion(name, devices)}")
+    device = devices[name]
+    kinds = [device.states]
+    for group in (device.inputs, device.outputs, device.parameters):
+        kinds += [tuple(map(str, signal.values)) for signal in group.values() if signal.values]
     return tuple(kind for kind in kinds if len(kind) > 1)
-
-
-def _tables(source: str, data: dict[str, Any], key: str) -> list[dict[str, Any]]:
-    tables = data.pop(key, [])
-    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
-        raise Unjudged(f"{source}: `{key}` must be a list of tables ([[{key}]])")
-    return tables
-
-
-def _table(source: str, data: dict[str, Any], key: str, known: set[str]) -> dict[str, Any]:
-    table = data.pop(key, {})
-    if not isinstance(table, dict):
-        raise Unjudged(f"{source}: `{key}` must be a table ([{key}])")
-    refuse_unknown(f"{source}: {key}", table, known)
-    return table
-
-
-def refuse_unknown(at: str, values: Mapping[str, Any], known: set[str]) -> None:
-    """Raise Unjudged for a field that is none of these."""
-    strange = sorted(set(values) - known)
-    if strange:
-        raise Unjudged(f"{at}: unknown field {strange[0]!r}")
-
-
-def _text(at: str, values: Mapping[str, Any], key: str) -> str:
-    value = values.get(key)
-    if not isinstance(value, str) or not value:
-        raise Unjudged(f"{at}: {key} must be a text")
-    return value
-
-
-def _names(at: str, values: Mapping[str, Any], key: str, required: bool = False) -> tuple[str, ...]:
-    value = values.get(key, [])
-    if not isinstance(value, list) or not all(isinstance(name, str) and name for name in value):
-        raise Unjudged(f"{at}: {key} must be a list of names")
-    if required and not value:
-        raise Unjudged(f"{at}: {key} is missing or empty")
-    return tuple(value)

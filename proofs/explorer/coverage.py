@@ -3,7 +3,7 @@
 Of every feasible path one member is run in the plain interpreter, so what these runs pass through is not
 dead. All members of a path take the same way; so, with the claim that the paths are exhaustive, what is never
 passed through is unreachable for every input in range. Each such place must be explained in the document's
-register `unreached.toml`, and the register may explain nothing else.
+register `strength.toml` (rows `unreached`), and the register may explain nothing else.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ def explained(device: Device, register: File) -> Explained:
     rows = _rows(register)
     coverage = coverage_of(device)
     missing = coverage.missing()
-    reasons = {what: row["why"] for row in rows if device.name in row["devices"] for what in row["unreached"]}
+    reasons = {what: row["why"] for row in rows if device.name in row["devices"] for what in row["places"]}
     return Explained(
         coverage,
         tuple((what, reasons[what]) for what in missing if what in reasons),
@@ -117,14 +117,14 @@ def explained(device: Device, register: File) -> Explained:
 
 
 def _rows(register: File) -> list[dict[str, Any]]:
-    """The rows of the register: devices, unreached and why, none of them empty. Raises ExplorationError."""
+    """The rows `unreached`: devices, places and why, none of them empty. Raises ExplorationError."""
     try:
-        rows: list[dict[str, Any]] = tomllib.loads(register.read_text(encoding="utf-8"))["place"]
+        rows: list[dict[str, Any]] = tomllib.loads(register.read_text(encoding="utf-8"))["unreached"]
     except (OSError, tomllib.TOMLDecodeError, KeyError) as error:
         raise ExplorationError(f"{register.name} cannot be read: {error!r}") from None
     for number, row in enumerate(rows, start=1):
-        if set(row) != {"devices", "unreached", "why"} or not all(row.values()):
-            raise ExplorationError(f"{register.name}: row {number} must have devices, unreached and why")
+        if set(row) != {"devices", "places", "why"} or not all(row.values()):
+            raise ExplorationError(f"{register.name}: row {number} must have devices, places and why")
     return rows
 
 

@@ -13,7 +13,7 @@ from modeproof.lane.coverage import cover_document
 from modeproof.report.verdicts import status_of
 from proofs.mode_selection import devices
 
-REGISTER = Path("proofs/mode_selection/unreached.toml")
+REGISTER = Path("proofs/mode_selection/strength.toml")
 ROOT = Path(__file__).parents[2]
 
 
@@ -40,13 +40,13 @@ def test_what_is_not_explained_is_not_as_expected(place: Path) -> None:
     assert status_of(record) == 1
     assert [problem.split(": ", 1)[1] for problem in record["result"]["problems"]] == [
         "on no feasible path, and not explained: branch step: elif state.turn == Step.COPY_MW07: no",
-        "unreached.toml explains what is passed or not there: branch step: elif other: no",
+        "strength.toml explains what is passed or not there: branch step: elif other: no",
     ]
 
 
 def test_without_a_register_nothing_is_judged(place: Path) -> None:
     (place / REGISTER).unlink()
-    with pytest.raises(Unjudged, match=r"unreached\.toml cannot be read"):
+    with pytest.raises(Unjudged, match=r"strength\.toml cannot be read"):
         _status(place)
 
 

@@ -267,7 +267,13 @@ def random_program(seed: int, length: int = 30) -> str:
     lines += [f"{label}: NOP 0" for label in labels]
     body = "\n".join(lines)
     begin = "ORGANIZATION_BLOCK OB 1\nBEGIN\n      L IW 2\n      L MW 2\n      A I 0.0\n"
-    return f"{HEAD}{begin}{body}\nEND_ORGANIZATION_BLOCK\n"
+    text = begin + body
+    cleared = [flag for flag in ("MB 0", "MW 2", "MD 2", "MB 3", "MW 20") if flag in text]
+    cleared_bits = [flag for flag in WRITTEN if flag[0] == "M" and flag in text]
+    start = "".join(f"      T {flag}\n" for flag in cleared) + "      CLR\n"
+    start += "".join(f"      = {flag}\n" for flag in cleared_bits)
+    ob100 = f"ORGANIZATION_BLOCK OB 100\nBEGIN\n      L 0\n{start}END_ORGANIZATION_BLOCK\n"
+    return f"{HEAD}{ob100}{text}\nEND_ORGANIZATION_BLOCK\n"
 
 
 def random_difference(folder: Path, seed: int, scans: int) -> str:

@@ -13,6 +13,8 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.kit.judge import CONFORMS, DIFFERS, Plan, run_suite
 from modeproof.kit.vectors import EXACT, open_suite
+from programs.assumed import COUNT, EDGE
+from programs.machine_command import lines_of, taken
 from programs.machine_equal import Equality
 from programs.machine_program import ProgramMachine
 from programs.run import Machine as Interpreter
@@ -159,6 +161,13 @@ def test_a_value_that_leaves_its_type_proves_nothing(tmp_path: Path) -> None:
     (verdict,) = asked_of(path, tmp_path).all(60)
     assert verdict.word == "UNKNOWN"
     assert verdict.how.startswith("a value may leave its type")
+
+
+def test_what_a_verdict_takes_as_given_is_said(tmp_path: Path) -> None:
+    path = edited(tmp_path, "oldMode := newMode;", "oldMode := newMode; ups(CU := Stop);")
+    path.write_text(path.read_text("utf-8").replace("oldMode : INT;", "oldMode : INT; ups : CTU;"), "utf-8")
+    assert taken(machine(path, 1)) == [EDGE, COUNT] and taken(machine(BY_HAND, 1)) == [EDGE]
+    assert f"  assumed     {EDGE}; {COUNT}" in lines_of(machine(path, 1), [], 0.0)
 
 
 def beside(path: Path, runs: int) -> Equality:

@@ -1,10 +1,7 @@
-"""The wiring on trial: the record is one of the present files."""
+"""The wiring on trial: an outcome counts for the files that it was found with."""
 
 from __future__ import annotations
 
-import re
-import tomllib
-from collections import Counter
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -12,16 +9,16 @@ from typing import Any
 import pytest
 import z3
 
+from modeproof.ground.errors import Unjudged
 from programs import machine_trial
 from programs.induction import System
 from programs.machine import Machine
-from programs.machine_record import as_toml, basis_of, read_record
+from programs.machine_record import as_json, basis_of, read_outcomes
 from programs.machine_trial import Outcome, Trial, edits
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "spec/machine_cell"
 TEXT = (FOLDER / "wiring.toml").read_text("utf-8")
-RECORD = (FOLDER / "trial.toml").read_text("utf-8")
 
 
 def plain(text: str = TEXT, runs: int = 240) -> Machine:
@@ -30,40 +27,46 @@ def plain(text: str = TEXT, runs: int = 240) -> Machine:
     return machine
 
 
-def test_the_record_is_of_the_present_files() -> None:
+def kept(folder: Path, basis: dict[str, str], verdict: str, scans: int) -> Path:
+    """One outcome on the disk."""
+    edit = next(edits(TEXT, plain().wiring))
+    path = folder / "trial.json"
+    path.write_text(as_json([Outcome(edit, verdict, ["one-mode"], scans)], basis), "utf-8")
+    return path
+
+
+def test_an_outcome_holds_for_the_files_it_was_found_with(tmp_path: Path) -> None:
     basis = basis_of(plain())
-    assert tomllib.loads(RECORD)["basis"] == basis, "modeproof machine --trial --record"
-    assert read_record(RECORD, basis)
+    path = kept(tmp_path, basis, "KILLED", 7)
+    (row,) = read_outcomes(path, basis).values()
+    assert (row["verdict"], row["by"], row["scans"]) == ("KILLED", ["one-mode"], 7)
     for name in {*basis} - {"use"}:
-        assert not read_record(RECORD, {**basis, name: "other"})
+        assert not read_outcomes(path, {**basis, name: "other"})
+    assert not read_outcomes(tmp_path / "none.json", basis)
 
 
-def test_only_what_runs_did_not_reach_rests_on_their_guide() -> None:
-    first, *_ = edits(TEXT, plain().wiring)
-    for scans, kept in ((7, True), (0, False)):
-        text = as_toml([Outcome(first, "KILLED", ["one-mode"], scans)], 9, {"code": "x", "use": "y"})
-        assert (first.id in read_record(text, {"code": "x", "use": "z"})) == kept
+@pytest.mark.parametrize(
+    ("verdict", "scans", "holds"), [("KILLED", 7, True), ("KILLED", 0, False), ("HARMLESS", 0, True)]
+)
+def test_only_what_runs_did_not_reach_rests_on_their_guide(
+    verdict: str, scans: int, holds: bool, tmp_path: Path
+) -> None:
+    path = kept(tmp_path, {"code": "x", "use": "y"}, verdict, scans)
+    assert bool(read_outcomes(path, {"code": "x", "use": "z"})) == holds
 
 
-def test_words_about_the_wiring_leave_the_record_as_it_is() -> None:
+@pytest.mark.parametrize("text", ["{", "[]", '{"basis": {}, "edits": [{}]}'])
+def test_a_damaged_outcome_is_never_a_kill(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "trial.json"
+    path.write_text(text, "utf-8")
+    with pytest.raises(Unjudged, match="delete it"):
+        read_outcomes(path, {})
+
+
+def test_words_about_the_wiring_leave_outcomes_as_they_are() -> None:
     basis = basis_of(plain())
     assert basis_of(plain(TEXT.replace('why = "the door of the zone"', 'why = "the door"'))) == basis
     assert basis_of(plain(TEXT.replace("TestTime = 100", "TestTime = 90")))["wiring"] != basis["wiring"]
-
-
-def test_the_page_counts_the_outcomes_of_the_record() -> None:
-    page = (ROOT / "docs/wire-your-machine.md").read_text("utf-8")
-    words = Counter(row["verdict"] for row in read_record(RECORD).values())
-    told = re.search(r"edits \d+ were judged: (.*?)[;.]", page)
-    assert told
-    assert told[1] == ", ".join(f"{words[word]} {word}" for word in sorted(words))
-
-
-def test_an_outcome_is_read_back_as_it_was_written() -> None:
-    edit = next(edits(TEXT, plain().wiring))
-    text = as_toml([Outcome(edit, "KILLED", ["one-mode"], 7)], 9, {"code": "x"})
-    row = read_record(text, {"code": "x"})[edit.id]
-    assert (row["verdict"], row["by"], row["scans"]) == ("KILLED", ["one-mode"], 7)
 
 
 def test_blocks_that_do_not_read_each_other_change_over_freely() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,9 @@ from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of
 from programs.machine import Machine
 from programs.machine_command import status
+from programs.machine_evidence import machine_of
 from programs.machine_killers import Killers, read_killers
+from programs.machine_record import basis_of, outcomes_path
 from programs.machine_trial import Trial, edits
 
 WIRING = """title = "a drive behind a door"
@@ -219,12 +222,21 @@ def test_evidence_of_it_is_as_expected(folder: Path) -> None:
     )
 
 
-def test_a_trial_of_another_text_does_not_count(folder: Path) -> None:
-    row = 'kind = "part left out"\nrow = "block.running.inputs.R1"\ntext = "Stop"\nverdict = "KILLED"\n'
-    recorded = f'[basis]\nwiring = "another"\n\n[[edit]]\n{row}by = ["closed"]\nscans = 2\n'
-    (folder / "trial.toml").write_text(recorded, "utf-8")
+def outcome(folder: Path, basis: dict[str, str]) -> None:
+    """Keep the outcome of one edit where the trial keeps it."""
+    path = outcomes_path(folder.parents[1], "latch")
+    path.parent.mkdir(parents=True)
+    row = {"kind": "part left out", "row": "block.running.inputs.R1", "text": "Stop"}
+    told = {**row, "verdict": "KILLED", "by": ["closed"], "scans": 2}
+    path.write_text(json.dumps({"basis": basis, "edits": [told]}), "utf-8")
+
+
+@pytest.mark.parametrize("present", [True, False])
+def test_a_trial_counts_for_the_text_it_was_made_of(present: bool, folder: Path) -> None:
+    basis = basis_of(machine_of(folder))
+    outcome(folder, basis if present else {**basis, "wiring": "another"})
     trial = judge_machine(folder.parents[1], "latch")["result"]["trial"]
-    assert (trial["judged"], trial["of_another_text"], trial["falls"]) == (0, 1, {"closed": 0})
+    assert (trial["judged"], trial["falls"]) == (int(present), {"closed": int(present)})
 
 
 @pytest.mark.sampled(3)
@@ -259,9 +271,8 @@ def test_an_edit_with_which_a_property_falls_is_found(
     monkeypatch.setattr("programs.machine_command.FOLDER", Path("spec/latch"))
     path = folder / "killers.toml"
     path.write_text("", "utf-8")
-    row = 'kind = "part left out"\nrow = "block.running.inputs.R1"\ntext = "Stop"\nverdict = "KILLED"\n'
     if recorded:
-        (folder / "trial.toml").write_text(f'[[edit]]\n{row}by = ["closed"]\nscans = 2\n', "utf-8")
+        outcome(folder, basis_of(machine_of(folder)))
     assert main(["machine", "--killers", "--quiet"]) == 0
     assert "1 of 1 properties fall with an edit" in capsys.readouterr().out
     assert ('text = "Stop"' in path.read_text("utf-8")) or not recorded

@@ -14,9 +14,10 @@ import z3
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs import awl, stl
-from programs.command import make
+from programs.command import make, not_shown, text_of
 from programs.sources import read_sources
 from programs.steps import Step
+from programs.terms import slots
 from programs.tree import Place
 from programs.verdict import Verdict, judge
 from tests.programs.beside_awlsim import MAP, difference, random_difference, random_program
@@ -211,7 +212,68 @@ def test_power_up_is_what_the_start_block_leaves(tmp_path: Path) -> None:
 
 def test_a_start_that_depends_on_inputs_is_refused(tmp_path: Path) -> None:
     path = written(tmp_path, COPY, START.format("L IW 2; T MW 10"))
-    with pytest.raises(Unjudged, match="OB 100: what it leaves in M_W10 depends on an input"):
+    with pytest.raises(Unjudged, match="OB 100: what it leaves in M_W10 depends on an input or on what was"):
+        read_sources([path])
+
+
+def without_start(folder: Path) -> Path:
+    """The shipped PLC without its OB100."""
+    text = (EXAMPLES / "plc.awl").read_text("utf-8")
+    start = text[text.index("ORGANIZATION_BLOCK OB 100") : text.index("ORGANIZATION_BLOCK OB 1\n")]
+    return changed(folder, start, "")
+
+
+def test_a_data_block_that_nothing_clears_begins_anywhere(tmp_path: Path) -> None:
+    path = without_start(tmp_path)
+    source = read_sources([path])
+    kept = {slot.path for slot in slots(source, source.main()) if slot.initial is None}
+    assert kept == {"DB20_W0", "MW03", "MW07"}  # flags too; outputs are cleared by the CPU
+    found = judged(path, "plc")
+    assert found.word == "REFUTED" and found.difference is not None and found.difference.run.retained
+
+
+def test_the_user_says_what_is_not_retentive_and_the_verdict_says_it(tmp_path: Path) -> None:
+    path = without_start(tmp_path)
+    with path.with_suffix(".map.csv").open("a", encoding="utf-8") as stream:
+        stream.write("@non_retentive,DB20,\n@non_retentive,MB0-MB8,\n")
+    found = judged(path, "plc")
+    assert found.word == "PROVED"
+    said = "\n".join(text_of(found, 1.0))
+    assert "  assumed     DB20 is not retentive (" in said and "; MB0-MB8 is not retentive (" in said
+    assert sum("DB20 is not retentive" in line for line in not_shown(found)) == 1
+
+
+@pytest.mark.parametrize("address", ["DB", "MB9-MB8", "M0.0", "QB0-QB1", ""])
+def test_an_area_that_cannot_be_cleared_is_refused(address: str, tmp_path: Path) -> None:
+    path = written(tmp_path, COPY, signals=f"symbol,address,type\n@non_retentive,{address},\n")
+    with pytest.raises(Unjudged, match=r"p.map.csv:2: @non_retentive, .*: DB10 or MB16-MB255 is needed"):
+        read_sources([path])
+
+
+def test_what_the_start_block_leaves_alone_begins_anywhere(tmp_path: Path) -> None:
+    body = "L IW 2; T MW 10; T MW 12; T DB1.DBW 0; A I 0.0; = Q 0.0; L MW 10; T QW 2"
+    path = written(tmp_path, body, DB1 + "; " + START.format("L MW 10; T MW 10; L 5; T MW 12"))
+    variables = read_sources([path]).main().variables
+    assert [variables[name].retained for name in ("M_W10", "M_W12", "DB1_W0", "V")] == [
+        True,
+        False,
+        True,
+        False,
+    ]
+    assert variables["M_W12"].initial == 5
+
+
+def test_a_start_that_depends_on_what_was_kept_is_refused(tmp_path: Path) -> None:
+    path = written(tmp_path, "L IW 2; T MW 12; " + COPY, START.format("L MW 12; T MW 10"))
+    with pytest.raises(Unjudged, match="what it leaves in M_W10 depends on an input or on what was there"):
+        read_sources([path])
+
+
+def test_a_flag_that_is_never_written_must_not_matter(tmp_path: Path) -> None:
+    path = written(tmp_path, "A M 50.0; = Q 0.0; L 0; T QW 2")
+    with pytest.raises(
+        Unjudged, match="reads flag M_X50_0, which is no signal of the map, and never writes it"
+    ):
         read_sources([path])
 
 

@@ -9,30 +9,13 @@ from typing import Any
 import msgspec
 import pytest
 
-from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents
 from modeproof.ground.places import root as repository_root
 from modeproof.registers import load_document, read_sources
 from modeproof.registers.document_page import check_document_page, page, page_name, tables_of, tellings
-from modeproof.registers.scores import load_scores
 
 TABLE = "| scan | executes |\n|---|---|\n| 0 | power-up |\n"
 TELLING = '\n[finding.telling]\nrun = "NEG_Latch"\nstory = "The door is open, and the bolt comes out"\n'
-SCORES = """
-document = "door"
-[[campaign]]
-what = "spec"
-judged_on = "2026-11-22"
-command = "modeproof mutate spec --document door"
-earlier_text = false
-killed = 7
-equivalent = 1
-invalid = 2
-survived = 1
-survived_explained = 1
-unmeasured = 0
-files = { "spec/door/Latch.tla" = "0123456789abcdef" }
-"""
 
 
 def made(root: Path) -> str:
@@ -51,19 +34,17 @@ def told(tree: Any) -> Any:
     """The door with a telling counterexample, a recorded campaign, and its page."""
     findings = (tree.root / "spec/door/findings.toml").read_text(encoding="utf-8")
     tree.write("spec/door/findings.toml", findings + TELLING)
-    tree.write("spec/door/scores.toml", SCORES)
     tree.write("docs/door.md", made(tree.root))
     return tree
 
 
-def test_the_page_tells_story_requirement_table_finding_and_scores(told: Any) -> None:
+def test_the_page_tells_story_requirement_table_and_finding(told: Any) -> None:
     text = (told.root / "docs/door.md").read_text(encoding="utf-8")
     for expected in (
         "# A door",
         "**What we did not have.** The drawings.",
         "| 1 in 2 runs |",
         "| theorems about our program for all words and times, by two solvers | 1 |",
-        "| 7 of 8 (87.5 %); 1 not noticed, each explained | `modeproof mutate spec --document door` |",
         "### E-01: when it opens\n\nThe door is open, and the bolt comes out.\n\n"
         "What fails: While the door is open the bolt is in. (`OpenIsUnlocked`)\n\n<!-- begin trace NEG",
         TABLE,
@@ -87,8 +68,6 @@ def test_without_a_page_nothing_is_said(tree: Any) -> None:
         ("spec/door/findings.toml", "the bolt comes out", "the bolt stays in"),
         ("spec/door/properties.toml", "the bolt is in", "the bolt is out"),
         ("spec/door/document.toml", "the drawings", "the index"),
-        ("spec/door/scores.toml", "killed = 7", "killed = 8"),
-        ("spec/door/scores.toml", "earlier_text = false", "earlier_text = true"),
         ("proofs/door/bolt.py", "@theorem", "@other"),
     ],
     ids=lambda text: text.strip()[:24],
@@ -150,18 +129,6 @@ def test_a_telling_run_that_is_no_evidence_is_found(told: Any) -> None:
     assert problems(told.root) == ["telling: MC_Latch is no counterexample of it"]
 
 
-def test_a_score_of_another_text_is_said_to_be_one(told: Any) -> None:
-    assert "of an earlier text" not in made(told.root)
-    told.edit("spec/door/scores.toml", "earlier_text = false", "earlier_text = true")
-    assert "each explained; of an earlier text |" in made(told.root)
-
-
-def test_a_wrong_score_is_refused(told: Any) -> None:
-    told.edit("spec/door/scores.toml", 'what = "spec"', 'what = "all"')
-    with pytest.raises(Unjudged, match=r"scores\.toml"):
-        load_scores(told.root, "door")
-
-
 @pytest.mark.parametrize("name", documents(repository_root()))
 def test_each_document_has_its_page_with_telling_counterexamples(name: str) -> None:
     document = load_document(repository_root(), name)
@@ -170,5 +137,3 @@ def test_each_document_has_its_page_with_telling_counterexamples(name: str) -> N
     assert set(tables_of(document, text)) == {telling.run for _, telling in tellings(document)}
     for finding in document.findings:
         assert f"**{finding.id}" in text
-    assert {score.what for score in load_scores(repository_root(), name)} == {"spec", "impl", "vectors"}
-    assert all(score.survived == score.survived_explained for score in load_scores(repository_root(), name))

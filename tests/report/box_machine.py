@@ -50,7 +50,6 @@ RESULT: dict[str, Any] = {
     "trial": {
         "edits": 9,
         "judged": 7,
-        "of_another_text": 2,
         "counts": {"KILLED": 6, "SURVIVED": 1},
         "falls": {"shut-first": 6},
         "left": [{"edit": "order = box last", "kind": "order", "verdict": "SURVIVED", "why": ""}],

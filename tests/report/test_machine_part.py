@@ -49,7 +49,6 @@ def test_the_part_shows_all_that_the_evidence_has(root: Path) -> None:
         "after 5 ms: Start=1",
         "gives move=1",
         "order = box last",
-        "recorded outcomes are of another text and do not count",
         "judged it again from its text alone",
         "No person is in the model.",
         'href="#clause-BX-1-2"',

@@ -106,7 +106,7 @@ def test_a_run_of_another_lane_is_no_hole_or_verdict(root: Path) -> None:
 
 def test_unrecorded_kills_are_a_hole_with_the_command(root: Path) -> None:
     assert shown(root)["kills"] is None
-    assert "no campaign is recorded: <code>modeproof mutate spec --document box</code>" in make(root).html
+    assert "no campaign over this text: <code>modeproof mutate spec --document box</code>" in make(root).html
 
 
 def test_a_property_says_its_killed_mutants_and_how_many_alone(root: Path) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from modeproof.report.build import make
-from modeproof.report.parts import verdict
 from modeproof.report.parts.strength import part
 from modeproof.report.sources import HOLE, NOTE, gather
 from tests.report.paper import make_paper, put
@@ -108,28 +106,7 @@ def test_an_unrecorded_campaign_is_a_hole_with_its_command(root: Path) -> None:
     assert [one["recorded"] is None for one in found.data["documents"][0]["campaigns"]] == [False, True, True]
     assert [one.status for one in found.troubles] == [NOTE, NOTE]
     assert found.troubles[0].remedy == "modeproof mutate impl --document box"
-    assert "no campaign is recorded; <code>modeproof mutate impl --judge vectors" in make(root).html
-
-
-def test_without_evidence_the_counts_kept_in_git_are_shown(root: Path) -> None:
-    counts = "killed = 7\nequivalent = 0\ninvalid = 0\nsurvived = 1\nsurvived_explained = 1\nunmeasured = 0\n"
-    row = f'document = "box"\n[[campaign]]\nwhat = "impl"\njudged_on = "2026-11-22"\ncommand = "x"\n{counts}'
-    text = '"spec/box/Box.tla" = "0123456789abcdef"'
-    (root / "spec/box/scores.toml").write_text(f"{row}earlier_text = true\n[campaign.files]\n{text}\n")
-    found = part(gather(root)).data["documents"][0]["campaigns"][1]
-    score = found["score"]
-    assert (found["recorded"], score["killed"].value, score["different"].value) == (None, 7, 8)
-    assert "of an earlier text" in make(root).html
-    by = {row["judge"]: row for row in verdict.part(gather(root)).data["documents"][0]["mutants"]}
-    row = by["theorems"]
-    assert (row["killed"].value, row["of"].value, row["killed"].source) == (7, 8, "spec/box/scores.toml")
-    assert (row["day"], row["earlier"], by["properties"]["day"]) == ("2026-11-22", True, "")
-    assert [one.remedy.split()[-3:] for one in part(gather(root)).troubles] == [
-        ["vectors", "--document", "box"]
-    ]
-    assert "not measured" not in make(root).html and "1 of 2 counts are of an earlier text" in re.sub(
-        r"<[^>]*>", "", make(root).html
-    )
+    assert "no campaign over this text; <code>modeproof mutate impl --judge vectors" in make(root).html
 
 
 def test_the_text_of_an_edit_cannot_become_markup(root: Path) -> None:

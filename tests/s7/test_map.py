@@ -58,6 +58,8 @@ def test_a_map_that_fits_is_read(tmp_path: Path) -> None:
     assert found.inputs == {"GO": Place("DB", 3, 0, 0, "BOOL"), "CODE": Place("M", 0, 1, -1, "WORD")}
     assert found.outputs["SHOWN"] == Place("DB", 5, 0, -1, "INT")
     assert (found.unobserved, set(found.controls)) == (("TEXT",), {"@reset", "@cycle"})
+    more = written(tmp_path, ("@reset", "@non_retentive,DB2,\n@non_retentive,MB1-MB2,\n@reset"))
+    assert read_map(more, INPUTS, OUTPUTS, PARAMETERS) == found  # those lines are for `prove-program`
     german = written(tmp_path, ("Q0.0", "A0.0"))
     assert read_map(german, INPUTS, OUTPUTS, PARAMETERS) == found
 

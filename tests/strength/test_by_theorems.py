@@ -17,7 +17,7 @@ from modeproof.ground.progress import Progress
 from modeproof.strength.by_theorems import ByTheorems
 from modeproof.strength.campaign import Campaign, Judged, explanation_problems, unexplained
 from modeproof.strength.code import Code
-from modeproof.strength.register import load_theorems
+from modeproof.strength.register import load_code
 from modeproof.strength.results import read_results
 
 GATE = """
@@ -174,9 +174,10 @@ def test_a_changed_step_spoils_everything(place: Path) -> None:
 
 def test_an_explanation_of_what_is_no_survivor_is_a_problem(place: Path) -> None:
     _, judged = run(place, Reader(place))
-    row = f'[[survivor]]\nids = ["{judged[0].mutant.id}"]\nkind = "harmless"\nwhy = "It does nothing."\n'
+    row = f'[[survivor]]\njudge = "theorems"\nids = ["{judged[0].mutant.id}"]\n'
+    row += 'kind = "harmless"\nwhy = "It does nothing."\n'
     (place / "proofs/toy/strength.toml").write_text(REGISTER + row)
-    (explained,) = load_theorems(place, "toy").explained
+    (explained,) = load_code(place, "toy").explained("theorems")
     assert explanation_problems([explained], judged, complete=True)
     assert not explanation_problems([], judged, complete=True)
 
@@ -184,12 +185,12 @@ def test_an_explanation_of_what_is_no_survivor_is_a_problem(place: Path) -> None
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("[rule]\nother = 1\n", "unknown field 'other'"),
-        ("x = 1\n", "unknown field 'x'"),
+        ("[rule]\nother = 1\n", "rule: unknown key 'other'"),
+        ("x = 1\n", "unknown key 'x'"),
         ("[", "strength.toml"),
     ],
 )
 def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
     (place / "proofs/toy/strength.toml").write_text(text)
     with pytest.raises(Unjudged, match=complaint):
-        load_theorems(place, "toy")
+        load_code(place, "toy")

@@ -21,7 +21,7 @@ from modeproof.strength.by_vectors import ByVectors
 from modeproof.strength.campaign import Campaign, Judged, unexplained
 from modeproof.strength.code import Code
 from modeproof.strength.published import contents, published
-from modeproof.strength.register import load_vectors, vectors_path
+from modeproof.strength.register import code_path, load_code
 from modeproof.strength.replay import ReplayCase, Vectors
 from modeproof.strength.results import Results, read_results
 from proofs.mutants import copies
@@ -177,25 +177,26 @@ def test_what_no_suite_catches_survives_and_must_be_explained(place: Path) -> No
     survivor = by_edit(judged, "WORDS", "9", "10")
     assert survivor.word == "SURVIVED"
     assert survivor.mutant.id in {one.mutant.id for one in unexplained((), judged)}
-    row = f'[[survivor]]\nids = ["{survivor.mutant.id}"]\nkind = "harmless"\nwhy = "The suite is short."\n'
-    vectors_path(place, "toy").write_text(row, encoding="utf-8")
-    explained = load_vectors(place, "toy").explained
+    row = f'[[survivor]]\njudge = "vectors"\nids = ["{survivor.mutant.id}"]\n'
+    row += 'kind = "harmless"\nwhy = "The suite is short."\n'
+    code_path(place, "toy").write_text(row, encoding="utf-8")
+    explained = load_code(place, "toy").explained("vectors")
     assert survivor.mutant.id not in {one.mutant.id for one in unexplained(explained, judged)}
 
 
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("x = 1\n", "unknown field 'x'"),
-        ("[", "adequacy.toml"),
-        ("survivor = 1\n", "list of tables"),
-        ("suites = 'tour'\n", "list of names"),
+        ("x = 1\n", "unknown key 'x'"),
+        ("[", "strength.toml"),
+        ("survivor = 1\n", "survivor: must be a list"),
+        ("suites = 'tour'\n", "suites: must be a list"),
     ],
 )
 def test_a_register_that_is_not_understood_is_refused(place: Path, text: str, complaint: str) -> None:
-    vectors_path(place, "toy").write_text(text, encoding="utf-8")
+    code_path(place, "toy").write_text(text, encoding="utf-8")
     with pytest.raises(Unjudged, match=complaint):
-        load_vectors(place, "toy")
+        load_code(place, "toy")
 
 
 def test_what_reaches_no_published_target_is_out_of_scope(place: Path) -> None:

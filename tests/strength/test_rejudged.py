@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import fnmatch
+
 import pytest
 
 from modeproof.ground.places import documents, root
-from modeproof.registers.scores import load_scores
+from modeproof.ground.proofs import code_under_proof
+from modeproof.strength.code import Code
 from modeproof.strength.judge import judge
 from modeproof.strength.register import Rejudged
 from tests.strength.shipped import bench_of, mutants_of
@@ -27,10 +30,11 @@ def test_some_are_named() -> None:
 
 
 @pytest.mark.parametrize("document", documents(root()))
-def test_every_explained_survivor_is_a_mutant(document: str) -> None:
-    (row,) = [row for row in load_scores(root(), document) if row.what == "spec"]
-    if row.earlier_text:
-        pytest.skip("the specification has changed since the campaign")
-    ids = {mutant.id for mutant in mutants_of(document)}
-    named = {id for explained in bench_of(document).strength.explained for id in explained.ids}
-    assert {id for id in named if "*" not in id} <= ids
+def test_every_explained_survivor_is_a_mutant_of_this_text(document: str) -> None:
+    code = Code(root(), document, code_under_proof())
+    for every, explained in (
+        (mutants_of(document), bench_of(document).strength.explained),
+        (code.mutants, code.register.survivors),
+    ):
+        ids = {mutant.id for mutant in every}
+        assert {id for row in explained for id in row.ids if not fnmatch.filter(ids, id)} == set()

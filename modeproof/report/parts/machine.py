@@ -112,7 +112,6 @@ def _machine(sources: Sources, piece: Evidence, kinds: Mapping[str, str]) -> dic
         "trial": {
             "edits": Figure(trial["edits"], piece.path),
             "judged": Figure(trial["judged"], piece.path),
-            "of_another_text": Figure(trial["of_another_text"], piece.path),
             "counts": {word: Figure(count, piece.path) for word, count in trial["counts"].items()},
             "left": trial["left"],
         },

@@ -186,13 +186,7 @@ def _witness(sources: Sources, document: Document, prop: Property) -> dict[str, 
 
 def _falls(sources: Sources, document: Document, prop: Property, troubles: list[Trouble]) -> dict[str, Any]:
     """The negatives and the edits with which it falls, or why nothing breaks it."""
-    texts = texts_of(sources, document)
-
-    def read() -> tuple[dict[str, Falls], Killers, dict[str, str | Unjudged]]:
-        killers = load_killers(document.root, document.name)
-        return ways_to_fall(document, texts), killers, stamps_of(document, texts, killers)
-
-    every, killers, stamps = sources.once(f"killers {document.name}", read)
+    every, killers, stamps = _killing(sources, document)
     falls = every[prop.id]
     edits = [
         {
@@ -207,6 +201,30 @@ def _falls(sources: Sources, document: Document, prop: Property, troubles: list[
             Trouble(HOLE, ID, what, f"modeproof mutate spec --killers --document {document.name}")
         )
     return {"negatives": list(falls.negatives), "edits": edits, "reason": falls.reason}
+
+
+def _killing(
+    sources: Sources, document: Document
+) -> tuple[dict[str, Falls], Killers, dict[str, str | Unjudged]]:
+    texts = texts_of(sources, document)
+
+    def read() -> tuple[dict[str, Falls], Killers, dict[str, str | Unjudged]]:
+        killers = load_killers(document.root, document.name)
+        return ways_to_fall(document, texts), killers, stamps_of(document, texts, killers)
+
+    return sources.once(f"killers {document.name}", read)
+
+
+def fallen(sources: Sources, document: Document) -> tuple[int, int]:
+    """How many properties fall with a fault that was judged on this text, of those that one can break."""
+    every, killers, stamps = _killing(sources, document)
+    can = [falls for falls in every.values() if falls.kind != "by construction"]
+    good = [
+        falls
+        for falls in can
+        if falls.negatives or any(killers.edits[name].stamp == stamps[name] for name in falls.edits)
+    ]
+    return len(good), len(can)
 
 
 def _kills(killing: Campaign | None, prop: Property) -> dict[str, Any] | None:

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from modeproof.registers.rows import Document
-from modeproof.registers.scores import load_scores
 from modeproof.report.campaigns import KINDS, WORDS, Campaign, campaign, id_of
 from modeproof.report.part import Part
 from modeproof.report.sources import NOTE, Figure, Sources, Trouble
@@ -20,7 +19,7 @@ LONG = 90
 def part(sources: Sources) -> Part:
     """One entry a document, and in it one a campaign.
 
-    No lane runs campaigns: one that is not recorded shows as a hole in its place and changes no status.
+    `make exhaustive` runs campaigns. One that this text has not seen is a hole and changes no status.
     """
     troubles: list[Trouble] = []
     found = [_document(sources, document, troubles) for document in sources.documents.values()]
@@ -38,26 +37,12 @@ def _document(sources: Sources, document: Document, troubles: list[Trouble]) -> 
             "command": command.format(document.name),
         }
         if found is None:
-            score = _score(sources, document, kind)
-            if score is None:
-                what = f"{document.name}: no campaign is recorded: faults in {edited}, judged by {judges}"
-                troubles.append(Trouble(NOTE, ID, what, command.format(document.name)))
-            campaigns.append({**about, "recorded": None, "score": score})
+            what = f"{document.name}: no campaign over this text: faults in {edited}, judged by {judges}"
+            troubles.append(Trouble(NOTE, ID, what, command.format(document.name)))
+            campaigns.append({**about, "recorded": None})
         else:
             campaigns.append({**about, "recorded": _campaign(document, found)})
     return {"id": document.name, "title": document.about.title, "campaigns": campaigns}
-
-
-def _score(sources: Sources, document: Document, kind: str) -> dict[str, Any] | None:
-    """The counts of a campaign as they are kept with the registers; None where there are none."""
-    register = document.source("scores")
-    for score in load_scores(document.root, document.name):
-        if score.what == kind:
-            sources.content(register)
-            names = ("killed", "different", "survived", "survived_explained", "unmeasured", "judged_on")
-            figures = {name: Figure(getattr(score, name), register) for name in names}
-            return {**figures, "earlier_text": score.earlier_text, "command": score.command}
-    return None
 
 
 def _campaign(document: Document, campaign: Campaign) -> dict[str, Any]:
@@ -71,14 +56,8 @@ def _campaign(document: Document, campaign: Campaign) -> dict[str, Any]:
         "evidence": source,
         "id": id_of(campaign.kind),
         "verdict": campaign.evidence.figure("verdict"),
-        "good": None
-        if campaign.evidence.changed
-        else True
-        if record["as_expected"]
-        else _bad(record["verdict"]),
-        "why": f"the evidence is of another text of {campaign.evidence.changed[0]}"
-        if campaign.evidence.changed
-        else record["reason"],
+        "good": True if record["as_expected"] else _bad(record["verdict"]),
+        "why": record["reason"],
         "every": campaign.evidence.figure("result", "every"),
         "out_of_scope": campaign.evidence.figure("result", "out_of_scope"),
         "different": Figure(sum(counts[word] for word in ("KILLED", "SURVIVED", "UNMEASURED")), source),

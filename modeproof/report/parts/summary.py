@@ -11,7 +11,7 @@ from modeproof.report.bearing import falling, hazard_of, heaviest, worst
 from modeproof.report.deviations import deviations
 from modeproof.report.filing import commit_of
 from modeproof.report.part import Part
-from modeproof.report.parts import review, verdict
+from modeproof.report.parts import properties, review, verdict
 from modeproof.report.snapshot import lines_of
 from modeproof.report.sources import Figure, Sources
 from modeproof.report.verdicts import ASIDE
@@ -94,7 +94,7 @@ def _conclusions(sources: Sources) -> dict[str, dict[str, Any]]:
         "readings": _readings(sources),
         "program": groups["theorems"] | {"yours": sum(map(len, sources.yours.values()))},
         "agreement": groups["conformance"],
-        "faults": _faults(data["documents"]),
+        "faults": _faults(sources, data["documents"]),
     }
 
 
@@ -134,16 +134,17 @@ def _readings(sources: Sources) -> dict[str, Any]:
     }
 
 
-def _faults(documents: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """The planted faults of all campaigns together, with the days and how many are of an earlier text."""
+def _faults(sources: Sources, documents: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    """The requirements that fail with a fault planted for them, and the faults by rule of all campaigns."""
+    falls = [properties.fallen(sources, document) for document in sources.documents.values()]
+    good, of = (sum(counts) for counts in zip(*falls, strict=True))
     rows = [row for document in documents for row in document["mutants"]]
     killed, different = (sum(row[key].value for row in rows) for key in ("killed", "of"))
     return {
-        "good": Figure(killed, "spec/"),
-        "of": Figure(different, "spec/"),
-        "status": 0 if rows else 2,
-        "left": Figure(different - killed, "spec/"),
-        "campaigns": Figure(len(rows), "spec/"),
-        "earlier": Figure(sum(row["earlier"] for row in rows), "spec/"),
-        "days": sorted({row["day"] for row in rows if row["day"]}),
+        "good": Figure(good, "spec/"),
+        "of": Figure(of, "spec/"),
+        "status": 0 if good == of else 2,
+        "mutants": Figure(different, FOLDER),
+        "noticed": Figure(killed, FOLDER),
+        "left": Figure(different - killed, FOLDER),
     }

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from modeproof.registers.rows import Document
-from modeproof.registers.scores import Score, load_scores
 from modeproof.report.campaigns import KINDS, id_of
 from modeproof.report.claims import result_of
 from modeproof.report.part import Part
@@ -101,35 +100,17 @@ def add(cells: Iterable[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _mutants(sources: Sources, document: str) -> list[dict[str, Any]]:
-    """KILLED of those that behave differently, for each judge: by evidence of the present text, else as the
-    register keeps it, with the day and whether the text has changed since.
-    """
+    """KILLED of those that behave differently, for each judge, by evidence of the present text."""
     found = mutants_of(sources, document)
-    kept: dict[str, Score] = {score.what: score for score in load_scores(sources.root, document)}
     rows = []
     for kind, (_, judge, _) in KINDS.items():
         counts = found.get(judge, {})
         different = sum(counts.get(word, 0) for word in ("KILLED", "SURVIVED", "UNMEASURED"))
         if different:
             path = sources.evidence[document][id_of(kind)].path
-            killed = counts.get("KILLED", 0)
-            rows.append(_killed(judge, killed, different, path))
-        elif score := kept.get(kind):
-            path = f"spec/{document}/scores.toml"
-            row = _killed(judge, score.killed, score.different, path)
-            rows.append({**row, "day": score.judged_on, "earlier": score.earlier_text})
+            killed = Figure(counts.get("KILLED", 0), path)
+            rows.append({"judge": judge, "killed": killed, "of": Figure(different, path)})
     return rows
-
-
-def _killed(judge: str, killed: int, of: int, path: str) -> dict[str, Any]:
-    """How many of the mutants a judge kills; a campaign that is recorded has its day."""
-    return {
-        "judge": judge,
-        "killed": Figure(killed, path),
-        "of": Figure(of, path),
-        "day": "",
-        "earlier": False,
-    }
 
 
 def _rows(

@@ -9,7 +9,7 @@ from proofs.explorer.errors import ExplorationError
 from proofs.mode_selection.devices import DEVICES, EKS, FPLC, HMI, PLC
 from refimpl.mode_selection import plc
 
-REGISTER = Path(__file__).parents[3] / "proofs" / "mode_selection" / "unreached.toml"
+REGISTER = Path(__file__).parents[3] / "proofs" / "mode_selection" / "strength.toml"
 
 
 @pytest.mark.deep
@@ -60,26 +60,27 @@ def _without(text: str, line: str) -> str:
 
 
 def test_a_place_that_the_register_forgets_is_unexplained(tmp_path: Path) -> None:
-    changed = tmp_path / "unreached.toml"
+    changed = tmp_path / "strength.toml"
     text = REGISTER.read_text(encoding="utf-8")
     changed.write_text(_without(text, "    'branch step: elif state.turn == Step.COPY_MW07: no',\n"))
     assert explained(PLC, changed).unexplained == ("branch step: elif state.turn == Step.COPY_MW07: no",)
 
 
 def test_an_explanation_of_what_is_passed_is_idle(tmp_path: Path) -> None:
-    changed = tmp_path / "unreached.toml"
+    changed = tmp_path / "strength.toml"
     text = REGISTER.read_text(encoding="utf-8")
     changed.write_text(
-        f'{text}\n[[place]]\ndevices = ["plc"]\nunreached = ["line step: pass"]\nwhy = "planted"\n'
+        f'{text}\n[[unreached]]\ndevices = ["plc"]\nplaces = ["line step: pass"]\nwhy = "planted"\n'
     )
     assert explained(PLC, changed).idle == ("line step: pass",)
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[[place]]\n", '[[place]]\ndevices = ["plc"]\nunreached = ["x"]\nwhy = ""\n', "place = ["]
+    "text",
+    ["", "[[unreached]]\n", '[[unreached]]\ndevices = ["plc"]\nplaces = ["x"]\nwhy = ""\n', "unreached = ["],
 )
 def test_a_register_that_explains_nothing_cannot_be_judged(text: str, tmp_path: Path) -> None:
-    changed = tmp_path / "unreached.toml"
+    changed = tmp_path / "strength.toml"
     changed.write_text(text)
-    with pytest.raises(ExplorationError, match=r"unreached\.toml"):
+    with pytest.raises(ExplorationError, match=r"strength\.toml"):
         explained(PLC, changed)
