@@ -32,6 +32,7 @@ _END = re.compile(r"^={4,}", re.MULTILINE)
 _CFG_TOKEN = re.compile(r'"[^"\n]*"?|[^\s"]+')
 _WORD = re.compile(r"\w+")
 _DOTTED = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
+_FILE = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|tla|cfg|toml|json)")
 _BY_NAME = frozenset({"import_module", "__import__", "proofs_module", "-m"})
 """Where one of these is called or given, any string of the file may be the name of a module that it needs."""
 _ERRORS = (OSError, EOFError, ValueError, SyntaxError, RecursionError, MemoryError, zlib.error)
@@ -42,7 +43,7 @@ _ERRORS = (OSError, EOFError, ValueError, SyntaxError, RecursionError, MemoryErr
 class _Read:
     """What was read in a file: its meaning, and the names of what it may use.
 
-    `names` are dotted names of modules for Python, words for TLA+.
+    `names` are, for Python, dotted names of modules and paths of files; for TLA+ words.
     """
 
     digest: str
@@ -87,8 +88,9 @@ def reached(root: Path, *entries: Path | str) -> tuple[Path, ...]:
     """All files below the root that these files need, themselves included, in the order of their paths.
 
     An entry is a file, a folder (all modules directly in it), or the dotted name of a module or package. A
-    Python module needs what it imports anywhere in it, by a string too; a TLA+ module
-    needs the modules beside it and in spec/common whose names stand in it. What is loaded by a name put
+    Python module needs what it imports anywhere in it, by a string too, and each file whose path from the
+    root is one of its strings; a TLA+ module needs the modules beside it and in spec/common whose names stand
+    in it. What is loaded by a name put
     together at run time is an entry of its own. Raises Unjudged for an entry that is not there.
     """
     waiting = [path for entry in entries for path in _entry(root, entry)]
@@ -104,8 +106,8 @@ def reached(root: Path, *entries: Path | str) -> tuple[Path, ...]:
             if path.suffix == ".tla":
                 waiting += _modules_beside(root, path, names)
             elif path.suffix == ".py":
-                for name in names:
-                    name = _absolute(root, path, name)
+                waiting += [root / name for name in names if "/" in name and (root / name).is_file()]
+                for name in (_absolute(root, path, name) for name in names if "/" not in name):
                     if name not in resolved:
                         resolved[name] = tuple(_module(root, name))
                     waiting += resolved[name]
@@ -181,8 +183,10 @@ def _python(content: bytes) -> tuple[str, frozenset[str]]:
     strings: set[str] = set()
     with _without_collection():
         _say(ast.parse(content), said, names, strings)
-    named = strings if _BY_NAME & strings else set()
-    return "".join(said), frozenset(names | set(filter(_DOTTED.fullmatch, named)))
+    names |= set(filter(_FILE.fullmatch, strings))
+    if _BY_NAME & strings:
+        names |= set(filter(_DOTTED.fullmatch, strings))
+    return "".join(said), frozenset(names)
 
 
 def _say(node: Any, said: list[str], names: set[str], strings: set[str]) -> None:

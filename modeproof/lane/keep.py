@@ -28,12 +28,17 @@ class Keep:
         self._documents: dict[str, Any] = {}
 
     def record(
-        self, place: Path, document: str, id: str, rests: Rests | Callable[[], Rests], sound: bool = True
+        self,
+        place: Path,
+        document: str,
+        id: str,
+        rests: Rests | Callable[[], Rests],
+        doubt: Callable[[Record], str] | None = None,
     ) -> Record | None:
         """The evidence of a result that stands; None: it must be judged.
 
-        It is judged by its own figures once more (`sound`: those of a document). What it rests on is asked
-        only where there is evidence; where that cannot be said nothing is kept.
+        Its own figures are judged once more, by `doubt` if that is given. What it rests on is asked only
+        where there is evidence; where that cannot be said nothing is kept.
         """
         path = evidence.evidence_path(place, document, id)
         if self.anew or not path.is_file():
@@ -45,7 +50,9 @@ class Keep:
             return None
         try:
             why = evidence.why_again(place, record, rests if isinstance(rests, Rests) else rests())
-            if not why and sound:
+            if not why and doubt is not None:
+                why = doubt(record)
+            elif not why:
                 why = contradiction(place, self._document(place, document), record)
         except Unjudged as error:
             why = error.message.replace(f"{place}/", "")

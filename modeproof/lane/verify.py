@@ -25,7 +25,9 @@ from modeproof.lane.machine import judge_machine, machine_rests, troubles_of_mac
 from modeproof.lane.prove import prove_documents
 from modeproof.lane.summary import failures, machine_line, render, total
 from modeproof.registers.runs import LANES, Run, load_runs
+from modeproof.report.again import doubt_on_machine
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
+from modeproof.tlc.again import doubt
 from modeproof.tlc.check import check_all, register_problems, select
 from modeproof.tlc.command import line_of
 from modeproof.tlc.rests import rests_of
@@ -150,7 +152,8 @@ def check_lane(
     found: Records = []
     again = []
     for run in runs:
-        kept = keep.record(place, run.document, run.id, partial(rests_of, place, run, tools))
+        rests = partial(rests_of, place, run, tools)
+        kept = keep.record(place, run.document, run.id, rests, partial(doubt, place, run))
         if kept is None:
             again.append(run)
         else:
@@ -266,7 +269,9 @@ def stages_of_verify(keep: Keep = NOTHING) -> list[tuple[str, Stage]]:
                 say(record, progress)
 
         for name in own if lane == "full" else ():
-            if kept := keep.record(place, name, MACHINE, partial(machine_rests, place, name), sound=False):
+            if kept := keep.record(
+                place, name, MACHINE, partial(machine_rests, place, name), doubt_on_machine
+            ):
                 judged.append(kept)
             else:  # it takes longest
                 tasks.insert(0, (judge_machine, (place, name, keep.anew)))

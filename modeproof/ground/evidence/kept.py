@@ -33,11 +33,9 @@ class Rests:
 
     def digest(self, place: Path) -> str:
         """One hash of it all, for a part of a result that is kept by itself. Raises Unjudged."""
-        tools = {
-            name: _which(entry) for name, entry in self.tools.items() if name not in _NO_PART_OF_A_RESULT
-        }
-        own = {name: _which(entry) for name, entry in own_tools(place, *self.code).items()}
-        return sha256_of([sorted(self.inputs.items()), self.code, tools | own, sorted(self.said.items())])
+        every = {**own_tools(place, *self.code), **self.tools}
+        tools = {name: _which(name, every) for name in every.keys() - _NO_PART_OF_A_RESULT}
+        return sha256_of([dict(self.inputs), self.code, tools, dict(self.said)])
 
 
 def why_again(place: Path, record: Mapping[str, Any], rests: Rests, alone: bool = False) -> str:
@@ -59,7 +57,7 @@ def why_again(place: Path, record: Mapping[str, Any], rests: Rests, alone: bool 
         return "other modules judge it now"
     tools = {} if alone else {**own_tools(place, *rests.code), **rests.tools}
     for name in sorted({*record["tools"], *tools} - _NO_PART_OF_A_RESULT) if tools else ():
-        if _which(record["tools"].get(name)) != _which(tools.get(name)):
+        if _which(name, record["tools"]) != _which(name, tools):
             return "the code that judges it has changed" if name == "modeproof" else f"{name} is another"
     return next(
         (f"{name} is not what it made" for name, digest in made(record) if not _is(place / name, digest)), ""
@@ -77,9 +75,10 @@ def made(record: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield query["smt2"], query.get("smt2_sha256", "")
 
 
-def _which(entry: Mapping[str, str | None] | None) -> str | None:
-    """The hash of a tool, or its version where it has none."""
-    return None if entry is None else entry["sha256"] or entry["version"]
+def _which(name: str, tools: Mapping[str, Mapping[str, str | None]]) -> tuple[str | None, ...] | None:
+    """The hash and the version of a tool; what TLC says of itself is known only after it ran."""
+    entry = tools.get(name)
+    return None if entry is None else (entry["sha256"], None if name == "tlc" else entry["version"])
 
 
 def _is(path: Path, digest: str) -> bool:
