@@ -45,6 +45,7 @@ from programs.tree import (
     shown,
 )
 from programs.types import Types
+from programs.undefined import check_set
 
 MOST_TURNS = 1000
 DEEPEST = 20
@@ -71,6 +72,8 @@ def check_below(source: Source, unit: Unit) -> None:
     check_length(source, unit)
     for found in every:
         _Statements(source, found).body(found.body)
+        if not found.fresh:
+            check_set(source, found)
 
 
 def reached(source: Source, unit: Unit, above: tuple[str, ...]) -> Iterator[Unit]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
@@ -129,4 +130,6 @@ def _read(
         return read_plcopen(text, str(path))
     if path.suffix.lower() in STATEMENT_LIST:
         return [(unit, None) for unit in read_awl(path)], {}
-    return [(unit, None) for unit in read_text(_plain(text, path), str(path), types)], {}
+    fresh = path.suffix.lower() != ".scl"
+    units = read_text(_plain(text, path), str(path), types)
+    return [(replace(unit, fresh=fresh), None) for unit in units], {}

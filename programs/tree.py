@@ -366,6 +366,8 @@ class Unit:
     namespace: str = ""
     using: tuple[tuple[str, Place], ...] = ()
     """The namespaces whose names its file uses, and where it says so."""
+    fresh: bool = True
+    """VAR_TEMP, and all of a FUNCTION, has its first value when a call begins; else none (`undefined`)."""
     notes: tuple[str, ...] = ()
     """What the source leaves open and was taken as said here, one sentence each."""
 

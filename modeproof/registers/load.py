@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, TypeVar
 
+import msgspec
+
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import documents
 from modeproof.registers.files import read_toml
@@ -50,7 +52,10 @@ def load_document(root: Path, name: str) -> Document:
         about=typed(About, read_register(root, name, "document"), f"spec/{name}/document.toml"),
         clauses=_rows(root, name, "clauses", "clause", Clause),
         interface=load_interface(root, name),
-        properties=_rows(root, name, "properties", "property", Property),
+        properties=tuple(
+            prop if prop.tla else msgspec.structs.replace(prop, tla=prop.id)
+            for prop in _rows(root, name, "properties", "property", Property)
+        ),
         findings=_rows(root, name, "findings", "finding", Finding),
         assumptions=_rows(root, name, "assumptions", "assumption", Assumption),
         runs=load_runs(root, name),

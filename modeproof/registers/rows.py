@@ -134,9 +134,10 @@ class Interface:
 
 
 class Property(Entry, frozen=True, kw_only=True):
-    """What must be true. `tla` is its operator in `module`; `antecedent` the witness that it is not empty.
+    """What must be true. `antecedent` is the witness that it is not empty.
 
-    `profiles` are those with which it holds.
+    `tla` is its operator in `module`; it has the id as its name where none is given. `profiles` are those
+    with which it holds.
     """
 
     id: Name
@@ -144,11 +145,11 @@ class Property(Entry, frozen=True, kw_only=True):
     sentence: Text
     hazard: Text
     clauses: Clauses
-    tla: Name
     module: Name
     kind: Literal["invariant", "action", "liveness", "refinement"]
     environments: Annotated[tuple[LowerName, ...], Meta(min_length=1)]
     antecedent: str
+    tla: str = ""
     findings: tuple[RowId, ...] = ()
     profiles: tuple[Literal["letter", "cautious"], ...] = (
         "letter",

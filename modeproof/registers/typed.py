@@ -37,6 +37,8 @@ Sha256 = Annotated[
 ]
 Count = Annotated[int, Meta(ge=1)]
 
+DEFAULT = "default"
+"""[default.key] of a register: what a row of this key says where it says nothing else."""
 _PLACE = re.compile(r" - at `(?:key in )?\$\.?(.*)`$")
 _UNKNOWN = re.compile(r"Object contains unknown field `(.+)`")
 _MISSING = re.compile(r"Object missing required field `(.+)`")
@@ -74,18 +76,25 @@ def typed(kind: type[Row], values: Table, place: str) -> Row:
 def only_keys(source: str, data: Table, known: Iterable[str]) -> None:
     """Raises Unjudged for a key that a file must not have on its top floor."""
     known = list(known)
-    for key in data:
+    for key in (*(key for key in data if key != DEFAULT), *data.get(DEFAULT, ())):
         if key not in known:
             raise Unjudged(f"{source}: unknown key {key!r}; {suggestion(key, known)}")
 
 
 def tables(source: str, data: Table, key: str) -> dict[str, Table]:
-    """The list of tables ([[key]]) of a file, each by its id. Raises Unjudged: none, or an id twice."""
+    """The rows of a file ([key.ID], or a list [[key]]), each by its id, with what they leave out.
+
+    That stands in [default.key]. Raises Unjudged: no row, an id twice.
+    """
     rows = data.get(key, [])
+    if isinstance(rows, dict) and all(isinstance(row, dict) for row in rows.values()):
+        rows = [{"id": id, **row} for id, row in rows.items()]
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-        raise Unjudged(f"{source}: `{key}` must be a list of tables ([[{key}]])")
+        raise Unjudged(f"{source}: `{key}` must be tables ([{key}.ID], or a list [[{key}]])")
     if not rows:
-        raise Unjudged(f"{source}: there is no [[{key}]]")
+        raise Unjudged(f"{source}: there is no [{key}.ID] and no [[{key}]]")
+    usual = data.get(DEFAULT, {}).get(key, {})
+    rows = [{**usual, **row} for row in rows]
     ids = [str(row.get("id", f"number {number}")) for number, row in enumerate(rows, 1)]
     for n, row_id in enumerate(ids):
         if row_id in ids[:n]:

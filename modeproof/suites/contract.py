@@ -31,6 +31,7 @@ from modeproof.kit.contract import read_contract
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.signals import read_signals
 from modeproof.registers.rows import Device, Signal
+from modeproof.registers.typed import tables
 
 FILE = "contracts.toml"
 _ROW = {"device", "tables", "constants", "rule", "property"}
@@ -116,8 +117,9 @@ def declare_parameters(device: Device, modes: list[int]) -> dict[str, dict[str, 
 
 def _clauses(place: Path, document: str) -> dict[str, list[str]]:
     where = f"spec/{document}/properties.toml"
-    rows = _toml(place / where, where).get("property", [])
-    return {row["id"]: list(row.get("clauses", [])) for row in rows}
+    data = _toml(place / where, where)
+    rows = tables(where, data, "property") if "property" in data else {}
+    return {id: list(row.get("clauses", [])) for id, row in rows.items()}
 
 
 def _toml(path: Path, where: str) -> dict[str, Any]:

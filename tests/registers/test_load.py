@@ -32,6 +32,42 @@ def test_a_sound_document_loads_with_types(tree: Any) -> None:
     assert load_interface(tree.root, "door") == door.interface
 
 
+KEYED = """
+[default.clause]
+kind = "behaviour"
+device = ["latch"]
+[clause.DR-1-1]
+title = "the latch shuts"
+text = "It shuts."
+[clause.DR-1-2]
+title = "colour"
+device = []
+text = "It is green."
+"""
+
+
+def test_rows_by_their_ids_take_from_the_default_what_they_leave_out(tree: Any) -> None:
+    tree.write("spec/door/clauses.toml", KEYED)
+    first, second = load_document(tree.root, "door").clauses
+    assert (first.id, first.kind, first.device) == ("DR-1-1", "behaviour", ("latch",))
+    assert (second.id, second.kind, second.device) == ("DR-1-2", "behaviour", ())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("[default.clause]", "[default.clauses]", "unknown key 'clauses'"),
+        ('kind = "behaviour"', 'knd = "behaviour"', "[[clause]] DR-1-1: unknown key 'knd'"),
+        ("[clause.DR-1-2]", "[clause.DR-1-1]", "not valid TOML"),
+        ("[clause.DR-1-2]", '[clause.DR-1-2]\nid = "DR-1-1"', "declared twice"),
+    ],
+)
+def test_a_default_or_an_id_that_is_wrong_is_refused(tree: Any, old: str, new: str, words: str) -> None:
+    assert old in KEYED
+    tree.write("spec/door/clauses.toml", KEYED.replace(old, new, 1))
+    assert words in refusal(tree)
+
+
 @pytest.mark.parametrize(
     ("register", "old", "new", "words"),
     [

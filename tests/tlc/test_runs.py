@@ -30,8 +30,8 @@ def test_every_kind_of_run_is_read(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("", "there is no [[run]]"),
-        ("run = 3", "`run` must be a list of tables"),
+        ("", "there is no [run.ID]"),
+        ("run = 3", "`run` must be tables"),
         ("[[run]\n", "runs.toml: "),
         (declaration("MC_toy") * 2, "MC_toy: declared twice (rows 1 and 2)"),
         (

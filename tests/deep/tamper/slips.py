@@ -519,7 +519,9 @@ REGISTERS = (
         "a pin is changed", PINS, 'StopAtOnce = "', 'StopAtOnce = "0000000000000000"\nStopped = "', PINNED
     ),
     register("pins of another document", PINS, 'document = "edm"', 'document = "edm2"', "is another's"),
-    register("a property without a row", PROPS, 'tla = "StopAtOnce"', 'tla = "StopsAtOnce"', "StopsAtOnce"),
+    register(
+        "a property without a row", PROPS, "[property.StopAtOnce]", "[property.StopsAtOnce]", "StopsAtOnce"
+    ),
     register(
         "an antecedent that no run reaches",
         PROPS,

@@ -1,0 +1,112 @@
+"""What a call in SCL begins without: temporaries, and what a function gives."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modeproof.ground.errors import Unjudged
+from programs.check import check
+from programs.sources import read_sources
+
+HEAD = """FUNCTION_BLOCK "B"
+{ S7_Optimized_Access := 'FALSE' }
+VAR_INPUT x : Bool; n : Int; END_VAR
+VAR_OUTPUT q : Bool; END_VAR
+VAR d : TON_TIME; END_VAR
+VAR_TEMP t, u : Bool; i : Int; w : Word; a : ARRAY [0..3] OF Bool; END_VAR
+BEGIN
+"""
+FUNCTION = """FUNCTION "Pick" : Bool
+VAR_INPUT a : Bool; END_VAR
+VAR_OUTPUT b : Bool; END_VAR
+VAR_TEMP c : Bool; END_VAR
+BEGIN
+"""
+
+
+def looked_at(folder: Path, body: str, before: str = "", name: str = "b.scl") -> None:
+    """Read a block with this body, which begins in its eighth line. Raises Unjudged."""
+    path = folder / name
+    path.write_text(f"{before}{HEAD}{body}\nEND_FUNCTION_BLOCK\n", "utf-8")
+    source = read_sources([path])
+    check(source, source.units["B"])
+
+
+@pytest.mark.parametrize(
+    ("name", "body"),
+    [
+        ("t", "#q := #t;"),
+        ("t", "#t := #t OR #x; #q := #t;"),
+        ("t", "IF #x THEN #t := TRUE; END_IF; #q := #t;"),
+        ("t", "IF #x THEN #t := TRUE; ELSIF #t THEN #q := #x; END_IF;"),
+        ("t", "CASE #n OF 1: #t := TRUE; 2: #t := FALSE; END_CASE; #q := #t;"),
+        ("i", "WHILE #x AND #i < 3 DO #i := #i + 1; END_WHILE;"),
+        ("t", "WHILE #x DO #t := TRUE; EXIT; END_WHILE; #q := #t;"),
+        ("t", "REPEAT IF #x THEN EXIT; END_IF; #t := TRUE; UNTIL #t END_REPEAT; #q := #t;"),
+        ("t", "REPEAT IF #x THEN CONTINUE; END_IF; #t := TRUE; UNTIL #t END_REPEAT;"),
+        ("a", "FOR #i := 0 TO 2 DO #a[#i] := #x; END_FOR; #q := #a[3];"),
+        ("a", "FOR #i := 0 TO 2 DO #a[#i] := #a[#i + 1]; END_FOR;"),
+        ("a", "FOR #i := 0 TO 3 DO IF #x THEN #a[#i] := #x; END_IF; END_FOR; #q := #a[0];"),
+        ("a", "#a[0] := #x; #q := #a[#n];"),
+        ("a", "#a[#n] := #x; #q := #a[#n];"),
+        ("w", "#w.%X3 := #x; #q := #w.%X3;"),
+        ("t", "#d(IN := #t, PT := T#1s);"),
+        ("a", "IF #x THEN #t := TRUE; ELSE RETURN; END_IF; #u := #t; #q := #a[1];"),
+    ],
+)
+def test_a_temporary_that_may_be_read_before_it_is_written_is_refused(
+    name: str, body: str, tmp_path: Path
+) -> None:
+    with pytest.raises(Unjudged, match=rf"b\.scl:8: {name} may be read before it is written in this call"):
+        looked_at(tmp_path, body)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "#t := #x; #q := #t;",
+        "IF #x THEN #t := TRUE; ELSIF #n > 1 THEN #t := FALSE; ELSE #t := #x; END_IF; #q := #t;",
+        "IF #x THEN #t := TRUE; ELSE RETURN; END_IF; #q := #t;",
+        "CASE #n OF 1: #t := TRUE; ELSE #t := FALSE; END_CASE; #q := #t;",
+        "REPEAT #t := #x; IF #x THEN EXIT; END_IF; UNTIL #t END_REPEAT; #q := #t;",
+        "FOR #i := 0 TO 3 DO #a[#i] := #x; END_FOR; #q := #a[#n] AND #i > 0;",
+        "FOR #i := 0 TO 2 DO #a[#i + 1] := #x; END_FOR; #a[0] := #x; #q := #a[0];",
+        "FOR #i := 0 TO 3 DO IF #x THEN CONTINUE; END_IF; #t := #x; #q := #t; END_FOR;",
+        "#w := 16#0; #w.%X3 := #x; #q := #w.%X3;",
+        "#d(IN := #x, PT := T#1s, Q => #t); #q := #t;",
+    ],
+)
+def test_a_temporary_that_is_written_before_is_read(body: str, tmp_path: Path) -> None:
+    looked_at(tmp_path, body)
+
+
+@pytest.mark.parametrize(
+    ("body", "cause"),
+    [
+        ("#b := #a; IF #a THEN #Pick := TRUE; END_IF;", "b.scl:1: Pick may end here without its result"),
+        ("#b := #a; IF #a THEN RETURN; END_IF; #Pick := #a;", "b.scl:6: Pick may end here without its res"),
+        ("#Pick := #a; IF #a THEN #b := TRUE; END_IF;", "b.scl:1: Pick may end here without its output b"),
+        ("#Pick := #c; #b := #a;", "b.scl:6: c may be read before it is written"),
+        ("#Pick := #Pick OR #a; #b := #a;", "b.scl:6: Pick may be read before it is written"),
+    ],
+)
+def test_what_a_function_does_not_give_on_every_way_is_refused(body: str, cause: str, tmp_path: Path) -> None:
+    with pytest.raises(Unjudged, match=cause):
+        looked_at(tmp_path, "Pick(a := #x, b => #q);", f"{FUNCTION}{body}\nEND_FUNCTION\n")
+
+
+def test_what_a_function_gives_is_written(tmp_path: Path) -> None:
+    function = f"{FUNCTION}#b := #a; #Pick := NOT #b;\nEND_FUNCTION\n"
+    looked_at(tmp_path, "#u := Pick(a := #x, b => #t); #q := #t AND #u;", function)
+
+
+def test_structured_text_begins_with_first_values(tmp_path: Path) -> None:
+    path = tmp_path / "b.st"
+    text = HEAD[HEAD.index("VAR_INPUT") : HEAD.index("BEGIN")].replace("TON_TIME", "TON")
+    path.write_text(
+        f"FUNCTION_BLOCK B {text} IF x THEN t := TRUE; END_IF q := t; END_FUNCTION_BLOCK", "utf-8"
+    )
+    source = read_sources([path])
+    check(source, source.units["B"])
