@@ -10,12 +10,14 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import first_of
+from modeproof.ground.meaning import is_there
 from modeproof.report.again import agreement_problems
 
 ID = "agreement"
@@ -58,7 +60,7 @@ def compare(
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, sorted((place / "spec" / document).glob("*.toml"))),
-        code=("modeproof.lane.agreement", module.__name__),
+        code=("modeproof.lane.agreement", *filter(partial(is_there, place), [module.__name__])),
         place=place,
         tools=tools,
         result={"rows": rows, "problems": problems},

@@ -77,6 +77,10 @@ class Keep:
         self._why.clear()
 
 
+NOTHING = Keep()
+"""What keeps nothing."""
+
+
 def kept_line(records: list[Record]) -> str:
     """How many results were kept, of which days, and how many were judged now."""
     days = Counter(str(record["started"])[:10] for record in records if KEPT in record)

@@ -22,7 +22,7 @@ from modeproof.ground.progress import Progress
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents
-from modeproof.lane.keep import Keep
+from modeproof.lane.keep import NOTHING, Keep
 from modeproof.lane.summary import counted
 from modeproof.lane.theorem import prove_theorem, rests_of, theorems_of
 from modeproof.report.verdicts import never_needed, status_of
@@ -100,7 +100,7 @@ def prove_documents(
     lane: str = "full",
     beside: Sequence[Task[dict[str, Any]]] = (),
     on_beside: Callable[[dict[str, Any]], None] = lambda record: None,
-    keep: Keep | None = None,
+    keep: Keep = NOTHING,
 ) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Prove the theorems of documents and write one piece of evidence for each, and for all theorems of one
     document together one on their agreement with the model checker. Those of all documents are one queue.
@@ -127,15 +127,14 @@ def prove_documents(
                 if module not in of_module:
                     of_module[module] = rests_of(place, document, module)
                 rests[key] = of_module[module]
-                kept = keep.record(place, *key, rests[key]) if keep else None
+                kept = keep.record(place, *key, rests[key])
                 if kept is None:
                     again.append(theorem)
                 else:
                     records.append(kept)
         except Unjudged as error:
             troubles[document] = error.message
-    if keep:
-        keep.say(progress)
+    keep.say(progress)
 
     def slow_first(documents: Iterable[str]) -> list[Task[dict[str, Any]]]:
         every = [

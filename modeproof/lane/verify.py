@@ -19,7 +19,7 @@ from modeproof.ground.places import add_document_option, chosen_documents, docum
 from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
 from modeproof.lane.conformance import compare_reference, comparisons, say
-from modeproof.lane.keep import Keep, kept_line
+from modeproof.lane.keep import NOTHING, Keep, kept_line
 from modeproof.lane.machine import ID as MACHINE
 from modeproof.lane.machine import judge_machine, machine_rests, troubles_of_machine
 from modeproof.lane.prove import prove_documents
@@ -41,8 +41,6 @@ Stage = Callable[[Path, Sequence[str], str, Progress], tuple[Records, Troubles]]
 
 REGISTERS = "registers"
 REGISTERS_CODE = ("modeproof.registers", "modeproof.tlc.check")
-NOTHING = Keep()
-"""What keeps nothing."""
 _MADE = frozenset({"build", "__pycache__", "node_modules"})
 """Folders that hold nothing that somebody wrote; nor do those whose names begin with a dot."""
 

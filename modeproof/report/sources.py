@@ -289,6 +289,13 @@ def _stale(evidence: Mapping[str, Mapping[str, Evidence]]) -> Iterator[Trouble]:
         yield Trouble(NOTE, "reproduce", what, "", lost)
 
 
+def version_of(name: str, entry: Mapping[str, Any]) -> tuple[str, str]:
+    """The version of a tool, and its hash; that of modeproof is of the modules that judged each piece, so it
+    is no version of the tool.
+    """
+    return str(entry["version"]), "" if name == "modeproof" else str(entry["sha256"] or "")
+
+
 def hash_of(root: Path, path: str) -> str | None:
     """The meaning of a file by its path relative to the root; None: no such file.
 

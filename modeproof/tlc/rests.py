@@ -31,21 +31,23 @@ def declaration_sha256(run: Run) -> str:
 
 
 def inputs_of(place: Path, run: Run) -> dict[str, str]:
-    """The meanings of the modules and the cfg that TLC reads for a run, by hand or made, by path.
+    """The meanings of the modules and the cfg that TLC reads for a run, by hand or made, by path; of those
+    that are there.
 
-    Raises Unjudged when one is missing or cannot be made.
+    Raises Unjudged when what is to be made cannot be made.
     """
     folder = place / "spec" / run.document
-    entries = [folder / f"{run.module}.tla"]
+    modules = [folder / f"{run.module}.tla"]
     made: dict[str, str] = {}
     if run.base:
-        modules = read_modules(place, run.document)
-        entries += [place / modules[one.module].file for one in replaced_by(modules, run)]
+        known = read_modules(place, run.document)
+        modules += [place / known[one.module].file for one in replaced_by(known, run)]
         texts = {run.config: cfg_text(place, run)}
         texts[Path(run.config).with_suffix(".tla").as_posix()] = module_text(place, run)
         made = {name: meaning_of(name, text.encode()) for name, text in texts.items()}
-    paths = [*reached(place, *entries), folder / run.cfg]
-    return dict(sorted((meanings(place, paths) | made).items()))
+    paths = reached(place, *(path for path in modules if path.is_file()))
+    cfg = folder / run.cfg
+    return dict(sorted((meanings(place, [*paths, *([cfg] if cfg.is_file() else [])]) | made).items()))
 
 
 def rests_of(place: Path, run: Run, tools: Toolchain) -> evidence.Rests:

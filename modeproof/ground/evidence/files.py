@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.record import is_sealed, seal_of
+from modeproof.ground.evidence.record import is_sealed, sealed
 from modeproof.ground.places import build
 from modeproof.kit import files
 
@@ -52,8 +52,7 @@ def write(place: Path, record: Mapping[str, Any], folder: str = OURS) -> Path:
     """
     _check(record, "evidence to be written")
     path = evidence_path(place, record["document"], record["id"], folder)
-    said = json.loads(json.dumps(record))
-    text = json.dumps(said | {"seal": seal_of(said)}, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    text = json.dumps(sealed(record), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     write_whole(path, text.encode("utf-8"))
     return path
 

@@ -101,6 +101,12 @@ def seal_of(record: Mapping[str, Any]) -> str:
     return sha256_of({key: value for key, value in record.items() if key != "seal"})
 
 
+def sealed(record: Mapping[str, Any]) -> dict[str, Any]:
+    """The record as a file holds it, with its seal."""
+    said: dict[str, Any] = json.loads(json.dumps(record))
+    return said | {"seal": seal_of(said)}
+
+
 def is_sealed(record: Mapping[str, Any]) -> bool:
     """Whether a record says what it said when it was written."""
     return "seal" in record and record["seal"] == seal_of(record)
@@ -191,23 +197,28 @@ def make(
     it rests on, `code` the modules below `place` that judged. The machine and the Python are always recorded.
     """
     code = tuple(code)
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "kind": kind,
-        "id": id,
-        "document": document,
-        "verdict": verdict,
-        "expected": expected,
-        "as_expected": as_expected,
-        "environment": environment,
-        "strength": strength,
-        "command": command,
-        "started": day(started),
-        "seconds": round(seconds, 3),
-        "inputs": dict(inputs or {}),
-        "code": list(code),
-        "tools": {**own_tools(place, *code), **{name: dict(entry) for name, entry in (tools or {}).items()}},
-        "machine": machine(),
-        "result": dict(result or {}),
-        "reason": " ".join(reason.split()),
-    }
+    return sealed(
+        {
+            "schema_version": SCHEMA_VERSION,
+            "kind": kind,
+            "id": id,
+            "document": document,
+            "verdict": verdict,
+            "expected": expected,
+            "as_expected": as_expected,
+            "environment": environment,
+            "strength": strength,
+            "command": command,
+            "started": day(started),
+            "seconds": round(seconds, 3),
+            "inputs": dict(inputs or {}),
+            "code": list(code),
+            "tools": {
+                **own_tools(place, *code),
+                **{name: dict(entry) for name, entry in (tools or {}).items()},
+            },
+            "machine": machine(),
+            "result": dict(result or {}),
+            "reason": " ".join(reason.split()),
+        }
+    )
