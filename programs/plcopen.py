@@ -19,6 +19,7 @@ from programs.diagrams import attributes_of, harmless, only, truth
 from programs.gates import Diagram
 from programs.markup import Element, read_xml
 from programs.st import read_text
+from programs.st_text import RETAINS, prepared
 from programs.tree import Body, Place, Source, Unit
 
 SPACES = ("http://www.plcopen.org/xml/tc6_0201", "http://www.plcopen.org/xml/tc6_0200")
@@ -30,6 +31,8 @@ SECTIONS = {
     "localVars": "VAR",
     "tempVars": "VAR_TEMP",
 }
+_RETAIN = re.compile(r"\b(?:RETAIN|PERSISTENT)\b", re.IGNORECASE)
+_COMMENT = re.compile(r"//[^\n]*|\(\*.*?\*\)", re.DOTALL)
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 Lower = Callable[[Source], Unit]
 """Makes the body of a unit once the declarations of all units are known."""
@@ -74,6 +77,8 @@ def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
     expected += [unit.name] * (unit.kind == "function")
     if [variable.name for variable in unit.variables.values()] != expected:
         raise pou.place.refuse(f"{unit.name}: body or values declare other variables than the interface")
+    if not any(variable.retained for variable in unit.variables.values()):
+        _retains_nothing(pou, file)
     bodies: dict[str, Callable[[], Body]] = {}
     for action in (action for group in pou.all("actions") for action in group.children):
         key = action.get("name").upper()
@@ -81,6 +86,15 @@ def _pou(pou: Element, text: _Text, file: str) -> tuple[Unit, Lower]:
             raise action.place.refuse(f"{unit.name}: {action.get('name')} stands for something else too")
         bodies[key] = partial(_action, pou, action, text, file)
     return replace(unit, place=pou.place), _lower(unit, body, pou.place, bodies)
+
+
+def _retains_nothing(pou: Element, file: str) -> None:
+    """Refuse an interface that CODESYS keeps as text, too, and that retains there what the XML does not."""
+    for kept in pou.below("InterfaceAsPlainText"):
+        for part in (kept, *kept.below("xhtml")):
+            said, _ = prepared("\n" * (part.text_line - 1) + part.text, file)
+            if RETAINS in said or _RETAIN.search(_COMMENT.sub("", said)):
+                raise kept.place.refuse("the text of this interface retains a variable, and the XML does not")
 
 
 def _with_body(pou: Element, text: _Text, body: Element, file: str) -> Unit:

@@ -1,8 +1,8 @@
 """Siemens SCL into Structured Text: a pass over the text that keeps every line where it is.
 
-`#name` and, in declarations and calls, `"name"` become names; REGION lines, attributes in braces, VERSION,
-TITLE and BEGIN go; TON_TIME is TON, and W#16#FF is WORD#16#FF. Comments and strings are left alone. The rest
-is Structured Text.
+`#name` and, in declarations and calls, `"name"` become names; REGION lines, attributes in braces that change
+nothing, VERSION, TITLE and BEGIN go; TON_TIME is TON, and W#16#FF is WORD#16#FF. Comments and strings are
+left alone. The rest is Structured Text.
 """
 
 from __future__ import annotations
@@ -34,6 +34,13 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL | re.MULTILINE | re.IGNORECASE,
 )  # fmt: skip
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_ATTRIBUTE = re.compile(r"\s*(\w+)\s*:=\s*'((?:\$.|[^'$])*)'\s*", re.ASCII)
+_DROPPED = frozenset({
+    "s7_optimized_access", "externalaccessible", "externalvisible", "externalwritable", "instructionname",
+    "libversion", "s7_m_c", "s7_shortcut", "s7_unit", "s7_visible", "s7_dynamic", "s7_param", "s7_link",
+    "s7_string_0", "s7_string_1", "s7_tasklist", "s7_blockview",
+})  # fmt: skip
+"""Attributes that say how data are kept and shown. What they mean for retention, `open_at_power_up` says."""
 
 
 def structured_text(text: str, file: str) -> str:
@@ -68,6 +75,43 @@ def structured_text(text: str, file: str) -> str:
     return "".join(parts)
 
 
+def open_at_power_up(text: str) -> set[str]:
+    """The function blocks, in upper case, whose retention is not declared in the source.
+
+    Without optimized access it is an attribute of the instance data block.
+    """
+    found: set[str] = set()
+    block, named = "", False
+    for match in _TOKEN.finditer(text):
+        kind, word = match.lastgroup, match[0].strip('"').upper()
+        if kind == "word" and word in HEADS:
+            block, named = "", word == "FUNCTION_BLOCK"
+        elif kind in ("word", "quoted") and named:
+            block, named = word, False
+            found.add(block)
+        elif kind == "attributes" and any(
+            (name.lower(), value.upper()) == ("s7_optimized_access", "TRUE")
+            for name, value in _ATTRIBUTE.findall(match[0])
+        ):
+            found.discard(block)
+    return found
+
+
+def _attributes(found: str, place: Place) -> str:
+    """The line breaks of attributes that change nothing. Raises Unjudged for others."""
+    left = _ATTRIBUTE.sub("", found[1:-1]).replace(";", "").strip()
+    for name, value in _ATTRIBUTE.findall(found):
+        if name.lower() == "s7_setpoint":
+            if value.lower() != "false":
+                text = "its value may be set at commissioning, so say VAR RETAIN (any value), or take it out"
+                raise place.refuse(f"attribute {name}: {text}")
+        elif name.lower() not in _DROPPED:
+            raise place.refuse(f"attribute {name} may change what the program does; take it out")
+    if left:
+        raise place.refuse(f"{' '.join(found.split())[:40]}: NAME := 'value' is understood in braces")
+    return "\n" * found.count("\n")
+
+
 def _is_global(match: re.Match[str], declared: set[str]) -> bool:
     """Whether a quoted name in a body is no function of ours: what is declared in the block has a #."""
     called = match.string[match.end() :].lstrip().startswith("(")
@@ -78,7 +122,9 @@ def _changed(found: str, kind: str, place: Place) -> str:
     match kind:
         case "region" if ":=" in found or found.rstrip().endswith(";"):
             raise place.refuse(f"{found.split()[0]}: a statement in this line would be lost")
-        case "attributes" | "region" | "begin" | "about":
+        case "attributes":
+            return _attributes(found, place)
+        case "region" | "begin" | "about":
             return "\n" * found.count("\n")
         case "hash":
             return ""

@@ -12,12 +12,13 @@ from modeproof.ground.errors import Unjudged
 from programs.awl import beside, read_awl
 from programs.namespaces import resolved
 from programs.plcopen import Lower, read_plcopen
-from programs.scl import structured_text
+from programs.scl import open_at_power_up, structured_text
 from programs.st import KnownTypes, read_text, types_in
 from programs.standard import BLOCKS
 from programs.tree import Source, Unit
 
 STATEMENT_LIST = (".awl", ".stl")
+NOT_KEPT = "the instance data block of {} is not retentive, which the source leaves open"
 LARGEST = 1_000_000
 """Bytes of a source file."""
 
@@ -130,6 +131,12 @@ def _read(
         return read_plcopen(text, str(path))
     if path.suffix.lower() in STATEMENT_LIST:
         return [(unit, None) for unit in read_awl(path)], {}
-    fresh = path.suffix.lower() != ".scl"
     units = read_text(_plain(text, path), str(path), types)
-    return [(replace(unit, fresh=fresh), None) for unit in units], {}
+    if path.suffix.lower() == ".scl":
+        units = [replace(unit, fresh=False) for unit in units]
+        doubtful = open_at_power_up(text.decode("utf-8-sig"))
+        units = [
+            replace(unit, notes=(NOT_KEPT.format(unit.name),)) if unit.name.upper() in doubtful else unit
+            for unit in units
+        ]
+    return [(unit, None) for unit in units], {}

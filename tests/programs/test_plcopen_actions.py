@@ -164,3 +164,23 @@ def test_a_block_that_is_not_built_is_refused(part: str, tmp_path: Path) -> None
     with pytest.raises(Unjudged, match=f"<{part}> may leave this out of the program"):
         read(made, tmp_path)
     assert read(made.replace(part, "LinkAlways"), tmp_path)
+
+
+@pytest.mark.parametrize(
+    "line", ["VAR RETAIN", "VAR PERSISTENT", "VAR {attribute 'TcRetain'}", "VAR // RETAIN\n"]
+)
+def test_an_interface_that_is_kept_as_text_says_the_same(line: str, tmp_path: Path) -> None:
+    data = (
+        '<addData><data name="http://www.3s-software.com/plcopenxml/interfaceasplaintext">'
+        f"<InterfaceAsPlainText><xhtml {HTML}>{line} k : BOOL; END_VAR</xhtml></InterfaceAsPlainText>"
+        "</data></addData>"
+    )
+    made = project(
+        pou(f"<p {HTML}>q := k;</p>", "k BOOL", language="ST").replace("</interface>", data + "</interface>")
+    )
+    if "//" in line:
+        assert read(made, tmp_path)
+        return
+    with pytest.raises(Unjudged, match="the text of this interface retains a variable, and the XML does not"):
+        read(made, tmp_path)
+    assert read(made.replace("<localVars>", '<localVars retain="true">'), tmp_path)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.cli import main
-from programs.assumed import PRESET, assumed
+from programs.assumed import LOOP, PRESET, assumed
 from tests.programs.fuzz import source_of
 
 HEAD = "FUNCTION_BLOCK B VAR_INPUT a : BOOL; given : TIME; END_VAR VAR_OUTPUT q : BOOL; END_VAR "
@@ -77,6 +77,21 @@ def test_a_parameter_of_the_target_stays() -> None:
 def test_presets_are_followed_into_blocks(body: str, said: bool) -> None:
     found = taken(f"VAR i, j : I; END_VAR {body}", INNER)
     assert found == [f"{PRESET} (I.T)"] * said
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("FOR i := 0 TO 3 DO q := i > 2; END_FOR q := i = 4;", True),
+        ("q := i > 3; FOR i := 0 TO 3 DO q := a; END_FOR", True),
+        ("FOR o := 0 TO 3 DO q := a; END_FOR", True),
+        ("FOR i := 0 TO 3 DO q := i > 2; END_FOR FOR i := 0 TO 1 DO q := i > 0; END_FOR i := 3;", False),
+    ],
+)
+def test_a_control_variable_read_behind_its_loop_is_said(body: str, said: bool) -> None:
+    source = source_of(f"{HEAD}VAR i : INT; END_VAR VAR_OUTPUT o : INT; END_VAR {body}{END}")
+    name = "O" if "FOR o" in body else "I"
+    assert list(assumed(source, source.units["B"])) == [f"{LOOP} (B.{name})"] * said
 
 
 def test_every_output_of_a_verdict_says_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -81,7 +81,7 @@ def test_comments_may_hold_anything(comment: str) -> None:
 
 
 def test_lines_stay_where_they_are() -> None:
-    body = "REGION a\n(* two\nlines *)\n{ one :=\n'two' }\nEND_REGION\n#y := #ghost;"
+    body = "REGION a\n(* two\nlines *)\n{ LibVersion :=\n'two' }\nEND_REGION\n#y := #ghost;"
     with pytest.raises(Unjudged, match=r"b\.scl:22: ghost is not declared"):
         block(body)
     assert structured_text(HEAD + body, "b.scl").count("\n") == (HEAD + body).count("\n")

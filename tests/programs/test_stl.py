@@ -232,7 +232,7 @@ def test_a_data_block_that_nothing_clears_begins_anywhere(tmp_path: Path) -> Non
     assert found.word == "REFUTED" and found.difference is not None and found.difference.run.retained
 
 
-def test_the_user_says_what_is_not_retentive_and_the_verdict_says_it(tmp_path: Path) -> None:
+def test_what_is_not_retentive_stands_in_map_and_verdict(tmp_path: Path) -> None:
     path = without_start(tmp_path)
     with path.with_suffix(".map.csv").open("a", encoding="utf-8") as stream:
         stream.write("@non_retentive,DB20,\n@non_retentive,MB0-MB8,\n")

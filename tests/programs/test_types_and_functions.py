@@ -204,7 +204,7 @@ def test_an_attribute_that_retains_a_block_is_refused() -> None:
         "TYPE s : STRUCT {a} k : BOOL; END_STRUCT; END_TYPE " + HEAD + BOOL + "y := in;" + END,
     ],
 )
-def test_an_attribute_that_retains_what_is_not_clear_is_refused(text: str) -> None:
+def test_an_attribute_that_retains_nothing_clear_is_refused(text: str) -> None:
     with pytest.raises(Unjudged, match="this attribute retains one variable in VAR or VAR_OUTPUT"):
         source_of(text.replace("{a}", "{attribute 'TcRetain' := '1'}"))
 

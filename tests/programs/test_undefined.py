@@ -7,8 +7,11 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.errors import Unjudged
+from programs.assumed import assumed
 from programs.check import check
 from programs.sources import read_sources
+from programs.terms import slots
+from programs.tree import Source
 
 HEAD = """FUNCTION_BLOCK "B"
 { S7_Optimized_Access := 'FALSE' }
@@ -26,12 +29,13 @@ BEGIN
 """
 
 
-def looked_at(folder: Path, body: str, before: str = "", name: str = "b.scl") -> None:
+def looked_at(folder: Path, body: str, before: str = "", head: str = HEAD) -> Source:
     """Read a block with this body, which begins in its eighth line. Raises Unjudged."""
-    path = folder / name
-    path.write_text(f"{before}{HEAD}{body}\nEND_FUNCTION_BLOCK\n", "utf-8")
+    path = folder / "b.scl"
+    path.write_text(f"{before}{head}{body}\nEND_FUNCTION_BLOCK\n", "utf-8")
     source = read_sources([path])
     check(source, source.units["B"])
+    return source
 
 
 @pytest.mark.parametrize(
@@ -56,9 +60,7 @@ def looked_at(folder: Path, body: str, before: str = "", name: str = "b.scl") ->
         ("a", "IF #x THEN #t := TRUE; ELSE RETURN; END_IF; #u := #t; #q := #a[1];"),
     ],
 )
-def test_a_temporary_that_may_be_read_before_it_is_written_is_refused(
-    name: str, body: str, tmp_path: Path
-) -> None:
+def test_a_temporary_read_before_it_is_written_is_refused(name: str, body: str, tmp_path: Path) -> None:
     with pytest.raises(Unjudged, match=rf"b\.scl:8: {name} may be read before it is written in this call"):
         looked_at(tmp_path, body)
 
@@ -92,7 +94,7 @@ def test_a_temporary_that_is_written_before_is_read(body: str, tmp_path: Path) -
         ("#Pick := #Pick OR #a; #b := #a;", "b.scl:6: Pick may be read before it is written"),
     ],
 )
-def test_what_a_function_does_not_give_on_every_way_is_refused(body: str, cause: str, tmp_path: Path) -> None:
+def test_a_function_that_gives_nothing_on_some_way_is_refused(body: str, cause: str, tmp_path: Path) -> None:
     with pytest.raises(Unjudged, match=cause):
         looked_at(tmp_path, "Pick(a := #x, b => #q);", f"{FUNCTION}{body}\nEND_FUNCTION\n")
 
@@ -110,3 +112,38 @@ def test_structured_text_begins_with_first_values(tmp_path: Path) -> None:
     )
     source = read_sources([path])
     check(source, source.units["B"])
+
+
+@pytest.mark.parametrize(
+    ("attribute", "cause"),
+    [
+        ("S7_SetPoint := 'True'", "attribute S7_SetPoint: its value may be set at commissioning"),
+        ("S7_server := 'alarm_archiv'", "attribute S7_server may change what the program does"),
+        ("odd", "NAME := 'value' is understood in braces"),
+        ("LibVersion := '1.0'; S7_SetPoint := 'True'", "attribute S7_SetPoint"),
+    ],
+)
+def test_an_attribute_that_may_change_something_is_refused(
+    attribute: str, cause: str, tmp_path: Path
+) -> None:
+    head = HEAD.replace("d : TON", f"k {{ {attribute} }} : Bool; d : TON")
+    with pytest.raises(Unjudged, match=rf"b\.scl:5: .*{cause}"):
+        looked_at(tmp_path, "#q := #x;", head=head)
+    harmless = "S7_SetPoint := 'False'; ExternalWritable := 'False'; S7_m_c := 'true'"
+    looked_at(tmp_path, "#q := #x;", head=head.replace(attribute, harmless))
+
+
+def test_retention_that_the_source_leaves_open_is_said(tmp_path: Path) -> None:
+    for access, doubtful in (("{ S7_Optimized_Access := 'TRUE' }", False), ("", True), ("// 'TRUE'", True)):
+        head = HEAD.replace("{ S7_Optimized_Access := 'FALSE' }", access)
+        source = looked_at(tmp_path, "#q := #x;", head=head)
+        said = list(assumed(source, source.units["B"]))
+        assert (
+            said == ["the instance data block of B is not retentive, which the source leaves open"] * doubtful
+        )
+
+
+def test_retained_variables_begin_anywhere(tmp_path: Path) -> None:
+    head = HEAD.replace("VAR d", "VAR RETAIN\n k : Bool; END_VAR VAR d")
+    source = looked_at(tmp_path, "#q := #k; #k := #x;", head=head)
+    assert [slot.path for slot in slots(source, source.units["B"]) if slot.initial is None] == ["K"]
