@@ -33,6 +33,7 @@ GROUPS = {
         "doctor": "modeproof.lane.doctor",
     },
     "commands for maintainers": {
+        "renew": "modeproof.lane.renew",
         "check": "modeproof.tlc.command",
         "prove": "modeproof.lane.prove",
         "registers": "modeproof.registers.command",
@@ -48,7 +49,7 @@ GROUPS = {
 COMMANDS = {name: module for group in GROUPS.values() for name, module in group.items()}
 """The same without groups; only the module of the command given is imported."""
 
-JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report", "mutate")
+JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report", "mutate", "renew")
 """Commands that end in a verdict: their first line names the tree that it is about."""
 
 

@@ -19,7 +19,6 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
-from modeproof.registers.vector_files import ROOM
 from programs import machine_picture, machine_tlc, machine_vectors
 from programs.assumed import assumed
 from programs.folder import tools
@@ -62,7 +61,7 @@ def run(args: argparse.Namespace) -> int:
     machine = kind(file.read_text("utf-8"), *names, tell, leave_out=args.properties is None)
     if args.model is not None:
         write_text(args.model, machine_tlc.model_of(machine, folder))
-    if args.publish or args.vectors is not None:
+    if args.vectors is not None:
         return _vectors(args, file, machine.use, progress)
     if not (args.program is args.picture is args.model is None):
         return 0
@@ -89,14 +88,12 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _vectors(args: argparse.Namespace, file: Path, use: Path, progress: Progress) -> int:
-    """Write the vectors of a wiring: the published ones, or those of one's own."""
-    folder = args.vectors or root() / ROOM / machine_vectors.TARGET
+    """Write the vectors of a wiring."""
+    folder = args.vectors
     with _at_work(progress):
-        written = machine_vectors.write(folder, file, use, root(), lambda text: progress.update(NAME, text))
+        written = machine_vectors.write(folder, file, use, lambda text: progress.update(NAME, text))
         said = [f"{path}: {text}" for path, text in written]
     print("\n".join(said))
-    if args.publish:
-        machine_vectors.seal(root())
     return 0
 
 

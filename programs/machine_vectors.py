@@ -6,7 +6,6 @@ situations (programs.machine_cases) and changes of them in the cases, not the st
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -15,10 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.files import write_lines, write_whole
+from modeproof.ground.evidence.files import write_lines
 from modeproof.kit.ids import case_id
 from modeproof.kit.vectors import EXACT, FILE_NAME, KIND, VERSION, WIRING
-from modeproof.registers.vector_files import ROOM, SUMS, sums_text
 from programs.machine_cases import Case, Cases, Mistakes, Situation
 from programs.machine_runs import Inputs, read_use
 from refimpl.machine_cell import cell as reference
@@ -116,7 +114,7 @@ class Writer:
         active = [name for name in situation if name in self.cases.wiring.table.modes]
         return f"in {' and '.join(active)}" if active else "without a mode"
 
-    def header(self, sources: Mapping[str, str], more: Mapping[str, Any]) -> dict[str, Any]:
+    def header(self, more: Mapping[str, Any]) -> dict[str, Any]:
         """The first line."""
         table, kind = self.cases.wiring.table, SUITES[self.suite]
         counts = Counter(step for _, step, _ in self.taken)
@@ -140,7 +138,6 @@ class Writer:
             "hypothesis": kind.hypothesis,
             "does_not_show": kind.does_not_show,
             "generator": "modeproof",
-            "sources": dict(sorted(sources.items())),
             "cases": len(self.lines),
             "scans": self.scans,
             "states": len(self.views),
@@ -166,9 +163,7 @@ class Writer:
         }
 
 
-def write(
-    folder: Path, file: Path, use: Path, root: Path, say: Callable[[str], None]
-) -> Iterator[tuple[Path, str]]:
+def write(folder: Path, file: Path, use: Path, say: Callable[[str], None]) -> Iterator[tuple[Path, str]]:
     """Write all suites of a wiring; each file and what is in it. Raises Unjudged.
 
     say is told what is being made.
@@ -177,9 +172,6 @@ def write(
     cases = Cases(text, str(file), read_use(use))
     if not cases.stories:
         raise Unjudged(f"machine: no story of {use} concerns {file}; --use names a file with some")
-    sources = {_relative(path, root): _sha256(path) for path in (file, use)}
-    code = sorted((Path(reference.__file__).parents[1]).rglob("*.py"))
-    sources |= {path.relative_to(code[0].parents[1]).as_posix(): _sha256(path) for path in code}
     mistakes = Mistakes(cases)
     made: list[Case] = []
     for name in SUITES:
@@ -196,7 +188,7 @@ def write(
         writer = Writer(cases, name)
         for case in found:
             writer.add(case)
-        write_lines(path, [_line(writer.header(sources, more)), *writer.lines])
+        write_lines(path, [_line(writer.header(more)), *writer.lines])
         shown = f"; {mistakes.edits - len(mistakes.unseen)} of {mistakes.edits} edits show" if more else ""
         yield path, f"{len(writer.lines)} cases, {writer.scans:,} scans{shown}"
 
@@ -206,11 +198,6 @@ def _cases(name: str, cases: Cases, mistakes: Mistakes, made: Sequence[Case]) ->
         return mistakes.found(made)
     found: Iterable[Case] = getattr(cases, name)()
     return found
-
-
-def seal(root: Path) -> None:
-    """Write the sums of the published vectors anew."""
-    write_whole(root / ROOM / SUMS, sums_text(root / ROOM).encode())
 
 
 def on_wire(values: Inputs) -> dict[str, Any]:
@@ -230,17 +217,8 @@ def _line(row: Mapping[str, Any]) -> str:
     return json.dumps(row, separators=(",", ":")) + "\n"
 
 
-def _relative(path: Path, root: Path) -> str:
-    whole = path.resolve()
-    return whole.relative_to(root).as_posix() if whole.is_relative_to(root) else path.name
-
-
 def _text(path: Path) -> str:
     try:
         return path.read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
-
-
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -42,7 +42,8 @@ HERE = Path(__file__).resolve().parent
 PACK, PAGE, VECTORS = HERE / "faults.toml", HERE / "README.md", HERE / "vectors"
 FOLDER = ROOT / "examples/c"
 WHOLE, PARTS = "brief", ("tour", "words", "wp", "times", "parameters", "soak")
-"""The suite of which the pack holds all, and those of which it holds what catches a fault."""
+"""The first suite that a fault meets, and the others. Of those that are not published the pack holds what
+catches a fault."""
 SUITES = dict.fromkeys((WHOLE, *PARTS), False) | {"none": True}
 """For each suite whether its faults need a reason: why they pass all suites."""
 COMPILE = ("gcc", "-std=c99", "-O0", "-w")
@@ -165,14 +166,13 @@ def build_all(folder: Path, faults: Iterable[Fault], program: Program = FPLC) ->
 
 
 def vectors(suite: str, program: Program = FPLC) -> Path:
-    """The vectors of a suite: `brief` as it is published, of the others what the pack needs of them."""
-    if suite == WHOLE:
-        return ROOT / "vectors" / program.target / f"{WHOLE}.jsonl.gz"
-    return program.vectors / f"{suite}.jsonl.gz"
+    """The vectors of a suite: as it is published, or what the pack holds of one that is not."""
+    path = ROOT / "vectors" / program.target / f"{suite}.jsonl.gz"
+    return path if path.is_file() else program.vectors / path.name
 
 
 def open_all(program: Program = FPLC) -> dict[str, Suite]:
-    """The suites of the pack: `brief`, and those that a fault needs.
+    """The suites that the pack needs: `brief`, and those that catch another fault.
 
     Raises Unjudged for one that is missing or damaged.
     """
@@ -180,9 +180,14 @@ def open_all(program: Program = FPLC) -> dict[str, Suite]:
 
 
 def used(faults: Iterable[Fault]) -> tuple[str, ...]:
-    """The suites of which a pack with these faults holds vectors."""
+    """The suites that a pack with these faults needs."""
     needed = {fault.suite for fault in faults}
     return (WHOLE, *(name for name in PARTS if name in needed))
+
+
+def unpublished(faults: Iterable[Fault], program: Program) -> tuple[str, ...]:
+    """Those of them that are not published, so that the pack holds what it needs of them."""
+    return tuple(name for name in used(faults) if vectors(name, program).parent == program.vectors)
 
 
 def judge(program: Path, suite: Suite) -> Verdict:
@@ -241,8 +246,8 @@ def as_page(
         *(["Each function block has a page of its own beside this one."] if program == FPLC else []),
         "",
         "*Scans* counts the scans up to the first wrong output. *At* is the step that the specification took",
-        "there; it may come later than the mistake. The pack holds the whole suite `brief`. Of the other",
-        "suites it holds only the beginnings of the cases that catch a fault, and *scans* counts in these.",
+        "there; it may come later than the mistake. Of suites that are not published the pack holds only the",
+        "beginnings of the cases that catch a fault, and *scans* counts in these.",
         "",
         "| fault | the mistake | breaks | suite | scans | at |",
         "|---|---|---|---|---:|---|",
@@ -266,13 +271,13 @@ def renew(faults: Sequence[Fault], made: Mapping[str, Path], source: Path, progr
 
     Raises Unjudged when a suite is not there.
     """
-    chosen = used(faults)[1:]
+    chosen = unpublished(faults, program)
     for name in chosen:
         if not (source / f"{name}.jsonl.gz").is_file():
             command = f"modeproof conform {program.target} --suite {name} .."
             raise Unjudged(f"{source}: no {name}.jsonl.gz; `{command}` makes it")
-    program.vectors.mkdir(exist_ok=True)
     for name in chosen:
+        program.vectors.mkdir(exist_ok=True, parents=True)
         those = [fault for fault in faults if fault.suite == name]
         _write(vectors(name, program), _beginnings(source / f"{name}.jsonl.gz", those, made))
 
@@ -329,6 +334,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument(
         "--renew", type=Path, metavar="FOLDER", help="take the vectors anew from the suites there"
     )
+    parser.add_argument("--unpublished", action="store_true", help="name the suites that --renew needs")
     args = parser.parse_args(argv)
     try:
         return _run(args)
@@ -347,6 +353,9 @@ def _run(args: argparse.Namespace) -> int:
         raise Unjudged("the page and the vectors are of all")
     if args.renew and args.program is None:
         raise Unjudged("--renew needs --program: each has vectors of its own")
+    if args.unpublished:
+        print(*(name for one in asked for name in unpublished(every[one.target], one)))
+        return 0
     good = True
     for program in asked:
         chosen = [fault for fault in every[program.target] if not args.ids or fault.id in args.ids]

@@ -24,6 +24,7 @@ from typing import Any
 
 from modeproof.ground.comments import split
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import within
 
 SPOKEN = "theorem"
 """The docstring of a function with this decorator is the sentence that it proves, so it counts."""
@@ -73,11 +74,10 @@ def meanings(root: Path, paths: Iterable[Path]) -> dict[str, str]:
 
     Raises Unjudged when a file cannot be read or lies outside the root.
     """
-    place = root.resolve()
     found: dict[str, str] = {}
     for path in paths:
         try:
-            name = path.resolve().relative_to(place).as_posix()
+            name = within(root, path)
         except ValueError:
             raise Unjudged(f"{path}: lies outside {root}") from None
         found[name] = meaning(path)
@@ -187,6 +187,16 @@ def _python(content: bytes) -> tuple[str, frozenset[str]]:
     if _BY_NAME & strings:
         names |= set(filter(_DOTTED.fullmatch, strings))
     return "".join(said), frozenset(names)
+
+
+def said_by(nodes: Iterable[ast.AST]) -> str:
+    """What statements of a module say: the same text where nothing but comments, docstrings or layout of them
+    has changed.
+    """
+    said: list[str] = []
+    for node in nodes:
+        _say(node, said, set(), set())
+    return "".join(said)
 
 
 def _say(node: Any, said: list[str], names: set[str], strings: set[str]) -> None:

@@ -71,6 +71,16 @@ def add_document_option(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def within(place: Path, path: Path) -> str:
+    """The path of a file relative to the root. Raises ValueError for one that lies outside.
+
+    In a copied tree `build` leads to that of the original; what is in it lies inside all the same.
+    """
+    if path.is_relative_to(place) and ".." not in path.parts:
+        return path.relative_to(place).as_posix()
+    return path.resolve().relative_to(place.resolve()).as_posix()
+
+
 def build(place: Path) -> Path:
     """The folder for all that is made: graphs, logs, evidence, reports. Never under version control."""
     return place / "build"

@@ -29,7 +29,7 @@ CODE = ("modeproof.lane.machine", "programs.machine_evidence")
 MODELS_CODE = ("modeproof.lane.machine_tlc", "programs.machine_tlc")
 """..what makes its runs of TLC, and judges them."""
 FILES = ("program", "picture", "model")
-WORKS = (("vectors", "publish"), ("tlc",), ("trial",), ("killers",), ("evidence",))
+WORKS = (("vectors",), ("tlc",), ("trial",), ("killers",), ("evidence",))
 """What is done in the place of a judgement; those in a row are one."""
 JUDGED = ("json", "junit", "recheck")
 """What belongs to a judgement."""
@@ -77,9 +77,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         type=Path,
         metavar="FOLDER",
         help="write test vectors of the machine there, for `conform`",
-    )
-    parser.add_argument(
-        "--publish", action="store_true", help="write those of the shipped wiring to vectors/"
     )
     parser.add_argument("--picture", type=Path, metavar="FILE", help="draw the wiring there, as Mermaid")
     parser.add_argument("--model", type=Path, metavar="FILE", help="write the wiring as a TLA+ module there")
@@ -267,8 +264,6 @@ def run(args: argparse.Namespace) -> int:
             if not record["as_expected"]:
                 print(f"NOT AS EXPECTED  {record['reason']}")
         return max(map(status_of, records), default=2)
-    if args.publish and (args.file, args.use, args.vectors) != (None, None, None):
-        raise Unjudged("machine: --publish is for the shipped wiring; --vectors FOLDER writes those of yours")
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
     try:

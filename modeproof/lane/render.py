@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> int:
     made: dict[str, str] = {}
     for document in loaded:
         if document.name in chosen:
-            made |= _rendered(document)
+            made |= rendered(document)
     changed = _changed(place, made)
     if not args.check:
         for name in changed:
@@ -82,7 +82,7 @@ def _changed(place: Path, texts: Mapping[str, str]) -> list[str]:
     ]
 
 
-def _rendered(document: Document) -> dict[str, str]:
+def rendered(document: Document) -> dict[str, str]:
     """The page of a document, and its chart where growth was measured."""
     place, name = document.root, document.name
     texts = {page_name(name): page(document, read_sources(document), _tables(document))}

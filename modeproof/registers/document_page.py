@@ -21,8 +21,8 @@ from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_o
 from modeproof.registers.responses import section
 from modeproof.registers.rows import Document, Finding, Problem, Property, Telling
 from modeproof.registers.runs import ASKING, Run
+from modeproof.registers.stale import stale
 
-REMEDY = "run modeproof render"
 CLASSES = {
     "safety": "Safety: the other reading starts the machine, or hides a fault",
     "hazard": "Hazard: the text has one reading, which leaves something to the machine",
@@ -70,10 +70,12 @@ def check_document_page(document: Document, sources: Sources) -> list[Problem]:
     for _, telling in tellings(document):
         if tables.get(telling.run) is None:
             cause = f"the table of {telling.run} is missing, was changed by hand, or its run has changed"
-            problems.append(Problem(name, "", f"{cause}; {REMEDY}"))
+            problems.append(Problem(name, "", stale(cause, document.name)))
     if not problems and (expected := page(document, sources, tables)) != text:
         line = _first_difference(expected, text)
-        problems.append(Problem(name, "", f"line {line} is not what the registers give; {REMEDY}"))
+        problems.append(
+            Problem(name, "", stale(f"line {line} is not what the registers give", document.name))
+        )
     return problems
 
 

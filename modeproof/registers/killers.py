@@ -2,8 +2,8 @@
 
 A property that no device could break says nothing. So each has a fault of a device's specification that makes
 it fall: a negative whose reading replaces one operator of a device, or one edit (`[[killer]]`). Where neither
-can be, a row says why (`[[by_construction]]`). `modeproof mutate spec --killers` judges the edits and stamps
-each; a stamp is a hash of the edit, the text that it edits, and the text of the property.
+can be, a row says why (`[[by_construction]]`). `modeproof renew` judges the edits and writes a stamp for each
+to pins.toml: a hash of the edit, the text that it edits, and the text of the property.
 """
 
 from __future__ import annotations
@@ -20,21 +20,19 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import cfg_text, replaced_by
-from modeproof.registers.pins import Digest, checked_texts, digest
+from modeproof.registers.pins import HEADER, checked_texts, digest, load_pins
 from modeproof.registers.rows import Document, Problem, Property
 from modeproof.registers.runs import ASKING, Run
+from modeproof.registers.stale import stale
 from modeproof.registers.tla import Module, closure
 from modeproof.registers.typed import Entry, Name, RunId, Text, only_keys, typed, typed_rows
-
-REMEDY = "judge it: modeproof mutate spec --killers --document {}"
 
 
 class Killer(Entry, frozen=True, kw_only=True):
     """One edit of a device's specification, and the property that falls with it.
 
     `run` gives the model and its bounds, where no entry of `[bounds]` has this name; in `module` the text
-    `old`, which stands there once, becomes `new`. `slip` says what the programmer did wrong. `stamp` is
-    written by the run in which the property fell; none: it has not been judged.
+    `old`, which stands there once, becomes `new`. `slip` says what the programmer did wrong.
     """
 
     property: Name
@@ -43,7 +41,6 @@ class Killer(Entry, frozen=True, kw_only=True):
     old: Text
     new: str
     slip: str = ""
-    stamp: Digest | None = None
 
 
 class Bounds(Entry, frozen=True, kw_only=True):
@@ -161,13 +158,16 @@ def check_killers(document: Document, sources: Sources) -> list[Problem]:
     asked = {killer.run for killer in killers.edits.values()}
     spare = (name for name in killers.bounds if name not in asked)
     problems += [Problem(file, f"bounds.{name}", "no edit is judged within these bounds") for name in spare]
+    known_stamps = load_pins(document).killers
     for name, now in stamps_of(document, sources, killers).items():
-        known_stamp = killers.edits[name].stamp
         if isinstance(now, Unjudged):
             problems.append(Problem(file, name, now.message))
-        elif known_stamp != now:
-            what = "was judged on another text" if known_stamp else "has not been judged"
-            problems.append(Problem(file, name, f"{what}; {REMEDY.format(document.name)}"))
+        elif known_stamps.get(name) != now:
+            what = "was judged on another text" if name in known_stamps else "has not been judged"
+            problems.append(Problem(file, name, stale(what, document.name)))
+    for name in known_stamps.keys() - killers.edits.keys():
+        what = stale("no edit of this name is left", document.name)
+        problems.append(Problem(document.source("pins"), f"killers.{name}", what))
     return problems
 
 
@@ -260,14 +260,9 @@ def stamps_of(document: Document, sources: Sources, killers: Killers) -> dict[st
 
 
 def write_stamps(document: Document, stamps: Mapping[str, str]) -> None:
-    """Write the stamp of each edit beside it, and take away that of any other.
-
-    Raises Unjudged when the file cannot be written.
-    """
-    path = document.root / document.source("killers")
-    rows = tomlkit.parse(read_text(document.root, path))
-    for name, row in zip(load_killers(document.root, document.name).edits, rows["killer"], strict=True):
-        row.pop("stamp", None)
-        if name in stamps:
-            row["stamp"] = stamps[name]
+    """Write these stamps, and take away all others. Raises Unjudged when the file cannot be written."""
+    path = document.root / document.source("pins")
+    rows = tomlkit.parse(read_text(document.root, path) if path.is_file() else HEADER)
+    rows.setdefault("document", document.name)
+    rows["killers"] = dict(stamps)
     write_whole(path, tomlkit.dumps(rows).encode("utf-8"))

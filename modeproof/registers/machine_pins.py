@@ -18,22 +18,25 @@ import tomlkit
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import machines
 from modeproof.registers.files import read_text, read_toml, shown
-from modeproof.registers.pins import REMEDY, digest
+from modeproof.registers.pins import digest
 from modeproof.registers.rows import Problem
+from modeproof.registers.stale import stale
 
 WORDS = ("id", "sentence", "hazard", "cites")
 """Of a property, what a person reads."""
 TABLE = "checked"
 HEADER = """\
 # What each property of safety.toml says: a hash of its text and of the observers that it refers to.
-# Moved only by `modeproof registers --repin --reason TEXT`. Our own design: no claim about a paper.
+# Moved only by `modeproof renew --reason TEXT`. Our own design: no claim about a paper.
 """
 
 
-def check_machine_pins(root: Path) -> list[Problem]:
-    """Every property of a machine that is not the pinned one. Raises Unjudged: a file cannot be read."""
+def check_machine_pins(root: Path, *names: str) -> list[Problem]:
+    """Every property of these machines (of all) that is not the pinned one. Raises Unjudged: a file cannot be
+    read.
+    """
     problems = []
-    for name in machines(root):
+    for name in names or machines(root):
         path, now = _file(root, name), _digests(root, name)
         pinned = _pinned(root, path)
         for id in dict.fromkeys((*now, *pinned)):
@@ -45,31 +48,35 @@ def check_machine_pins(root: Path) -> list[Problem]:
                 what = "it, or an observer that it refers to, is not the text that was pinned"
             else:
                 continue
-            problems.append(Problem(shown(root, path), f"{TABLE}.{id}", f"{what}; {REMEDY}"))
+            problems.append(Problem(shown(root, path), f"{TABLE}.{id}", stale(what, reason=True)))
     return problems
 
 
 def repin_machines(root: Path, reason: str) -> list[str]:
+    """`repin_machine` for every machine of the tree."""
+    return [
+        line
+        for name in machines(root)
+        for line in repin_machine(root, name, reason) or [f"{name}: no pin moved"]
+    ]
+
+
+def repin_machine(root: Path, name: str, reason: str) -> list[str]:
     """Write the hashes of the present texts; one line for each that moved. Raises Unjudged."""
-    lines = []
-    for name in machines(root):
-        path, now = _file(root, name), _digests(root, name)
-        old = tomlkit.parse(read_text(root, path) if path.is_file() else HEADER)
-        first = TABLE not in old
-        rows = old.setdefault(TABLE, tomlkit.table())
-        moved = []
-        for id in [id for id in rows if id not in now]:
-            moved.append(f"{name}: {TABLE}.{id}: {rows.pop(id)} -> none")
-        for id, value in now.items():
-            if (was := rows.get(id)) != value:
-                rows[id] = value
-                if not first:
-                    rows[id].comment(f"{time.strftime('%Y-%m-%d', time.gmtime())}: {reason}")
-                moved.append(f"{name}: {TABLE}.{id}: {was or 'none'} -> {value}")
-        if moved:
-            write_whole(path, tomlkit.dumps(old).encode("utf-8"))
-        lines += moved or [f"{name}: no pin moved"]
-    return lines
+    path, now = _file(root, name), _digests(root, name)
+    old = tomlkit.parse(read_text(root, path) if path.is_file() else HEADER)
+    first = TABLE not in old
+    rows = old.setdefault(TABLE, tomlkit.table())
+    moved = [f"{name}: {TABLE}.{id}: {rows.pop(id)} -> none" for id in [id for id in rows if id not in now]]
+    for id, value in now.items():
+        if (was := rows.get(id)) != value:
+            rows[id] = value
+            if not first:
+                rows[id].comment(f"{time.strftime('%Y-%m-%d', time.gmtime())}: {reason}")
+            moved.append(f"{name}: {TABLE}.{id}: {was or 'none'} -> {value}")
+    if moved:
+        write_whole(path, tomlkit.dumps(old).encode("utf-8"))
+    return moved
 
 
 def _file(root: Path, name: str) -> Path:

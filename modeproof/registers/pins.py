@@ -2,19 +2,17 @@
 
 A run's counts do not change when a property is weakened, and a theorem proves whatever its text says. So
 each name that a cfg checks and each theorem has a hash of its definition and of what that refers to. Comments
-are left out; layout counts, as it does in both languages. A hash moves only by
-`modeproof registers --repin --reason TEXT`.
+and the layout of Python are left out. A hash moves only with a reason. Beside them stand the stamps of
+modeproof.registers.killers.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
-import io
 import re
 import time
-import tokenize
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import cache
 from typing import Annotated
 
@@ -23,12 +21,14 @@ import tomlkit
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.meaning import said_by
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
 from modeproof.registers.made import used, words_of
 from modeproof.registers.python_source import PythonModule
 from modeproof.registers.rows import Document, Problem
+from modeproof.registers.stale import stale
 from modeproof.registers.tla import Module, closure
 from modeproof.registers.typed import typed
 
@@ -38,20 +38,20 @@ Texts = Mapping[str, str]
 
 HEADER = """\
 # What each checked name (TLA+) and each theorem (Python) says: a hash of its text and of what that refers to.
-# Moved only by `modeproof registers --repin --reason TEXT`.
+# Of each edit (killers.toml): a hash of the text on which it broke its property. `modeproof renew` writes it.
 """
-REMEDY = "if this is meant: modeproof registers --repin --reason TEXT"
 _FAIR = re.compile(r"\b[WS]F_")
 """Fairness is part of what a specification says, and no step shows it."""
 _SUBSCRIPT = re.compile(r"\]_(?:\w+|<<.*?>>)", re.DOTALL)
 
 
 class Pins(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """The file: by name the hash of each checked definition, and of each theorem."""
+    """The file: by name the hash of each checked definition and theorem, and the stamp of each edit."""
 
     document: str
     checked: dict[str, Digest] = {}
     theorems: dict[str, Digest] = {}
+    killers: dict[str, Digest] = {}
 
     def of(self, table: str) -> dict[str, str]:
         """One of the two tables."""
@@ -66,14 +66,15 @@ def check_pins(document: Document, sources: Sources) -> list[Problem]:
         pinned = pins.of(table)
         for name, text in texts.items():
             if name not in pinned:
-                problems.append(Problem(file, f"{table}.{name}", f"is not pinned; {REMEDY}"))
+                what = "is not pinned"
             elif pinned[name] != digest(text):
-                what = f"{name}, or what it refers to, is not the text that was pinned; {REMEDY}"
-                problems.append(Problem(file, f"{table}.{name}", what))
+                what = f"{name}, or what it refers to, is not the text that was pinned"
+            else:
+                continue
+            problems.append(Problem(file, f"{table}.{name}", stale(what, document.name, reason=True)))
         gone = (name for name in pinned if name not in texts)
-        problems += [
-            Problem(file, f"{table}.{name}", f"nothing of this name is left; {REMEDY}") for name in gone
-        ]
+        what = stale("nothing of this name is left", document.name, reason=True)
+        problems += [Problem(file, f"{table}.{name}", what) for name in gone]
     return [*problems, *_saying_nothing(document, sources)]
 
 
@@ -224,10 +225,6 @@ def _saying_nothing(document: Document, sources: Sources) -> Iterator[Problem]:
 def _proved(document: Document, sources: Sources) -> Texts:
     """For each theorem: its text, and that of everything in the room of the document that it refers to."""
     room = f"proofs.{document.name}"
-    texts = {
-        module.name: _without_comments(read_text(document.root, document.root / module.file))
-        for module in sources.proofs
-    }
     scopes = {module.name: _scope(module, room) for module in sources.proofs}
 
     @cache
@@ -237,7 +234,7 @@ def _proved(document: Document, sources: Sources) -> Texts:
         defined, imported = scopes.get(here, ({}, {}))
         nodes = defined.get(name, [])
         names = frozenset(other for node in nodes for other in _names(node, here, imported))
-        return "\n".join(_lines(texts[here], nodes)) if nodes else "", names
+        return said_by(nodes), names
 
     found = {}
     for module in sources.proofs:
@@ -288,19 +285,3 @@ def _names(node: ast.stmt, here: str, imported: dict[str, tuple[str, str]]) -> I
                 yield module, part.attr
         if isinstance(part, ast.Name) and isinstance(part.ctx, ast.Load):
             yield imported.get(part.id, (here, part.id))
-
-
-def _lines(text: tuple[str, ...], nodes: Iterable[ast.stmt]) -> Iterator[str]:
-    for node in nodes:
-        decorators = [decorator.lineno for decorator in getattr(node, "decorator_list", [])]
-        yield from filter(None, text[min([node.lineno, *decorators]) - 1 : node.end_lineno])
-
-
-@cache
-def _without_comments(text: str) -> tuple[str, ...]:
-    lines = text.splitlines()
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type == tokenize.COMMENT:
-            line, column = token.start
-            lines[line - 1] = lines[line - 1][:column]
-    return tuple(line.rstrip() for line in lines)

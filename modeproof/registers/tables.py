@@ -10,10 +10,11 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path, PurePosixPath
 
-from modeproof.registers.document_page import REMEDY, page_name
+from modeproof.registers.document_page import page_name
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import Document, Problem
+from modeproof.registers.stale import stale
 
 COLUMNS = ("clause", "kind", "action", "step", "property", "theorem", "vector")
 """The columns of the text table; JSON and CSV have all fields."""
@@ -148,5 +149,5 @@ def check_pages(root: Path, documents: Sequence[Document]) -> list[Problem]:
         if len(BEGIN.findall(text)) != len(BLOCK.findall(text)):
             problems.append(Problem(shown(root, path), "", "a rendered block has no end, or is malformed"))
         elif render_blocks(text, documents, shown(root, path)) != text:
-            problems.append(Problem(shown(root, path), "", f"a rendered block has drifted; {REMEDY}"))
+            problems.append(Problem(shown(root, path), "", stale("a rendered block has drifted")))
     return problems

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
 import tomllib
 from collections.abc import Mapping
@@ -11,7 +10,8 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device, Document
-from modeproof.registers.vector_files import VectorFile, drift, read_vectors, vectors_path
+from modeproof.registers.stale import RENEW
+from modeproof.registers.vector_files import VectorFile, read_vectors, vectors_path, why_stale
 from modeproof.report.cells import NONE
 from modeproof.report.codes import Codes, codes_of
 from modeproof.report.sources import Sources
@@ -19,7 +19,7 @@ from modeproof.report.story import OUTSIDE, POWER_UP, Lane, Message, Row, Story
 
 SUITE = "sequences"
 REGISTER = "sequences.toml"
-REMEDY = "modeproof vectors publish"
+REMEDY = RENEW
 ANSWERED = ">"
 """The id of the lane of all that reads what the device writes."""
 AFTER = "after"
@@ -81,14 +81,9 @@ def _published(
 ) -> Published:
     if packed is None:
         return Published(device.id, path, hole=f"{path} is not there")
-
-    def digest(name: str) -> str:
-        content = sources.content(name)
-        return "" if content is None else hashlib.sha256(content).hexdigest()
-
     try:
         read = read_vectors(packed)
-        for text in drift(read.sources, digest):
+        if text := why_stale(sources.root, device.id):
             raise Unjudged(f"is of another text: {text}")
         about = tuple(str(read.header[key]) for key in ("target", "document", "suite"))
         if about != (device.id, document.name, SUITE):

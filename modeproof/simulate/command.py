@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 
 from modeproof.ground.errors import EXIT_AS_EXPECTED, Unjudged
 from modeproof.ground.evidence.files import write_whole
-from modeproof.ground.places import build, documents
+from modeproof.ground.places import build
 from modeproof.ground.places import root as repository_root
-from modeproof.registers.load import load_document
 from modeproof.simulate.build import make
 from modeproof.simulate.picture import png, svg
-from modeproof.simulate.recorded import record
 
 STORY, STEP = "stale_confirmation", 9
 """What is shown where nothing else is asked for."""
@@ -33,11 +31,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     )
     parser.add_argument("--out", type=Path, metavar="FILE", help="where to (default: build/simulate.html)")
     parser.add_argument(
-        "--record",
-        action="store_true",
-        help="first keep the counterexamples of build/evidence/ and build/walks/ in scenes/, for other trees",
-    )
-    parser.add_argument(
         "--picture",
         type=Path,
         metavar="FILE",
@@ -54,12 +47,6 @@ def run(args: argparse.Namespace) -> int:
     place = repository_root()
     if args.picture and args.picture.suffix not in (".png", ".svg"):
         raise Unjudged(f"{args.picture}: a picture is a .png or a .svg")
-    if args.record:
-        for name in documents(place):
-            held, changed, missing = record(load_document(place, name))
-            print(f"{name}: {held} counterexamples recorded, {len(changed)} of them not as before")
-            if missing:
-                print(f"  missing: {', '.join(missing)}; modeproof check RUN, then modeproof walks")
     html = make(place).encode("utf-8")
     file = args.out or build(place) / "simulate.html"
     write_whole(file, html)

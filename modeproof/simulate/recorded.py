@@ -1,24 +1,26 @@
 """Recorded counterexamples as the page plays them: row by row, each with what changed in it.
 
-They come from the evidence of this tree and its walks, where both are there and belong together. Where not,
-from scenes/<document>/recorded.jsonl, which `modeproof simulate --record` writes from them: one line a run,
-with the SHA-256 of its trace and the beginning of that of each module that it was checked with.
+They come from the evidence of this tree and its walks, where both are there and of the present text. Where
+not, from scenes/<document>/recorded.jsonl, which `modeproof renew` writes from them: one line a run, with the
+SHA-256 of its trace and the beginning of the meaning of each module that it was checked with.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.meaning import meaning
 from modeproof.ground.places import build
 from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
+from modeproof.registers.stale import renew_command
 from modeproof.report.cells import Cells
 from modeproof.report.story import digest_of, from_walk
 from modeproof.simulate.program.play import GROUPS
@@ -40,11 +42,25 @@ def shown(document: Document) -> list[dict[str, Any]]:
         row = new.get(run.id) or old.get(run.id)
         if row is None or run.kind != "NEG":
             continue
-        same = all(_hash(document.root, file) == known for file, known in row["modules"].items())
-        fresh = same and run.trace_length in (None, len(row["rows"]))
         head = {"run": run.id, "property": run.property, "says": sentences.get(run.property, "")}
+        fresh = _is_fresh(document, run, row)
         found.append({**head, "fresh": fresh, "loop": row["loop"], "rows": _json(row["rows"])})
     return found
+
+
+def unrecorded(document: Document) -> list[str]:
+    """The negative runs whose record is missing or of another specification; none without a record at all.
+
+    Raises Unjudged where the file cannot be read.
+    """
+    old = _kept(document)
+    wanted = [run for run in document.runs if run.kind == "NEG"] if old else []
+    return [run.id for run in wanted if run.id not in old or not _is_fresh(document, run, old[run.id])]
+
+
+def _is_fresh(document: Document, run: Run, row: Mapping[str, Any]) -> bool:
+    same = all(_hash(document.root, file) == known for file, known in row["modules"].items())
+    return same and run.trace_length in (None, len(row["rows"]))
 
 
 def findings(document: Document, there: Sequence[str]) -> list[dict[str, Any]]:
@@ -62,7 +78,7 @@ def _finding(document: Document, finding: Finding, there: Sequence[str]) -> dict
     runs = sorted((run for run in fails if run in there), key=lambda run: told is None or run != told.run)
     why = ""
     if missing := [run for run in fails if run not in there]:
-        why = f"Not recorded: {', '.join(missing)}. modeproof check, walks and simulate --record make it."
+        why = f"Not recorded: {', '.join(missing)}. {renew_command(document.name)} makes it."
     elif not fails:
         checks = f" Its evidence is {', '.join(finding.evidence)}." if finding.evidence else ""
         reason = finding.evidence_open or "no run fails for it"
@@ -102,16 +118,16 @@ def _kept(document: Document) -> dict[str, dict[str, Any]]:
         rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
         return {row["run"]: {key: row[key] for key in KEPT} for row in rows}
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise Unjudged(f"{path}: cannot be read: {error}; modeproof simulate --record writes it") from None
+        raise Unjudged(f"{path}: cannot be read: {error}; modeproof renew writes it") from None
 
 
 def _hash(root: Path, file: str) -> str:
     path = root / file
-    return evidence.sha256(path)[:SHOWN_OF_HASH] if path.is_file() else ""
+    return meaning(path)[:SHOWN_OF_HASH] if path.is_file() else ""
 
 
 def _of_evidence(document: Document) -> dict[str, dict[str, Any]]:
-    """The runs whose evidence is as expected and has a walk of this very trace."""
+    """The runs whose evidence is of the present text, as expected, and has a walk of this very trace."""
     if not has_replay(document.root, document.name):
         return {}
     traces = load_replay(document.root, document.name)
@@ -132,14 +148,17 @@ def _of_run(document: Document, traces: Traces, run: Run) -> dict[str, Any] | No
     if walk.get("trace_sha256") != digest_of(trace) or walk.get("module") not in traces.tops:
         return None
     modules = {
-        file: digest[:SHOWN_OF_HASH]
+        file: (digest, _hash(place, file))
         for file, digest in record["inputs"].items()
         if file.startswith("spec/") and file.endswith(".tla")
     }
+    for file, (digest, now) in modules.items():
+        if not now or (digest != evidence.sha256(place / file) and not digest.startswith(now)):
+            return None
     return {
         "run": run.id,
         "trace_sha256": walk["trace_sha256"],
-        "modules": modules,
+        "modules": {file: now for file, (_, now) in modules.items()},
         "loop": record["result"].get("loop", ""),
         "rows": _rows(document, traces, walk),
     }

@@ -3,27 +3,33 @@
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from modeproof import kit
 from modeproof.graph.device import current_graph, load_device_graph, open_runs
-from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.ground.places import build, documents
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.meaning import meanings
+from modeproof.ground.places import TREE, build, documents
 from modeproof.ground.progress import Progress
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.vectors import FILE_NAME, Suite, open_suite
-from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
+from modeproof.registers.vector_files import made_from, step_citations
 from modeproof.suites.at import every_pair
 from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
 from modeproof.tlc.rests import why_stale
+
+SAYING = ("properties", "clauses", "findings")
+"""Registers of which a header repeats sentences."""
+CODE = ("modeproof/suites/*.py", "modeproof/graph/*.py", "modeproof/kit/vectors.py")
+"""The code that writes a suite."""
 
 
 def find_target(place: Path, target: str, document: str | None = None) -> tuple[str, Device]:
@@ -73,7 +79,9 @@ def ready_suite(
         return open_suite(path)
     path = suite_file(place, document, target, suite)
     runs = open_runs(place, document, target)
-    sources = _sources(place, document, [current_graph(place, run) for run in runs])
+    made_with = _made_with(place, document, target, [current_graph(place, run) for run in runs])
+    known = _key_file(path)
+    known.unlink(missing_ok=True)
     devices = [load_device_graph(place, run) for run in runs]
     if suite in SUITES and SUITES[suite].pairs:
         devices += every_pair(place, document, devices, on_built)
@@ -82,11 +90,11 @@ def ready_suite(
         path,
         suite,
         devices,
-        citations=step_citations(place, document, target, on_built),
-        sources=sources,
+        citations=citations_of(place, document, target),
         contract=contract,
         texts=document_texts(place, document),
     )
+    write_whole(known, made_with.encode())
     on_built(f"{target} {suite}: {stats}")
     return open_suite(path)
 
@@ -100,12 +108,17 @@ def current_suite(place: Path, document: str, target: str, suite: str) -> Path |
     runs = open_runs(place, document, target)
     if not runs:
         raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
-    sources = _sources(place, document, [current_graph(place, run) for run in runs])
-    try:
-        there = path.is_file() and open_suite(path).header.get("sources") == sources
-    except KitUnjudged:
-        there = False  # a leftover of another version is built anew
-    return path if there else None
+    made_with = _made_with(place, document, target, [current_graph(place, run) for run in runs])
+    known = _key_file(path)
+    if path.is_file() and known.is_file() and known.read_text(encoding="utf-8") == made_with:
+        with contextlib.suppress(KitUnjudged):  # a leftover of another version is built anew
+            open_suite(path)
+            return path
+    return None
+
+
+def _key_file(path: Path) -> Path:
+    return path.with_name(f"{path.name.partition('.')[0]}.key")
 
 
 def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) -> list[Suite]:
@@ -129,23 +142,10 @@ def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) 
     return found
 
 
-def step_citations(
-    place: Path, document: str, target: str, on_trouble: Callable[[str], None] = lambda line: None
-) -> Citations:
-    """What the specification's step actions cite. Nothing, and a line says so, without registers."""
-    try:
-        registers = load_document(place, document)
-        found = citations(registers, read_sources(registers))
-    except Unjudged as error:
-        on_trouble(f"{target}: no clauses are cited: {error}")
-        return lambda step: ((), ())
-    module = registers.interface.devices[target].module
-    table = {
-        citation.name: (citation.clauses, citation.findings)
-        for citation in found
-        if citation.kind == "definition" and citation.room == "spec"
-    }
-    return lambda step: table.get(f"{module}!{step}", ((), ()))
+def citations_of(place: Path, document: str, target: str) -> Citations:
+    """What the specification's step actions cite; nothing without registers."""
+    table = step_citations(place, document, load_interface(place, document).devices[target])
+    return lambda step: table.get(step, ((), ()))
 
 
 def document_texts(place: Path, document: str) -> dict[str, str]:
@@ -158,26 +158,13 @@ def document_texts(place: Path, document: str) -> dict[str, str]:
     return texts | {finding.id: f"{finding.title}: {finding.decision}" for finding in registers.findings}
 
 
-def _sources(place: Path, document: str, graphs: list[Path]) -> dict[str, str]:
+def _made_with(place: Path, document: str, target: str, graphs: Sequence[Path]) -> str:
+    """A hash of all that a suite is made from: what decides it, its sentences, the graphs, and our code."""
     folder = place / "spec" / document
-    own = Path(__file__).resolve().parent
-    code = [*own.glob("*.py"), *(own.parent / "graph").glob("*.py"), Path(kit.__file__).parent / "vectors.py"]
-    registers = [
-        folder / "interface.toml",
-        folder / "classes.toml",
-        folder / "contracts.toml",
-        folder / "properties.toml",
-        folder / "runs.toml",
-        folder / "sequences.toml",
-        folder / "clauses.toml",
-        folder / "findings.toml",
-    ]
-    paths = [*graphs, *(path for path in registers if path.is_file()), *folder.glob("*.tla")]
-    hashes = evidence.hashes(place, paths)
-    for path in code:  # by name: the package may be installed elsewhere
-        name = f"modeproof/{path.parent.name}/{path.name}"
-        hashes[name] = next(iter(evidence.hashes(path.parent, [path]).values()))
-    return dict(sorted(hashes.items()))
+    sentences = [path for name in SAYING if (path := folder / f"{name}.toml").is_file()]
+    files = meanings(place, [*sentences, *graphs]) | dict(made_from(place, target))
+    code = meanings(TREE, [path for names in CODE for path in TREE.glob(names)])
+    return hashlib.sha256(repr(sorted([*files.items(), *code.items()])).encode()).hexdigest()
 
 
 def make_graphs(place: Path, runs: Sequence[Run], quiet: bool) -> None:

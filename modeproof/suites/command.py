@@ -32,7 +32,8 @@ from modeproof.kit.vectors import EXACT, SETTLED, WIRING, Suite, open_suite
 from modeproof.kit.verdict import Verdict
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
-from modeproof.registers.vector_files import of_machine, published, published_files, remedy, suite_name
+from modeproof.registers.stale import stale
+from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
 from modeproof.suites.build import current_suite, find_target, make_graphs, ready_suite, say
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
@@ -207,7 +208,8 @@ def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
     chosen = [path for path, name in zip(files, names, strict=True) if not asked or name in asked]
     for path in chosen:
         if published(place, args.target, suite_name(path)) is None:
-            raise Unjudged(f"{path.relative_to(place)} is of another text; {remedy(path)}")
+            what = why_stale(place, args.target) or f"{path.relative_to(place)} is not as it was published"
+            raise Unjudged(stale(what, args.target))
     found = [open_suite(path) for path in chosen]
     if chosen and not (found := [suite for suite in found if args.relation in suite.relations]):
         raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
@@ -275,9 +277,9 @@ def _builtin(args: argparse.Namespace) -> int:
     with only_one(place):
         make_graphs(place, runs, args.quiet)
         for kit_run in runs:
-            found.append((kit_run, _compare(place, kit_run, args.builtin, progress, args.codes)))
+            found.append((kit_run, compare_run(place, kit_run, args.builtin, progress, args.codes)))
     for kit_run, result in found:
-        print(_text(kit_run, result))
+        print(comparison_text(kit_run, result))
     status = max(0 if result.equal else 1 for _, result in found)
     if args.json is not None:
         rows = [{"run": kit_run.id, "verdict": result.verdict, **asdict(result)} for kit_run, result in found]
@@ -285,7 +287,8 @@ def _builtin(args: argparse.Namespace) -> int:
     return status
 
 
-def _compare(place: Path, run: Run, builtin: str, progress: Progress, codes: bool) -> Comparison:
+def compare_run(place: Path, run: Run, builtin: str, progress: Progress, codes: bool = False) -> Comparison:
+    """Compare the graph of a run with a program, and write the evidence. Raises Unjudged like `compared`."""
     folder = evidence.OURS if builtin == REFERENCE else evidence.YOURS
     name = f"{builtin}_{run.id}"
     evidence.discard(place, run.document, name, folder)
@@ -372,7 +375,8 @@ def comparison_record(
     )
 
 
-def _text(run: Run, found: Comparison) -> str:
+def comparison_text(run: Run, found: Comparison) -> str:
+    """What was compared, step by step, and the shortest way to the first difference."""
     lines = [f"{run.name} and {found.implementation}"]
     width = max(len(step) for step in found.covered)
     for step, (have, total) in found.covered.items():

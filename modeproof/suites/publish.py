@@ -5,16 +5,15 @@ A developer needs neither TLC nor this tool to read them: JSON Lines, packed by 
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
-from modeproof.kit.vectors import FILE_NAME, read_lines
-from modeproof.registers.vector_files import ROOM, SUMS, of_machine, sums_text
+from modeproof.ground.meaning import meaning
+from modeproof.kit.vectors import FILE_NAME
+from modeproof.registers.vector_files import ROOM, of_machine, seal
 from modeproof.suites.build import suite_file
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
@@ -34,10 +33,9 @@ class Published:
 def publish(place: Path, targets: Mapping[str, str], whole: bool = True) -> Published:
     """Bring the room up to date with the suites of `targets` (target to document), which have been built.
 
-    A file with the same lines is left as it is: what packs them may pack otherwise on another machine. So is
-    one that was made by other code of this tool and is the same otherwise. With `whole` these are all targets
-    that there are, so that files of others are removed. Raises Unjudged where a file
-    cannot be written.
+    A file with the same lines is left as it is: what packs them may pack otherwise on another machine. With
+    `whole` these are all targets that there are, so that files of others are removed. Raises Unjudged where a
+    file cannot be written.
     """
     wanted: dict[Path, Path] = {Path(__file__).with_name(SCHEMA): place / ROOM / SCHEMA}
     for target, document in sorted(targets.items()):
@@ -60,19 +58,11 @@ def publish(place: Path, targets: Mapping[str, str], whole: bool = True) -> Publ
         if path not in wanted.values() and (whole or path.parent.name in targets) and not of_machine(path):
             path.unlink()
             removed.append(path.relative_to(place).as_posix())
-    write_whole(place / ROOM / SUMS, sums_text(place / ROOM).encode())
+    seal(place, targets)
     return Published(tuple(written), tuple(kept), tuple(removed))
 
 
 def _same(path: Path, other: Path) -> bool:
     if path.name == SCHEMA:
         return path.read_bytes() == other.read_bytes()
-    ours, theirs = (read_lines(file) for file in (path, other))
-    return _header(next(ours, b"{}")) == _header(next(theirs, b"{}")) and list(ours) == list(theirs)
-
-
-def _header(line: bytes) -> Any:
-    """The header without the hashes of our own code."""
-    row = json.loads(line)
-    sources = row.pop("sources", {})
-    return row, {name: value for name, value in sources.items() if not name.startswith("modeproof/")}
+    return meaning(path) == meaning(other)

@@ -1,4 +1,4 @@
-"""The command `modeproof vectors`: build, lint, stats, show, pack, publish."""
+"""The command `modeproof vectors`: build, lint, stats, show, pack."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.graph.device import open_runs
-from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged, suggestion
+from modeproof.ground.errors import EXIT_AS_EXPECTED, EXIT_NOT_AS_EXPECTED, Unjudged
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import build, root
 from modeproof.kit.text import write_json
@@ -23,7 +23,6 @@ from modeproof.suites.build import find_target, make_graphs, published, ready_su
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.pack import NAME, pack
-from modeproof.suites.publish import publish
 from modeproof.suites.write import NoCases
 
 WITHIN = 1.05
@@ -63,13 +62,6 @@ def add_parser(commands: Any) -> None:
     packer.add_argument("--to", type=Path, metavar="FILE", help=f"another file than build/{NAME}")
     packer.add_argument("--all", action="store_true", help="the slow suites too: building them takes long")
     packer.set_defaults(run=run, targets=[], suite=None, anew=False)
-    publisher = actions.add_parser(
-        "publish",
-        help="bring vectors/ up to date: the fast suites, as files of the project",
-        description="Builds the fast suites of all published targets and puts what changed into vectors/.",
-    )
-    publisher.add_argument("targets", nargs="*", metavar="TARGET", help="only these targets (default: all)")
-    publisher.set_defaults(run=run, suite=None, anew=False)
     show = actions.add_parser("show", help="show one case", description="Show one case.")
     show.add_argument("id", metavar="ID", help="id of the case, as a verdict names it")
     show.add_argument("--csv", action="store_true", help="as a table for a trace tool")
@@ -85,7 +77,6 @@ def run(args: argparse.Namespace) -> int:
         "stats": _stats,
         "show": _show,
         "pack": _pack,
-        "publish": _publish,
     }
     return actions[args.action](place, args)
 
@@ -134,22 +125,6 @@ def _pack(place: Path, args: argparse.Namespace) -> int:
             print(f"    without {name}: {why}")
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     print(f"{path}: {path.stat().st_size:,} bytes, sha256 {digest[:16]}")
-    return EXIT_AS_EXPECTED
-
-
-def _publish(place: Path, args: argparse.Namespace) -> int:
-    targets = published(place)
-    if not targets:
-        raise Unjudged("no published target has graphs, so there is nothing to publish")
-    if strange := [name for name in args.targets if name not in targets]:
-        raise Unjudged(f"no published target {strange[0]!r}; {suggestion(strange[0], targets)}")
-    targets = {name: of for name, of in targets.items() if name in args.targets or not args.targets}
-    _make(place, targets, [name for name, kind in SUITES.items() if kind.published], leave_out=True)
-    done = publish(place, targets, whole=not args.targets)
-    for name in done.removed:
-        print(f"{name}: removed, it is no suite of a published target")
-    size = sum((place / name).stat().st_size for name in (*done.written, *done.kept))
-    print(f"{len(done.written)} files written, {len(done.kept)} as they were; {size:,} bytes in vectors/")
     return EXIT_AS_EXPECTED
 
 

@@ -66,16 +66,14 @@ def write_suite(
     devices: Sequence[DeviceGraph],
     *,
     citations: Citations = no_citations,
-    sources: Mapping[str, str] | None = None,
     contract: Mapping[str, Any] | None = None,
     texts: Mapping[str, str] | None = None,
 ) -> Stats:
     """Build a suite of `SUITES` from all graphs of one target and write it as a whole or not at all.
 
-    `sources` are hashes of what the graphs were made from, by relative path, `contract` what
-    `load_contract` says of the target, `texts` what clauses and findings say in our words. Raises Unjudged
-    when the graphs belong to several targets, when the walks do not cover what they must, or when the file
-    cannot be written.
+    `contract` is what `load_contract` says of the target, `texts` what clauses and findings say in our words.
+    Raises Unjudged when the graphs belong to several targets, when the walks do not cover what they must, or
+    when the file cannot be written.
     """
     if suite not in SUITES:
         raise Unjudged(f"no suite {suite!r}; {suggestion(suite, SUITES)}")
@@ -87,7 +85,7 @@ def write_suite(
         writer.add(number, device)
     if not writer.cases:
         raise NoCases(f"{devices[0].device.id} {suite}: the suite would have no cases")
-    header = writer.header(dict(sources or {}), contract)
+    header = writer.header(contract)
     header["texts"] = _cited_texts(header, texts or {})
     write_lines(path, [_line(header), *writer.cases])
     return writer.stats()
@@ -207,7 +205,7 @@ class _Writer:
             findings.update(of_step[1])
         return sorted(clauses), sorted(findings)
 
-    def header(self, sources: Mapping[str, str], contract: Mapping[str, Any] | None) -> dict[str, Any]:
+    def header(self, contract: Mapping[str, Any] | None) -> dict[str, Any]:
         device = self.device.device
         modes = list(self.device.forms.modes)
         kind = self.kind
@@ -227,7 +225,6 @@ class _Writer:
             "hypothesis": kind.hypothesis,
             "does_not_show": kind.does_not_show + _codes(self.device.codes),
             "generator": "modeproof",
-            "sources": dict(sorted(sources.items())),
             "cases": len(self.cases),
             "scans": self.scans,
             **({"lower_bound": self.bound} if self.bound else {}),

@@ -177,6 +177,17 @@ def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Ch
     return Checked(run, judgement, outcome, digest, record)
 
 
+def pinned_anew(place: Path, checked: Checked, tools: Toolchain) -> Checked:
+    """The same outcome, judged by the pins as they are now, with evidence that says so. Raises Unjudged."""
+    assert checked.outcome is not None
+    run = next(one for one in load_runs(place, checked.run.document) if one.id == checked.run.id)
+    cfg, digest = read_cfg(place, run)
+    judgement = judge(run, cfg, digest, checked.outcome)
+    record = _record(place, run, tools, inputs_of(place, run), judgement, checked.outcome, time.time())
+    evidence.write(place, record)
+    return Checked(run, judgement, checked.outcome, digest, record)
+
+
 def _about_reading(place: Path, run: Run, judgement: Judgement, outcome: Outcome) -> Judgement:
     """Of a run that was to be violated and is not: which reading changed nothing."""
     counts = outcome.log.counts

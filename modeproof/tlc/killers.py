@@ -15,6 +15,7 @@ from modeproof.registers.citations import Sources, read_sources
 from modeproof.registers.killers import Killer, edited, load_killers, run_of, stamps_of, write_stamps
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, root_module
+from modeproof.registers.pins import load_pins
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.tlc import children
@@ -71,7 +72,7 @@ def judge_killers(
     """
     document = load_document(place, name)
     sources, killers = read_sources(document), load_killers(place, name)
-    old = {edit: killer.stamp for edit, killer in killers.edits.items() if killer.stamp}
+    old = dict(load_pins(document).killers)
     new: dict[str, str] = {}
     lost: list[str] = []
     unjudged: list[str] = []
@@ -96,7 +97,8 @@ def judge_killers(
             else:
                 lost.append(edit)
     finally:
-        stamps = {**{edit: stamp for edit, stamp in old.items() if edit not in lost}, **new}
+        kept = {edit: stamp for edit, stamp in old.items() if edit in killers.edits and edit not in lost}
+        stamps = {edit: stamp for edit in killers.edits if (stamp := (kept | new).get(edit))}
         if stamps != old:
             write_stamps(document, stamps)
     say(f"{name}: {len(killers.edits)} edits, {judged} judged now, {len(lost)} break nothing")

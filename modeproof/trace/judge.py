@@ -10,7 +10,7 @@ from modeproof.graph.device import graph_file, load_device_graph, open_runs
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
-from modeproof.suites.build import step_citations
+from modeproof.suites.build import citations_of
 from modeproof.tlc.process import Outcome
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.alphabet import Alphabet
@@ -215,7 +215,7 @@ def why_not(
         found.matched.views,
         graphs.one_of(alone[0], log),
         graphs.passed(alone[0]).get(row.device, {}),
-        step_citations(place, target.document, row.device),
+        citations_of(place, target.document, row.device),
         tools,
         one.wrong_input if isinstance(one, Followed) and stopped else None,
     )

@@ -235,10 +235,10 @@ def test_scans_in_which_nothing_changes_stand_in_one_line() -> None:
     "words",
     [
         *(f"--source my.st {other}" for other in ("--model m", "--tlc unlock", "--killers", "--evidence")),
-        *(f"--source my.st {other}" for other in ("--picture p", "--program p", "--vectors v", "--publish")),
+        *(f"--source my.st {other}" for other in ("--picture p", "--program p", "--vectors v")),
         *(f"--source my.st {other}" for other in ("--trial Reset", "--trial")),
         *(f"--json j {other}" for other in ("--program p", "--picture p", "--model m", "--vectors v")),
-        *(f"--json j {other}" for other in ("--publish", "--tlc unlock", "--trial Reset", "--killers")),
+        *(f"--json j {other}" for other in ("--vectors v", "--tlc unlock", "--trial Reset", "--killers")),
         *(f"{judged} --model m" for judged in ("--junit x", "--recheck")),
         *("--evidence --json j", "--source my.st --equal --properties p.toml"),
         *("--picture p --trial Reset", "--model m --tlc unlock", "--tlc unlock --trial Reset"),

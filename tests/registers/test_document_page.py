@@ -75,7 +75,7 @@ def test_without_a_page_nothing_is_said(tree: Any) -> None:
 def test_a_page_and_registers_that_differ_are_found(told: Any, file: str, old: str, new: str) -> None:
     told.edit(file, old, new)
     (problem,) = problems(told.root)
-    assert "is not what the registers give; run modeproof render" in problem
+    assert "is not what the registers give; if that was not meant, undo it" in problem
 
 
 @pytest.mark.parametrize(

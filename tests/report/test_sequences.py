@@ -18,7 +18,7 @@ from tests.report.box_vectors import CASES, FILE, FIRST, SHUTS, WAITS, case, put
 from tests.report.paper import change, make_paper
 
 LINK = f"trace-box-{SHUTS}"
-REMEDY = "modeproof vectors publish"
+REMEDY = "modeproof renew"
 
 
 @pytest.fixture
@@ -131,15 +131,18 @@ def _gone(root: Path) -> None:
 
 def _other_text(root: Path) -> None:
     with (root / "spec/box/Box.tla").open("a") as stream:
-        stream.write("\n")
+        stream.write("\n")  # layout is no change
+    (root / "spec/box/sequences.toml").write_text("")
 
 
 FAULTS: dict[str, Callable[[Path], Any]] = {
     "is no file of vectors (EOFError)": _cut,
     "is no file of vectors (BadGzipFile)": _plain,
     "is not there": _gone,
-    "is of another text: spec/box/Box.tla has changed": _other_text,
-    "is of another text: does not say which specification": lambda root: put_vectors(root, sources={}),
+    "is of another text: spec/box/sequences.toml has changed": _other_text,
+    "is of another text: spec/box/interface.toml and 2 more": lambda root: (
+        root / "vectors/SHA256SUMS"
+    ).unlink(),
     "holds 2 cases and says 3": lambda root: put_vectors(root, cases=3),
     "holds other vectors: box box brief": lambda root: put_vectors(root, suite="brief"),
     "is no file of vectors (KeyError)": lambda root: put_vectors(root, steps=[{}, {}, {}]),

@@ -106,7 +106,11 @@ def test_a_record_of_another_specification_is_told(recorded_place: Path) -> None
     document = load_document(recorded_place, SCENE)
     assert all(run["fresh"] for run in recorded.shown(document))
     module = recorded_place / "spec" / SCENE / "FplcOpen.tla"
-    module.write_text(module.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+    text = module.read_text(encoding="utf-8")
+    module.write_text(text.replace("\nEXTENDS", "\n\\* a comment\nEXTENDS"), encoding="utf-8")
+    assert all(run["fresh"] for run in recorded.shown(document))
+    module.write_text(text.replace("\nOpenInit ==", "\nMore == TRUE\nOpenInit =="), encoding="utf-8")
+    assert recorded.unrecorded(document)
     fresh = {run["run"]: run["fresh"] for run in recorded.shown(document)}
     assert not fresh[RUN] and fresh["NEG_Hmi_acknowledges_own_selection"]
     player = of_recorded(
@@ -133,5 +137,5 @@ def test_an_edit_that_fits_nowhere_makes_no_page(recorded_place: Path) -> None:
 
 def test_a_record_that_cannot_be_read_is_refused(recorded_place: Path) -> None:
     (recorded_place / "scenes" / SCENE / "recorded.jsonl").write_text('{"run": "x"}\n')
-    with pytest.raises(Unjudged, match=r"recorded\.jsonl: cannot be read: .*simulate --record writes it"):
+    with pytest.raises(Unjudged, match=r"recorded\.jsonl: cannot be read: .*modeproof renew writes it"):
         recorded.shown(load_document(recorded_place, SCENE))

@@ -3,27 +3,34 @@
 from __future__ import annotations
 
 import gzip
-import json
 import re
 from pathlib import Path
 
 import pytest
 
 from modeproof.cli import main
+from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import documents, root
 from modeproof.kit.vectors import open_suite
 from modeproof.registers.load import load_interface
 from modeproof.registers.vector_files import check_vectors
+from modeproof.suites.build import published
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
-from modeproof.suites.publish import _same
+from modeproof.suites.publish import Published, _same, publish
 from tests.suites.test_command import toy as toy  # the fixture
 
 
+def put(toy: Path) -> Published:
+    """Build the suites of the toy, and bring its room up to date."""
+    assert main(["vectors", "build"]) == 0
+    return publish(toy, published(toy))
+
+
 def test_what_was_built_is_published_unless_it_is_the_same(
-    toy: Path, capsys: pytest.CaptureFixture[str]
+    toy: Path,
 ) -> None:
-    assert main(["vectors", "publish"]) == 0
+    put(toy)
     files = sorted((toy / "vectors/lamp").glob("*"))
     assert {one.name.split(".")[0] for one in files} >= {"brief", "words"}
     for one in files:
@@ -32,33 +39,33 @@ def test_what_was_built_is_published_unless_it_is_the_same(
     (toy / "vectors/lamp/old.jsonl.gz").write_bytes(b"")
     packed_otherwise = gzip.compress(gzip.decompress(files[0].read_bytes()), 1)
     files[0].write_bytes(packed_otherwise)
-    capsys.readouterr()
-    assert main(["vectors", "publish"]) == 0
-    said = capsys.readouterr().out
-    assert "vectors/lamp/old.jsonl.gz: removed" in said and "0 files written" in said
+    done = put(toy)
+    assert done.removed == ("vectors/lamp/old.jsonl.gz",) and not done.written
     assert files[0].read_bytes() == packed_otherwise
 
 
-def test_a_file_that_other_code_makes_the_same_is_kept(tmp_path: Path) -> None:
-    def packed(name: str, code: str, spec: str, case: str = "{}") -> Path:
-        sources = {"modeproof/suites/tour.py": code, "spec/toy/Lamp.tla": spec}
-        lines = [json.dumps({"cases": 1, "sources": sources}), case]
-        (tmp_path / name).write_bytes(gzip.compress("\n".join(lines).encode()))
+def test_a_file_with_the_same_lines_is_kept_however_it_is_packed(tmp_path: Path) -> None:
+    def packed(name: str, level: int, case: str = "{}") -> Path:
+        (tmp_path / name).write_bytes(gzip.compress(f'{{"cases": 1}}\n{case}\n'.encode(), level))
         return tmp_path / name
 
-    ours = packed("a.jsonl.gz", "1", "1")
-    assert _same(ours, packed("b.jsonl.gz", "2", "1"))
-    assert not _same(ours, packed("c.jsonl.gz", "1", "2"))
-    assert not _same(ours, packed("d.jsonl.gz", "1", "1", "[]"))
+    ours = packed("a.jsonl.gz", 9)
+    other = packed("b.jsonl.gz", 0)
+    assert ours.read_bytes() != other.read_bytes() and _same(ours, other)
+    assert not _same(ours, packed("c.jsonl.gz", 9, "[]"))
 
 
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
-        ("register", "spec/toy/classes.toml has changed; run modeproof vectors publish"),
+        (
+            "register",
+            "spec/toy/classes.toml has changed since it was published; if that was not meant, undo it",
+        ),
+        ("cfg", "spec/toy/runs.toml, OPEN_Lamp has changed"),
+        ("comment", ""),
         ("cut", "is no file of vectors"),
         ("header", "is no file of vectors"),
-        ("sources", "does not say which specification"),
         ("edited", "was changed since it was published, says vectors/SHA256SUMS"),
         ("settling", "compares nothing in case lamp-"),
         ("unlisted", "is not in SHA256SUMS"),
@@ -68,11 +75,21 @@ def test_a_file_that_other_code_makes_the_same_is_kept(tmp_path: Path) -> None:
 def test_a_published_file_of_another_text_is_found_without_rebuilding(
     toy: Path, spoil: str, said: str
 ) -> None:
-    assert main(["vectors", "publish"]) == 0
+    put(toy)
     assert check_vectors(toy) == []
     path = toy / "vectors/lamp/brief.jsonl.gz"
     if spoil == "register":
         (toy / "spec/toy/classes.toml").write_text("")
+    elif spoil == "cfg":
+        (toy / "spec/toy/models/OPEN_Lamp.cfg").write_text("SPECIFICATION Other\nINVARIANT PrintState\n")
+    elif spoil == "comment":
+        for name in ("Lamp.tla", "classes.toml"):
+            text = (toy / "spec/toy" / name).read_text()
+            mark = "\\* a comment\n" if name.endswith(".tla") else "# a comment\n"
+            end = text.rindex("====") if name.endswith(".tla") else len(text)
+            (toy / "spec/toy" / name).write_text(f"{text[:end]}{mark}{text[end:]}")
+        assert check_vectors(toy) == []
+        return
     elif spoil == "cut":
         path.write_bytes(path.read_bytes()[:40])
     elif spoil in ("edited", "settling"):
@@ -86,19 +103,17 @@ def test_a_published_file_of_another_text_is_found_without_rebuilding(
     elif spoil == "gone":
         path.unlink()
     else:
-        path.write_bytes(gzip.compress(b"[]\n" if spoil == "header" else b'{"sources":{}}\n'))
+        path.write_bytes(gzip.compress(b"[]\n"))
     problems = check_vectors(toy)
-    assert problems and any(
-        said in str(one) and one.file == "vectors/lamp/brief.jsonl.gz" for one in problems
-    )
+    file = "vectors/lamp" if spoil in ("register", "cfg") else "vectors/lamp/brief.jsonl.gz"
+    assert any(said in str(one) and one.file == file for one in problems)
 
 
-def test_a_file_that_the_linter_refuses_is_not_published(
-    toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_file_that_the_linter_refuses_is_not_published(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("modeproof.suites.publish.lint", lambda path: ["planted"])
-    assert main(["vectors", "publish"]) == 2
-    assert "is not published: planted" in capsys.readouterr().err and not (toy / "vectors/lamp").exists()
+    with pytest.raises(Unjudged, match="is not published: planted"):
+        put(toy)
+    assert not (toy / "vectors/lamp").exists()
 
 
 def test_every_published_target_has_its_fast_suites() -> None:

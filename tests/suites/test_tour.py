@@ -84,7 +84,7 @@ def test_members_of_a_column_and_of_a_class_take_turns(tmp_path: Path) -> None:
 def test_a_suite_stays_the_same_and_says_what_it_is(tmp_path: Path) -> None:
     graph = lamp_graph(tmp_path)
     for name in ("a", "b"):
-        write_suite(tmp_path / name, "tour", [graph], sources={"spec/x": "00"})
+        write_suite(tmp_path / name, "tour", [graph])
     assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
     header = json.loads((tmp_path / "a").read_text().splitlines()[0])
     assert header["transitions"] == 18 and header["guarantees"] and header["hypothesis"]

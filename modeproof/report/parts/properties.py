@@ -7,9 +7,11 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.killers import Falls, Killers, load_killers, stamps_of, ways_to_fall
+from modeproof.registers.pins import load_pins
 from modeproof.registers.profiles import strength_of
 from modeproof.registers.rows import Document, Property
 from modeproof.registers.runs import Run
+from modeproof.registers.stale import renew_command
 from modeproof.registers.tla import closure
 from modeproof.report.campaigns import KINDS, Campaign, campaign
 from modeproof.report.claims import Claim, Result, claims, result_of, steps_of, texts_of, theorem_rows
@@ -187,19 +189,17 @@ def _witness(sources: Sources, document: Document, prop: Property) -> dict[str, 
 def _falls(sources: Sources, document: Document, prop: Property, troubles: list[Trouble]) -> dict[str, Any]:
     """The negatives and the edits with which it falls, or why nothing breaks it."""
     every, killers, stamps = _killing(sources, document)
-    falls = every[prop.id]
+    falls, pinned = every[prop.id], load_pins(document).killers
     edits = [
         {
             **{key: getattr(killers.edits[name], key) for key in ("module", "old", "new", "slip")},
-            "judged": killers.edits[name].stamp == stamps[name],
+            "judged": pinned.get(name) == stamps[name],
         }
         for name in falls.edits
     ]
     if not all(edit["judged"] for edit in edits):
         what = f"{document.name}: an edit of {prop.id} was not judged on this text"
-        troubles.append(
-            Trouble(HOLE, ID, what, f"modeproof mutate spec --killers --document {document.name}")
-        )
+        troubles.append(Trouble(HOLE, ID, what, renew_command(document.name)))
     return {"negatives": list(falls.negatives), "edits": edits, "reason": falls.reason}
 
 
@@ -217,12 +217,13 @@ def _killing(
 
 def fallen(sources: Sources, document: Document) -> tuple[int, int]:
     """How many properties fall with a fault that was judged on this text, of those that one can break."""
-    every, killers, stamps = _killing(sources, document)
+    every, _, stamps = _killing(sources, document)
+    pinned = load_pins(document).killers
     can = [falls for falls in every.values() if falls.kind != "by construction"]
     good = [
         falls
         for falls in can
-        if falls.negatives or any(killers.edits[name].stamp == stamps[name] for name in falls.edits)
+        if falls.negatives or any(pinned.get(name) == stamps[name] for name in falls.edits)
     ]
     return len(good), len(can)
 
