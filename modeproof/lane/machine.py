@@ -13,8 +13,8 @@ from typing import Any
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
-from modeproof.ground.meaning import meaning_of, reached
-from modeproof.ground.places import machines, root
+from modeproof.ground.meaning import is_there, meaning_of, reached
+from modeproof.ground.places import TREE, documents, machines, root
 from modeproof.ground.proofs import proofs_module
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
@@ -114,15 +114,23 @@ def machine_rests(place: Path, name: str) -> evidence.Rests:
     if (folder / MODELS).exists():
         modules = sorted((place / "spec").glob("*/*.tla"))
         tools |= entries(find_toolchain())
-    inputs = {**_rests_of_proofs(place, name).inputs, **evidence.hashes(place, modules)}
-    return evidence.Rests(inputs, (*CODE, *MODELS_CODE), tools)
+    proofs = _rests_of_proofs(place, name)
+    inputs = {**proofs.inputs, **evidence.hashes(place, modules)}
+    return evidence.Rests(inputs, (*proofs.code, *MODELS_CODE), tools)
 
 
 def _rests_of_proofs(place: Path, name: str) -> evidence.Rests:
-    """What the proofs and the scans rest on; TLC's runs have more."""
+    """What the proofs and the scans rest on; TLC's runs have more.
+
+    Every document's devices are loaded, by a name that is put together.
+    """
     files = [*(place / "spec" / name).glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
-    files += [path for path in reached(place, *CODE[1:]) if path.is_relative_to(place / "refimpl")]
-    return evidence.Rests(evidence.hashes(place, files), CODE, evidence.solvers())
+    devices = (f"proofs.{document}.devices" for document in documents(place))
+    code = (*CODE, *(module for module in devices if is_there(place, module)))
+    home = place if is_there(place, CODE[-1]) else TREE
+    own = [path for path in reached(home, *code[1:]) if path.is_relative_to(home / "refimpl")]
+    inputs = {**evidence.hashes(place, files), **evidence.hashes(home, own)}
+    return evidence.Rests(inputs, code, evidence.solvers())
 
 
 def _rests_of_model(place: Path, task: Any) -> evidence.Rests:
