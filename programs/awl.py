@@ -52,8 +52,10 @@ def read_awl(path: Path) -> list[Unit]:
     body, temporaries = statements(scan, memory.cells(scan))
     if not any(access for step in scan for access in step.writes()):
         raise Unjudged(f"{path}: OB 1 writes nothing")
-    notes = tuple(area.text for area in cleared)
-    unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place, notes=notes)
+    notes = [area.text for area in cleared]
+    if memory.settings:
+        notes.append(f"nothing writes {', '.join(memory.settings)}, so what is loaded stays there")
+    unit = Unit(path.stem, "program", {**memory.variables, **temporaries}, body, place, notes=tuple(notes))
     for name in memory.unnamed:
         must_not_matter(unit, name)
         memory.variables[name] = replace(memory.variables[name], section="constant")
@@ -275,7 +277,9 @@ class _Memory:
     steps: Sequence[Step]
     variables: dict[str, Variable] = field(default_factory=dict)
     unnamed: list[str] = field(default_factory=list)
-    """Inputs and flags that are read, are never written, and are no signals of the map."""
+    """Inputs, flags and outputs that are read, are never written, and are no signals of the map."""
+    settings: list[str] = field(default_factory=list)
+    """Such data of data blocks: they keep what is loaded."""
 
     def __post_init__(self) -> None:
         written = {access for step in self.steps for access in step.writes()}
@@ -294,8 +298,8 @@ class _Memory:
             kind = signal.type if signal is not None else self._declared(unit)
             if unit.area == "I" and changes:
                 raise Unjudged(f"{self.path}: input {unit} is written")
-            if signal is None and (unit.area == "I" or (unit.area == "M" and not changes)):
-                self.unnamed.append(unit.name.upper())
+            if signal is None and not changes:
+                (self.settings if unit.area.startswith("DB") else self.unnamed).append(unit.name.upper())
             section = "var" if signal is None else "output" if changes or unit.area == "Q" else "input"
             name = unit.name if signal is None else signal.name
             if name.upper() in self.variables:

@@ -72,8 +72,8 @@ def must_not_matter(unit: Unit, name: str) -> None:
         z3.Or([z3.substitute(term, *where) != term for path, term in scan.after.items() if path != name])
     )
     if solver.check() != z3.unsat:
-        what = "input" if name.startswith("I_") else "flag"
-        cause = "which is no signal of the map" + ", and never writes it" * (what == "flag")
+        what = {"I": "input", "Q": "output"}.get(name[0], "flag")
+        cause = "which is no signal of the map" + ", and never writes it" * (what != "input")
         raise unit.place.refuse(f"the program reads {what} {unit.variables[name].name}, {cause}")
 
 

@@ -27,6 +27,8 @@ SUFFIX = "AsPrinted"
 """The end of the name of a module that holds readings."""
 _NAME = re.compile(r"(\w+)_([A-Z][A-Za-z0-9]*)")
 _WORD = re.compile(r"[A-Za-z_]\w*")
+_TEMPORAL = re.compile(r"\[\]\[|(?<!<)<>(?!>)|~>|!\w*Spec\b")
+"""What stands in a formula about more than one state; `[]` alone also divides the cases of CASE."""
 _NO_NAME = re.compile(r'"[^"\n]*"|\.\w+|\w+\s*\|->')
 """Strings, and the names of fields."""
 
@@ -156,10 +158,11 @@ def cfg_text(root: Path, run: Run) -> str:
 
     Raises Unjudged: the cfg or a module cannot be read; a reading that cannot be used (`replaced_by`).
     """
-    text = read_text(root, root / "spec" / run.document / run.cfg)
+    if not run.base and run.cfg:
+        return read_text(root, root / "spec" / run.document / run.cfg)
+    cfg = base_cfg(root, run)
     if not run.base:
-        return text
-    cfg = parse_cfg(text, f"{run.name}: {run.cfg}")
+        return f"\\* Made from spec/{run.document}/runs.toml: {run.id}.\n{cfg.text()}"
     given = dict(cfg.constants)
     for name, value in run.constants.items():
         named = value.startswith("<-")
@@ -186,8 +189,55 @@ def cfg_text(root: Path, run: Run) -> str:
     return f"\\* Made from spec/{run.document}/runs.toml: {run.base} with {words}.\n{cfg.text()}"
 
 
+def base_cfg(root: Path, run: Run) -> Cfg:
+    """The cfg of a run's base, or of a run without one: by hand, or made of its row. Raises Unjudged.
+
+    Of the constants those are given that the modules declare.
+    """
+    if run.model is None:
+        return parse_cfg(
+            read_text(root, root / "spec" / run.document / run.cfg), f"{run.name}: {run.cfg or run.id}"
+        )
+    declared, temporal = _facts(root, run.document, run.module)
+    given = {
+        name: Constant(text.removeprefix("<-").strip(), text.startswith("<-"))
+        for name, text in run.model.constants.items()
+        if name in declared
+    }
+    return Cfg(
+        constants=given,
+        invariants=tuple(name for name in run.properties if name not in temporal),
+        properties=tuple(name for name in run.properties if name in temporal),
+        action_constraints=run.model.action_constraints,
+        specification=run.model.specification,
+        view=run.model.view,
+    )
+
+
+def _facts(root: Path, document: str, module: str) -> tuple[frozenset[str], frozenset[str]]:
+    """What a module and all that it extends declare: its constants, and its formulas of time."""
+    folders = (root / "spec" / "common", root / "spec" / document)
+    files = [path.stat() for folder in folders for path in sorted(folder.glob("*.tla"))]
+    return _read_facts(root, document, module, tuple((file.st_mtime_ns, file.st_ino) for file in files))
+
+
+@cache
+def _read_facts(
+    root: Path, document: str, module: str, files: tuple[tuple[int, int], ...]
+) -> tuple[frozenset[str], frozenset[str]]:
+    """The same; `files` tells apart what was read before from what is there now."""
+    modules = closure(_read(root, document, files), module, instances=False)
+    temporal = {d.name for m in modules for d in m.definitions if _TEMPORAL.search(d.body)}
+    return frozenset(name for m in modules for name in m.constants), frozenset(temporal)
+
+
+@cache
+def _read(root: Path, document: str, files: tuple[tuple[int, int], ...]) -> Mapping[str, Module]:
+    return read_modules(root, document)
+
+
 def module_text(root: Path, run: Run) -> str:
-    """The text of the root module of a run with a base. Raises Unjudged like `cfg_text`."""
+    """The text of the root module of a run whose cfg is made. Raises Unjudged like `cfg_text`."""
     found = replaced_by(read_modules(root, run.document), run)
     return root_module(run.id, run.module, found)
 
@@ -199,7 +249,7 @@ def root_module(name: str, module: str, replaced: Sequence[Replacement]) -> str:
 
 
 def make(root: Path, run: Run) -> tuple[Path, Run]:
-    """Write the root module and the cfg of a run with a base; their folder, and the run by hand of them.
+    """Write the root module and the cfg of a run; their folder, and the run by hand of them.
 
     Raises Unjudged like `cfg_text`, or when the files cannot be written.
     """

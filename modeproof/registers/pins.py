@@ -22,10 +22,10 @@ import tomlkit
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.meaning import said_by
-from modeproof.registers.cfg import Cfg, parse_cfg
+from modeproof.registers.cfg import Cfg
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import read_text, read_toml
-from modeproof.registers.made import used, words_of
+from modeproof.registers.made import base_cfg, used, words_of
 from modeproof.registers.python_source import PythonModule
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.stale import stale
@@ -138,9 +138,7 @@ def checked_texts(document: Document, sources: Sources) -> Texts:
     starts: set[tuple[str, str]] = set()
     for run in document.runs:
         try:
-            cfg = parse_cfg(
-                read_text(document.root, document.root / "spec" / document.name / run.cfg), run.cfg
-            )
+            cfg = base_cfg(document.root, run)
         except Unjudged:
             cfg = Cfg()  # told elsewhere
         constraints = (*cfg.constraints, *cfg.action_constraints, *filter(None, (cfg.view, run.view)))

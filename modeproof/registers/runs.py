@@ -1,8 +1,10 @@
 """The register runs.toml: every TLC run of a document, what it must show, and its pinned counts.
 
-A run has a cfg by hand, or it is another run (`base`) with a reading, other constants, or another
-specification; its cfg is then made (modeproof/registers/made.py). A row that tries a reading names in `also`
-the other runs that this reading must hold in: each makes a run of its own, `<that run>_with_<reading>`.
+A row says what differs from [default.run] and from [constants], or, in [based.RUN], from that run: a
+reading, other constants, another specification. The cfg is made of it (modeproof/registers/made.py); a row
+may also name a cfg by hand. The id of a run in `properties` stands for all that it checks, without what
+`without` names. A row that tries a reading names in `also` the other runs that this reading must hold in:
+each makes a run of its own, `<that run>_with_<reading>`.
 """
 
 from __future__ import annotations
@@ -16,7 +18,19 @@ import msgspec
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.files import read_toml
-from modeproof.registers.typed import Count, Entry, Name, RunId, Sha256, Text, only_keys, tables, typed
+from modeproof.registers.typed import (
+    DEFAULT,
+    Count,
+    Entry,
+    Name,
+    RunId,
+    Sha256,
+    Table,
+    Text,
+    only_keys,
+    tables,
+    typed,
+)
 
 Kind = Literal["MC", "LIVE", "NEG", "WIT", "OPEN"]
 Lane = Literal["smoke", "full", "exhaustive"]
@@ -32,7 +46,7 @@ ASKING: tuple[Kind, ...] = ("MC", "LIVE", "OPEN")
 """Kinds of runs in which every property must hold."""
 OWN_OF_BASE = (
     *("id", "lanes", "cfg_sha256", "distinct", "generated", "trace_length", "properties"),
-    *("property", "witnesses", "clauses", "findings", "why", "also"),
+    *("property", "witnesses", "clauses", "findings", "why", "also", "counts", "without"),
 )
 """What a run never takes from its base."""
 
@@ -52,6 +66,18 @@ class Graph(Entry, frozen=True, kw_only=True):
     edges: Count | None = None
 
 
+class Model(Entry, frozen=True, kw_only=True):
+    """What a row says of the cfg that is made of it; a run with a base has that of its base.
+
+    `constants` are those of the document, with the run's own in their place.
+    """
+
+    specification: Name
+    view: str = ""
+    constants: dict[Name, Text] = msgspec.field(default_factory=dict)
+    action_constraints: tuple[Name, ...] = ()
+
+
 class _Also(Entry, frozen=True, kw_only=True):
     also: dict[Name, tuple[Count, ...]] = msgspec.field(default_factory=dict)
 
@@ -61,7 +87,7 @@ class Run(Entry, frozen=True, kw_only=True):
 
     Heap in MiB, time limit in seconds. `distinct`, `generated`, `trace_length` and `cfg_sha256` are pins:
     None means not pinned yet, which is never as expected. `property` is what a NEG run must violate, or
-    the temporal property of a LIVE run.
+    the temporal property of a LIVE run. `model`: of what the cfg is made; None where `cfg` is by hand.
 
     Of a run with `base`, `module` and `cfg` are those of its base; `constants`, `specification` and `view`
     take the place of what that cfg gives. `more_witnesses` are reached besides those of the base. `of` names
@@ -71,7 +97,7 @@ class Run(Entry, frozen=True, kw_only=True):
     document: str
     id: RunId
     module: Name
-    cfg: Annotated[str, msgspec.Meta(pattern=r"^models/\w+\.cfg$")]
+    cfg: Annotated[str, msgspec.Meta(pattern=r"^(models/\w+\.cfg)?$")] = ""
     kind: Kind
     """What the id begins with."""
     lanes: tuple[Lane, ...]
@@ -82,6 +108,7 @@ class Run(Entry, frozen=True, kw_only=True):
     constants: dict[Name, Text] = msgspec.field(default_factory=dict)
     specification: Name | None = None
     view: str | None = None
+    model: Model | None = None
     workers: Count = 1
     heap_mb: Count = 1024
     timeout_s: Annotated[float, msgspec.Meta(gt=0)] = 300
@@ -117,7 +144,7 @@ class Run(Entry, frozen=True, kw_only=True):
     @builtins.property
     def config(self) -> str:
         """The cfg that TLC reads, relative to the root of the repository."""
-        if self.base:
+        if self.base or not self.cfg:
             return f"build/tlc/{self.document}/made/{self.id}/{self.id}.cfg"
         return f"spec/{self.document}/{self.cfg}"
 
@@ -132,8 +159,8 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
     data = read_toml(root, root / "spec" / document / "runs.toml")
     if data.pop("document", document) != document:
         raise Unjudged(f"{source}: document is not the name of its folder, {document!r}")
-    only_keys(source, data, ("document", "run"))
-    rows = tables(source, data, "run")
+    only_keys(source, data, ("document", "constants", "moved", "run", "based"))
+    rows = dict(_rows(source, data))
     found = {name: _run(document, source, values) for name, values in rows.items() if "base" not in values}
     for name, values in rows.items():
         if "base" in values:
@@ -142,6 +169,46 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
         run for name, values in rows.items() for run in _also(f"{source}: run {name}: also", values, found)
     ]
     return (*(found[name] for name in rows), *also)
+
+
+def reasons_of(root: Path, document: str) -> tuple[str, ...]:
+    """Why the pins of its runs have moved, each with its day. Raises Unjudged like `load_runs`."""
+    source = f"spec/{document}/runs.toml"
+    data = read_toml(root, root / "spec" / document / "runs.toml")
+    return typed(tuple[Text, ...], data.get("moved", []), f"{source}: moved")
+
+
+def _rows(source: str, data: Table) -> Iterator[tuple[str, Table]]:
+    """The rows by their ids: in the place of what is short for something stands what it is short for."""
+    usual = data.get(DEFAULT, {}).get("run", {})
+    rows: dict[str, dict[str, Any]] = {
+        id: dict(row) for id, row in tables(source, {"run": data.get("run", [])}, "run").items()
+    }
+    for base, own in typed(dict[RunId, dict[RunId, dict[str, Any]]], data.get("based", {}), source).items():
+        for id, row in own.items():
+            if id in rows or "base" in row:
+                raise Unjudged(f"{source}: based.{base}.{id}: declared twice, or has another base")
+            rows[id] = {"id": id, "base": base, **row}
+    constants = data.get("constants", {})
+    checked: dict[str, list[str]] = {}
+    for id, given in rows.items():
+        row = given if "base" in given else {**usual, **given}
+        place = f"{source}: run {id}"
+        if "base" not in row and "cfg" not in row:
+            own = {key: row.pop(key) for key in Model.__struct_fields__ if key in row}
+            row["model"] = {**own, "constants": {**constants, **own.get("constants", {})}}
+        if "counts" in row:
+            row["distinct"], row["generated"] = typed(
+                tuple[Count, Count], row.pop("counts"), f"{place}: counts"
+            )
+        without = row.pop("without", [])
+        if "properties" in row:
+            names = [name for entry in row["properties"] for name in checked.get(entry, [entry])]
+            if lost := [name for name in without if name not in names]:
+                raise Unjudged(f"{place}: without: {lost[0]} is none of its properties")
+            row["properties"] = [name for name in dict.fromkeys(names) if name not in without]
+            checked[id] = row["properties"]
+        yield id, row
 
 
 def _also(place: str, row: Mapping[str, Any], found: Mapping[str, Run]) -> Iterator[Run]:
@@ -203,7 +270,7 @@ def _derived(
         raise Unjudged(f"{place}: unknown base {base!r}; {suggestion(str(base), rows)}")
     if "base" in rows[base]:
         raise Unjudged(f"{place}: its base {base} has a base itself; name {rows[base]['base']!r}")
-    for key in ("cfg", "cfg_sha256"):
+    for key in ("cfg", "cfg_sha256", "model"):
         if key in values:
             raise Unjudged(f"{place}: {key} belongs to a run by hand; the cfg of a run with a base is made")
     taken = {key: value for key, value in rows[base].items() if key not in OWN_OF_BASE}

@@ -48,7 +48,7 @@ UNMADE = "unmade"
 ODD = (Unjudged, LookupError, TypeError, ValueError, AttributeError, AssertionError, jinja2.TemplateError)
 """What reading evidence of an unknown form raises."""
 CHECKS = (missing, unexpected, contradictions, mixed)
-NOTHING: dict[str, Any] = {"verdicts": {}, "results": {}, "mutants": {}, "pins": {}, "tools": {}}
+NOTHING: dict[str, Any] = {"verdicts": {}, "results": {}, "mutants": {}, "pins": {}, "moved": {}, "tools": {}}
 WORDS = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}
 
 

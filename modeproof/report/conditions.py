@@ -61,7 +61,7 @@ def _cfgs(sources: Sources, condition: Condition) -> Met:
         for run in document.runs:
             if condition.of and run.kind not in condition.of:
                 continue
-            if sources.content(f"spec/{document.name}/{run.cfg}") is None:
+            if run.cfg and sources.content(f"spec/{document.name}/{run.cfg}") is None:
                 continue
             count += 1
             if form.search(cfg_text(sources.root, run)):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from modeproof.registers.rows import Document
+from modeproof.registers.runs import reasons_of
 from modeproof.report.campaigns import KINDS, campaign
 from modeproof.report.claims import LANE
 from modeproof.report.sources import Evidence, Sources
@@ -15,8 +15,7 @@ from modeproof.report.verdicts import ASIDE, POSITIVE, Line, PropertyRow, Record
 
 COUNTS = ("distinct", "generated", "states", "transitions", "scans", "cases", "clauses", "citations")
 """What is counted in the result of a piece of evidence and is the same whenever it is made."""
-_PIN = re.compile(r"^(\w+) = ([^#\n]*?)\s*(?:# (.*))?$")
-_PINNED = ("distinct", "generated", "trace_length", "states", "edges", "cfg_sha256")
+_PINNED = ("distinct", "generated", "trace_length", "cfg_sha256")
 
 
 def as_it_counts(piece: Evidence) -> Record:
@@ -67,22 +66,13 @@ def mutants_of(sources: Sources, document: str) -> dict[str, dict[str, int]]:
     return found
 
 
-def pins_of(sources: Sources, document: str) -> dict[str, dict[str, dict[str, str]]]:
-    """The pins of each run as runs.toml has them: value, and the reason that was given when it was moved."""
-    content = sources.content(f"spec/{document}/runs.toml") or b""
-    pins: dict[str, dict[str, dict[str, str]]] = {}
-    id = ""
-    for line in content.decode("utf-8", "replace").splitlines():
-        if line.startswith("[[run]]"):
-            id = ""
-        found = _PIN.match(line)
-        if found and found.group(1) == "id":
-            id = found.group(2).strip('"')
-        elif found and id and found.group(1) in _PINNED:
-            value = {"value": found.group(2).strip('"')}
-            if found.group(3):
-                value["why"] = found.group(3).strip()
-            pins.setdefault(id, {})[found.group(1)] = value
+def pins_of(document: Document) -> dict[str, dict[str, str]]:
+    """The pins of each run as runs.toml has them."""
+    pins: dict[str, dict[str, str]] = {}
+    for run in document.runs:
+        graph = {name: getattr(run.graph, name) for name in ("states", "edges")} if run.graph else {}
+        own = {name: getattr(run, name) for name in _PINNED} | graph
+        pins[run.id] = {name: str(value) for name, value in own.items() if value is not None}
     return pins
 
 
@@ -101,7 +91,7 @@ def snapshot(sources: Sources) -> dict[str, Any]:
                 "counts": _counts(record.result),
             }
         mutants |= {f"{name}, by {judge}": of for judge, of in mutants_of(sources, name).items()}
-        pins |= {f"{name}/{run}": of for run, of in pins_of(sources, name).items()}
+        pins |= {f"{name}/{run}": of for run, of in pins_of(document).items()}
     for name, piece in sources.machines.items():
         if piece is not None:
             verdicts |= {f"{name}: {row['id']}": row["verdict"] for row in machine_rows(piece)}
@@ -117,6 +107,7 @@ def snapshot(sources: Sources) -> dict[str, Any]:
         "results": results,
         "mutants": mutants,
         "pins": pins,
+        "moved": {name: list(reasons_of(sources.root, name)) for name in sources.documents},
         "tools": {tool: sorted(versions) for tool, versions in sorted(tools.items())},
     }
 

@@ -66,10 +66,10 @@ class ByProperties(Judges):
 
     @property
     def rests_on(self) -> Sequence[Path]:
-        """The register, the device modules, and the cfgs of the tiers."""
+        """The register, the device modules, and the runs of the tiers."""
         folder, strength = self.bench.folder, self.bench.strength
         modules = [folder / f"{module}.tla" for module in strength.rules]
-        return [self.register, *modules, *(folder / tier.run.cfg for tier in strength.tiers)]
+        return [self.register, *modules, folder / "runs.toml"]
 
     @property
     def tools(self) -> Mapping[str, Mapping[str, str | None]]:

@@ -98,7 +98,9 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
     """
     folder = place / "spec" / document
     runs = load_runs(place, document)
-    problems = [f"run {run.id}: {run.cfg} is missing" for run in runs if not (folder / run.cfg).is_file()]
+    problems = [
+        f"run {run.id}: {run.cfg} is missing" for run in runs if run.cfg and not (folder / run.cfg).is_file()
+    ]
     problems += [
         f"run {run.id}: {run.module}.tla is missing"
         for run in runs
@@ -109,7 +111,7 @@ def register_problems(place: Path, document: str) -> tuple[str, ...]:
         for run in runs
         if not run.properties and run.kind != "WIT"
     ]
-    for run in (based for based in runs if based.base):
+    for run in (made for made in runs if made.base or not made.cfg):
         try:
             module_text(place, run)
         except Unjudged as error:

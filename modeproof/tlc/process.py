@@ -140,7 +140,7 @@ def run_tlc(
     cannot be started or the disk is full.
     """
     quick = made_in is not None and not also
-    if run.base:
+    if run.base or not run.cfg:
         made_in, run = make(place, run)
     own = place / "spec" / run.document
     folder = own if made_in is None else made_in

@@ -1,16 +1,19 @@
 """Moves the pins of a run: the only way, and never silently.
 
-It prints each pin's old and new value and what changed in the cfg, and asks for a reason, which is kept as a
-comment beside the pins.
+It prints each pin's old and new value and what changed in the cfg, and asks for a reason, which is kept once,
+in the list `moved` of runs.toml.
 """
 
 from __future__ import annotations
 
 import difflib
 import hashlib
+import json
+import re
 import subprocess
 import time
 import tomllib
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +27,8 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.tlc.check import Checked, read_cfg
 from modeproof.tlc.judge import HOLDS, REACHED, VIOLATED, judge
 
+COUNTS = ("distinct", "generated")
+"""What `counts` of a row holds, in this order."""
 _HISTORY = 200
 """So many commits back the pinned version of a cfg is looked for."""
 
@@ -106,6 +111,8 @@ def cfg_diff(place: Path, checked: Checked) -> str:
     name = run.config
     if run.base:
         return f"{name}: made from runs.toml, whose row is the pin"
+    if not run.cfg:
+        return f"{name}: made from runs.toml; git shows what changed in its row"
     if run.cfg_sha256 is None:
         return f"{name}: pinned for the first time"
     if run.cfg_sha256 == checked.cfg_sha256:
@@ -140,50 +147,67 @@ def _pinned_version(place: Path, name: str, digest: str) -> str | None:
 
 
 def apply(place: Path, changes: dict[str, dict[str, tuple[Move, ...]]], reason: str) -> None:
-    """Write the moves into runs.toml, per document and run id. Comments and layout stay as they are.
+    """Write the moves into runs.toml, per document and run id, and the reason into `moved`.
 
-    Raises Unjudged when a file cannot be read or written; each file is replaced whole or not at all.
+    Comments and layout stay as they are. Raises Unjudged when a file cannot be read or written; each file is
+    replaced whole or not at all.
     """
     note = f"{time.strftime('%Y-%m-%d', time.gmtime())}: {reason}"
     for document, of_run in changes.items():
         path = place / "spec" / document / "runs.toml"
         try:
-            data = tomlkit.parse(path.read_text(encoding="utf-8"))
+            old = path.read_text(encoding="utf-8")
+            data = tomlkit.parse(old)
         except (OSError, UnicodeDecodeError, TOMLKitError) as error:
             raise Unjudged(f"spec/{document}/runs.toml: {error}") from None
-        tables: Any = data["run"]
-        for table in tables:
-            moved = of_run.get(str(table["id"]), ())
-            for move in moved:
-                target = table[move.table] if move.table else table
-                if move.key in target:
-                    target[move.key] = move.new
-                else:
-                    _insert(target, move)
-            if moved and "cfg_sha256" in table:
-                table["cfg_sha256"].comment(note)
-            elif moved:
-                (table[moved[0].table] if moved[0].table else table)[moved[0].key].comment(note)
+        wanted = tomllib.loads(old)
+        for table in (data, wanted):
+            rows = dict(_rows(table))
+            for id, moved in of_run.items():
+                for move in moved:
+                    _set(rows[id], move)
         text = tomlkit.dumps(data)
-        _refuse_damage(document, path.read_text(encoding="utf-8"), text, of_run)
-        write_whole(path, text.encode("utf-8"))
+        if tomllib.loads(text) != wanted:  # more than the pins would change
+            raise Unjudged(f"spec/{document}/runs.toml: the pins cannot be moved here; edit the file by hand")
+        write_whole(path, _with_reason(text, data, note).encode("utf-8"))
 
 
-def _refuse_damage(document: str, old: str, new: str, of_run: dict[str, tuple[Move, ...]]) -> None:
-    """The new text must differ from the old one in the moved pins alone."""
-    wanted = tomllib.loads(old)
-    for table in wanted["run"]:
-        for move in of_run.get(table["id"], ()):
-            (table[move.table] if move.table else table)[move.key] = move.new
-    if tomllib.loads(new) != wanted:
-        raise Unjudged(f"spec/{document}/runs.toml: the pins cannot be moved here; edit the file by hand")
+def _rows(data: Any) -> Iterator[tuple[str, Any]]:
+    """The rows of runs.toml by their ids: [run.ID], [[run]], and [based.RUN]."""
+    rows = data["run"]
+    yield from rows.items() if isinstance(rows, Mapping) else ((str(row["id"]), row) for row in rows)
+    for group in data.get("based", {}).values():
+        yield from group.items()
 
 
-def _insert(target: Any, move: Move) -> None:
-    """Add a key that is not there yet: after the last plain key, before any sub-table."""
+def _set(row: Any, move: Move) -> None:
+    """Write a pin into its row. Counts stand in one list, where none of them has a key of its own."""
+    target = row[move.table] if move.table else row
+    key, new = move.key, move.new
+    if not move.table and key in COUNTS and not any(name in target for name in COUNTS):
+        counts: Any = list(target.get("counts", [new, new]))
+        counts[COUNTS.index(key)] = new
+        key, new = "counts", counts
+    if key in target or not isinstance(target, tomlkit.items.Table):
+        target[key] = new
+        return
     plain = [key for key, value in target.items() if not isinstance(value, tomlkit.items.Table)]
-    container = target.value if hasattr(target, "value") else target
-    if plain and hasattr(container, "_insert_after"):
-        container._insert_after(plain[-1], move.key, tomlkit.item(move.new))
+    if plain:  # after the last plain key, before any sub-table
+        target.value._insert_after(plain[-1], key, tomlkit.item(new))
     else:
-        target.add(move.key, tomlkit.item(move.new))
+        target.add(key, tomlkit.item(new))
+
+
+def _with_reason(text: str, data: Any, note: str) -> str:
+    """The text with one more reason in `moved`, or with the list before the first table."""
+    if note in data.get("moved", ()):
+        return text
+    line = f"    {json.dumps(note, ensure_ascii=False)},\n"
+    if "moved" in data:
+        start = re.search(r"^moved = \[", text, re.MULTILINE)
+        assert start is not None
+        end = text.index("\n]\n", start.end()) + 1
+        return text[:end] + line + text[end:]
+    first = re.search(r"^\[", text, re.MULTILINE)
+    at = first.start() if first else 0
+    return f"{text[:at]}moved = [\n{line}]\n\n{text[at:]}"

@@ -39,15 +39,15 @@ def inputs_of(place: Path, run: Run) -> dict[str, str]:
     folder = place / "spec" / run.document
     modules = [folder / f"{run.module}.tla"]
     made: dict[str, str] = {}
-    if run.base:
+    if run.base or not run.cfg:
         known = read_modules(place, run.document)
         modules += [place / known[one.module].file for one in replaced_by(known, run)]
         texts = {run.config: cfg_text(place, run)}
         texts[Path(run.config).with_suffix(".tla").as_posix()] = module_text(place, run)
         made = {name: meaning_of(name, text.encode()) for name, text in texts.items()}
     paths = reached(place, *(path for path in modules if path.is_file()))
-    cfg = folder / run.cfg
-    return dict(sorted((meanings(place, [*paths, *([cfg] if cfg.is_file() else [])]) | made).items()))
+    cfg = [folder / run.cfg] if run.cfg and (folder / run.cfg).is_file() else []
+    return dict(sorted((meanings(place, [*paths, *cfg]) | made).items()))
 
 
 def rests_of(place: Path, run: Run, tools: Toolchain) -> evidence.Rests:

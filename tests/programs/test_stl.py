@@ -14,6 +14,7 @@ import z3
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from programs import awl, stl
+from programs.assumed import assumed
 from programs.command import make, not_shown, text_of
 from programs.sources import read_sources
 from programs.steps import Step
@@ -269,12 +270,20 @@ def test_a_start_that_depends_on_what_was_kept_is_refused(tmp_path: Path) -> Non
         read_sources([path])
 
 
-def test_a_flag_that_is_never_written_must_not_matter(tmp_path: Path) -> None:
-    path = written(tmp_path, "A M 50.0; = Q 0.0; L 0; T QW 2")
-    with pytest.raises(
-        Unjudged, match="reads flag M_X50_0, which is no signal of the map, and never writes it"
-    ):
+@pytest.mark.parametrize(("address", "name"), [("M 50.0", "flag M_X50_0"), ("Q 9.0", "output Q_X9_0")])
+def test_what_is_never_written_must_not_matter(address: str, name: str, tmp_path: Path) -> None:
+    path = written(tmp_path, f"A {address}; = Q 0.0; L 0; T QW 2")
+    with pytest.raises(Unjudged, match=f"reads {name}, which is no signal of the map, and never writes it"):
         read_sources([path])
+
+
+def test_data_that_nothing_writes_is_said(tmp_path: Path) -> None:
+    path = written(tmp_path, "L DB1.DBW 0; T QW 2; CLR; = Q 0.0", DB1)
+    source = read_sources([path])
+    said = list(assumed(source, source.main()))
+    assert said == ["nothing writes DB1_W0, so what is loaded stays there"]
+    source = read_sources([EXAMPLES / "plc.awl"])
+    assert list(assumed(source, source.main())) == []
 
 
 def test_pieces_of_memory_that_overlap_are_one(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.registers.load import load_document
-from modeproof.registers.made import make
+from modeproof.registers.made import cfg_text, make
 from modeproof.registers.runs import load_runs
 from modeproof.strength.judge import Bench
 from modeproof.strength.register import Strength, Tier, load_strength
@@ -32,7 +32,7 @@ def names_printed(id: str, place: Path) -> set[str]:
     """
     run = RUNS[id]
     shutil.copytree(root() / "spec", place / "spec", dirs_exist_ok=True)
-    if run.base:
+    if run.base or not run.cfg:
         made_in, run = make(place, run)
         folder = place / "spec" / DOCUMENT
         shutil.copy(made_in / f"{run.module}.tla", folder)
@@ -59,19 +59,17 @@ def test_what_tlc_stops_at_is_among_the_names(id: str, tmp_path: Path) -> None:
 
 def test_a_property_of_time_is_not_taken_apart() -> None:
     live = next(run for run in RUNS.values() if run.kind == "LIVE")
-    folder = root() / "spec" / DOCUMENT
     tree = bench_of(DOCUMENT).tree(live.module)
     tier = Tier("live", (), live, "properties", "always", {}, "", (), False, 60.0, 512)
     with pytest.raises(Unjudged, match="ask for it in a tier on liveness"):
-        make_trial(tree, tier, (folder / live.cfg).read_text())
+        make_trial(tree, tier, cfg_text(root(), live))
 
 
 def test_another_modules_contract_is_judged_initially_and_in_every_step() -> None:
     flows = next(run for run in RUNS.values() if "RefinesModeSelection" in run.properties)
-    folder = root() / "spec" / DOCUMENT
     tree = bench_of(DOCUMENT).tree(flows.module)
     tier = Tier("flows", (), flows, "properties", "always", {}, "", (), False, 60.0, 512)
-    text = make_trial(tree, tier, (folder / flows.cfg).read_text()).module
+    text = make_trial(tree, tier, cfg_text(root(), flows)).module
     assert "Contract!Init" in text and "Contract!Next" in text and "Contract!vars" in text
 
 

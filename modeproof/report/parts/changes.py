@@ -73,12 +73,14 @@ def _number(value: int | None) -> str:
 
 
 def _pins(before: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[dict[str, str]]:
-    """Pins that moved, with the reasons that runs.toml keeps beside them."""
+    """Pins that moved, with the reasons that runs.toml has given since."""
     old, new = before.get("pins", {}), now["pins"]
     for name in sorted({*old, *new}):
         was, is_now = old.get(name, {}), new.get(name, {})
+        document = name.partition("/")[0]
+        known = before.get("moved", {}).get(document, ())
+        why = "; ".join(reason for reason in now["moved"].get(document, ()) if reason not in known)
         for key in sorted({*was, *is_now}):
-            a, b = was.get(key, {}).get("value", NONE), is_now.get(key, {}).get("value", NONE)
+            a, b = was.get(key, NONE), is_now.get(key, NONE)
             if a != b:
-                why = is_now.get(key, {}).get("why", "")
                 yield {"what": f"{name}: {key}", "before": a[:16], "now": b[:16], "why": why}

@@ -390,31 +390,30 @@ EXPLORER = (
 )
 
 RUNS = "spec/edm/runs.toml"
-CFG = "spec/edm/models/MC_SF_EDM_arbitrary.cfg"
 MODELS = (
     Case(
         "the smallest time only",
-        CFG,
-        "MONITORING_TIME = 2",
-        "MONITORING_TIME = 0",
+        RUNS,
+        'MONITORING_TIME = "2"\n',
+        'MONITORING_TIME = "0"\n',
         "check MC_SF_EDM_arbitrary --quiet",
         1,
         "NOT edm/MC_SF_EDM_arbitrary",
     ),
     Case(
-        "a property is left out of a cfg",
-        CFG,
-        "OutputNeedsAll IdleShowsNothing",
-        "IdleShowsNothing",
+        "a property is left out of a run",
+        RUNS,
+        '"OutputNeedsAll", "IdleShowsNothing"',
+        '"IdleShowsNothing"',
         "check MC_SF_EDM_arbitrary --quiet",
         1,
-        "OutputNeedsAll",
+        "NOT edm/MC_SF_EDM_arbitrary",
     ),
     Case(
-        "the lists of invariants and properties are comments",
-        CFG,
-        "INVARIANTS EDMTypeOK",
-        "\\* INVARIANTS EDMTypeOK",
+        "a property is taken away again",
+        RUNS,
+        "counts = [81, 15553]\n\n[run.MC_SF_EDM_cautious]",
+        'without = ["StopAtOnce"]\ncounts = [81, 15553]\n\n[run.MC_SF_EDM_cautious]',
         "check MC_SF_EDM_arbitrary --quiet",
         1,
         "NOT edm/MC_SF_EDM_arbitrary",
@@ -422,8 +421,8 @@ MODELS = (
     Case(
         "a count is pinned by hand",
         RUNS,
-        'distinct = 81\ngenerated = 15553\n\n[[run]]\nid = "MC_SF_EDM_cautious"',
-        'distinct = 80\ngenerated = 15553\n\n[[run]]\nid = "MC_SF_EDM_cautious"',
+        "counts = [81, 15553]\n\n[run.MC_SF_EDM_cautious]",
+        "counts = [80, 15553]\n\n[run.MC_SF_EDM_cautious]",
         "check MC_SF_EDM_arbitrary --quiet",
         1,
         "81",
@@ -458,8 +457,8 @@ MODELS = (
     Case(
         "a negative that names another property",
         RUNS,
-        'reading = "RequestBeforeTimeout"\nproperty = "CodeNamesTheCause"',
-        'reading = "RequestBeforeTimeout"\nproperty = "ErrorNeedsCause"',
+        'reading = "RequestBeforeTimeout", property = "CodeNamesTheCause"',
+        'reading = "RequestBeforeTimeout", property = "ErrorNeedsCause"',
         "check NEG_SF_EDM_request_before_timeout --quiet",
         1,
         "NOT edm/NEG_SF_EDM_request_before_timeout",
@@ -467,8 +466,8 @@ MODELS = (
     Case(
         "a negative with another length",
         RUNS,
-        'property = "CodeNamesTheCause"\ntrace_length = 4\n',
-        'property = "CodeNamesTheCause"\ntrace_length = 5\n',
+        'property = "CodeNamesTheCause", trace_length = 4 }',
+        'property = "CodeNamesTheCause", trace_length = 5 }',
         "check NEG_SF_EDM_request_before_timeout --quiet",
         1,
         "NOT edm/NEG_SF_EDM_request_before_timeout",
@@ -612,8 +611,8 @@ REGISTERS = (
     register(
         "main runs are moved to the exhaustive lane",
         RUNS,
-        'cfg = "models/MC_SF_EDM_arbitrary.cfg"\nlanes = ["full"]',
-        'cfg = "models/MC_SF_EDM_arbitrary.cfg"\nlanes = ["exhaustive"]',
+        '[run.MC_SF_EDM_arbitrary]\nmodule = "EDMOpen"\nlanes = ["full"]',
+        '[run.MC_SF_EDM_arbitrary]\nmodule = "EDMOpen"\nlanes = ["exhaustive"]',
         "lane",
     ),
 )

@@ -146,7 +146,9 @@ def run_copy(place: Path, run: Run, text: str) -> Finding:
 
     The cfg counts as the pinned one.
     """
-    (place / "spec" / DOCUMENT / run.cfg).write_text(text)
+    path = place / "spec" / DOCUMENT / run.cfg
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text)
     digest = hashlib.sha256(text.encode()).hexdigest()
     run = msgspec.structs.replace(run, workers=1, heap_mb=1024, timeout_s=1800.0, cfg_sha256=digest)
     outcome = run_tlc(place, run, find_toolchain())
