@@ -17,7 +17,7 @@ from typing import Any
 
 from modeproof.kit.adapter import Adapter, Program
 from modeproof.kit.builtin import Builtin
-from modeproof.kit.judge import Plan, run_suite
+from modeproof.kit.suite_judge import Plan, run_suite
 from modeproof.kit.vectors import Suite
 from modeproof.suites.build import published, ready_suite
 from modeproof.suites.kinds import SUITES

@@ -19,10 +19,10 @@ from pathlib import Path
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.processes import in_forks
-from programs import replay as replay_room
-from programs.command import make
-from programs.replay import Difference, published, replay
-from programs.verdict import judge
+from programs.equality import replay as replay_room
+from programs.equality.comparison import make
+from programs.equality.replay import Difference, published, replay
+from programs.equality.verdict import judge
 from tests.programs import composed
 from tests.programs.coverage import Collection, table
 from tests.programs.fuzz import difference_of_text

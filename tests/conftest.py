@@ -47,7 +47,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def time_to_shrink() -> Iterator[None]:
     """How short a difference becomes rests on the attempts that a plan allows, never on seconds."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("modeproof.kit.judge.SHRINKING_S", PATIENCE_S)
+        patch.setattr("modeproof.kit.suite_judge.SHRINKING_S", PATIENCE_S)
         yield
 
 

@@ -23,7 +23,7 @@ if __name__ == "__main__":
 from examples.faulty.run import HERE, WHOLE, Fault, load_faults, vectors  # noqa: E402
 from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
-from modeproof.kit.judge import Plan, Verdict, run_suite  # noqa: E402
+from modeproof.kit.suite_judge import Plan, Verdict, run_suite  # noqa: E402
 from modeproof.kit.text import as_text  # noqa: E402
 from modeproof.kit.vectors import Suite, open_suite  # noqa: E402
 

@@ -34,7 +34,7 @@ if __name__ == "__main__":
 
 from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
-from modeproof.kit.judge import Verdict, run_suite  # noqa: E402
+from modeproof.kit.suite_judge import Verdict, run_suite  # noqa: E402
 from modeproof.kit.text import as_text  # noqa: E402
 from modeproof.kit.vectors import Suite, case_id, open_suite, read_lines  # noqa: E402
 

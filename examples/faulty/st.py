@@ -25,11 +25,11 @@ if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
 from modeproof.ground.errors import Unjudged  # noqa: E402
-from programs.bind import read_binding  # noqa: E402
-from programs.command import make  # noqa: E402
-from programs.replay import replay  # noqa: E402
-from programs.verdict import Verdict  # noqa: E402
-from programs.verdict import judge as judge_product  # noqa: E402
+from programs.equality.binding import read_binding  # noqa: E402
+from programs.equality.comparison import make  # noqa: E402
+from programs.equality.replay import replay  # noqa: E402
+from programs.equality.verdict import Verdict  # noqa: E402
+from programs.equality.verdict import judge as judge_product  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
 PACK, PAGE = HERE / "st.toml", HERE / "st.md"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from modeproof.kit.command import add_parser
+from modeproof.kit.kit_command import add_parser
 
 
 def main(argv: list[str] | None = None) -> int:

@@ -16,8 +16,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from modeproof.kit.errors import Unjudged
+from modeproof.kit.machine_reference import expected
 from modeproof.kit.vectors import WIRING, Case, Scan, Suite, case_id, changes
-from modeproof.kit.wired import expected
 
 _PART = re.compile(r"~?\d+|\d+-\d+")
 

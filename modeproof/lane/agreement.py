@@ -18,7 +18,7 @@ from typing import Any
 from modeproof.ground import evidence
 from modeproof.ground.errors import first_of
 from modeproof.ground.meaning import is_there
-from modeproof.report.again import agreement_problems
+from modeproof.report.evidence_judge import agreement_problems
 
 ID = "agreement"
 

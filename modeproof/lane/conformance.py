@@ -48,7 +48,7 @@ def comparisons(
     """What `compare_reference` has to do, each task by itself, what takes longest first; by document, why
     there is nothing to do; and what is kept.
     """
-    from modeproof.suites.command import OWN_SUITES, own_id, own_rests
+    from modeproof.suites.conform_command import OWN_SUITES, own_id, own_rests
 
     troubles: dict[str, str] = {}
     tasks: list[tuple[int, Task[Record]]] = []
@@ -101,7 +101,7 @@ def say(record: Record, progress: Progress) -> None:
 
 def _one(place: Path, run: Run, inputs: Mapping[str, str]) -> dict[str, Any]:
     from modeproof.graph.export import export_file
-    from modeproof.suites.command import compared, comparison_record
+    from modeproof.suites.conform_command import compared, comparison_record
 
     evidence.discard(place, run.document, f"{REFERENCE}_{run.id}")
     export_file(place, run.document, run.id).unlink(missing_ok=True)
@@ -132,11 +132,11 @@ def _targets(place: Path, document: str, lane: str) -> list[str]:
 def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> dict[str, Any]:
     from modeproof.kit.adapter import Adapter
     from modeproof.kit.errors import Unjudged as KitUnjudged
-    from modeproof.kit.judge import Options, Plan, run_suite
+    from modeproof.kit.suite_judge import Options, Plan, run_suite
     from modeproof.kit.vectors import open_suite
     from modeproof.registers.vector_files import published
     from modeproof.suites.build import ready_suite
-    from modeproof.suites.command import OWN, own_id, own_record
+    from modeproof.suites.conform_command import OWN, own_id, own_record
 
     name = own_id(target, suite_name)
     evidence.discard(place, document, name)

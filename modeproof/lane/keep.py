@@ -12,7 +12,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import Rests
 from modeproof.ground.progress import Progress
 from modeproof.registers.load import load_document
-from modeproof.report.again import contradiction
+from modeproof.report.evidence_judge import contradiction
 
 Record = dict[str, Any]
 KEPT = "kept"

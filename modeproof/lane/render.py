@@ -23,9 +23,9 @@ from modeproof.registers.replay import load_replay
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.tables import pages, render_blocks
-from modeproof.report.cells import Cells
 from modeproof.report.scaling import chart, curves_of
 from modeproof.report.scan_table import scan_table
+from modeproof.report.scan_table_cells import Cells
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.tlc.walk import recorded, walk_all
 

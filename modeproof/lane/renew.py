@@ -22,7 +22,7 @@ from modeproof.ground.places import add_document_option, chosen_documents, docum
 from modeproof.ground.progress import Progress
 from modeproof.ground.proofs import proofs_module
 from modeproof.ground.reason import ask_reason, refuse_in_ci
-from modeproof.lane.machine import judge_machine
+from modeproof.lane.machine_command import judge_machine
 from modeproof.lane.renewal import Refused, Renewal, conform, renew_document, stale_of
 from modeproof.lane.staging import copied, finish
 from modeproof.registers.load import load_document, load_interface
@@ -137,7 +137,7 @@ def _machine(tree: Path, name: str, reason: Reason, progress: Progress) -> list[
         record = judge_machine(tree, name)
         if not record["as_expected"]:
             raise Refused(f"{record['verdict']}: {record['reason']}")
-    elif troubles := proofs_module("programs.machine_evidence").looked_at(folder):
+    elif troubles := proofs_module("machines.evidence").looked_at(folder):
         raise Refused("\n".join(troubles))
     seal(tree, [name])
     return [*said, *(repin_machine(tree, name, reason(moved_pins)) if moved_pins else [])]
@@ -160,7 +160,7 @@ def _machine_vectors(tree: Path, name: str, progress: Progress) -> list[str]:
     folder, room = tree / "spec" / name, tree / ROOM / name
     said = []
     with tempfile.TemporaryDirectory(dir=tree) as place:
-        write = proofs_module("programs.machine_vectors").write
+        write = proofs_module("machines.vectors").write
         made = {
             path.name: text
             for path, text in write(Path(place), folder / WIRED[0], folder / WIRED[1], progress.say)

@@ -16,7 +16,7 @@ from modeproof.graph.implementation import REFERENCE
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.progress import Progress
-from modeproof.lane.prove import prove_documents
+from modeproof.lane.prove_command import prove_documents
 from modeproof.lane.render import rendered
 from modeproof.lane.walks import walk_evidence
 from modeproof.registers.citations import read_sources
@@ -30,12 +30,12 @@ from modeproof.registers.runs import Run, load_runs
 from modeproof.registers.vector_files import ROOM, unfit
 from modeproof.simulate.recorded import record, unrecorded
 from modeproof.suites.build import make_graphs, published, ready_suite, suite_file
-from modeproof.suites.command import compare_run, comparison_text
+from modeproof.suites.conform_command import compare_run, difference_text
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.publish import publish
 from modeproof.suites.write import NoCases
 from modeproof.tlc.check import Checked, check_all, pinned_anew, read_cfg
-from modeproof.tlc.command import line_of
+from modeproof.tlc.check_command import line_of
 from modeproof.tlc.killers import judge_killers
 from modeproof.tlc.repin import Move, apply, moves
 from modeproof.tlc.rests import why_stale
@@ -192,7 +192,7 @@ def conform(work: Renewal, target: str) -> None:
         found = compare_run(work.tree, run, REFERENCE, work.progress)
         if not found.equal:
             said = f"{target}: specification and reference implementation differ, so nothing is published:"
-            raise Refused(f"{said}\n{comparison_text(run, found)}")
+            raise Refused(f"{said}\n{difference_text(run, found)}")
     work.accepted.add(target)
 
 

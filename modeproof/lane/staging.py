@@ -35,7 +35,7 @@ class Copy:
 
     def changed(self) -> dict[str, bool]:
         """The files that differ from the original, by their paths; whether each is in the copy."""
-        now = _hashes(self.tree)
+        now = hashes(self.tree)
         names = sorted(name for name in {*now, *self.then} if now.get(name) != self.then.get(name))
         return {name: name in now for name in names}
 
@@ -45,7 +45,7 @@ class Copy:
         Raises Unjudged when somebody has written to the original meanwhile; then nothing is put.
         """
         changed = self.changed()
-        now = _hashes(self.place)
+        now = hashes(self.place)
         if other := [name for name in {*now, *self.then} if now.get(name) != self.then.get(name)]:
             raise Unjudged(f"{min(other)} was written to while this was at work; nothing was put; try again")
         if changed:
@@ -73,7 +73,7 @@ def copied(place: Path) -> Iterator[Copy]:
         for name in ("modeproof", "programs"):
             if (place / name).exists():
                 (tree / name).symlink_to((place / name).resolve())
-        yield Copy(place, tree, _hashes(tree))
+        yield Copy(place, tree, hashes(tree))
     finally:
         if not (folder / JOURNAL).is_file():
             shutil.rmtree(folder, ignore_errors=True)
@@ -98,7 +98,8 @@ def finish(place: Path) -> bool:
     return True
 
 
-def _hashes(root: Path) -> dict[str, str]:
+def hashes(root: Path) -> dict[str, str]:
+    """The hash of every file of the rooms that are copied, by its path."""
     found = {}
     for room in ROOMS:
         place = root / room

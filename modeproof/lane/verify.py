@@ -20,17 +20,17 @@ from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
 from modeproof.lane.conformance import compare_reference, comparisons, say
 from modeproof.lane.keep import NOTHING, Keep, kept_line
-from modeproof.lane.machine import ID as MACHINE
-from modeproof.lane.machine import judge_machine, machine_rests, troubles_of_machine
-from modeproof.lane.prove import prove_documents
+from modeproof.lane.machine_command import ID as MACHINE
+from modeproof.lane.machine_command import judge_machine, machine_rests, troubles_of_machine
+from modeproof.lane.prove_command import prove_documents
 from modeproof.lane.summary import failures, machine_line, render, total
 from modeproof.registers.runs import LANES, Run, load_runs
-from modeproof.report.again import doubt_on_machine
+from modeproof.report.evidence_judge import doubt_on_machine
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
-from modeproof.tlc.again import doubt
 from modeproof.tlc.check import check_all, register_problems, select
-from modeproof.tlc.command import line_of
+from modeproof.tlc.check_command import line_of
 from modeproof.tlc.rests import rests_of
+from modeproof.tlc.run_judge_again import doubt
 from modeproof.tlc.toolchain import find_toolchain
 
 Records = list[dict[str, Any]]
@@ -319,7 +319,7 @@ def run(args: argparse.Namespace) -> int:
             evidence.read_document(place, name)
         if args.lane == "full" and args.document is None:
             from modeproof.lane.walks import walk_evidence
-            from modeproof.report.command import made_by_verify
+            from modeproof.report.report_command import made_by_verify
 
             progress.say("-- walks of the counterexamples")
             try:

@@ -10,9 +10,9 @@ from __future__ import annotations
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.citations import Citation, citations, read_sources
 from modeproof.registers.crosscheck import cross_check, value_fault
-from modeproof.registers.judge import Judgement, check_document, judge, judge_tree, matrix
 from modeproof.registers.load import load_document, load_interface, load_responses, read_register
 from modeproof.registers.matrix import Row
+from modeproof.registers.register_judge import Judgement, check_document, judge, judge_tree, matrix
 from modeproof.registers.rows import (
     About,
     Assumption,

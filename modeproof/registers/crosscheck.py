@@ -56,6 +56,9 @@ def _clauses(document: Document) -> Iterator[Problem]:
 def _interface(document: Document) -> Iterator[Problem]:
     file = document.source("interface")
     for device in document.interface.devices.values():
+        if device.codes and {*device.codes} != {*device.states}:
+            other = min({*device.codes} ^ {*device.states})
+            yield Problem(file, f"devices.{device.id}.codes", f"{other}: each state has a code, and no other")
         for name in sorted(device.inputs.keys() & device.outputs.keys()):
             yield Problem(file, f"devices.{device.id}", f"{name} is both an input and an output")
         for group, signals in _groups(device):

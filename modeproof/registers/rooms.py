@@ -14,7 +14,7 @@ from pathlib import Path
 from modeproof.registers.files import read_text, shown
 from modeproof.registers.rows import Document, Interface, Problem
 
-OURS = ("modeproof", "refimpl", "scenes", "proofs", "programs", "examples", "tests")
+OURS = ("modeproof", "refimpl", "scenes", "proofs", "programs", "machines", "examples", "tests")
 
 ORDINARY = frozenset({"ERROR"})
 """Declared names that are also ordinary words of any program."""
@@ -34,10 +34,11 @@ RULES = (
     Rule("scenes", ("scenes", "refimpl", "modeproof.simulate.program"), stdlib_only=True),
     Rule("modeproof/simulate/program", ("modeproof.simulate.program",)),
     Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
+    Rule("programs", ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit")),
     Rule(
-        "programs",
+        "machines",
         (
-            *("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
+            *("machines", "programs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
             *("refimpl.machine_cell", "refimpl.errors"),
         ),
     ),
@@ -52,7 +53,11 @@ RULES = (
             "modeproof.ground.meaning",
             "modeproof.ground.places",
             "modeproof.ground.progress",
-            *("modeproof.ground.proofs", "modeproof.tlc.again", "modeproof.graph.equal"),  # judged again
+            *(
+                "modeproof.ground.proofs",
+                "modeproof.tlc.run_judge_again",
+                "modeproof.graph.equal",
+            ),  # judged again
         ),
     ),
     Rule(
@@ -154,10 +159,10 @@ def _words(rule: Rule) -> str:
 def _imports(root: Path, path: Path, submodules: frozenset[str] = frozenset()) -> Iterator[tuple[int, str]]:
     """The absolute names that a module imports, with their lines; `submodules` by their own names."""
     package = list(path.relative_to(root).with_suffix("").parts[:-1])
-    for node in ast.walk(ast.parse(read_text(root, path))):
+    for node in _import_statements(read_text(root, path)):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, alias.name) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
+        else:
             base = package[: len(package) - node.level + 1] if node.level else []
             name = ".".join([*base, *([node.module] if node.module else [])])
             if name in OURS or (node.level and not node.module):
@@ -167,6 +172,24 @@ def _imports(root: Path, path: Path, submodules: frozenset[str] = frozenset()) -
                     f"{name}.{alias.name}" for alias in node.names if f"{name}.{alias.name}" in submodules
                 ]
                 yield from ((node.lineno, module) for module in inner or [name])
+
+
+@cache
+def _import_statements(text: str) -> tuple[ast.Import | ast.ImportFrom, ...]:
+    """Those of a module, at whatever depth. Several checks ask; no expression has to be looked into."""
+    found: list[ast.Import | ast.ImportFrom] = []
+    waiting: list[ast.AST] = [ast.parse(text)]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            found.append(node)
+        for name in ("body", "orelse", "handlers", "finalbody", "cases"):
+            inner = getattr(node, name, ())
+            waiting += inner if isinstance(inner, list) else ()
+    return tuple(sorted(found, key=lambda node: node.lineno))
+
+
+_WORD = re.compile(r"[A-Za-z0-9_]+")
 
 
 def check_no_document_known(
@@ -179,10 +202,14 @@ def check_no_document_known(
         return problems
     longest_first = "|".join(sorted(map(re.escape, names), key=len, reverse=True))
     form = re.compile(rf"(?<![A-Za-z0-9_])(?:{longest_first})(?![A-Za-z0-9_])")
+    phrases = [name for name in names if not _WORD.fullmatch(name)]
     for path in sorted((root / "modeproof").rglob("*")):
         if path.suffix not in (".py", ".json", ".toml", ".html", ".j2", ".css", ".js"):
             continue
-        for number, line in enumerate(read_text(root, path).splitlines(), 1):
+        text = read_text(root, path)
+        if names.isdisjoint(_WORD.findall(text)) and not any(name in text for name in phrases):
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
             for found in dict.fromkeys(form.findall(line)):
                 text = f"line {number}: knows {found!r}, which a register declares; take it from the register"
                 problems.append(Problem(shown(root, path), "", text))

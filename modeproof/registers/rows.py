@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
+import msgspec
 from msgspec import Meta, field
 
 from modeproof.registers.runs import Run
@@ -110,7 +111,10 @@ class Signal(Entry, frozen=True, kw_only=True):
 
 
 class Device(Entry, frozen=True, kw_only=True):
-    """One device or function block with all its names."""
+    """One device or function block with all its names.
+
+    `codes`: of a block that shows its state as a code, the code of each state, in upper-case hex digits.
+    """
 
     id: LowerName
     title: Text
@@ -122,6 +126,7 @@ class Device(Entry, frozen=True, kw_only=True):
     inputs: dict[Name, Signal]
     outputs: dict[Name, Signal]
     parameters: dict[Name, Signal]
+    codes: dict[Name, Annotated[str, Meta(pattern="^[0-9A-F]{4}$")]] = msgspec.field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 from modeproof.registers.files import markdown
 from modeproof.registers.replay import Traces
-from modeproof.report.cells import Cells, Column
+from modeproof.report.scan_table_cells import Cells, Column
 
 WHOLE, END = 14, 12
 """A counterexample of more rows than WHOLE is shown by its last rows, END of them."""

@@ -12,8 +12,8 @@ from modeproof.ground.errors import Unjudged
 from modeproof.registers.rows import Device, Document
 from modeproof.registers.stale import RENEW
 from modeproof.registers.vector_files import VectorFile, read_vectors, vectors_path, why_stale
-from modeproof.report.cells import NONE
 from modeproof.report.codes import Codes, codes_of
+from modeproof.report.scan_table_cells import NONE
 from modeproof.report.sources import Sources
 from modeproof.report.story import OUTSIDE, POWER_UP, Lane, Message, Row, Story
 

@@ -19,7 +19,7 @@ from modeproof.ground.meaning import meaning
 from modeproof.ground.places import documents, machines
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
-from modeproof.report.again import contradiction, doubt_on_machine
+from modeproof.report.evidence_judge import contradiction, doubt_on_machine
 from modeproof.report.filing import Filing
 
 T = TypeVar("T")

@@ -15,7 +15,7 @@ from typing import Any
 
 from modeproof.registers.replay import Traces
 from modeproof.registers.rows import Document
-from modeproof.report.cells import Cells, Column
+from modeproof.report.scan_table_cells import Cells, Column
 
 OUTSIDE = ""
 """The id of the lane of all that is no device: user and environment."""

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from modeproof.kit.command import TEST_RIG
 from modeproof.kit.errors import Unjudged
+from modeproof.kit.kit_command import TEST_RIG
 from modeproof.kit.signals import Signal, loads, read_signals, shown
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.s7.program import S7Program, connect

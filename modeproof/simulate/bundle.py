@@ -27,7 +27,7 @@ def modules(place: Path) -> dict[str, list[object]]:
     """
     found: dict[str, list[object]] = {name: _module("", True) for name in ("modeproof", "modeproof.simulate")}
     rooms = ((place / "refimpl", place), (place / "scenes", place), (HERE / "program", HERE.parents[1]))
-    for folder, base in (*rooms, (HERE / "standard", HERE / "standard")):
+    for folder, base in (*rooms, (HERE / "standard_library", HERE / "standard_library")):
         files = sorted(folder.rglob("*.py"))
         if not files:
             raise Unjudged(f"{folder}: no Python here; the page runs it")

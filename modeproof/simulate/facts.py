@@ -13,7 +13,7 @@ from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.replay import has_replay, load_replay
 from modeproof.registers.rows import Device, Document, Signal
 from modeproof.simulate import recorded
-from modeproof.simulate.steps import labelled
+from modeproof.simulate.step_marks import labelled
 
 REFERENCE = "refimpl"
 

@@ -21,7 +21,7 @@ from modeproof.registers.replay import Traces, has_replay, load_replay
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 from modeproof.registers.stale import renew_command
-from modeproof.report.cells import Cells
+from modeproof.report.scan_table_cells import Cells
 from modeproof.report.story import digest_of, from_walk
 from modeproof.simulate.program.play import GROUPS
 

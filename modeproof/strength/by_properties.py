@@ -1,4 +1,4 @@
-"""Mutants of the specification, judged by its properties: see judge.py for how TLC is asked."""
+"""Mutants of the specification, judged by its properties: see mutant_judge.py for how TLC is asked."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.made import cfg_text
 from modeproof.strength.campaign import Answers, Judges
-from modeproof.strength.judge import Bench, as_record, judge
 from modeproof.strength.mutant import Mutant
+from modeproof.strength.mutant_judge import Bench, as_record, judge
 from modeproof.strength.operators import mutants
 from modeproof.strength.register import Tier, path_of
 from modeproof.strength.results import digest, without_comments

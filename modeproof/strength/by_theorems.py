@@ -1,4 +1,4 @@
-"""Mutants of the shipped code, judged by theorems: see proofs/mutants/judge.py for what they are asked."""
+"""Mutants of the shipped code, judged by theorems: proofs/mutants/copy_judge.py says what."""
 
 from __future__ import annotations
 

@@ -24,6 +24,7 @@ import msgspec
 from modeproof.graph.device import DeviceGraph, graph_file, load_device_graph, open_runs, read_device_graph
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.meaning import meanings
 from modeproof.ground.places import build
 from modeproof.kit.signals import read_signals
 from modeproof.registers.cfg import Constant, parse_cfg
@@ -156,8 +157,8 @@ def _by_tlc(place: Path, base: Run, device: Device, wanted: Params, tick_ms: int
         invariants=tuple(name for name in cfg.invariants if name in shared),
         properties=tuple(name for name in cfg.properties if name in shared),
     ).text()
-    sources = sorted((place / "spec").glob("*/*.tla"))
-    said = "".join([body, text, *(path.read_text(encoding="utf-8") for path in sources)])
+    modules = [path for of in (base.document, "common") for path in (place / "spec" / of).glob("*.tla")]
+    said = f"{body}{text}{sorted(meanings(place, modules).items())}"
     name = f"{base.id}_at_{hashlib.sha256(said.encode()).hexdigest()[:10]}"
     graph = msgspec.structs.replace(base.graph, params=dict(wanted), tick_ms=tick_ms, states=None, edges=None)
     run = msgspec.structs.replace(

@@ -23,11 +23,11 @@ from modeproof.registers.profiles import strength_of
 from modeproof.registers.readings import idle_reading
 from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc import children
-from modeproof.tlc.again import declared
-from modeproof.tlc.judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.rests import CODE, inputs_of
+from modeproof.tlc.run_judge import HOLDS, UNJUDGED, Judgement, judge
+from modeproof.tlc.run_judge_again import declared
 from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import JAR_VERSION, Toolchain

@@ -19,8 +19,8 @@ from modeproof.registers.pins import load_pins
 from modeproof.registers.rows import Document
 from modeproof.registers.runs import Run
 from modeproof.tlc import children
-from modeproof.tlc.judge import VIOLATED, Judgement, judge
 from modeproof.tlc.process import run_tlc
+from modeproof.tlc.run_judge import VIOLATED, Judgement, judge
 from modeproof.tlc.toolchain import Toolchain
 
 ROOT = "Killed"

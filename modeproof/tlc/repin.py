@@ -25,7 +25,7 @@ from tomlkit.exceptions import TOMLKitError
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.tlc.check import Checked, read_cfg
-from modeproof.tlc.judge import HOLDS, REACHED, VIOLATED, judge
+from modeproof.tlc.run_judge import HOLDS, REACHED, VIOLATED, judge
 
 COUNTS = ("distinct", "generated")
 """What `counts` of a row holds, in this order."""

@@ -22,7 +22,7 @@ from modeproof.tlc.messages import essence
 from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.tla_values import TlaError, canonical, parse
 from modeproof.tlc.toolchain import Toolchain
-from modeproof.trace.module import Reading, constants, read_inputs
+from modeproof.trace.log_module import Reading, constants, read_inputs
 from modeproof.trace.targets import Target
 
 HEAP_MB = 512

@@ -10,8 +10,8 @@ from modeproof.ground.errors import LONGEST
 from modeproof.kit.errors import plain
 from modeproof.trace.exact import Scans
 from modeproof.trace.follow import Followed, NotFollowed
-from modeproof.trace.judge import Judgement
 from modeproof.trace.log import Row
+from modeproof.trace.log_judge import Judgement
 from modeproof.trace.targets import Target
 from modeproof.trace.why import Missed, Taken, Why
 

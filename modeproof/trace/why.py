@@ -26,7 +26,7 @@ from modeproof.trace.exact import HEAP_MB, checked, constant_definitions, trace_
 from modeproof.trace.follow import timeless
 from modeproof.trace.guards import Conjunct, Effect, Guards
 from modeproof.trace.log import Log, Row, Rows
-from modeproof.trace.module import Reading, input_record
+from modeproof.trace.log_module import Reading, input_record
 from modeproof.trace.targets import Target
 
 MOST_STATES = 12

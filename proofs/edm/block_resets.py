@@ -8,6 +8,7 @@ from __future__ import annotations
 import z3
 
 from proofs.edm.block_safety import both_are, on_time
+from proofs.edm.devices import CODES
 from proofs.edm.invariant import JUDGE
 from proofs.edm.observer import SEEN, reset_edge
 from proofs.explorer.ends import TRUE
@@ -232,7 +233,7 @@ def code_names_the_cause(scan: Scanned) -> Obligation:
     about_reset = z3.And(scan.sends.Error, asked(scan, False))
     return TRUE, z3.And(
         z3.Implies(found, code == 0xC000 + 16 * (group + which)),
-        z3.Implies(about_reset, code == z3.If(SEEN.reset, 0xC001, 0xC100)),
+        z3.Implies(about_reset, code == z3.If(SEEN.reset, CODES["ResetError1"], CODES["InitError"])),
     )
 
 
@@ -254,7 +255,8 @@ def the_code_names_the_cause() -> Queries:
 
 def keeps_the_code(scan: Scanned) -> Obligation:
     before, after = scan.sent.DiagCode, scan.sends.DiagCode
-    numbered = z3.And(scan.sent.Error, before != 0xC001, before != 0xC100, scan.sends.Error)
+    at_start = z3.Or(before == CODES["ResetError1"], before == CODES["InitError"])
+    numbered = z3.And(scan.sent.Error, z3.Not(at_start), scan.sends.Error)
     same = (before & 0xFFF0) == (after & 0xFFF0)
     digit = z3.And(scan.inputs.Reset, z3.Or(SEEN.reset, z3.Not(scan.sent.ResetRequest)))
     return TRUE, z3.Implies(numbered, z3.And(same, ((after & 0x000F) == 1) == digit))

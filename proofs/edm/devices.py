@@ -16,6 +16,8 @@ _REGISTERS: Final = load_interface(ROOT, "edm").devices
 
 BLOCK: Final = Device(sf_edm, _REGISTERS["sf_edm"])
 DEVICES: Final = (BLOCK,)
+CODES: Final = {state: int(code, 16) for state, code in BLOCK.register.codes.items()}
+"""The DiagCode of each state, as the register has it. EDMF-01"""
 
 
 def stop_first(params: Any) -> z3.BoolRef:

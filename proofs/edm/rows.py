@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import z3
 
-from proofs.edm.devices import BLOCK
+from proofs.edm.devices import BLOCK, CODES
 from proofs.explorer.ends import TRUE
 from proofs.explorer.scanned import Scanned, control
 from proofs.sentences import Judge, Obligation
@@ -17,27 +17,25 @@ FROM_ANYWHERE: Final = Judge(BLOCK, ())
 NAMES: Final = ("Ready", "S_EDM_Out", "SafetyDemand", "ResetRequest", "Error")
 NUMBERS: Final = ("11", "12", "13", "21", "22", "23", "31", "32", "33")
 TRUE_IN: Final = {
-    "Idle": (0x0000, ()),
-    "Init": (0x8401, ("Ready", "ResetRequest")),
-    "OutputDisable": (0x8810, ("Ready", "SafetyDemand")),
-    "OutputEnable": (0x8000, ("Ready", "S_EDM_Out")),
-    "ResetError1": (0xC001, ("Ready", "Error")),
-    "InitError": (0xC100, ("Ready", "Error")),
-    **{
-        f"EDMError{of}": (0xC000 + 0x10 * n, ("Ready", "ResetRequest", "Error"))
-        for n, of in enumerate(NUMBERS, 1)
-    },
-    **{f"ResetError{of}": (0xC001 + 0x10 * n, ("Ready", "Error")) for n, of in enumerate(NUMBERS, 1)},
+    "Idle": (),
+    "Init": ("Ready", "ResetRequest"),
+    "OutputDisable": ("Ready", "SafetyDemand"),
+    "OutputEnable": ("Ready", "S_EDM_Out"),
+    "ResetError1": ("Ready", "Error"),
+    "InitError": ("Ready", "Error"),
+    **{f"EDMError{of}": ("Ready", "ResetRequest", "Error") for of in NUMBERS},
+    **{f"ResetError{of}": ("Ready", "Error") for of in NUMBERS},
 }
-"""The code of each state, and which of its outputs are TRUE."""
+"""Of each state which of its outputs are TRUE."""
 
 
 def row_of_the_state(scan: Scanned, seen: Any) -> z3.BoolRef:
-    code, true = TRUE_IN[control(BLOCK, scan.after)]
+    state = control(BLOCK, scan.after)
+    true = TRUE_IN[state]
     said = [
         getattr(scan.sends, name) if name in true else z3.Not(getattr(scan.sends, name)) for name in NAMES
     ]
-    return z3.And(scan.sends.DiagCode == code, *said)
+    return z3.And(scan.sends.DiagCode == CODES[state], *said)
 
 
 @theorem(
@@ -82,7 +80,7 @@ def code_tells_the_row(scan: Scanned, seen: Any) -> z3.BoolRef:
     o, code = scan.sends, scan.sends.DiagCode
     active, error = code & 0x8000 != 0, code & 0xC000 == 0xC000
     same = [active == o.Ready, error == o.Error, (code & 0x0800 != 0) == o.SafetyDemand]
-    asks = z3.If(o.Error, z3.And(code & 0x000F == 0, code != 0xC100), code & 0x0400 != 0)
+    asks = z3.If(o.Error, z3.And(code & 0x000F == 0, code != CODES["InitError"]), code & 0x0400 != 0)
     return z3.And(*same, o.S_EDM_Out == (code == 0x8000), o.ResetRequest == asks)
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from proofs.mutants.copies import Change
-from proofs.mutants.judge import Bench
+from proofs.mutants.copy_judge import Bench
 from proofs.mutants.shipped import Subject, functions_of, shipped
 from proofs.theorem import Theorem
 
@@ -57,7 +57,7 @@ def judged(bench: Bench, change: Mapping[str, Any], complete: bool) -> dict[str,
 def theorems(document: str) -> dict[str, str]:
     """Every theorem that judges, in order, and the module in which it is written."""
     asked = {query.name: query.build.__module__ for found in _judges(document).values() for query in found}
-    answered = {subject.answered: "proofs.mutants.judge" for subject in _subjects(document)}
+    answered = {subject.answered: "proofs.mutants.copy_judge" for subject in _subjects(document)}
     return {**asked, **answered}
 
 

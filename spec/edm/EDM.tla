@@ -64,11 +64,13 @@ SafetyDemand == state = "OutputDisable"
 ResetRequest == state = "Init" \/ InEDMError
 \* EDM-OUT-ERROR
 Error == state \in {"ResetError1", "InitError"} \/ InEDMError \/ InResetError
+\* EDM-OUT-DIAG, EDMF-01: the code that properties name; its last digit tells nothing
+InitErrorCode == \hC100
 \* EDM-OUT-DIAG, EDMF-01: the document names the output and not its values
 DiagCode ==
     CASE state = "Idle" -> 0 [] state = "Init" -> \h8401
       [] state = "OutputDisable" -> \h8810 [] state = "OutputEnable" -> \h8000
-      [] state = "ResetError1" -> \hC001 [] state = "InitError" -> \hC100
+      [] state = "ResetError1" -> \hC001 [] state = "InitError" -> InitErrorCode
       [] state = "EDMError11" -> \hC010  [] state = "ResetError11" -> \hC011
       [] state = "EDMError12" -> \hC020  [] state = "ResetError12" -> \hC021
       [] state = "EDMError13" -> \hC030  [] state = "ResetError13" -> \hC031
@@ -260,5 +262,5 @@ CodeTellsTheRow ==
     /\ SafetyDemand = ((DiagCode \div \h0800) % 2 = 1)
     /\ S_EDM_Out = (DiagCode = \h8000)
     /\ ~Error => ResetRequest = ((DiagCode \div \h0400) % 2 = 1)
-    /\ Error => ResetRequest = (DiagCode % 16 = 0 /\ DiagCode # \hC100)
+    /\ Error => ResetRequest = (DiagCode % 16 = 0 /\ DiagCode # InitErrorCode)
 =============================================================================

@@ -146,10 +146,10 @@ CodeNamesTheCause ==
                 which == IF Scanned.S_EDM2 = dropped THEN 1 ELSE IF Scanned.S_EDM1 = dropped THEN 2 ELSE 3
                 group == IF S_EDM_Out THEN 6 ELSE IF OnTime THEN 0 ELSE 3
             IN  DiagCode' = \hC000 + 16 * (group + which)
-       /\ Error' /\ ResetRequest /\ ~Error => DiagCode' = IF resetWas THEN \hC001 ELSE \hC100]_beat
+       /\ Error' /\ ResetRequest /\ ~Error => DiagCode' = IF resetWas THEN \hC001 ELSE InitErrorCode]_beat
 \* EDM-IN-RESET-1, EDMF-10: a reset error comes from its error and goes back to it
 ResetErrorKeepsTheCode ==
-    [][DiagCode >= \hC010 /\ DiagCode # \hC100 /\ DiagCode' >= \hC000 =>
+    [][DiagCode >= \hC010 /\ DiagCode # InitErrorCode /\ DiagCode' >= \hC000 =>
         /\ DiagCode' \div 16 = DiagCode \div 16
         /\ DiagCode' % 16 = (IF Scanned.Reset /\ (resetWas \/ ~ResetRequest) THEN 1 ELSE 0)]_beat
 \* EDM-INST-1: there is no input to which a call has no answer

@@ -10,10 +10,6 @@ Report(name) ==
     IF name \in TLCGet(1) THEN TRUE
     ELSE TLCSet(1, TLCGet(1) \cup {name}) /\ PrintT(ToString(<<"REACHED", name>>))
 
-Digits == <<"0", "1", "2", "3", "4", "5", "6", "7", "8", "9", "A", "B", "C", "D", "E", "F">>
-Digit(n, place) == Digits[((n \div place) % 16) + 1]
-Hex(n) == Digit(n, 4096) \o Digit(n, 256) \o Digit(n, 16) \o Digit(n, 1)
-
 \* What is seen when a step is taken, asked only in that step
 Situation ==
     CASE step' = "StayDisabled" ->
@@ -39,7 +35,9 @@ Situation ==
       [] OTHER -> TRUE
 
 Mark ==
-    /\ Report(step') /\ Report("at " \o state') /\ Report("code " \o Hex(DiagCode'))
+    /\ Report(step') /\ Report("at " \o state')
+    \* EDM-OUT-DIAG: the code says that another state has come
+    /\ (DiagCode' # DiagCode => Report("code of " \o state'))
     /\ (state' # state => Report(state \o " to " \o state'))
     /\ Situation
 

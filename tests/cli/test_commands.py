@@ -14,7 +14,7 @@ from modeproof.cli import COMMANDS, GROUPS, main
 from modeproof.ground.evidence import own_tools
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import TREE
-from modeproof.suites import command
+from modeproof.suites import conform_command as command
 from tests.any_machine import PATIENCE_S, until
 from tests.toy_tree import CFGS, toy_tree
 

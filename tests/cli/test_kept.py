@@ -92,8 +92,8 @@ def test_what_is_the_same_is_kept_and_anew_repeats_all(root: Path, monkeypatch: 
 SAME = {
     "a comment of a module": ("spec/toy/Toy.tla", "Small ==", "\\* not so many\nSmall =="),
     "a comment of the register": ("spec/toy/runs.toml", "# runs", "# some runs"),
-    "a docstring of the judge": ("modeproof/tlc/judge.py", '"""', '"""Words. '),
-    "a comment of the judge": ("modeproof/tlc/judge.py", "def judge(", "# words\ndef judge("),
+    "a docstring of the judge": ("modeproof/tlc/run_judge.py", '"""', '"""Words. '),
+    "a comment of the judge": ("modeproof/tlc/run_judge.py", "def judge(", "# words\ndef judge("),
     "a module that does not judge": ("modeproof/report/build.py", "import base64", "import base64, sys"),
     "the page to play with": ("modeproof/simulate/steps.py", "import", "import sys\nimport"),
 }
@@ -102,7 +102,7 @@ CHANGES: dict[str, tuple[str, str, str, tuple[str, ...], str]] = {
     "a cfg": ("spec/toy/models/MC_toy.cfg", "N = 4", "N = 5", ("MC_toy",), f"MC_toy.cfg {CHANGED}"),
     "a row": ("spec/toy/runs.toml", "distinct = 16", "distinct = 17", ("MC_toy",), f"declaration {CHANGED}"),
     "a graph": ("build/graphs/toy/OPEN_toy.txt", "Up", "Down", ("OPEN_toy",), "is not what it made"),
-    "the judge": ("modeproof/tlc/judge.py", "import", "import sys\nimport", NAMES, "code that judges it"),
+    "the judge": ("modeproof/tlc/run_judge.py", "import", "import sys\nimport", NAMES, "code that judges it"),
     "what reads a run": ("modeproof/registers/runs.py", "import", "import sys\nimport", NAMES, "code"),
     "what says unjudged": ("modeproof/ground/errors.py", "import", "import sys\nimport", NAMES, "code"),
 }
@@ -140,7 +140,7 @@ def test_a_dependency_that_is_left_out_goes_unseen(
         for name in NAMES:
             tamper(root, name, True, lambda one: one["tools"].update(tools))
         record.own_tools.cache_clear()
-        edit(root / "modeproof/tlc/judge.py", "from __future__", "import sys\nfrom __future__")
+        edit(root / "modeproof/tlc/run_judge.py", "from __future__", "import sys\nfrom __future__")
     if lost == "modules":
         monkeypatch.setattr(rests, "reached", lambda *_: ())
         for name in NAMES:

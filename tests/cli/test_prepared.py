@@ -9,7 +9,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from modeproof.lane import prove
+from modeproof.lane import prove_command as prove
 
 
 def test_theorems_are_asked_without_sharing_when_preparing_fails(monkeypatch: pytest.MonkeyPatch) -> None:

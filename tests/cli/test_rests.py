@@ -11,7 +11,7 @@ import pytest
 
 from modeproof.ground.meaning import reached
 from modeproof.ground.places import TREE
-from modeproof.lane.machine import machine_rests
+from modeproof.lane.machine_command import machine_rests
 from modeproof.lane.theorem import rests_of, theorems_of
 
 READ = """
@@ -28,8 +28,8 @@ THEOREM = """
     one.queries()
 """
 MACHINE = """
-    import programs.machine_evidence as machine
-    import programs.machine_tlc as models
+    import machines.evidence as machine
+    import machines.tlc_runs as models
     machine.looked_at(Path.cwd() / "spec/machine_cell")
     list(models.tasks(None, Path.cwd() / "spec/machine_cell"))
 """

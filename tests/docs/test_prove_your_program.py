@@ -62,7 +62,7 @@ def test_the_commands_of_the_job_are_those_of_the_steps() -> None:
 
 
 def test_the_forms_of_properties_are_those_that_are_read() -> None:
-    from programs.questions import FORMS
+    from programs.properties.property_file import FORMS
 
     rows = re.findall(r"^\| (`.*?) \|", STEPS["5"], re.MULTILINE)
     assert [set(re.findall(r"`(\w+) =", row)) for row in rows] == [

@@ -20,7 +20,7 @@ from hypothesis import given, settings
 from examples.faulty.awl import ADAPTER, AWL, PACK, PAGE, judge, judge_all, main, row, suite_of, write
 from examples.faulty.run import Fault, load_faults, vectors
 from modeproof.kit.adapter import Adapter, parse_answer
-from modeproof.kit.judge import Plan, Verdict
+from modeproof.kit.suite_judge import Plan, Verdict
 from modeproof.kit.vectors import open_suite
 from refimpl.mode_selection import fplc, plc
 from tests.examples.protocol import BYE, DARK, HELLO, REFUSED, RESET, scan, talk
@@ -104,7 +104,7 @@ def test_without_awlsim_the_adapter_says_what_to_do(tmp_path: Path) -> None:
 def test_nothing_but_programs_of_their_own_import_the_simulator() -> None:
     found = [
         path.relative_to(ROOT)
-        for room in ("modeproof", "refimpl", "proofs", "programs", "examples")
+        for room in ("modeproof", "refimpl", "proofs", "programs", "machines", "examples")
         for path in sorted((ROOT / room).rglob("*.py"))
         if "import awlsim" in (text := path.read_text(encoding="utf-8")) or "from awlsim" in text
     ]
@@ -239,7 +239,7 @@ def test_what_a_fault_breaks_is_declared_in_the_registers() -> None:
     spec = ROOT / "spec/mode_selection"
     findings = tomllib.loads((spec / "findings.toml").read_text(encoding="utf-8"))["finding"]
     clauses = tomllib.loads((spec / "clauses.toml").read_text(encoding="utf-8"))["clause"]
-    known = {one["id"] for one in [*findings, *clauses]}
+    known = {*findings, *clauses}
     assert all(set(fault.breaks) <= known for fault in FAULTS)
     assert len(CAUGHT) >= 12
 
@@ -248,7 +248,7 @@ def test_every_clause_and_decision_that_a_program_cites_is_declared() -> None:
     spec = ROOT / "spec/mode_selection"
     findings = tomllib.loads((spec / "findings.toml").read_text(encoding="utf-8"))["finding"]
     clauses = tomllib.loads((spec / "clauses.toml").read_text(encoding="utf-8"))["clause"]
-    known = {one["id"] for one in [*findings, *clauses]}
+    known = {*findings, *clauses}
     for name in ("fplc.awl", "plc.awl", "symbols.csv"):
         text = (AWL / name).read_text(encoding="utf-8")
         cited = set(re.findall(r"\b(?:EKS-[A-Z0-9]+(?:-[A-Z0-9]+)*|E-\d\d[a-e]?)\b", text))

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite, open_suite
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -8,7 +8,7 @@ from pathlib import Path
 from examples.faulty.run import PACK, ROOT, Fault, build, load_faults, open_all, programs
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.diagnosis import state_name, unseen
-from modeproof.kit.judge import Plan, run_suite
+from modeproof.kit.suite_judge import Plan, run_suite
 from modeproof.kit.vectors import Case, Suite
 from modeproof.kit.verdict import Difference
 

@@ -31,7 +31,7 @@ from modeproof.ground.processes import in_forks
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.diagnosis import unseen
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
 from tests.any_machine import PATIENCE_S
 from tests.examples.test_diagnosis import leads_there
@@ -176,11 +176,9 @@ def test_what_a_fault_breaks_is_declared_in_the_registers(program: Program) -> N
         if program.target in tomllib.loads(path.read_text(encoding="utf-8"))["devices"]
     )
     findings = tomllib.loads((spec / "findings.toml").read_text(encoding="utf-8"))["finding"]
-    clauses = {
-        entry["id"] for entry in tomllib.loads((spec / "clauses.toml").read_text(encoding="utf-8"))["clause"]
-    }
+    clauses = set(tomllib.loads((spec / "clauses.toml").read_text(encoding="utf-8"))["clause"])
     for fault in load_faults(program.pack):
-        assert set(fault.breaks) <= clauses | {entry["id"] for entry in findings}, fault.id
+        assert set(fault.breaks) <= clauses | set(findings), fault.id
         assert set(fault.breaks) & clauses, fault.id
 
 

@@ -20,9 +20,9 @@ from types import ModuleType
 from typing import Any
 
 from modeproof.kit.builtin import Builtin
-from modeproof.kit.judge import Options, Plan, run_suite
 from modeproof.kit.relation import Session
 from modeproof.kit.shrink import cut, read_part
+from modeproof.kit.suite_judge import Options, Plan, run_suite
 from modeproof.kit.vectors import Case, Suite, open_suite
 from modeproof.kit.verdict import Difference
 from modeproof.strength.mutant import applied

@@ -17,7 +17,7 @@ from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.suites import pack as packing
 from tests.kit.programs import program
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 
 SOURCES = sorted(Path(modeproof.kit.__file__).parent.glob("*.py"))
 NOT_ON_WINDOWS = {

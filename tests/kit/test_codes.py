@@ -21,7 +21,7 @@ from modeproof.graph.equal import compare
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.builtin import Builtin
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.kinds import SUITES

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from modeproof.kit.compact import compact, expand, same
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import run_suite
+from modeproof.kit.suite_judge import run_suite
 from modeproof.kit.vectors import open_suite, read_lines
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import write_suite

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import Options, Plan, run_suite
+from modeproof.kit.suite_judge import Options, Plan, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite

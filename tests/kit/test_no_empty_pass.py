@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from modeproof.kit.__main__ import main as kit_main
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_junit, as_record, as_text
 from modeproof.kit.vectors import Case, Suite, read_lines
 from tests.kit.lamps import CONTRACT, Lamp, Slow, SlowAndWrong, made

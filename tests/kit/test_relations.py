@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from modeproof.kit.adapter import Adapter
-from modeproof.kit.judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.relation import groups
+from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.text import as_record, as_text
 from modeproof.kit.vectors import Case, Suite
 from tests.kit.clocks import Clock, set_clock

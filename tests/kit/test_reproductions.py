@@ -8,7 +8,7 @@ import pytest
 
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.builtin import Builtin, reference
-from modeproof.kit.judge import Options, Plan, run_suite
+from modeproof.kit.suite_judge import Options, Plan, run_suite
 from tests.kit.faulty import ROOT, TARGETS, campaign, cases_of, chosen, faulty_programs, suite_of
 
 
@@ -36,7 +36,7 @@ def test_a_part_that_a_right_program_fails_is_not_printed(monkeypatch: pytest.Mo
     """Without the question to the reference implementation pieces of time are cut as loops."""
     slow = [one for one in faulty_programs("sf_edm") if one.fault in ("cuts 10", "rounds 100")]
     assert len(slow) == 2 and campaign(slow, 20).wrong == []
-    monkeypatch.setattr("modeproof.kit.judge.reference", lambda suite: lambda case: True)
+    monkeypatch.setattr("modeproof.kit.suite_judge.reference", lambda suite: lambda case: True)
     assert campaign(slow, 20).wrong != []
 
 

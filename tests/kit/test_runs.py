@@ -15,8 +15,8 @@ import pytest
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.adapter import Adapter
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Difference, Plan, run_suite
 from modeproof.kit.lines import ThreadedLines, lines_of
+from modeproof.kit.suite_judge import Difference, Plan, run_suite
 from modeproof.kit.text import as_junit, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite

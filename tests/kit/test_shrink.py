@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modeproof.kit.errors import Unjudged
-from modeproof.kit.judge import Difference, Options, Plan, run_suite
 from modeproof.kit.shrink import Part, cut, read_part
+from modeproof.kit.suite_judge import Difference, Options, Plan, run_suite
 from modeproof.kit.text import as_text
 from modeproof.kit.vectors import Case, Suite, open_suite
 from modeproof.suites.write import write_suite

@@ -15,10 +15,10 @@ from types import ModuleType
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from programs.check import check
-from programs.run import Machine
-from programs.sources import read_sources
-from programs.tree import Scalar
+from programs.language.subset import check
+from programs.language.tree import Scalar
+from programs.readers.sources import read_sources
+from programs.semantics.interpreter import Machine
 
 ROOT = Path(__file__).parents[2]
 NAME = re.compile(r"(I|Q|M|DB\d+)_([XBWD])(\d+)(?:_(\d))?")

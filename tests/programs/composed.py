@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from programs.property import Found
-from programs.property_command import judged
+from programs.commands.prove_properties import judged
+from programs.properties.property_verdicts import Found
 
 LIBRARY = "plcopen.st"
 SCAN_TIME = "[1, 100]"

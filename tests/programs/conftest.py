@@ -9,5 +9,5 @@ import pytest
 
 @pytest.fixture(autouse=True)
 def a_build_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for module in ("programs.output", "programs.command"):
+    for module in ("programs.commands.results", "programs.commands.prove_program"):
         monkeypatch.setattr(f"{module}.build", lambda place: tmp_path / "build")

@@ -11,12 +11,23 @@ from functools import cached_property
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
-from programs.blocks import with_blocks
-from programs.check import check
-from programs.plcopen import read_plcopen
-from programs.scl import structured_text
-from programs.st import read_text
-from programs.tree import BOOL, Assign, Call, Function, Instance, Name, Source, Statement, Unit, Variable
+from programs.language.subset import check
+from programs.language.tree import (
+    BOOL,
+    Assign,
+    Call,
+    Function,
+    Instance,
+    Name,
+    Source,
+    Statement,
+    Unit,
+    Variable,
+)
+from programs.readers.plcopen.project import read_plcopen
+from programs.readers.scl import structured_text
+from programs.readers.structured_text.units import read_text
+from programs.semantics.document_blocks import with_blocks
 from tests.programs.fuzz import difference_of_translator
 
 SCANS = 12

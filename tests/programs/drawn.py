@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from programs.check import check
-from programs.run import Machine
-from programs.sources import read_sources
-from programs.tree import Source
+from programs.language.subset import check
+from programs.language.tree import Source
+from programs.readers.sources import read_sources
+from programs.semantics.interpreter import Machine
 
 SPACE = "http://www.plcopen.org/xml/tc6_0201"
 INTERFACE = {

@@ -7,14 +7,14 @@ from typing import Any
 
 import z3
 
-from programs.check import check
-from programs.paths import value_at
-from programs.replay import memory_of
-from programs.run import Machine, Overflow
-from programs.st import read_text
-from programs.symbolic import Translator
-from programs.terms import constant, leaves, slots, symbol
-from programs.tree import Array, Source, Struct, Unit
+from programs.language.memory import leaves
+from programs.language.subset import check
+from programs.language.tree import Array, Source, Struct, Unit
+from programs.readers.structured_text.units import read_text
+from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.terms import constant, slots, symbol
+from programs.semantics.translator import Translator
+from programs.semantics.value_paths import memory_of, value_at
 
 
 def source_of(text: str, file: str = "b.st") -> Source:

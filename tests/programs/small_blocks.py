@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from modeproof.ground.errors import Unjudged
-from programs.check import check
-from programs.run import Machine
+from programs.language.subset import check
+from programs.semantics.interpreter import Machine
 from tests.programs.fuzz import difference_of_text, source_of
 
 HEAD = "FUNCTION_BLOCK B\nVAR_INPUT x : INT; in, on : BOOL; END_VAR\n"

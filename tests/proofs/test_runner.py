@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 import z3
 
-from modeproof.lane.prove import _theorems_of
+from modeproof.lane.prove_command import _theorems_of
 from proofs import runner, solvers
 from proofs.runner import TheoremResult, prove, prove_all, unused_premises
 from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3, core_of

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from modeproof.registers.citations import read_sources
-from modeproof.registers.judge import judge
 from modeproof.registers.load import load_document
 from modeproof.registers.pins import repin
+from modeproof.registers.register_judge import judge
 
 FILES = {
     "spec/door/document.toml": """
@@ -310,7 +310,7 @@ def registers_command(monkeypatch: pytest.MonkeyPatch) -> Callable[..., int]:
     """Run the command in a tree and give its exit status."""
     import argparse
 
-    from modeproof.registers.command import add_parser
+    from modeproof.registers.registers_command import add_parser
 
     def call(root: Path, *arguments: str) -> int:
         monkeypatch.setenv("MODEPROOF_ROOT", str(root))

@@ -29,7 +29,11 @@ from modeproof.registers.rooms import RULES, check_imports, check_no_document_kn
         ("modeproof/kit/x.py", "from ..errors import Unjudged", "imports modeproof.errors"),
         ("modeproof/kit/x.py", "from .. import errors", "imports modeproof.errors"),
         ("modeproof/kit/x.py", "def f():\n    import refimpl.door", "line 2: imports refimpl.door"),
-        ("modeproof/report/x.py", "from modeproof.tlc.judge import judge", "imports modeproof.tlc.judge"),
+        (
+            "modeproof/report/x.py",
+            "from modeproof.tlc.run_judge import judge",
+            "imports modeproof.tlc.run_judge",
+        ),
         ("modeproof/tlc/x.py", "import proofs.runner", "only modeproof/lane reaches proofs"),
         (
             "modeproof/registers/x.py",
@@ -56,7 +60,7 @@ def test_a_breach_is_found(tree: Any, file: str, line: str, expected: str) -> No
         ("modeproof/kit/x.py", "from modeproof.kit import protocol\nimport json"),
         ("modeproof/kit/x.py", "from . import protocol"),
         ("modeproof/report/x.py", "from modeproof.ground.evidence import files"),
-        ("modeproof/lane/prove.py", "import proofs.runner"),
+        ("modeproof/lane/prove_command.py", "import proofs.runner"),
     ],
 )
 def test_what_is_allowed_is_not_reported(tree: Any, file: str, line: str) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from modeproof.ground import evidence
 from modeproof.registers.runs import load_runs
 from modeproof.report.sources import gather
-from modeproof.tlc.again import declared as declared_in
+from modeproof.tlc.run_judge_again import declared as declared_in
 from tests.report.conftest import CFGS, declared, make_box
 
 THEOREM = '''"""Theorems about the box."""

@@ -16,7 +16,7 @@ from modeproof.simulate.program.block import Block, spelt
 from modeproof.simulate.program.device import Device, Disagreement
 from modeproof.simulate.program.play import actions, whole
 from modeproof.simulate.program.suites import judge
-from modeproof.simulate.steps import labelled
+from modeproof.simulate.step_marks import labelled
 from modeproof.trace.lines import read_lines
 from modeproof.trace.targets import find_target
 from proofs.mode_selection.code_tables import SW_AS_PRINTED_IN_FIGURE_7

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from modeproof.strength.by_properties import ByProperties
-from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
+from modeproof.strength.mutant_judge import Bench
 from tests.strength.toy import lamp
 
 

@@ -6,8 +6,8 @@ from functools import cache
 
 from modeproof.ground.places import root
 from modeproof.strength.by_properties import ByProperties
-from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Mutant
+from modeproof.strength.mutant_judge import Bench
 from modeproof.strength.register import load_strength
 from modeproof.tlc.toolchain import find_toolchain
 

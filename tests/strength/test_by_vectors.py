@@ -25,7 +25,7 @@ from modeproof.strength.register import code_path, load_code
 from modeproof.strength.replay import ReplayCase, Vectors
 from modeproof.strength.results import Results, read_results
 from proofs.mutants import copies
-from tests.strength.gates import GATE, PACKAGE, Room, build_place, unload, write_vectors
+from tests.strength.toy_gates import GATE, PACKAGE, Room, build_place, unload, write_vectors
 
 SHORT = [[True, False]]
 LONG = [[False], [True, True, True, True, False, True]]

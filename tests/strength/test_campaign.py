@@ -13,8 +13,8 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.progress import Progress
 from modeproof.strength.by_properties import GRAPHS, ByProperties, rests_on
 from modeproof.strength.campaign import Campaign, Judged, explanation_problems, summary, unexplained
-from modeproof.strength.judge import Answer, Bench, Verdict
 from modeproof.strength.mutant import Mutant
+from modeproof.strength.mutant_judge import Answer, Bench, Verdict
 from modeproof.strength.register import Explained, Strength
 from modeproof.strength.results import read_results, without_comments
 from tests.strength.toy import lamp

@@ -9,8 +9,8 @@ from typing import Any
 from modeproof.ground import evidence
 from modeproof.strength.by_properties import ByProperties
 from modeproof.strength.campaign import Answers, Campaign, Judged, Judges
-from modeproof.strength.judge import Bench
 from modeproof.strength.mutant import Edit, Mutant
+from modeproof.strength.mutant_judge import Bench
 from modeproof.strength.register import Explained
 from modeproof.strength.results import Results
 from modeproof.tlc.parse_tree import Place

@@ -9,7 +9,7 @@ import pytest
 from modeproof.ground.places import documents, root
 from modeproof.ground.proofs import code_under_proof
 from modeproof.strength.code import Code
-from modeproof.strength.judge import judge
+from modeproof.strength.mutant_judge import judge
 from modeproof.strength.register import Rejudged
 from tests.strength.shipped import bench_of, mutants_of
 

@@ -13,7 +13,7 @@ from modeproof.ground.places import root
 from modeproof.registers.load import load_document
 from modeproof.registers.made import cfg_text, make
 from modeproof.registers.runs import load_runs
-from modeproof.strength.judge import Bench
+from modeproof.strength.mutant_judge import Bench
 from modeproof.strength.register import Strength, Tier, load_strength
 from modeproof.strength.trial import BROKEN, make_trial
 from modeproof.tlc.toolchain import find_toolchain

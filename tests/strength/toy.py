@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from modeproof.strength.judge import Bench
+from modeproof.strength.mutant_judge import Bench
 from modeproof.strength.register import load_strength
 from modeproof.tlc.toolchain import find_toolchain
 

@@ -14,7 +14,7 @@ from modeproof.kit.vectors import open_suite
 from modeproof.registers.load import load_interface
 from modeproof.suites.contract import load_contract
 from modeproof.suites.lint import lint
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 
 PROPERTIES = '[[property]]\nid = "LightNeedsCode"\nclauses = ["TOY-1"]\n'
 CONTRACT = """

@@ -18,7 +18,7 @@ from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.at import every_pair, graph_at, scaled, tick_of
 from modeproof.suites.build import make_graphs
@@ -26,7 +26,7 @@ from modeproof.suites.parameters import variants
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
 from tests.kit.lamps import Lamp
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 
 
 class Words(Lamp):

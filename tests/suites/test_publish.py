@@ -18,7 +18,7 @@ from modeproof.suites.build import published
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.publish import Published, _same, publish
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 
 
 def put(toy: Path) -> Published:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.kit.judge import CONFORMS, DIFFERS, UNJUDGED, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, UNJUDGED, run_suite
 from modeproof.kit.text import as_record, as_text
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.refusals import wrong_values

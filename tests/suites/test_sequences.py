@@ -10,7 +10,7 @@ import pytest
 from modeproof.cli import main
 from modeproof.graph.columns import merge_columns
 from modeproof.ground.errors import Unjudged
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
@@ -19,7 +19,7 @@ from modeproof.suites.write import write_suite
 from tests.graph.printed import SEQUENCES, lamp_graph
 from tests.kit.programs import starter
 from tests.suites.relay import relay_graph
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 
 ROOT = Path(__file__).resolve().parents[2]
 NOTE = "mode_selection"

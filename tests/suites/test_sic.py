@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.places import root
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.suites import soak
 from modeproof.suites.write import write_suite

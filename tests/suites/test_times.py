@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from modeproof.graph.columns import merge_columns
 from modeproof.graph.device import DeviceGraph
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.times import plan, split
 from modeproof.suites.write import NoCases, write_suite

@@ -25,7 +25,7 @@ from modeproof.suites.lint import lint
 from modeproof.suites.tour import every_transition, walks
 from modeproof.suites.write import write_suite
 from tests.graph.printed import lamp_graph
-from tests.suites.test_command import toy as toy  # the fixture
+from tests.suites.test_conform_command import toy as toy  # the fixture
 from tests.suites.test_tour import graphs, table
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from modeproof.graph.columns import merge_columns
 from modeproof.ground.errors import Unjudged
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import Case, Suite, open_suite
 from modeproof.suites.apart import Apart
 from modeproof.suites.words import wrong_words

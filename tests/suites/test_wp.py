@@ -14,7 +14,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from modeproof.graph.columns import Columns, merge_columns
-from modeproof.kit.judge import CONFORMS, DIFFERS, run_suite
+from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.suites.complete import Track, gaps
 from modeproof.suites.identify import Identifiers, Machine, Word, machine, separating_columns

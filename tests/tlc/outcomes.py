@@ -9,9 +9,9 @@ import msgspec
 
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.runs import Run, _run
-from modeproof.tlc.judge import Judgement, judge
 from modeproof.tlc.messages import Log, LogReader
 from modeproof.tlc.process import Outcome
+from modeproof.tlc.run_judge import Judgement, judge
 from tests.toy_tree import CFGS, declaration, sha256
 
 STATUS = {"MC_toy": 0, "NEG_small": 12, "NEG_reaches": 13}

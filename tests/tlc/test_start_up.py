@@ -13,7 +13,7 @@ import pytest
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.tlc import start_up
-from modeproof.tlc.process import command_line
+from modeproof.tlc.process import FEW_STATES, command_line
 from modeproof.tlc.start_up import cache_sha256, start_up_options, write_cache
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from tests.tlc.outcomes import declared
@@ -105,7 +105,25 @@ QUICK = "-XX:TieredStopAtLevel=1"
 
 @pytest.mark.parametrize(("heap_mb", "small"), [(64, True), (512, True), (513, False), (4096, False)])
 def test_only_the_quick_compiler_compiles_a_run_of_little_heap(heap_mb: int, small: bool) -> None:
-    command = command_line(declared("MC_toy", heap_mb=heap_mb), TOOLS, Path("/states"))
+    run = declared("MC_toy", heap_mb=heap_mb, generated=None)
+    command = command_line(run, TOOLS, Path("/states"))
     assert (QUICK in command) == small
     if small:
         assert command.index(QUICK) < command.index("-cp"), "an option of Java stands before the class path"
+
+
+@pytest.mark.parametrize(
+    ("kind", "generated", "small"),
+    [
+        ("MC", FEW_STATES - 1, True),
+        ("NEG", FEW_STATES - 1, True),
+        ("MC", FEW_STATES, False),
+        ("MC", None, False),
+        ("LIVE", 1, False),
+    ],
+)
+def test_a_run_of_few_states_is_compiled_quickly_whatever_its_heap(
+    kind: str, generated: int | None, small: bool
+) -> None:
+    run = declared("MC_toy", heap_mb=1536, kind=kind, generated=generated)
+    assert (QUICK in command_line(run, TOOLS, Path("/states"))) == small

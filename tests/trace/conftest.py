@@ -13,7 +13,7 @@ from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.rests import why_stale
 from modeproof.trace.alphabet import Alphabet
-from modeproof.trace.judge import Graphs
+from modeproof.trace.log_judge import Graphs
 from tests.spec.mode_selection.planted import DOCUMENT, Base, Trial
 
 NEEDED = {

@@ -13,9 +13,9 @@ from typing import Any
 from modeproof.ground.places import root
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.exact import Scans
-from modeproof.trace.judge import Graphs, Judgement, judge_logs
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log
+from modeproof.trace.log_judge import Graphs, Judgement, judge_logs
 from modeproof.trace.table import read_table
 from modeproof.trace.targets import find_target
 

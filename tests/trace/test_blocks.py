@@ -16,7 +16,7 @@ from modeproof.tlc.rests import why_stale
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed
-from modeproof.trace.judge import Graphs, Judgement
+from modeproof.trace.log_judge import Graphs, Judgement
 from tests.trace.judging import judge, log_of
 from tests.trace.test_devices import SCANS, corrupted, walk
 

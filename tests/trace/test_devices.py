@@ -20,8 +20,8 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed, NotFollowed, follow
-from modeproof.trace.judge import Graphs, Judgement, check
 from modeproof.trace.log import Log, Row, Rows
+from modeproof.trace.log_judge import Graphs, Judgement, check
 from modeproof.trace.targets import Target, find_target
 from tests.any_machine import SHARED_FIXTURE
 from tests.trace.judging import judge, log_of

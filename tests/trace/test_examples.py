@@ -8,8 +8,8 @@ import pytest
 
 from modeproof.trace.exact import Scans
 from modeproof.trace.follow import Followed
-from modeproof.trace.judge import Graphs, Judgement
 from modeproof.trace.log import Log, Rows
+from modeproof.trace.log_judge import Graphs, Judgement
 from tests.trace.judging import LOGS, example, judge, record
 
 GOOD = ("fplc_good.jsonl", "fplc_good.csv", "fplc_partial.csv")

@@ -14,7 +14,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.trace.lines import LONGEST_LINE, read_lines
 from modeproof.trace.log import Log
-from modeproof.trace.module import Reading
+from modeproof.trace.log_module import Reading
 from modeproof.trace.table import read_table
 from modeproof.trace.targets import find_target
 from tests.trace.judging import LOGS

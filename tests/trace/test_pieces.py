@@ -12,8 +12,8 @@ import pytest
 from modeproof.ground.errors import Unjudged
 from modeproof.trace import exact
 from modeproof.trace.exact import Scans
-from modeproof.trace.judge import Graphs, compared
 from modeproof.trace.log import Log, Row, Rows
+from modeproof.trace.log_judge import Graphs, compared
 from tests.trace.judging import example, judge
 from tests.trace.test_devices import target_of
 from tests.trace.test_examples import MIDDLE, PLANTED, SAMPLED

@@ -8,7 +8,7 @@ from modeproof.ground.places import root
 from modeproof.tlc.parse_tree import read_tree
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.guards import Guards
-from modeproof.trace.judge import Graphs, why_not
+from modeproof.trace.log_judge import Graphs, why_not
 from modeproof.trace.targets import find_target, targets_of
 from modeproof.trace.text import as_record, as_text
 from modeproof.trace.why import Why

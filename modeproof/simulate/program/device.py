@@ -1,8 +1,8 @@
 """One device or block: the reference implementation's own code, its state, and the step that it took.
 
 The step is told by a copy of the functions in which each `return` that the source marks with a step's name
-reports it (`modeproof.simulate.steps`). The copy only names; what counts is the code itself, and both are
-compared in every scan.
+reports it (`modeproof.simulate.step_marks`). The copy only names; what counts is the code itself, and both
+are compared in every scan.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ from proofs.mode_selection.judges import JUDGES
 from proofs.mode_selection.plc_safety import the_plc_leaves_no_copy_out
 from proofs.mode_selection.subjects import SUBJECTS
 from proofs.mutants.copies import Change, CopyError, copied
-from proofs.mutants.judge import Bench, Found, claims
+from proofs.mutants.copy_judge import Bench, Found, claims
 from proofs.mutants.shipped import POWER_UP, functions_of, shipped
 from proofs.theorem import Queries, Theorem, TheoremError, claim, theorem
 from refimpl.mode_selection import code_tables, plc
@@ -159,7 +159,7 @@ def test_a_theorem_false_of_the_shipped_code_kills_nobody(bench: Bench) -> None:
 def test_an_answer_that_is_not_known_leaves_it_unmeasured(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("proofs.mutants.judge._answer", lambda query: (z3.unknown, "too hard"))
+    monkeypatch.setattr("proofs.mutants.copy_judge._answer", lambda query: (z3.unknown, "too hard"))
     found = judge(bench, "_copy_mw03", "i.SelectMSO", "s.MW03")
     assert found.verdict == "UNMEASURED"
     assert "too hard" in found.reason
@@ -168,7 +168,7 @@ def test_an_answer_that_is_not_known_leaves_it_unmeasured(
 def test_a_counterexample_that_its_run_contradicts_kills_nobody(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("proofs.mutants.judge.evaluated_plain", lambda result, model: "elsewhere")
+    monkeypatch.setattr("proofs.mutants.copy_judge.evaluated_plain", lambda result, model: "elsewhere")
     found = judge(bench, "_copy_mw03", "i.SelectMSO", "s.MW03")
     assert found.verdict == "UNMEASURED"
     assert "ends otherwise" in found.reason

@@ -10,10 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from modeproof.ground.places import TREE
+from modeproof.registers import load_interface
 from refimpl.edm.sf_edm import ERRORS, Inputs, Outputs, Params, State, Step, outputs, power_up, step
 from refimpl.errors import InputError, ParameterError, StateError
 
 PARAMS = Params(MonitoringTime_ms=100)
+CODES = {of: int(code, 16) for of, code in load_interface(TREE, "edm").devices["sf_edm"].codes.items()}
 CAUTIOUS = replace(PARAMS, AFTER_RESET="stop_first")
 DROPPED, PICKED = (True, True), (False, False)
 FEEDBACKS = tuple(itertools.product((False, True), repeat=2))
@@ -164,7 +167,7 @@ def test_reset_held_while_the_block_starts_removes_no_inhibit() -> None:
 
 def test_reset_and_request_that_rise_together_remove_no_inhibit() -> None:
     state, out = run(at(Step.INIT), on(Reset=True))
-    assert (state.state, out.Error, out.DiagCode) == (Step.INIT_ERROR, True, 0xC100)
+    assert (state.state, out.Error, out.DiagCode) == (Step.INIT_ERROR, True, CODES["InitError"])
     assert run(state, on(Reset=True))[0].state == Step.INIT_ERROR
     assert run(state, on())[0].state == Step.INIT
     assert run(at(Step.INIT), on(Reset=True, S_StartReset=True))[0].state == Step.OUTPUT_DISABLE

@@ -18,8 +18,8 @@ from modeproof.ground.places import build, root
 from modeproof.registers.cfg import Cfg, parse_cfg
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run, load_runs
-from modeproof.tlc.judge import Judgement, judge
 from modeproof.tlc.process import Outcome, run_tlc
+from modeproof.tlc.run_judge import Judgement, judge
 from modeproof.tlc.toolchain import find_toolchain
 
 DOCUMENT = "mode_selection"

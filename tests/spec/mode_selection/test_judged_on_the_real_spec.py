@@ -21,7 +21,7 @@ from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.made import cfg_text
 from modeproof.registers.runs import Run as DeclaredRun
 from modeproof.tlc.check import register_problems
-from modeproof.tlc.judge import Judgement, judge
+from modeproof.tlc.run_judge import Judgement, judge
 from tests.spec.mode_selection.planted import (
     DOCUMENT,
     KEY_FLOWS,

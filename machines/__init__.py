@@ -1,0 +1,1 @@
+"""Machines: blocks of the documents joined by a wiring file; their properties, programs, models, vectors."""

@@ -1,0 +1,90 @@
+"""The command `prove-program`: its options. The room `programs` does the work."""
+
+from __future__ import annotations
+
+import argparse
+import ctypes
+import importlib
+import math
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.proofs import proofs_module
+
+SECONDS = 300
+"""Limit of a search, of CPU time, where --seconds names no other."""
+
+
+def add_parser(commands: Any) -> argparse.ArgumentParser:
+    """Add `prove-program` to the commands."""
+    parser: argparse.ArgumentParser = commands.add_parser(
+        "prove-program",
+        help="prove a PLC program equal to a target, or show where it differs",
+        description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
+        "which they differ. UNKNOWN (2): neither.",
+    )
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE", help="ST, SCL, PLCopen XML or AWL")
+    parser.add_argument("--target", metavar="T", help="a published target, as in vectors/")
+    parser.add_argument("--unit", metavar="NAME", help="the block or program meant, if there are several")
+    parser.add_argument("--binding", type=Path, metavar="TOML", help="names that do not agree; see the docs")
+    parser.add_argument(
+        "--wrap", action="store_true", help="integers wrap; without it they must not overflow"
+    )
+    parser.add_argument(
+        "--certificate", type=Path, metavar="FOLDER", help="of a proof, write there what others can check"
+    )
+    parser.add_argument(
+        "--recheck", type=Path, metavar="FOLDER", help="check a certificate with z3 and cvc5; no search"
+    )
+    parser.add_argument(
+        "--vector", type=Path, metavar="FILE", help="keep the scans of a difference there (build/programs/)"
+    )
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdict as JUnit XML as well")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the verdict there as well")
+    parser.add_argument(
+        "--seconds", type=float, metavar="S", help=f"limit of the search for pairs ({SECONDS})"
+    )
+    parser.add_argument(
+        "--property",
+        type=Path,
+        metavar="TOML",
+        help="in the place of --target: properties of your own program",
+    )
+    parser.set_defaults(run=run)
+    return parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run it; the exit status is that of the verdict. Raises Unjudged."""
+    asked = [name for name in ("target", "property", "recheck") if getattr(args, name) is not None]
+    if len(asked) != 1 or (args.recheck is None) != bool(args.files):
+        raise Unjudged(
+            "prove-program: name the program's files and --target T, or --property TOML for a program of "
+            "your own; or a certificate alone, with --recheck"
+        )
+    beside = {
+        "recheck": ("binding", "unit", "wrap", "certificate", "vector", "junit", "json", "seconds"),
+        "property": ("vector",),
+    }
+    for name in beside.get(asked[0], ()):
+        if getattr(args, name) not in (None, False):
+            raise Unjudged(f"--{name} has no effect with --{asked[0]}; leave it out")
+    args.seconds = SECONDS if args.seconds is None else args.seconds
+    if not 0 < args.seconds < math.inf:
+        raise Unjudged(f"--seconds {args.seconds:g}: a time above 0 is needed")
+    try:
+        importlib.import_module("tree_sitter_iec61131_3_st")
+    except ImportError as error:
+        raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
+    room = "prove_program" if args.property is None else "prove_properties"
+    try:
+        return int(proofs_module(f"programs.commands.{room}").run(args))
+    except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
+        if "recursion" not in f"{type(error).__name__} {error}".lower():
+            raise
+        files = ", ".join(map(str, args.files or [args.recheck]))
+        raise Unjudged(
+            f"{files}: an expression, or a list of ELSIF, CASE or RETURN, is too long or too deep for this "
+            "reader; split it"
+        ) from None

@@ -1,0 +1,409 @@
+"""The command `conform` with everything at hand: graphs, suites built when missing, built-in programs."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import re
+import sys
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from modeproof.graph.chart import chart
+from modeproof.graph.device import COMPARED_BY, compared_rests, load_device_graph, open_runs
+from modeproof.graph.equal import Comparison, Difference, compare
+from modeproof.graph.export import write_export
+from modeproof.graph.implementation import REFERENCE, load_implementation
+from modeproof.ground import evidence
+from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.lock import only_one
+from modeproof.ground.meaning import reached
+from modeproof.ground.places import build, root
+from modeproof.ground.progress import Progress
+from modeproof.kit import kit_command
+from modeproof.kit.errors import Unjudged as KitUnjudged
+from modeproof.kit.profile import ALL, LETTER
+from modeproof.kit.suite_judge import EXIT
+from modeproof.kit.text import as_record, joint_word, write_json
+from modeproof.kit.vectors import EXACT, SETTLED, WIRING, Suite, open_suite
+from modeproof.kit.verdict import Verdict
+from modeproof.registers.rows import Device
+from modeproof.registers.runs import Run
+from modeproof.registers.stale import stale
+from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
+from modeproof.suites.build import current_suite, find_target, make_graphs, ready_suite, say
+from modeproof.suites.kinds import SUITES
+from modeproof.suites.write import NoCases
+from modeproof.tlc.rests import row_of
+
+
+def add_parser(commands: Any) -> argparse.ArgumentParser:
+    """Add `conform` to the commands."""
+    return kit_command.add_parser(commands, run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run `conform`; the exit status is that of the verdict."""
+    try:
+        if suites := machine_suites(root(), args):
+            return EXIT[joint_word(kit_command.judge(args, kit_command.in_profile(args, suites)))]
+        if args.builtin is not None and args.suite is None and args.vectors is None:
+            return _builtin(args)
+        return _program(args)
+    except KitUnjudged as error:
+        raise Unjudged(str(error)) from None
+
+
+# ----------------------------------------------------------------------------------------------- adapter
+
+
+def _program(args: argparse.Namespace) -> int:
+    place = root()
+    document, device = find_target(place, args.target, args.document)
+    if not device.published and args.builtin is None:
+        raise Unjudged(f"{args.target} is not a published target; --builtin compares our own code")
+    if args.vectors is not None:
+        if args.suite:
+            raise Unjudged("--vectors names one file, and --suite others: give one of them")
+        suites = kit_command.open_vectors(args)
+    else:
+        with only_one(place):
+            suites = _suites(place, document, device, args)
+    suites = kit_command.in_profile(args, suites)
+    ours = _is_ours(args)
+    if ours:  # by this Python, whatever `python` is here
+        args.adapter = " ".join(map(kit_command.quoted, [sys.executable, str(place / OWN), args.target]))
+    started = time.time()
+    verdicts = kit_command.judge(args, suites)
+    for suite, verdict in zip(suites, verdicts, strict=False):  # an interrupted run has fewer
+        whole = args.case is None and args.vectors is None and not args.param and not verdict.interrupted
+        if args.adapter is None or not whole or not verdict.adapter:
+            continue
+        if ours and suite.name in OWN_SUITES.values():
+            record = own_record(place, document, suite, verdict, started)
+            evidence.write(place, record)
+        else:
+            _write_yours(place, document, args, suite, verdict, started)
+    return EXIT[joint_word(verdicts)]
+
+
+OWN = "examples/adapters/refimpl_adapter.py"
+"""The adapter of the reference implementation."""
+OWN_SUITES = {"smoke": "brief", "full": "brief", "exhaustive": "tour"}
+"""The suite that it runs through in each lane."""
+
+
+def _is_ours(args: argparse.Namespace) -> bool:
+    """Whether the arguments are those of a run that `verify` makes, so that it is made again."""
+    usual = (args.relation, args.latency, args.hold, args.slow) == (EXACT, None, 0, 1)
+    usual = usual and bool(args.codes) and args.profile == ALL
+    return usual and args.adapter == f"python {OWN} {args.target}"
+
+
+def own_id(target: str, suite: str) -> str:
+    """The name of the evidence of the reference implementation behind the adapter protocol."""
+    return f"adapter_{target}_{suite}"
+
+
+def own_rests(place: Path, document: str, target: str, suite: str) -> evidence.Rests:
+    """What that rests on. Raises Unjudged when the suite has to be made before."""
+    path = published(place, target, suite) or current_suite(place, document, target, suite)
+    if path is None:
+        raise Unjudged(f"the suite {suite} of {target} has to be made")
+    return evidence.Rests(_own_inputs(place, document, target, path), COMPARED_BY)
+
+
+def _own_inputs(place: Path, document: str, target: str, suite: Path) -> dict[str, str]:
+    code = reached(place, OWN, f"{REFERENCE}/{document}/{target}.py")
+    return evidence.hashes(place, [*code, place / "spec" / document / "interface.toml", suite])
+
+
+def own_record(place: Path, document: str, suite: Suite, verdict: Verdict, started: float) -> dict[str, Any]:
+    """The evidence of the reference implementation behind the adapter protocol."""
+    about = {"device": suite.target, "implementation": REFERENCE}
+    adapter = kit_command.quoted(f"python {OWN} {suite.target}")
+    command = (
+        f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes --profile {ALL}"
+    )
+    id = own_id(suite.target, suite.name)
+    inputs = _own_inputs(place, document, suite.target, suite.path)
+    return _record(place, document, suite, verdict, id, command, started, inputs, about)
+
+
+def _write_yours(
+    place: Path, document: str, args: argparse.Namespace, suite: Suite, verdict: Verdict, started: float
+) -> None:
+    """The evidence of a user's program: in a place of its own, under its own name."""
+    name = re.sub(r"[^A-Za-z0-9.-]+", "-", args.name or verdict.adapter).strip("-.") or "program"
+    manner = [] if args.relation == EXACT else [args.relation]
+    profile = [] if args.profile in (None, LETTER) else [args.profile]
+    command = " ".join(
+        [
+            f"modeproof conform {args.target} --adapter {kit_command.quoted(args.adapter)}",
+            f"--suite {suite.name}",
+            *([f"--relation {args.relation}"] if manner else []),
+            *([f"--latency {args.latency}"] if args.latency is not None else []),
+            *([f"--hold {args.hold}"] if args.hold else []),
+            *([f"--slow {args.slow}"] if args.slow != 1 else []),
+            *(["--codes"] if args.codes else []),
+            *(f"--profile {name}" for name in profile),
+        ]
+    )
+    id = "_".join([name[:60], args.target, suite.name, *manner, *profile])
+    inputs = evidence.hashes(place, [suite.path])
+    record = _record(place, document, suite, verdict, id, command, started, inputs, {"name": name})
+    evidence.write(place, record, evidence.YOURS)
+    say(f"kept as {build(place).name}/{evidence.YOURS}/{document}/{id}.json; `modeproof report` shows it")
+
+
+def _record(
+    place: Path,
+    document: str,
+    suite: Suite,
+    verdict: Verdict,
+    id: str,
+    command: str,
+    started: float,
+    inputs: Mapping[str, str],
+    about: Mapping[str, Any],
+) -> dict[str, Any]:
+    done, total = verdict.transitions
+    of_profile = f", profile {verdict.profile}" if verdict.profile else ""
+    return evidence.make(
+        kind="conformance",
+        id=id,
+        document=document,
+        verdict=verdict.word,
+        expected="CONFORMS",
+        as_expected=verdict.status == 0,
+        strength=f"relation {verdict.relation}, suite {verdict.suite}{of_profile} over the adapter protocol: "
+        f"{verdict.scans:,} scans, {done:,} of {total:,} merged transitions",
+        command=command,
+        started=started,
+        seconds=verdict.seconds,
+        inputs=inputs,
+        code=COMPARED_BY,
+        place=place,
+        result={**about, **as_record(verdict), "says": suite.says},
+        reason="" if verdict.status == 0 else verdict.reason or "the program differs",
+    )
+
+
+def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
+    """The suites asked for, if the target is a whole machine: it has vectors and no register.
+
+    Raises Unjudged where they are of another text.
+    """
+    if args.vectors is not None:
+        suites = kit_command.open_vectors(args)
+        return suites if all(WIRING in suite.header for suite in suites) else []
+    files = [path for path in published_files(place, args.target) if of_machine(path)]
+    names = [suite_name(path) for path in files]
+    asked = [name for name in args.suite or () if name != kit_command.FAST]
+    if files and (strange := [name for name in asked if name not in names]):
+        raise Unjudged(f"no suite {strange[0]!r}; {suggestion(strange[0], [kit_command.FAST, *names])}")
+    chosen = [path for path, name in zip(files, names, strict=True) if not asked or name in asked]
+    for path in chosen:
+        if published(place, args.target, suite_name(path)) is None:
+            what = why_stale(place, args.target) or f"{path.relative_to(place)} is not as it was published"
+            raise Unjudged(stale(what, args.target))
+    found = [open_suite(path) for path in chosen]
+    if chosen and not (found := [suite for suite in found if args.relation in suite.relations]):
+        raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
+    return found
+
+
+def _suites(place: Path, document: str, device: Device, args: argparse.Namespace) -> list[Suite]:
+    """The suites asked for, made where none is published or it is of another text. Raises Unjudged.
+
+    One that was not named itself is left out where the target has no cases of its kind. The program is
+    greeted before one is made: that takes long.
+    """
+    names = chosen_suites(args.suite, args.relation)
+    if strange := [name for name in names if name not in SUITES]:
+        raise Unjudged(f"no suite {strange[0]!r}; {suggestion(strange[0], [kit_command.FAST, *SUITES])}")
+    found = []
+    greeted = False
+    for name in names:
+        if (path := published(place, args.target, name)) is not None:
+            found.append(open_suite(path))
+            continue
+        if not greeted:
+            kit_command.greet(args, device.outputs)
+            greeted = True
+        try:
+            make_graphs(place, open_runs(place, document, args.target), args.quiet)
+            found.append(ready_suite(place, document, args.target, name, say))
+        except NoCases:
+            if name in (args.suite or ()):
+                raise
+    if not found:
+        raise Unjudged(f"no suite of {args.target} is for relation {args.relation}")
+    return found
+
+
+def chosen_suites(names: list[str] | None, relation: str) -> list[str]:
+    """The suites asked for; by default `tour`, or those that are made for the relation."""
+    if names is None:
+        if relation == EXACT:
+            return ["tour"]
+        return [name for name, kind in SUITES.items() if SETTLED in kind.relations]
+    chosen: list[str] = []
+    for name in names:
+        every = [suite for suite, kind in SUITES.items() if kind.fast and relation in kind.relations]
+        chosen += every if name == kit_command.FAST else [name]
+    return list(dict.fromkeys(chosen))
+
+
+# ----------------------------------------------------------------------------------------------- builtin
+
+
+def _builtin(args: argparse.Namespace) -> int:
+    place = root()
+    document, device = find_target(place, args.target, args.document)
+    runs = open_runs(place, document, args.target)
+    if not runs:
+        raise Unjudged(f"{document}: no OPEN run prints a graph of {args.target}")
+    if args.case is not None or args.param or args.relation != EXACT:
+        raise Unjudged(
+            "--case, --param and --relation need --suite or --vectors; --builtin alone is exact, and whole"
+        )
+    load_implementation(args.builtin, document, device.id)  # what cannot be loaded is said before TLC begins
+    progress = Progress(quiet=args.quiet)
+    found: list[tuple[Run, Comparison]] = []
+    with only_one(place):
+        make_graphs(place, runs, args.quiet)
+        for kit_run in runs:
+            found.append((kit_run, compare_run(place, kit_run, args.builtin, progress, args.codes)))
+    for kit_run, result in found:
+        print(_text(kit_run, result))
+    status = max(0 if result.equal else 1 for _, result in found)
+    if args.json is not None:
+        rows = [{"run": kit_run.id, "verdict": result.verdict, **asdict(result)} for kit_run, result in found]
+        write_json(args.json, {"command": "conform", "status": status, "builtin": args.builtin, "runs": rows})
+    return status
+
+
+def compare_run(place: Path, run: Run, builtin: str, progress: Progress, codes: bool = False) -> Comparison:
+    """Compare the graph of a run with a program, and write the evidence. Raises Unjudged like `compared`."""
+    folder = evidence.OURS if builtin == REFERENCE else evidence.YOURS
+    name = f"{builtin}_{run.id}"
+    evidence.discard(place, run.document, name, folder)
+    started = time.time()
+    inputs: Mapping[str, str] = {}
+    with contextlib.suppress(Unjudged):  # a program of another place
+        inputs = compared_rests(place, run, builtin).inputs
+    progress.begin(name)
+    try:
+        found, result = compared(
+            place,
+            run,
+            builtin,
+            codes,
+            lambda done, total: progress.update(name, f"{done:,} of {total:,} transitions", done / total),
+        )
+    finally:
+        progress.end(name)
+    evidence.write(place, comparison_record(place, run, builtin, inputs, started, found, result), folder)
+    return found
+
+
+def compared(
+    place: Path,
+    run: Run,
+    builtin: str,
+    codes: bool = False,
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
+) -> tuple[Comparison, dict[str, Any]]:
+    """A graph beside a program, and what evidence says of it: with our own code the graph is exported and
+    its chart drawn, and every output is compared. Raises Unjudged for a graph that cannot be used.
+    """
+    graph = load_device_graph(place, run)
+    code = load_implementation(builtin, run.document, graph.device.id)
+    ours = builtin == REFERENCE
+    result: dict[str, Any] = {}
+    if ours:
+        drawn = chart(graph)
+        exported = evidence.hashes(place, [write_export(place, run, graph)])
+        result = {"chart": None if drawn is None else asdict(drawn), "artefacts": exported}
+    found = compare(graph, code, on_progress, codes=codes or ours)
+    return found, {**result, **asdict(found)}
+
+
+def comparison_record(
+    place: Path,
+    run: Run,
+    builtin: str,
+    inputs: Mapping[str, str],
+    started: float,
+    found: Comparison | None,
+    result: Mapping[str, Any],
+    why: str = "",
+) -> dict[str, Any]:
+    """The evidence of a comparison; without one UNJUDGED, and `why`."""
+    assert run.graph is not None
+    device = run.graph.device
+    strength, reason = "", why
+    if found is not None:
+        strength = (
+            f"{found.states:,} states, {found.replayed:,} of {found.transitions:,} transitions, "
+            f"{sum(done == total for done, total in found.covered.values())} of {len(found.covered)} steps "
+            "in full, both ways, in process"
+        )
+        first = f"; first: {found.differences[0]}" if found.differences else ""
+        reason = "" if found.equal else f"{found.summary()}{first}"
+    return evidence.make(
+        kind="conformance",
+        id=f"{builtin}_{run.id}",
+        document=run.document,
+        verdict="UNJUDGED" if found is None else found.verdict,
+        expected="EQUAL",
+        as_expected=found is not None and found.equal,
+        environment=run.environment,
+        strength=strength,
+        command=f"modeproof conform {device} --builtin {builtin} --document {run.document}",
+        started=started,
+        seconds=time.time() - started,
+        inputs=inputs,
+        code=COMPARED_BY,
+        place=place,
+        result={**row_of(run), "run": run.id, "device": device, "implementation": builtin, **result},
+        reason=reason,
+    )
+
+
+def _text(run: Run, found: Comparison) -> str:
+    lines = [f"{run.name} and {found.implementation}"]
+    width = max(len(step) for step in found.covered)
+    for step, (have, total) in found.covered.items():
+        lines.append(f"  {step:<{width}} {have:>10,} / {total:,}")
+    for name, members in found.classes.items():
+        lines.append(f"  class {name}: {members} other members tried at every step of every state")
+    lines.append(
+        f"  {found.scans:,} scans, {found.class_scans:,} more with other members of classes; "
+        f"{found.implementation_states:,} states of the implementation"
+    )
+    return "\n".join([*lines, *_first(found)])
+
+
+def difference_text(run: Run, found: Comparison) -> str:
+    """The shortest way to the first difference."""
+    return "\n".join([f"{run.name} and {found.implementation}", *_first(found)])
+
+
+def _first(found: Comparison) -> list[str]:
+    shown = [line for difference in found.differences[:1] for line in _shown(difference)]
+    return [*shown, found.summary()]
+
+
+def _shown(difference: Difference) -> list[str]:
+    lines = [f"  first difference: {difference}", "  shortest inputs from power-up:"]
+    before: Mapping[str, Any] = {}
+    for n, scan in enumerate(difference.scans, 1):
+        changed = {name: value for name, value in scan.items() if n == 1 or before[name] != value}
+        lines.append(f"    scan {n}: " + ", ".join(f"{name}={value}" for name, value in changed.items()))
+        before = scan
+    return lines

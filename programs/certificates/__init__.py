@@ -1,0 +1,1 @@
+"""What others can check of a proof, without any search."""

@@ -1,0 +1,1 @@
+"""What the command `prove-program` does."""

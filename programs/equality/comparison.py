@@ -1,0 +1,64 @@
+"""A program beside a published target, ready to be judged, and what the verdict will be about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from modeproof.registers.profiles import LETTER, NEITHER, profiles_of
+from programs.equality.binding import Binding
+from programs.equality.product import Product
+from programs.language.subset import check
+from programs.language.tool_differences import assumed
+from programs.readers.sources import read_sources
+from programs.semantics.reference import reference
+
+
+def make(
+    files: list[Path],
+    target: str,
+    unit: str | None = None,
+    binding: Mapping[str, Any] | None = None,
+    wrap: bool = False,
+    split: tuple[str, ...] = (),
+) -> Product:
+    """The program beside the target; binding: see `read_binding`. Raises Unjudged with file, line, cause."""
+    of = reference(target)
+    source = read_sources(files)
+    chosen = source.chosen(unit)
+    check(source, chosen)
+    return Product(Binding(of, source, chosen, **(binding or {})), wrap, split)
+
+
+def about(product: Product) -> Iterator[tuple[str, str]]:
+    """What a verdict is about, in lines of a label and a text."""
+    binding, signals = product.binding, product.binding.reference.signals("parameters")
+    yield "compared", ", ".join(binding.compared)
+    own = f"; of the program's own: {', '.join(binding.unasked)}" if binding.unasked else ""
+    yield "left out", (", ".join(binding.left_out) or "no output") + own
+    narrowed = {text.partition(" ")[0]: text for text in binding.narrowed()}
+    free = []
+    for name in binding.free_parameters:
+        signal = signals[name]
+        whole = f"{name} {signal.minimum or 0}..{signal.maximum}" if signal.type in ("ms", "int") else name
+        free.append(narrowed.get(name, whole))
+    yield (
+        "parameters",
+        "; ".join(
+            [
+                f"any {', '.join(free)}" if free else "none is an input of the program",
+                *(f"{name} = {value}" for name, value in binding.values.items()),
+            ]
+        ),
+    )
+    if known := profiles_of(binding.reference.device.register):
+        given = {name: value for name, value in binding.values.items() if name in known[LETTER]}
+        same = [profile for profile, values in known.items() if given.items() <= values.items()]
+        yield "profile", " and ".join(same) or NEITHER
+    longest = binding.longest_scan
+    most = "any elapsed time" if longest is None else f"elapsed times up to {longest:,}"
+    yield "inputs", f"every value, {most} of whole milliseconds"
+    yield "numbers", "wrap" if product.wrap else "stay within their types"
+    if choices := list(assumed(binding.source, binding.unit, binding.steady)):
+        yield "assumed", "; ".join(choices)

@@ -1,0 +1,1 @@
+"""Properties of programs, and their verdicts."""

@@ -1,0 +1,1 @@
+"""From the files of users to the tree of `programs.language`."""
