@@ -95,7 +95,7 @@ SAME = {
     "a docstring of the judge": ("modeproof/tlc/run_judge.py", '"""', '"""Words. '),
     "a comment of the judge": ("modeproof/tlc/run_judge.py", "def judge(", "# words\ndef judge("),
     "a module that does not judge": ("modeproof/report/build.py", "import base64", "import base64, sys"),
-    "the page to play with": ("modeproof/simulate/steps.py", "import", "import sys\nimport"),
+    "the page to play with": ("modeproof/simulate/build.py", "import", "import sys\nimport"),
 }
 CHANGES: dict[str, tuple[str, str, str, tuple[str, ...], str]] = {
     "a module": ("spec/toy/Toy.tla", "count < 3", "count < 2 + 1", NAMES, f"spec/toy/Toy.tla {CHANGED}"),
