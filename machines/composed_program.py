@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 
 import msgspec
 
-from machines.wiring import Wiring, is_plain, leaves, names, unfit
+from machines.signal_names import leaves, names
+from machines.wiring import Wiring, is_plain, unfit
 from modeproof.ground.errors import suggestion
 from modeproof.registers.typed import Entry, Text
 from programs.language.standard_blocks import BLOCKS

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from machines.wiring import Wiring, leaves
+from machines.signal_names import leaves
+from machines.wiring import Wiring
 from programs.language.tree import Member, Name
 
 START = "start"

@@ -12,23 +12,26 @@ import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
+from itertools import groupby
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from machines.concrete_runs import Runner, Scan, Seen, look, rule_of
 from machines.trial import Edit, edits
 from machines.trial_record import basis_of, read_outcomes
 from machines.verdicts import Machine
 from modeproof.ground.errors import Unjudged
-from modeproof.registers.typed import Entry, Text, typed
+from modeproof.registers.typed import Entry, Text, grouped, typed
 from refimpl.machine_cell.expression import Value
 
 RUNS = 60
 TRIES = 250
 HEADER = """\
-# What makes each property fall: one edit of wiring.toml, and the scans from power-up, each as
-# `ms since the scan before: inputs that change`. Made by `modeproof machine --killers`; `modeproof verify`
-# plays the scans again. Our own design: no claim about a paper.
+# What makes each property fall: one edit of wiring.toml (`in` this row `new`), and the scans from power-up:
+# `ms since the scan before: inputs that change; ms of scans behind it in which nothing changes`. Made by
+# `modeproof machine --killers`; `modeproof verify` plays them again. Our own design: no claim about a paper.
 """
 
 
@@ -36,8 +39,8 @@ class Killer(Entry, frozen=True, kw_only=True):
     """A row: the property, the row of the wiring and its other text, the scans."""
 
     property: Text
-    row: Text
-    text: str
+    row: Text = msgspec.field(name="in")
+    text: str = msgspec.field(name="new")
     scans: list[Text]
 
 
@@ -49,12 +52,11 @@ def name_of(killer: Killer) -> str:
 def read_killers(path: Path) -> list[Killer]:
     """The rows; none if there is no file. Raises Unjudged."""
     try:
-        rows = tomllib.loads(path.read_text("utf-8")).get("killer", []) if path.exists() else []
+        table = tomllib.loads(path.read_text("utf-8")) if path.exists() else {}
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
-    if not isinstance(rows, list):
-        raise Unjudged(f"{path}: [[killer]] is a list of tables")
-    return [typed(Killer, row, f"{path}: [[killer]] {number}") for number, row in enumerate(rows, 1)]
+    rows = grouped(str(path), table, "killer", "property")
+    return [typed(Killer, row, f"{path}: killer.{row['property']}") for row in rows]
 
 
 @dataclass(frozen=True)
@@ -110,12 +112,16 @@ class Killers:
         inputs: dict[str, Value] = {name: kind == "WORD" and 0 for name, kind in kinds.items()}
         found: list[Scan] = []
         for line in killer.scans:
-            dt_ms, _, changes = line.partition(":")
+            scan, _, quiet = line.partition(";")
+            dt_ms, _, changes = scan.partition(":")
             try:
                 for change in filter(None, map(str.strip, changes.split(","))):
                     name, _, value = change.partition("=")
                     inputs[name] = int(value, 16) if kinds[name] == "WORD" else bool(int(value, 2))
                 found.append((int(dt_ms), dict(inputs)))
+                for part in filter(None, map(str.strip, quiet.split(","))):
+                    many, _, ms = part.rpartition(" x ")
+                    found += [(int(ms), dict(inputs))] * int(many or 1)
             except (KeyError, ValueError):
                 raise Unjudged(f"{killer.property}: {line!r} is no scan of this machine") from None
         return found
@@ -163,11 +169,20 @@ def _all(count: int, seen: Seen) -> bool:
 
 
 def lines_of(scans: Sequence[Scan]) -> Iterator[str]:
-    """Scans as they stand in the file."""
+    """Scans as they stand in the file: one in which an input changes, then those in which none does."""
     before: Mapping[str, Value] = {}
+    lines: list[tuple[str, list[int]]] = []
     for dt_ms, given in scans:
-        yield f"{dt_ms}: {changed(before, given)}".rstrip()
+        changes = changed(before, given)
+        if changes or not lines:
+            lines.append((f"{dt_ms}: {changes}".rstrip(), []))
+        else:
+            lines[-1][1].append(dt_ms)
         before = given
+    for line, quiet in lines:
+        runs = [(ms, len(list(same))) for ms, same in groupby(quiet)]
+        rest = ", ".join(f"{many} x {ms}" if many > 1 else f"{ms}" for ms, many in runs)
+        yield f"{line}; {rest}" if rest else line
 
 
 def changed(before: Mapping[str, Any], values: Mapping[str, Any]) -> str:
@@ -185,7 +200,7 @@ def as_toml(killers: Sequence[Killer]) -> str:
     for killer in killers:
         scans = "\n".join(f"    {json.dumps(line)}," for line in killer.scans)
         lines.append(
-            f"[[killer]]\nproperty = {json.dumps(killer.property)}\nrow = {json.dumps(killer.row)}\n"
-            f"text = {json.dumps(killer.text)}\nscans = [\n{scans}\n]\n"
+            f"[[killer.{killer.property}]]\nin = {json.dumps(killer.row)}\n"
+            f"new = {json.dumps(killer.text)}\nscans = [\n{scans}\n]\n"
         )
     return "\n".join(lines)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from machines.composed_program import Watched
-from machines.wiring import Wiring, leaves
+from machines.signal_names import leaves
+from machines.wiring import Wiring
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import Member, Name, Place
 from programs.properties.property_file import Questions, parsed

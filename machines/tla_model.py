@@ -4,7 +4,7 @@ A scan is a row of steps in the order of the calls. A step calls standard blocks
 document; the last one also lets the observers look and judges the properties. A block of a document stands in
 it by its contract (`<name>Contract`), by the part of it that needs no memory, as a whole (`<name>Shows`), or
 as anything whatsoever. An input is chosen in the step that reads it first, and forgotten after the one that
-reads it last. Nothing is taken from the steps in Python. spec/machine_cell/blocks.toml says how a block is
+reads it last. Nothing is taken from the steps in Python. spec/machine_cell/tlc.toml says how a block is
 called.
 """
 
@@ -17,8 +17,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
+from machines.signal_names import names as leaves
 from machines.wiring import Wiring
-from machines.wiring import names as leaves
 from modeproof.ground.errors import Unjudged
 from modeproof.registers.typed import Entry, Text, typed
 from programs.language.tree import Binary, Expression, Member, Name, Place, Unary
@@ -34,7 +34,7 @@ PINS = {"R_TRIG": "Q", "F_TRIG": "Q", "SR": "Q1", "RS": "Q1"}
 
 
 class Block(Entry, frozen=True, kw_only=True):
-    """How the model calls a block of a document; blocks.toml says what each key means."""
+    """How the model calls a block of a document; tlc.toml says what each key means."""
 
     name: Text
     folder: Text
@@ -48,7 +48,7 @@ class Block(Entry, frozen=True, kw_only=True):
 
 
 class Blocks(Entry, frozen=True, kw_only=True):
-    """The file."""
+    """Of the file: [block.NAME]."""
 
     block: dict[str, Block]
 
@@ -59,7 +59,10 @@ def read_blocks(path: Path) -> Mapping[str, Block]:
         table = tomllib.loads(path.read_text("utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
-    return {name.upper(): row for name, row in typed(Blocks, {"block": table}, str(path)).block.items()}
+    return {
+        name.upper(): row
+        for name, row in typed(Blocks, {"block": table.get("block", {})}, str(path)).block.items()
+    }
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from machines.tla_module import Module
 from machines.verdicts import Machine
 from machines.wiring import Wiring, read_wiring
 from modeproof.ground.errors import Unjudged
-from modeproof.registers.typed import Count, Entry, Text, typed
+from modeproof.registers.typed import Count, Entry, Text, only_keys, typed_rows
 
 
 class Row(Entry, frozen=True, kw_only=True):
@@ -34,14 +34,18 @@ class Row(Entry, frozen=True, kw_only=True):
     rests: str = ""
     helped: str = ""
     words: Text = "{0}"
-    distinct: Count | None = None
-    generated: Count | None = None
+    counts: tuple[Count, Count] | None = None
+    """States of TLC with the shipped wiring: distinct, generated."""
 
+    @property
+    def distinct(self) -> int | None:
+        """The first of them."""
+        return self.counts[0] if self.counts else None
 
-class Rows(Entry, frozen=True, kw_only=True):
-    """The file."""
-
-    run: tuple[Row, ...]
+    @property
+    def generated(self) -> int | None:
+        """The second."""
+        return self.counts[1] if self.counts else None
 
 
 @dataclass(frozen=True)
@@ -66,17 +70,19 @@ def tasks(
     names = str(source), properties or folder / "safety.toml", use or folder / "use.toml"
     machine = Machine(source.read_text("utf-8"), *names, leave_out=properties is None)
     table = _looked_at(machine)
-    blocks, rest = read_blocks(folder / "blocks.toml"), read_use(machine.use).rest
+    blocks, rest = read_blocks(path), read_use(machine.use).rest
     try:
-        rows = typed(Rows, tomllib.loads(path.read_text("utf-8")), str(path)).run
+        declared = tomllib.loads(path.read_text("utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise Unjudged(f"{path}: cannot be read: {error}") from None
-    if not rows:
+    only_keys(str(path), declared, ("run", "block"))
+    if not declared.get("run"):
         raise Unjudged(f"{path}: declares no run")
+    rows = typed_rows(Row, str(path), declared, "run")
     for row in rows:
         name = row.rests or row.keeps or row.needs
         if name and name.upper() not in blocks:
-            raise Unjudged(f"{path}: {row.id}: no block {name!r} in blocks.toml")
+            raise Unjudged(f"{path}: {row.id}: no block {name!r} in it")
         if row.rests:
             yield _rested(row, blocks[name.upper()])
         elif name:
@@ -103,7 +109,7 @@ def model_of(machine: Machine, folder: Path) -> str:
     observers = _looked_at(machine).get("observer", {})
     there = {name: row for name, row in observers.items() if name in machine.watched.rows}
     asked = asked_of({"property": machine.questions.rows}, str(machine.properties))
-    model = Module(machine.wiring, read_blocks(folder / "blocks.toml"), there, asked)
+    model = Module(machine.wiring, read_blocks(folder / "tlc.toml"), there, asked)
     title = f"{machine.wiring.table.title}, over the contracts of its blocks."
     left = [f"Left out, for the wiring has no {lost}: {id}." for id, lost in machine.lacking.items()]
     return model.text("MachineCell", (title, *MADE, *left))

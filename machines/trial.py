@@ -18,8 +18,9 @@ from typing import Any
 import z3
 
 from machines.concrete_runs import Seen
+from machines.signal_names import names
 from machines.verdicts import Machine
-from machines.wiring import Wiring, names
+from machines.wiring import Wiring
 from modeproof.ground.errors import Unjudged
 from programs.invariants.houdini import Houdini
 from programs.language.tree import BOOL, TIME, Binary, Expression, Literal, Unary

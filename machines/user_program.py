@@ -18,8 +18,9 @@ from machines.candidate_invariants import Sample
 from machines.composed_program import observed
 from machines.concrete_runs import Inputs, Runner
 from machines.missing_names import EXPRESSIONS
+from machines.signal_names import leaves, names
 from machines.verdicts import Machine
-from machines.wiring import STANDARD, Wiring, leaves, names
+from machines.wiring import STANDARD, Wiring
 from modeproof.ground.errors import Unjudged, suggestion
 from programs.language.calls import inner_bodies
 from programs.language.tree import (

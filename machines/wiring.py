@@ -21,6 +21,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
+from machines.signal_names import names
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.registers.typed import Count, Entry, Text, typed
 from programs.language.standard_blocks import BLOCKS
@@ -434,23 +435,3 @@ def _check_matrix(wiring: Wiring) -> None:
                 raise wiring.refuse(f"matrix.{mode}", cause)
     if not table.modes:
         raise wiring.refuse("modes", "a cell has a mode")
-
-
-def leaves(tree: Expression) -> Iterator[Name | Member]:
-    """The inputs, signals and pins that an expression reads, from left to right."""
-    match tree:
-        case Name() | Member():
-            yield tree
-        case Unary(_, operand, _):
-            yield from leaves(operand)
-        case Binary(_, left, right, _):
-            yield from leaves(left)
-            yield from leaves(right)
-
-
-def names(tree: Expression) -> Iterator[str]:
-    """The inputs and signals in an expression, and the blocks whose outputs it reads."""
-    for leaf in leaves(tree):
-        of = leaf.of if isinstance(leaf, Member) else leaf
-        if isinstance(of, Name):
-            yield of.name

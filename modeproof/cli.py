@@ -8,7 +8,6 @@ from __future__ import annotations
 import _thread
 import argparse
 import contextlib
-import importlib
 import os
 import signal
 import sys
@@ -20,6 +19,7 @@ from typing import Any, NoReturn
 
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged, suggestion
 from modeproof.ground.places import root
+from modeproof.kit.by_name import module_named
 
 GROUPS = {
     "commands": {
@@ -172,7 +172,7 @@ class _Version(argparse.Action):
 def _add(commands: Any, name: str, module: str) -> None:
     """One command. If its packages are missing, the command says so when it is called."""
     try:
-        importlib.import_module(module).add_parser(commands)
+        module_named(module).add_parser(commands)
     except ImportError as error:
         cause = str(error)
 

@@ -1,6 +1,6 @@
 """Response times: a bound of the register, proved of the shipped step, and shown to be no longer than it is.
 
-Both functions take the bound from a row of response.toml, so it is typed there alone. A row with a smaller
+Both functions take the bound from a row of properties.toml, so it is typed there alone. A row with a smaller
 bound is refuted. With a greater one the control at the end finds no example, so nothing is proved either.
 """
 

@@ -6,7 +6,6 @@ the answer that we expect: `unsat` (no counterexample exists) or `sat` (an examp
 be met at all. `control` gives a `sat` query that must find an example, such as a planted fault.
 """
 
-import importlib
 import pkgutil
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from typing import Final, Literal
 
 import z3
 
+from modeproof.kit.by_name import module_named
 from modeproof.registers import Response, load_responses
 
 ROOT: Final = Path(__file__).parents[1]
@@ -68,13 +68,14 @@ class Theorem:
     """Ids of the response times of the document that it proves; `build` takes their rows in this order."""
 
     def rows(self) -> tuple[Response, ...]:
-        """The rows of response.toml that it proves. Raises TheoremError for an id that is not there."""
+        """The rows of properties.toml that it proves. Raises TheoremError for an id that is not there."""
         if not self.responses:
             return ()
         document = self.build.__module__.split(".")[1]
         found = {row.id: row for row in load_responses(ROOT, document).rows}
         if lost := [name for name in self.responses if name not in found]:
-            raise TheoremError(f"theorem {self.name}: spec/{document}/response.toml has no {', '.join(lost)}")
+            file = f"spec/{document}/properties.toml"
+            raise TheoremError(f"theorem {self.name}: {file} has no {', '.join(lost)}")
         return tuple(found[name] for name in self.responses)
 
     def queries(self) -> tuple[Query, ...]:
@@ -184,7 +185,7 @@ def theorems_of(document: str) -> tuple[Theorem, ...]:
     """
     room = f"proofs.{document}"
     try:
-        package = importlib.import_module(room)
+        package = module_named(room)
     except ModuleNotFoundError as error:
         if error.name is not None and (room == error.name or room.startswith(f"{error.name}.")):
             raise TheoremError(f"no theorems: there is no folder proofs/{document}") from error
@@ -202,6 +203,6 @@ def theorems_of(document: str) -> tuple[Theorem, ...]:
 
 def _own_theorems(module_name: str) -> Iterator[Theorem]:
     """Theorems written in this module; imported ones belong to their own module."""
-    for item in vars(importlib.import_module(module_name)).values():
+    for item in vars(module_named(module_name)).values():
         if isinstance(item, Theorem) and item.build.__module__ == module_name:
             yield item

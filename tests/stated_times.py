@@ -1,9 +1,8 @@
-"""The text of a response.toml for a toy document: a row with a bound, one without, and a chain."""
+"""What properties.toml of a toy document says of times: a row with a bound, one without, and a chain."""
 
 from __future__ import annotations
 
 ROWS = """
-document = "{document}"
 [example]
 cycle = {{ {device} = 10 }}
 times = {{ T_HOLD_ms = 200 }}

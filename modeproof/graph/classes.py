@@ -1,7 +1,7 @@
 """Which other values an input of the alphabet stands for, and a sample of them.
 
 An OPEN_ model tries one representative of a class of inputs, such as one word for all words that are no code.
-spec/<document>/classes.toml says which letters are representatives:
+spec/<document>/interface.toml says which letters are representatives:
 
     [[class]]
     device = "latch"
@@ -88,7 +88,7 @@ def load_classes(
 def load_copied(
     place: Path, document: str, device: str, alphabet: Sequence[Mapping[str, Any]]
 ) -> Copied | None:
-    """What a device passes on unread; None when classes.toml has no row of the rule `copied` for it.
+    """What a device passes on unread; None when interface.toml has no row of the rule `copied` for it.
 
     Raises Unjudged as `load_classes`, and where the alphabet lacks one of the words in one of the fields.
     """
@@ -114,14 +114,14 @@ def _rows(
     place: Path, document: str, device: str, alphabet: Sequence[Mapping[str, Any]]
 ) -> list[tuple[str, Mapping[str, Any]]]:
     """The rows of a device with their places, checked for what all rules have in common."""
-    path = place / "spec" / document / "classes.toml"
+    path = place / "spec" / document / "interface.toml"
     if not path.is_file():
         return []
     rows = read_toml(place, path).get("class", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise Unjudged(f"{path.name} of {document}: [[class]] tables were expected")
     found = [
-        (f"spec/{document}/classes.toml: class {n + 1}", row)
+        (f"spec/{document}/interface.toml: class {n + 1}", row)
         for n, row in enumerate(rows)
         if row.get("device") == device
     ]

@@ -116,7 +116,7 @@ def compared_rests(place: Path, run: Run, package: str) -> evidence.Rests:
     Raises Unjudged when a file is missing.
     """
     folder = place / "spec" / run.document
-    registers = [path for name in ("interface", "classes") if (path := folder / f"{name}.toml").is_file()]
+    registers = [path for path in [folder / "interface.toml"] if path.is_file()]
     assert run.graph is not None
     code = reached(place, f"{package}/{run.document}/{run.graph.device}.py")
     inputs = evidence.hashes(place, [*code, *registers, graph_file(place, run)])

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from modeproof.graph.values import ValueForms
 from modeproof.ground.errors import Unjudged
+from modeproof.kit.by_name import module_named
 from modeproof.registers.rows import Device
 
 Step = Callable[[Any, Any], tuple[Any, Any]]
@@ -46,7 +46,7 @@ def load_implementation(package: str, document: str, device: str) -> Implementat
     """The module `<package>.<document>.<device>`. Raises Unjudged when it cannot be used."""
     name = f"{package}.{document}.{device}"
     try:
-        module = importlib.import_module(name)
+        module = module_named(name)
     except ImportError as error:
         raise Unjudged(f"{name} cannot be imported: {error}") from None
     return from_module(module, name)

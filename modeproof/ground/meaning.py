@@ -34,7 +34,7 @@ _CFG_TOKEN = re.compile(r'"[^"\n]*"?|[^\s"]+')
 _WORD = re.compile(r"\w+")
 _DOTTED = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
 _FILE = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|tla|cfg|toml|json)")
-_BY_NAME = frozenset({"import_module", "__import__", "proofs_module", "-m"})
+_BY_NAME = frozenset({"import_module", "__import__", "module_named", "-m"})
 """Where one of these is called or given, any string of the file may be the name of a module that it needs."""
 _ERRORS = (OSError, EOFError, ValueError, SyntaxError, RecursionError, MemoryError, zlib.error)
 """What the readers below may raise for a file that is damaged."""

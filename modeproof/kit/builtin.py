@@ -15,6 +15,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
+from modeproof.kit.by_name import module_named
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.signals import Signal
 from modeproof.kit.vectors import EXACT, Case, Suite
@@ -39,7 +40,7 @@ class Builtin:
     def __init__(self, package: str, suite: Suite) -> None:
         name = f"{package}.{suite.document}.{suite.target}"
         try:
-            self.code = importlib.import_module(name)
+            self.code = module_named(name)
             self._params, self._inputs = self.code.Params, self.code.Inputs
             self._power_up, self._step = self.code.power_up, self.code.step
         except Exception as error:  # whatever the package does when it is imported

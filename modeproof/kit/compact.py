@@ -12,7 +12,6 @@ by column.
 
 from __future__ import annotations
 
-import importlib
 import json
 import sys
 from array import array
@@ -201,9 +200,10 @@ def _numbers(part: bytes, width: int) -> list[array[int]]:
 
 def _lzma() -> Any:
     try:
-        return importlib.import_module("lzma")
+        import lzma
     except ImportError:
         raise Unjudged("this Python was built without lzma, which the large suites need") from None
+    return lzma
 
 
 def same(lines: Iterable[bytes], data: bytes) -> bool:

@@ -6,12 +6,12 @@ The package has NAME.<document>.cell: `made_of(wiring)`, `power_up(cell)`,
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
 from modeproof.kit.builtin import REFERENCE, Builtin, beside_kit
+from modeproof.kit.by_name import module_named
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.vectors import EXACT, WIRING, Scan, Suite
 
@@ -24,7 +24,7 @@ class Wired:
 
     def __init__(self, package: str, document: str, wiring: Mapping[str, Any]) -> None:
         try:
-            self.code = importlib.import_module(f"{package}.{document}.cell")
+            self.code = module_named(f"{package}.{document}.cell")
             self.cell = self.code.made_of(wiring)
         except Exception as error:  # whatever the package does when it is imported
             said = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error

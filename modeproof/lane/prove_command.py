@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import fnmatch
 import functools
-import importlib
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -19,6 +18,7 @@ from modeproof.ground.options import add_command, write_json
 from modeproof.ground.places import add_document_option, chosen_documents, root
 from modeproof.ground.processes import Task, in_processes, meanwhile
 from modeproof.ground.progress import Progress
+from modeproof.kit.by_name import module_named
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents
@@ -177,7 +177,7 @@ def prove_documents(
         records += made[len(beside) :]
     for document in names:
         if whole and document not in troubles and _has_agreement(place, document):
-            module = importlib.import_module(f"proofs.{document}.agreement")
+            module = module_named(f"proofs.{document}.agreement")
             verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
             records.append(agreement.compare(place, document, module, verdicts, tools))
     return records, troubles
@@ -206,7 +206,7 @@ def _prepared(document: str) -> Iterator[float]:
     begun = time.process_time()
     with contextlib.ExitStack() as stack:
         with contextlib.suppress(Exception):
-            stack.enter_context(importlib.import_module(f"proofs.{document}.prepared").prepared())
+            stack.enter_context(module_named(f"proofs.{document}.prepared").prepared())
         yield time.process_time() - begun
 
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import argparse
 import ctypes
-import importlib
 import math
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
 
 SECONDS = 300
 """Limit of a search, of CPU time, where --seconds names no other."""
@@ -74,12 +73,13 @@ def run(args: argparse.Namespace) -> int:
     if not 0 < args.seconds < math.inf:
         raise Unjudged(f"--seconds {args.seconds:g}: a time above 0 is needed")
     try:
-        importlib.import_module("tree_sitter_iec61131_3_st")
+        import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
         raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
-    room = "prove_program" if args.property is None else "prove_properties"
+    with needing_solvers():
+        from programs.commands import prove_program, prove_properties
     try:
-        return int(proofs_module(f"programs.commands.{room}").run(args))
+        return prove_program.run(args) if args.property is None else prove_properties.run(args)
     except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
         if "recursion" not in f"{type(error).__name__} {error}".lower():
             raise

@@ -86,8 +86,8 @@ def rendered(document: Document) -> dict[str, str]:
     """The page of a document, and its chart where growth was measured."""
     place, name = document.root, document.name
     texts = {page_name(name): page(document, read_sources(document), _tables(document))}
-    if (document.folder / "scaling.toml").is_file():
-        texts[picture_name(name)] = chart(curves_of(place, name))
+    if curves := curves_of(place, name):
+        texts[picture_name(name)] = chart(curves)
     return texts
 
 

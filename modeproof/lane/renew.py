@@ -20,8 +20,8 @@ from modeproof.ground.lock import only_one
 from modeproof.ground.meaning import meaning, reached
 from modeproof.ground.places import add_document_option, chosen_documents, documents, machines, root
 from modeproof.ground.progress import Progress
-from modeproof.ground.proofs import proofs_module
 from modeproof.ground.reason import ask_reason, refuse_in_ci
+from modeproof.ground.solvers import needing_solvers
 from modeproof.lane.machine_command import judge_machine
 from modeproof.lane.renewal import Refused, Renewal, conform, renew_document, stale_of
 from modeproof.lane.staging import copied, finish
@@ -122,6 +122,8 @@ def _document(tree: Path, name: str, reason: Reason, progress: Progress) -> list
 
 def _machine(tree: Path, name: str, reason: Reason, progress: Progress) -> list[str]:
     """A machine of the project's own: its vectors, the edits that break its properties, its pins."""
+    with needing_solvers():
+        from machines.evidence import looked_at
     folder = tree / "spec" / name
     moved_pins = [one.place for one in check_machine_pins(tree, name)]
     sources = changed(tree, name) if (tree / ROOM / name).is_dir() else []
@@ -137,7 +139,7 @@ def _machine(tree: Path, name: str, reason: Reason, progress: Progress) -> list[
         record = judge_machine(tree, name)
         if not record["as_expected"]:
             raise Refused(f"{record['verdict']}: {record['reason']}")
-    elif troubles := proofs_module("machines.evidence").looked_at(folder):
+    elif troubles := looked_at(folder):
         raise Refused("\n".join(troubles))
     seal(tree, [name])
     return [*said, *(repin_machine(tree, name, reason(moved_pins)) if moved_pins else [])]
@@ -160,7 +162,8 @@ def _machine_vectors(tree: Path, name: str, progress: Progress) -> list[str]:
     folder, room = tree / "spec" / name, tree / ROOM / name
     said = []
     with tempfile.TemporaryDirectory(dir=tree) as place:
-        write = proofs_module("machines.vectors").write
+        with needing_solvers():
+            from machines.vectors import write
         made = {
             path.name: text
             for path, text in write(Path(place), folder / WIRED[0], folder / WIRED[1], progress.say)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import sys
 import time
 from pathlib import Path
@@ -12,7 +11,8 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.meaning import is_there, reached
 from modeproof.ground.places import build
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
+from modeproof.kit.by_name import module_named
 
 CODE = ("modeproof.lane.theorem", "proofs.runner")
 """What runs a theorem and judges the answers."""
@@ -20,9 +20,10 @@ CODE = ("modeproof.lane.theorem", "proofs.runner")
 
 def theorems_of(document: str) -> list[Any]:
     """The theorems of a document. Raises Unjudged when they cannot be imported."""
-    theorem = proofs_module("proofs.theorem")
+    with needing_solvers():
+        from proofs import theorem
     # libz3 refuses wrong sorts by itself; its Python layer would check every argument once more.
-    vars(importlib.import_module("z3.z3"))["Z3_DEBUG"] = False
+    vars(module_named("z3.z3"))["Z3_DEBUG"] = False
     try:
         return list(theorem.theorems_of(document))
     except (theorem.TheoremError, ImportError) as error:
@@ -53,7 +54,8 @@ def prove_theorem(
     if str(place) not in sys.path:
         sys.path.insert(0, str(place))
     one = next(theorem for theorem in theorems_of(document) if theorem.name == name)
-    runner = importlib.import_module("proofs.runner")
+    with needing_solvers():
+        from proofs import runner
     out = build(place) / "proofs" / document
     evidence.discard(place, document, name)
     started = time.time()

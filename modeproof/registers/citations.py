@@ -159,7 +159,7 @@ def _in_registers(document: Document, ids: Ids) -> Iterator[Citation]:
     for run in document.runs:
         yield _listed("run", "registers", document.source("runs"), run.id, run.clauses, run.findings, ids)
     for response in document.responses.rows:
-        source = document.source("response")
+        source = document.source("properties")
         yield _listed("response", "registers", source, response.id, response.clauses, (), ids)
     source = document.source("interface")
     for device in document.interface.devices.values():

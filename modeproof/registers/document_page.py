@@ -398,7 +398,7 @@ def _faults(document: Document) -> Iterator[str]:
                 fault.not_detected,
             ]
         )
-    more = f"[faults.toml](../{document.source('faults')}) and the report"
+    more = f"[assumptions.toml](../{document.source('assumptions')}) and the report"
     yield (
         f"## Faults from outside\n\n{summary.strip()}\n\nWhat holds under each, and its runs: {more}.\n\n"
         + markdown(["fault", "detected by", "fails, and what that takes", "detected by nothing"], rows)
@@ -406,10 +406,9 @@ def _faults(document: Document) -> Iterator[str]:
 
 
 def _growth(document: Document) -> Iterator[str]:
-    path = document.folder / "scaling.toml"
-    if not path.is_file():
+    data: dict[str, Any] = read_toml(document.root, document.folder / "runs.toml")
+    if "series" not in data:
         return
-    data: dict[str, Any] = read_toml(document.root, path)
     rows = []
     for series in data["series"]:
         points = [point for point in series["points"] if "distinct" in point]
@@ -424,7 +423,7 @@ def _growth(document: Document) -> Iterator[str]:
             ]
         )
     picture = Path(picture_name(document.name)).name
-    source = f"[scaling.toml](../spec/{document.name}/scaling.toml)"
+    source = f"[runs.toml](../{document.source('runs')})"
     yield (
         f"## How the model grows\n\n![distinct states and CPU seconds]({picture})\n\nMeasured on "
         f"{data['measured_on']}, one worker. All figures: {source}.\n\n"

@@ -17,7 +17,7 @@ def check_faults(document: Document) -> Iterator[Problem]:
     """Classes without a row, rows that name no run, and names that no other register has."""
     if not document.faults:
         return
-    file = document.source("faults")
+    file = document.source("assumptions")
     for missing in [
         name for name in get_args(FaultClass) if name not in {fault.kind for fault in document.faults}
     ]:

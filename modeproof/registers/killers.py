@@ -1,9 +1,9 @@
 """What makes each property fall: spec/<document>/killers.toml, and the negatives that try a reading.
 
 A property that no device could break says nothing. So each has a fault of a device's specification that makes
-it fall: a negative whose reading replaces one operator of a device, or one edit (`[[killer]]`). Where neither
-can be, a row says why (`[[by_construction]]`). `modeproof renew` judges the edits and writes a stamp for each
-to pins.toml: a hash of the edit, the text that it edits, and the text of the property.
+it fall: a negative whose reading replaces one operator of a device, or one edit (`[[killer.PROPERTY]]`).
+Where neither can be, a row says why (`[by_construction]`). `modeproof renew` judges the edits and writes a
+stamp for each to pins.toml: a hash of the edit, the text that it edits, and the text of the property.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from modeproof.registers.rows import Document, Problem, Property
 from modeproof.registers.runs import ASKING, Run
 from modeproof.registers.stale import stale
 from modeproof.registers.tla import Module, closure
-from modeproof.registers.typed import Entry, Name, RunId, Text, only_keys, typed, typed_rows
+from modeproof.registers.typed import Entry, Name, RunId, Text, grouped, only_keys, typed
 
 
 class Killer(Entry, frozen=True, kw_only=True):
     """One edit of a device's specification, and the property that falls with it.
 
-    `run` gives the model and its bounds, where no entry of `[bounds]` has this name; in `module` the text
+    `run` gives the model and its bounds, where no entry of `[bounds]` has this name; `in` a module the text
     `old`, which stands there once, becomes `new`. `slip` says what the programmer did wrong.
     """
 
     property: Name
     run: Name
-    module: Name
+    module: Name = msgspec.field(name="in")
     old: Text
     new: str
     slip: str = ""
@@ -51,20 +51,14 @@ class Bounds(Entry, frozen=True, kw_only=True):
     constants: dict[Name, Text] = msgspec.field(default_factory=dict)
 
 
-class ByConstruction(Entry, frozen=True, kw_only=True):
-    """A property that no edit of a device breaks, and why it is kept all the same."""
-
-    property: Name
-    reason: Text
-
-
 @dataclass(frozen=True)
 class Killers:
     """The file. `edits` are by their names: the property, with a number from its second edit on."""
 
     edits: Mapping[str, Killer]
     bounds: Mapping[str, Bounds]
-    by_construction: tuple[ByConstruction, ...]
+    by_construction: Mapping[str, str]
+    """Properties that no edit of a device breaks, and why they are kept all the same."""
 
 
 @dataclass(frozen=True)
@@ -86,18 +80,18 @@ def load_killers(root: Path, document: str) -> Killers:
     """The killers of a document; none where it has no such file. Raises Unjudged like `load_document`."""
     file = f"spec/{document}/killers.toml"
     if not (root / file).is_file():
-        return Killers({}, {}, ())
+        return Killers({}, {}, {})
     data = read_toml(root, root / file)
     only_keys(file, data, ("document", "bounds", "killer", "by_construction"))
     if data.get("document", document) != document:
         raise Unjudged(f"{file}: document is not the name of its folder, {document!r}")
     edits: dict[str, Killer] = {}
-    for killer in typed_rows(Killer, file, data, "killer") if "killer" in data else ():
+    for row in grouped(file, data, "killer", "property"):
+        killer = typed(Killer, row, f"{file}: killer.{row['property']}")
         same = sum(other.property == killer.property for other in edits.values())
         edits[killer.property + (f"_{same + 1}" if same else "")] = killer
     bounds = typed(dict[Name, Bounds], data.get("bounds", {}), f"{file}: [bounds]")
-    key = "by_construction"
-    reasons = typed_rows(ByConstruction, file, data, key) if key in data else ()
+    reasons = typed(dict[Name, Text], data.get("by_construction", {}), f"{file}: [by_construction]")
     return Killers(edits, bounds, reasons)
 
 
@@ -108,8 +102,8 @@ def ways_to_fall(document: Document, sources: Sources) -> dict[str, Falls]:
     for prop in document.properties:
         negatives = [run.id for run in document.runs if _is_killer(document, sources.modules, run, prop)]
         edits = [name for name, killer in killers.edits.items() if killer.property == prop.id]
-        reasons = [row.reason for row in killers.by_construction if row.property == prop.id]
-        found[prop.id] = Falls(tuple(negatives), tuple(edits), " ".join(reasons))
+        reason = killers.by_construction.get(prop.id, "")
+        found[prop.id] = Falls(tuple(negatives), tuple(edits), reason)
     return found
 
 
@@ -151,10 +145,10 @@ def check_killers(document: Document, sources: Sources) -> list[Problem]:
             text = f"is no property by construction: it falls with {[*falls.negatives, *falls.edits][0]}"
             problems.append(Problem(file, name, text))
     known = [prop.id for prop in document.properties]
-    for row in killers.by_construction:
-        if row.property not in known:
-            text = f"by construction: unknown property; {suggestion(row.property, known)}"
-            problems.append(Problem(file, row.property, text))
+    for name in killers.by_construction:
+        if name not in known:
+            text = f"by construction: unknown property; {suggestion(name, known)}"
+            problems.append(Problem(file, name, text))
     asked = {killer.run for killer in killers.edits.values()}
     spare = (name for name in killers.bounds if name not in asked)
     problems += [Problem(file, f"bounds.{name}", "no edit is judged within these bounds") for name in spare]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -19,19 +20,21 @@ from modeproof.registers.rows import (
     Document,
     Example,
     Fault,
+    Faults,
     Finding,
     Interface,
-    Matrix,
     Property,
     Response,
     Responses,
     Signal,
 )
 from modeproof.registers.runs import load_runs
-from modeproof.registers.typed import Table, only_keys, typed, typed_rows
+from modeproof.registers.typed import DEFAULT, Table, only_keys, tables, typed, typed_rows
 
 Row = TypeVar("Row")
 SIGNALS = ("memory", "inputs", "outputs", "parameters")
+TIMES = ("response", "chain", "example")
+"""What properties.toml has besides properties: how soon a device answers, and chains of that."""
 
 
 def load_document(root: Path, name: str) -> Document:
@@ -43,35 +46,45 @@ def load_document(root: Path, name: str) -> Document:
     """
     if not (root / "spec" / name).is_dir():
         raise Unjudged(f"spec/{name}: no such document; {suggestion(name, documents(root))}")
-    has_faults = (root / "spec" / name / "faults.toml").exists()
-    faults = read_register(root, name, "faults", "fault", "summary", "matrix") if has_faults else {}
-    at_faults = f"spec/{name}/faults.toml"
+    clauses = read_register(root, name, "clauses", "paper", "chapter", "clause")
+    assumed = read_register(root, name, "assumptions", "assumption", "fault", "faults")
+    at_faults = f"spec/{name}/assumptions.toml"
+    faults = typed(Faults, assumed.get("faults", {}), f"{at_faults}: [faults]")
     return Document(
         root=root,
         name=name,
-        about=typed(About, read_register(root, name, "document"), f"spec/{name}/document.toml"),
-        clauses=_rows(root, name, "clauses", "clause", Clause),
+        about=typed(About, clauses.get("paper", {}), f"spec/{name}/clauses.toml: [paper]"),
+        clauses=tuple(_clauses(f"spec/{name}/clauses.toml", clauses)),
         interface=load_interface(root, name),
         properties=tuple(
             prop if prop.tla else msgspec.structs.replace(prop, tla=prop.id)
-            for prop in _rows(root, name, "properties", "property", Property)
+            for prop in _rows(root, name, "properties", "property", Property, *TIMES)
         ),
         findings=_rows(root, name, "findings", "finding", Finding),
-        assumptions=_rows(root, name, "assumptions", "assumption", Assumption),
+        assumptions=typed_rows(Assumption, at_faults, assumed, "assumption"),
         runs=load_runs(root, name),
-        faults=typed_rows(Fault, at_faults, faults, "fault") if has_faults else (),
-        faults_summary=faults.get("summary", ""),
-        matrix=typed(Matrix, faults["matrix"], f"{at_faults}: matrix") if "matrix" in faults else None,
+        faults=typed_rows(Fault, at_faults, assumed, "fault") if "fault" in assumed else (),
+        faults_summary=faults.summary,
+        matrix=faults.matrix,
         responses=load_responses(root, name),
     )
 
 
+def _clauses(source: str, data: Table) -> Iterator[Clause]:
+    """The clauses; what those of a chapter have in common stands in [chapter.ID], by how their ids begin."""
+    chapters = typed(dict[str, dict[str, str]], data.get("chapter", {}), f"{source}: [chapter]")
+    for id, row in tables(source, {**data, DEFAULT: {}}, "clause").items():
+        own = next((common for begin, common in chapters.items() if id.startswith(f"{begin}-")), {})
+        usual = data.get(DEFAULT, {}).get("clause", {})
+        yield typed(Clause, {**usual, **own, **row}, f"{source}: [[clause]] {id}")
+
+
 def load_responses(root: Path, name: str) -> Responses:
-    """The response times of a document; empty without a file. Raises Unjudged like `load_document`."""
-    source = f"spec/{name}/response.toml"
-    if not (root / source).is_file():
+    """The response times of a document; empty where it states none. Raises Unjudged like `load_document`."""
+    source = f"spec/{name}/properties.toml"
+    table = read_register(root, name, "properties", "property", *TIMES)
+    if "response" not in table:
         return Responses()
-    table = read_register(root, name, "response", "response", "chain", "example")
     return Responses(
         source,
         typed_rows(Response, source, table, "response"),
@@ -97,14 +110,16 @@ def read_register(root: Path, name: str, register: str, *keys: str) -> dict[str,
     return data
 
 
-def _rows(root: Path, name: str, register: str, key: str, kind: type[Row]) -> tuple[Row, ...]:
-    return typed_rows(kind, f"spec/{name}/{register}.toml", read_register(root, name, register, key), key)
+def _rows(root: Path, name: str, register: str, key: str, kind: type[Row], *others: str) -> tuple[Row, ...]:
+    """The rows of one key; `others` are what the register may have besides."""
+    table = read_register(root, name, register, key, *others)
+    return typed_rows(kind, f"spec/{name}/{register}.toml", table, key)
 
 
 def load_interface(root: Path, name: str) -> Interface:
     """The names that a document declares; needs no other register. Raises Unjudged like `load_document`."""
     source = f"spec/{name}/interface.toml"
-    table = read_register(root, name, "interface", "constants", "devices")
+    table = read_register(root, name, "interface", "constants", "devices", "class")
     devices = table.get("devices")
     if not isinstance(devices, dict) or not devices:
         raise Unjudged(f"{source}: there is no [devices.NAME]")

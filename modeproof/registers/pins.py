@@ -222,7 +222,7 @@ def _saying_nothing(document: Document, sources: Sources) -> Iterator[Problem]:
 
 def _proved(document: Document, sources: Sources) -> Texts:
     """For each theorem: its text, and that of everything in the room of the document that it refers to."""
-    room = f"proofs.{document.name}"
+    room = ".".join(("proofs", document.name))
     scopes = {module.name: _scope(module, room) for module in sources.proofs}
 
     @cache

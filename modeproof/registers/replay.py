@@ -1,4 +1,4 @@
-"""The register replay.toml: how a recorded trace of a document is read as scans and replayed.
+"""The register replay.toml: how traces and logs of a document are read as scans.
 
 A document without the file has no rendered traces.
 """
@@ -12,7 +12,18 @@ from typing import Annotated
 from msgspec import Meta, field
 
 from modeproof.registers.load import read_register
-from modeproof.registers.typed import Entry, LowerName, Name, Names, SomeNames, SomeTexts, Text, typed
+from modeproof.registers.typed import (
+    Entry,
+    LowerName,
+    Name,
+    Names,
+    SomeNames,
+    SomeTexts,
+    Table,
+    Text,
+    tables,
+    typed,
+)
 
 
 class Words(Entry, frozen=True, kw_only=True):
@@ -51,8 +62,8 @@ class Top(Entry, frozen=True, kw_only=True):
     `columns` are those of a table: signals, vectors, variables; a device stands for its state.
     """
 
-    next: Name
-    wires: Name
+    next: Name = "OpenNext"
+    wires: Name = "Wires"
     columns: SomeNames
     inputs: dict[LowerName, Text]
 
@@ -62,8 +73,8 @@ class Traces(Entry, frozen=True, kw_only=True):
     is true, and `with_step` are the variables written with it.
     """
 
-    step: Name
-    recorded: Name
+    step: Name = "step"
+    recorded: Name = "RECORD_STEPS"
     with_step: Names = ()
     nobody: dict[str, str] = field(default_factory=dict)
     words: tuple[Words, ...] = field(default=(), name="word")
@@ -75,6 +86,14 @@ class Traces(Entry, frozen=True, kw_only=True):
 def has_replay(root: Path, name: str) -> bool:
     """Whether the document has the register."""
     return (root / "spec" / name / "replay.toml").is_file()
+
+
+def load_targets(root: Path, name: str) -> dict[str, Table]:
+    """What logs can be of ([target.ID]), as plain tables by their ids; none without the register."""
+    if not has_replay(root, name):
+        return {}
+    data = read_register(root, name, "replay")
+    return dict(tables(f"spec/{name}/replay.toml", data, "target")) if "target" in data else {}
 
 
 def meanings(
@@ -93,4 +112,6 @@ def meanings(
 
 def load_replay(root: Path, name: str) -> Traces:
     """The register of one document. Raises Unjudged with one line when it is missing or wrong."""
-    return typed(Traces, read_register(root, name, "replay"), f"spec/{name}/replay.toml")
+    data = read_register(root, name, "replay")
+    data.pop("target", None)
+    return typed(Traces, data, f"spec/{name}/replay.toml")

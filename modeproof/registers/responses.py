@@ -32,7 +32,7 @@ class Bound:
 
 def check_responses(document: Document, sources: Sources) -> list[Problem]:
     """Rows without a proof, proofs without a row, unknown names, examples that leave something out."""
-    file = document.source("response")
+    file = document.source("properties")
     problems = [Problem(file, place, text) for place, text in _faults(document, sources)]
     known = [row.id for row in document.responses.rows]
     for module in sources.proofs:
@@ -200,7 +200,7 @@ def section(document: Document, sources: Sources) -> Iterator[str]:
     ]
     yield (
         f"## Response times\n\n{EXPLAINED}\n\nThe example has {example_of(document)}. Register: "
-        f"[response.toml](../{document.source('response')}).\n\n"
+        f"[properties.toml](../{document.source('properties')}).\n\n"
         + markdown(["id", "from, to", "longest time", "example", "theorem"], rows)
     )
     if chains := chain_bounds(document):

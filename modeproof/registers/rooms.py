@@ -22,7 +22,7 @@ ORDINARY = frozenset({"ERROR"})
 
 @dataclass(frozen=True)
 class Rule:
-    """Which of our packages the files below a folder may import; `stdlib_only` forbids all others too."""
+    """Which of our folders and files those below a folder may import; `stdlib_only`: no other packages."""
 
     folder: str
     allowed: tuple[str, ...]
@@ -31,66 +31,60 @@ class Rule:
 
 RULES = (
     Rule("refimpl", ("refimpl",), stdlib_only=True),
-    Rule("scenes", ("scenes", "refimpl", "modeproof.simulate.program"), stdlib_only=True),
-    Rule("modeproof/simulate/program", ("modeproof.simulate.program",)),
-    Rule("proofs", ("proofs", "refimpl", "modeproof.registers")),
-    Rule("programs", ("programs", "proofs", "modeproof.registers", "modeproof.ground", "modeproof.kit")),
+    Rule("scenes", ("scenes", "refimpl", "modeproof/simulate/program"), stdlib_only=True),
+    Rule("modeproof/simulate/program", ("modeproof/simulate/program",)),
+    Rule("proofs", ("proofs", "refimpl", "modeproof/registers", "modeproof/kit/by_name")),
+    Rule("programs", ("programs", "proofs", "modeproof/registers", "modeproof/ground", "modeproof/kit")),
     Rule(
         "machines",
         (
-            *("machines", "programs", "modeproof.registers", "modeproof.ground", "modeproof.kit"),
-            *("refimpl.machine_cell", "refimpl.errors"),
+            *("machines", "programs", "modeproof/registers", "modeproof/ground", "modeproof/kit"),
+            *("refimpl/machine_cell", "refimpl/errors"),
         ),
     ),
-    Rule("modeproof/kit", ("modeproof.kit",), stdlib_only=True),
+    Rule("modeproof/kit", ("modeproof/kit",), stdlib_only=True),
     Rule(
         "modeproof/report",
         (
-            "modeproof.report",
-            "modeproof.registers",
-            "modeproof.ground.evidence",
-            "modeproof.ground.errors",
-            "modeproof.ground.meaning",
-            "modeproof.ground.places",
-            "modeproof.ground.progress",
-            *(
-                "modeproof.ground.proofs",
-                "modeproof.tlc.run_judge_again",
-                "modeproof.graph.equal",
-            ),  # judged again
+            *("modeproof/report", "modeproof/registers", "modeproof/ground/evidence"),
+            *("modeproof/ground/errors", "modeproof/ground/meaning"),
+            *("modeproof/ground/places", "modeproof/ground/progress"),
+            # What judges evidence again
+            *("proofs/verdict", "modeproof/tlc/run_judge_again", "modeproof/graph/equal"),
         ),
     ),
     Rule(
         "modeproof/registers",
         (
-            "modeproof.registers",
-            *("modeproof.ground.errors", "modeproof.ground.evidence.files"),
-            *("modeproof.ground.comments", "modeproof.ground.meaning"),
-            *("modeproof.ground.places", "modeproof.ground.progress", "modeproof.ground.reason"),
+            "modeproof/registers",
+            *("modeproof/ground/errors", "modeproof/ground/evidence/files"),
+            *("modeproof/ground/comments", "modeproof/ground/meaning"),
+            *("modeproof/ground/places", "modeproof/ground/progress", "modeproof/ground/reason"),
         ),
     ),
 )
 
-ORDER = (
-    *(
-        "kit",
-        "s7",
-        "ground",
-        "registers",
-        "tlc",
-        "graph",
-        "suites",
-        "strength",
-        "trace",
-        "report",
-        "simulate",
-        "lane",
-    ),
-    "cli",
+ROOMS = (
+    "refimpl",
+    *("modeproof/kit", "modeproof/s7", "modeproof/ground", "modeproof/registers"),
+    "proofs",
+    *("modeproof/tlc", "modeproof/graph", "modeproof/suites", "modeproof/strength", "modeproof/trace"),
+    *("programs/language", "programs/semantics", "programs/readers", "programs/invariants"),
+    *("programs/equality", "programs/properties", "programs/certificates", "programs/commands"),
+    "machines",
+    "modeproof/report",
+    *("modeproof/simulate/program", "scenes", "modeproof/simulate/program/page", "modeproof/simulate"),
+    *("modeproof/lane", "modeproof/cli", "modeproof/__main__"),
 )
-"""The rooms of modeproof/ from the ground up: a module imports from its own room and from those before it."""
+"""Every room from the ground up: a module imports from its own room and from those before it."""
 
-PROOFS_REACHED_FROM = ("modeproof/lane/", "proofs/", "tests/")
+BY_NAME = ("modeproof/kit/by_name.py", "modeproof/simulate/program/by_name.py")
+"""The only files that import by a name which data give; the second is of the page, which has no kit."""
+LOADERS = frozenset({"import_module", "__import__"})
+_BY_STRING = re.compile(
+    r"import_module|__import__|[\"'](?:modeproof|refimpl|scenes|proofs|programs|machines)\."
+)
+"""In the text of every module whose strings have to be looked into."""
 
 
 def check_imports(root: Path) -> list[Problem]:
@@ -103,57 +97,91 @@ def check_imports(root: Path) -> list[Problem]:
                 if not _allowed(rule, name):
                     text = f"line {line}: imports {name}; {rule.folder} may import {_words(rule)}"
                     problems.append(Problem(shown(root, path), "", text))
-    for path in sorted((root / "modeproof").rglob("*.py")):
-        file = shown(root, path)
-        if not file.startswith(PROOFS_REACHED_FROM):
-            for line, name in imports(path):
-                if name.split(".")[0] == "proofs":
-                    problems.append(
-                        Problem(file, "", f"line {line}: imports {name}; only modeproof/lane reaches proofs")
-                    )
     return problems
 
 
 def check_order(root: Path) -> list[Problem]:
-    """Every import of modeproof/ that runs upward, and a problem for each circle of imports."""
+    """Every import of the whole tree that runs upward, each circle of imports, and every import by a name
+    outside `BY_NAME`. Imports within functions count, and so do modules that a string names.
+    """
+    tops = sorted({room.split("/")[0] for room in ROOMS})
     files = {
         ".".join(path.relative_to(root).with_suffix("").parts).removesuffix(".__init__"): path
-        for path in sorted((root / "modeproof").rglob("*.py"))
+        for top in tops
+        for path in sorted((root / top).rglob("*.py"))
     }
     problems: list[Problem] = []
     imports: dict[str, set[str]] = {}
     for module, path in files.items():
-        own = _height(module)
+        file = shown(root, path)
+        text = read_text(root, path)
+        tree = ast.parse(text if _BY_STRING.search(text) else "")
         names = {name for _, name in _imports(root, path, submodules=frozenset(files))}
-        imports[module] = {name for name in names if name in files and name != module}
-        for name in sorted(names):
-            if name.startswith("modeproof.") and own < _height(name) < len(ORDER):
-                text = f"imports {name}, which stands above it in the order of rooms"
-                problems.append(Problem(shown(root, path), "", text))
+        said = set(_said(tree))
+        imports[module] = {name for name in names | said if name in files and name != module}
+        own = _height(module)
+        if own is None and len(imports[module]) > 0:
+            problems.append(Problem(file, "", "is in no room; modeproof/registers/rooms.py lists them"))
+        for name in sorted(names | said):
+            height = _height(name) if name.split(".")[0] in tops else None
+            if own is not None and height is not None and own < height:
+                what = f"imports {name}, which stands above it in the order of rooms"
+                problems.append(Problem(file, "", what))
+        if file not in BY_NAME:
+            problems += [
+                Problem(file, "", f"line {line}: {name}; what data name is imported by {BY_NAME[0]}")
+                for line, name in _loaders(tree)
+            ]
     try:
         TopologicalSorter(imports).prepare()
     except CycleError as error:
         circle = " -> ".join(error.args[1])
-        problems.append(Problem("modeproof", "", f"imports in a circle: {circle}"))
+        place = error.args[1][0].split(".")[0]
+        problems.append(Problem(place, "", f"imports in a circle: {circle}"))
     return problems
 
 
-def _height(module: str) -> int:
-    """The place of a module's room in the order. A module in no room (`__main__`) stands above all rooms."""
-    room = module.split(".")[1] if "." in module else ORDER[0]
-    return ORDER.index(room) if room in ORDER else len(ORDER)
+def _height(module: str) -> int | None:
+    """The place of a module's room in the order; None: it is in none, as the folder of several rooms."""
+    parts = module.split(".")
+    rooms = ["/".join(parts[:length]) for length in range(len(parts), 0, -1)]
+    return next((ROOMS.index(room) for room in rooms if room in ROOMS), None)
+
+
+def _said(tree: ast.AST) -> Iterator[str]:
+    """What strings of a module may name: all that are dotted names, and how each f-string begins."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.JoinedStr):
+            first = node.values[0] if node.values else None
+            if isinstance(first, ast.Constant) and (match := _BEGINS.match(str(first.value))):
+                yield match[1]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and _DOTTED.match(node.value):
+            yield node.value
+
+
+_DOTTED = re.compile(r"[a-z]\w*(?:\.\w+)+\Z", re.ASCII)
+_BEGINS = re.compile(r"([a-z]\w*(?:\.\w+)*)\.\Z", re.ASCII)
+
+
+def _loaders(tree: ast.AST) -> Iterator[tuple[int, str]]:
+    """Where a module mentions what imports by a name."""
+    for node in ast.walk(tree):
+        name = node.id if isinstance(node, ast.Name) else node.attr if isinstance(node, ast.Attribute) else ""
+        names = [alias.name for alias in node.names] if isinstance(node, ast.ImportFrom) else [name]
+        yield from ((getattr(node, "lineno", 1), one) for one in names if one in LOADERS)
 
 
 def _allowed(rule: Rule, name: str) -> bool:
     top = name.split(".")[0]
     if top in OURS:
-        return any(name == package or name.startswith(f"{package}.") for package in rule.allowed)
+        path = name.replace(".", "/")
+        return any(path == room or path.startswith(f"{room}/") for room in rule.allowed)
     return not rule.stdlib_only or top in sys.stdlib_module_names
 
 
 def _words(rule: Rule) -> str:
     others = "the standard library" if rule.stdlib_only else "any installed package"
-    return f"{', '.join(rule.allowed)} and {others}"
+    return f"{', '.join(room.replace('/', '.') for room in rule.allowed)} and {others}"
 
 
 def _imports(root: Path, path: Path, submodules: frozenset[str] = frozenset()) -> Iterator[tuple[int, str]]:

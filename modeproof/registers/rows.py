@@ -153,7 +153,7 @@ class Property(Entry, frozen=True, kw_only=True):
     module: Name
     kind: Literal["invariant", "action", "liveness", "refinement"]
     environments: Annotated[tuple[LowerName, ...], Meta(min_length=1)]
-    antecedent: str
+    antecedent: str = ""
     tla: str = ""
     findings: tuple[RowId, ...] = ()
     profiles: tuple[Literal["letter", "cautious"], ...] = (
@@ -298,6 +298,13 @@ class Matrix(Entry, frozen=True, kw_only=True):
 
     run: RunId
     title: Text
+
+
+class Faults(Entry, frozen=True, kw_only=True):
+    """What is said of the faults from outside together."""
+
+    summary: str = ""
+    matrix: Matrix | None = None
 
 
 @dataclass(frozen=True)

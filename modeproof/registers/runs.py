@@ -159,7 +159,7 @@ def load_runs(root: Path, document: str) -> tuple[Run, ...]:
     data = read_toml(root, root / "spec" / document / "runs.toml")
     if data.pop("document", document) != document:
         raise Unjudged(f"{source}: document is not the name of its folder, {document!r}")
-    only_keys(source, data, ("document", "constants", "moved", "run", "based"))
+    only_keys(source, data, ("document", "constants", "moved", "run", "based", "series", "measured_on"))
     rows = dict(_rows(source, data))
     found = {name: _run(document, source, values) for name, values in rows.items() if "base" not in values}
     for name, values in rows.items():

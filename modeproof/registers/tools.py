@@ -14,7 +14,7 @@ from modeproof.registers.files import read_toml
 from modeproof.registers.runs import Kind
 from modeproof.registers.typed import Count, Entry, SomeTexts, Text, only_keys, typed_rows
 
-SOURCE = "docs/tools.toml"
+SOURCE = "docs/report.toml"
 Link = Annotated[str, Meta(pattern="^https://[^ ]+$", description="an address that begins with https://")]
 
 
@@ -88,9 +88,11 @@ class Tools:
 
 
 def load_tools(root: Path) -> Tools:
-    """Read the register. Raises Unjudged with one line when it is missing or wrong."""
+    """Read the register; it may state none. Raises Unjudged with one line when it is missing or wrong."""
     data = read_toml(root, root / SOURCE)
-    only_keys(SOURCE, data, ("check", "problem"))
+    only_keys(SOURCE, data, ("check", "problem", "term"))
+    if not {"check", "problem"} & set(data):
+        return Tools((), ())
     found = Tools(typed_rows(Check, SOURCE, data, "check"), typed_rows(ToolProblem, SOURCE, data, "problem"))
     for problem in found.problems:
         if len(problem.holds) != len(problem.holding):

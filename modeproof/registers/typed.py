@@ -103,6 +103,20 @@ def tables(source: str, data: Table, key: str) -> dict[str, Table]:
     return dict(zip(ids, rows, strict=True))
 
 
+def grouped(source: str, data: Table, key: str, name: str) -> list[Table]:
+    """The rows of lists by a name ([[key.NAME]]), each with that name under `name` and with its default.
+
+    Raises Unjudged for what is no such list.
+    """
+    found = data.get(key, {})
+    if not isinstance(found, dict) or not all(
+        isinstance(rows, list) and all(isinstance(row, dict) for row in rows) for rows in found.values()
+    ):
+        raise Unjudged(f"{source}: `{key}` must be a list of tables for each name ([[{key}.NAME]])")
+    usual = data.get(DEFAULT, {}).get(key, {})
+    return [{name: id, **usual, **row} for id, rows in found.items() for row in rows]
+
+
 def typed_rows(kind: type[Row], source: str, data: Table, key: str) -> tuple[Row, ...]:
     """The rows of such a list. Raises Unjudged like `tables` and `typed`."""
     return tuple(

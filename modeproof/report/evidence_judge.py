@@ -13,10 +13,10 @@ from typing import Any
 
 from modeproof.graph.equal import Comparison
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.proofs import proofs_module
 from modeproof.registers.rows import Document
 from modeproof.report.verdicts import verdict_on_machine
 from modeproof.tlc.run_judge_again import doubt
+from proofs.verdict import judge
 
 Record = Mapping[str, Any]
 
@@ -64,7 +64,7 @@ def _tlc(place: Path, document: Document, record: Record) -> str:
 
 def _proof(place: Path, document: Document, record: Record) -> str:
     queries = [SimpleNamespace(**query) for query in record["result"]["queries"]]
-    verdict, reason = proofs_module("proofs.verdict").judge(queries)
+    verdict, reason = judge(queries)
     return "" if verdict == record["verdict"] else f"its queries give {verdict}, {reason}"
 
 

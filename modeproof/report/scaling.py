@@ -1,4 +1,4 @@
-"""The chart of how a model grows, from the figures in spec/<document>/scaling.toml."""
+"""The chart of how a model grows, from the series of runs in spec/<document>/runs.toml."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ class Curve:
 
 
 def curves_of(place: Path, document: str) -> list[Curve]:
-    """The series of a document. Raises Unjudged when the file is missing or lacks something."""
-    source = f"spec/{document}/scaling.toml"
+    """The series of a document, if there are any. Raises Unjudged when one lacks something."""
+    source = f"spec/{document}/runs.toml"
     try:
         data = tomllib.loads((place / source).read_text(encoding="utf-8"))
         return [
@@ -48,7 +48,7 @@ def curves_of(place: Path, document: str) -> list[Curve]:
                     for name in FIGURES
                 },
             )
-            for series in data["series"]
+            for series in data.get("series", ())
         ]
     except (OSError, ValueError) as error:
         raise Unjudged(f"{source}: {error}") from None

@@ -1,4 +1,4 @@
-"""Terms of the field, from docs/glossary.toml; where a part uses one first, the word leads to its meaning."""
+"""Terms of the field, from docs/report.toml; where a part uses one first, the word leads to its meaning."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from markupsafe import Markup, escape
 
 from modeproof.report.sources import HOLE, Sources, Trouble
 
-REGISTER = "docs/glossary.toml"
+REGISTER = "docs/report.toml"
 PART = "glossary"
 _TAG = re.compile(r"(<[^>]*>)")
 _NAME = re.compile(r"</?([a-zA-Z0-9]+)")

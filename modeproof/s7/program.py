@@ -18,7 +18,6 @@ inputs are: see docs/s7.md. What was written is put back at the end, but for @sc
 from __future__ import annotations
 
 import contextlib
-import importlib
 import logging
 import sys
 import time
@@ -103,7 +102,7 @@ def connect(address: str, map_file: Path, suite: Suite, timeout_s: float = 10.0)
     places = read_map(map_file, suite.inputs, suite.outputs, parameters)
     defaults = {name: row.get("default") for name, row in suite.parameters.items()}
     try:
-        snap7 = importlib.import_module("snap7")
+        import snap7
     except ImportError:
         raise Unjudged("--s7 needs python-snap7: pip install 'python-snap7>=3.3,<4'") from None
     logging.getLogger("snap7").setLevel(logging.CRITICAL + 1)  # what goes wrong is said once, by us

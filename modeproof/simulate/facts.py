@@ -94,16 +94,16 @@ def _copy(document: Document, device: Device, edited: str = "") -> str:
 
 
 def _readings(document: Document) -> dict[str, Any]:
-    """Programs of other readings: the shipped text with the edits of scenes/<document>/readings.toml.
+    """Programs of other readings: the shipped text with the edits of scenes/<document>/stories.toml.
 
     Raises Unjudged where no finding tries the reading, or a text to be edited does not stand there just once.
     """
-    path = document.root / "scenes" / document.name / "readings.toml"
+    path = document.root / "scenes" / document.name / "stories.toml"
     if not path.is_file():
         return {}
     tried = {name for finding in document.findings for name in finding.tries}
     made: dict[str, Any] = {}
-    for reading in tomllib.loads(path.read_text(encoding="utf-8"))["reading"]:
+    for reading in tomllib.loads(path.read_text(encoding="utf-8")).get("reading", ()):
         id, device = reading["id"], document.interface.devices[reading["device"]]
         if id not in tried:
             raise Unjudged(f"{path}: {id}: no finding tries this reading")

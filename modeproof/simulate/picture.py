@@ -5,7 +5,6 @@ The SVG is drawn from what the scenes show, which run here in Python; scenes/<do
 
 from __future__ import annotations
 
-import importlib
 import os
 import shutil
 import textwrap
@@ -16,6 +15,7 @@ from typing import Any
 import jinja2
 
 from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.kit.by_name import module_named
 from modeproof.registers.load import load_document
 from modeproof.simulate import facts
 from modeproof.simulate.program.play import actions
@@ -37,7 +37,7 @@ def svg(place: Path, id: str) -> str:
     if not (place / "scenes" / name / "story.svg.j2").is_file():
         raise Unjudged(f"scenes/{name}/story.svg.j2 is missing; it draws the stories of {name}")
     known = facts.of_document(load_document(place, name))
-    scene = importlib.import_module(f"scenes.{name}.scene").Scene
+    scene = module_named(f"scenes.{name}.scene").Scene
     cells = [
         (cell["title"], scene(known, cell["params"]))
         for cell in story.get("cell", [{"title": "", "params": {}}])

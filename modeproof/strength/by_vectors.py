@@ -51,7 +51,9 @@ OBSERVER_S = 600.0
 class Copies(Protocol):
     """What makes a copy of a package with one definition changed: see proofs/mutants/copies.py."""
 
-    CopyError: type[Exception]
+    @property
+    def CopyError(self) -> type[Exception]:
+        """What it raises."""
 
     def Change(self, module: str, definition: str, text: str, lines: tuple[int, int] | None) -> Any:
         """A change."""

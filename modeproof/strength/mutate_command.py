@@ -17,7 +17,7 @@ from modeproof.ground.lock import only_one
 from modeproof.ground.places import chosen_documents, documents, root
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
-from modeproof.ground.proofs import code_under_proof, copies_of_code, observer_of_code
+from modeproof.ground.solvers import needing_solvers
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.strength.campaign import (
     Campaign,
@@ -164,7 +164,9 @@ def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first
     from modeproof.strength.by_theorems import ByTheorems
     from modeproof.strength.code import Code
 
-    theorems = ByTheorems(Code(place, document, code_under_proof()))
+    with needing_solvers():
+        from proofs.mutants import bench as code_under_proof
+    theorems = ByTheorems(Code(place, document, code_under_proof))
     if kind == "impl":
         return Campaign(theorems, results)
     from modeproof.strength.by_vectors import ByVectors
@@ -177,7 +179,9 @@ def campaign_of(place: Path, document: str, kind: str, quiet: bool = True, first
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     proved = read_results(results_path(place, document, "impl"))
-    return Campaign(ByVectors(theorems, copies_of_code(), observer_of_code(), suites, proved), results)
+    with needing_solvers():
+        from proofs.mutants import copies, observed
+    return Campaign(ByVectors(theorems, copies, observed, suites, proved), results)
 
 
 def chosen_of(campaign: Campaign, args: argparse.Namespace) -> list[Mutant]:

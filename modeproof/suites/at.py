@@ -4,7 +4,7 @@ A specification counts time in ticks. How long a tick is, it does not say: a gra
 is that of a program with 200 ms in scans of 100 ms, and of one with 66 s in scans of 33 s. So the same graph
 does for all parameters whose times are in the same proportion. That does not go where a tick is one
 millisecond: such a specification may name lengths in milliseconds. For other proportions, and for other
-choices, TLC makes a graph, with the constants that traces.toml gives for the parameters.
+choices, TLC makes a graph, with the constants that replay.toml gives for the parameters.
 """
 
 from __future__ import annotations
@@ -28,8 +28,9 @@ from modeproof.ground.meaning import meanings
 from modeproof.ground.places import build
 from modeproof.kit.signals import read_signals
 from modeproof.registers.cfg import Constant, parse_cfg
-from modeproof.registers.load import load_interface, read_register
+from modeproof.registers.load import load_interface
 from modeproof.registers.made import cfg_text
+from modeproof.registers.replay import load_targets
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.suites.contract import declare_parameters
@@ -184,12 +185,11 @@ def _by_tlc(place: Path, base: Run, device: Device, wanted: Params, tick_ms: int
 def _constants(
     place: Path, document: str, device: Device, wanted: Params, tick_ms: int, known: Container[str]
 ) -> dict[str, str]:
-    """What traces.toml gives for each constant that a parameter of the device sets, with times in ticks.
+    """What replay.toml gives for each constant that a parameter of the device sets, with times in ticks.
 
     Raises Unjudged where a parameter sets none of the constants of the model.
     """
-    rows = read_register(place, document, "traces")["target"]
-    texts: Mapping[str, str] = next((row["constants"] for row in rows if row["id"] == device.id), {})
+    texts: Mapping[str, str] = load_targets(place, document).get(device.id, {}).get("constants", {})
     found: dict[str, str] = {}
     set_by: set[str] = set()
     for constant, text in texts.items():
@@ -207,7 +207,7 @@ def _constants(
     for name in wanted:
         if name not in set_by:
             raise Unjudged(
-                f"spec/{document}/traces.toml: no constant of the model is set by {device.id}.{name}"
+                f"spec/{document}/replay.toml: no constant of the model is set by {device.id}.{name}"
             )
     return found
 

@@ -1,16 +1,12 @@
 """What spec/<document>/contracts.toml says of a device, as it stands in the header of its vector files.
 
-    [[contract]]
-    device = "lamp"
+    [contract.lamp]                     by device
     constants = { CODE = 0x0FF0 }       tables = ["RE"] takes a table of words from sequences.toml
 
-    [[contract.rule]]                   kind: value (when left out), memory (then with starts), recent
-    name = "codes"
-    kind = "recent"
-    is = "word == CODE"
+    [contract.lamp.rules]               a value, { recent = .. }, or { memory = .., starts = .. }
+    codes = { recent = "word == CODE" }
 
-    [[contract.property]]               id: one of properties.toml, which gives the clauses
-    id = "LightNeedsCode"
+    [contract.lamp.property.LightNeedsCode]     by the id of properties.toml, which gives the clauses
     says = "The lamp goes on only with its code."
     when = "LAMP and not was_LAMP"
     holds = "True in codes"
@@ -34,9 +30,8 @@ from modeproof.registers.rows import Device, Signal
 from modeproof.registers.typed import tables
 
 FILE = "contracts.toml"
-_ROW = {"device", "tables", "constants", "rule", "property"}
-_RULE = {"name", "kind", "starts", "is"}
-_PROPERTY = {"id", "says", "when", "holds"}
+_ROW = {"tables", "constants", "rules", "property"}
+_PROPERTY = {"says", "when", "holds"}
 
 
 def _tables(place: Path, document: str, names: list[str], where: str) -> dict[str, list[int]]:
@@ -59,25 +54,19 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
     if not path.is_file():
         return None
     where = f"spec/{document}/{FILE}"
-    rows = [row for row in _toml(path, where).get("contract", []) if row.get("device") == device.id]
-    if not rows:
+    row = _toml(path, where).get("contract", {}).get(device.id)
+    if row is None:
         return None
-    if len(rows) > 1:
-        raise Unjudged(f"{where}: {device.id} has two contracts")
-    row = rows[0]
     where = f"{where}: {device.id}"
     _only(row, _ROW, where)
     clauses = _clauses(place, document)
-    rules = []
-    for rule in row.get("rule", []):
-        _only(rule, _RULE, f"{where}: rule {rule.get('name')!r}")
-        rules.append({"kind": "value", **rule})
+    rules = [_rule(name, rule, where) for name, rule in row.get("rules", {}).items()]
     properties = []
-    for entry in row.get("property", []):
-        _only(entry, _PROPERTY, f"{where}: property {entry.get('id')!r}")
-        if entry.get("id") not in clauses:
-            raise Unjudged(f"{where}: property {entry.get('id')!r} is not in properties.toml")
-        properties.append({**entry, "clauses": clauses[entry["id"]]})
+    for id, entry in row.get("property", {}).items():
+        _only(entry, _PROPERTY, f"{where}: property {id!r}")
+        if id not in clauses:
+            raise Unjudged(f"{where}: property {id!r} is not in properties.toml")
+        properties.append({"id": id, **entry, "clauses": clauses[id]})
     constants = {**_tables(place, document, row.get("tables", []), where), **row.get("constants", {})}
     table = {"constants": constants, "rules": rules, "properties": properties}
     try:
@@ -88,6 +77,22 @@ def load_contract(place: Path, document: str, device: Device, modes: list[int]) 
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
     return table
+
+
+def _rule(name: str, rule: Any, where: str) -> dict[str, Any]:
+    """A rule as the header has it."""
+    if isinstance(rule, str):
+        return {"kind": "value", "name": name, "is": rule}
+    kind = next((kind for kind in ("recent", "memory") if kind in rule), None)
+    if kind is None:
+        raise Unjudged(f"{where}: rule {name!r} is a text, or a table with recent, or with memory and starts")
+    _only(rule, {kind, *(("starts",) if kind == "memory" else ())}, f"{where}: rule {name!r}")
+    return {
+        "kind": kind,
+        "name": name,
+        **{key: rule[key] for key in ("starts",) if key in rule},
+        "is": rule[kind],
+    }
 
 
 def declare(signals: Mapping[str, Signal], modes: list[int]) -> dict[str, dict[str, Any]]:

@@ -6,7 +6,7 @@ request without the fault would change the state; the answer must be a refusal, 
 as if it had not been sent. Control states take turns.
 
 Cases with `"judges": "program"` hold well-formed inputs that an adapter has no right to refuse, though they
-mean nothing to the program: members of the classes of classes.toml, in every control state. The program
+mean nothing to the program: members of the classes of interface.toml, in every control state. The program
 answers them as the specification does, with its error output or without.
 """
 

@@ -145,7 +145,7 @@ class _Declared:
     def _branch(self, name: str, flow: Mapping[str, Any], branch: Mapping[str, Any]) -> Iterator[Script]:
         main = self._scans(flow)
         steps = [scan.step for scan in main]
-        for at in branch["at"]:
+        for at in branch.get("at", ["end"]):
             if at not in (*steps, END):
                 raise Unjudged(f"{self.where}: a branch of {name} at {at}, which is no step of it")
             begins = len(steps) if at == END else steps.index(at)

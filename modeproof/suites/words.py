@@ -2,7 +2,7 @@
 
 A word decides in a state, with the other inputs as they are, when a code in it leads to another state than a
 word that is no code, and outputs can tell the two states apart. Which words are no code, the document's
-classes.toml says. For each code that decides, the wrong words are
+interface.toml says. For each code that decides, the wrong words are
 
 - in every control state: the code with one bit inverted, its bytes swapped, its complement, the code shifted
   by one bit either way, and the boundaries 7FFF, 8000, FFFE and FFFF;
@@ -12,7 +12,7 @@ classes.toml says. For each code that decides, the wrong words are
 A case goes a shortest way to such a state, sends the wrong word, and then what tells apart the state that
 must come from the one that the code would lead to. States and other inputs take turns.
 
-A device that passes words on and at most compares them has no wrong words (rule `copied` of classes.toml).
+A device that passes words on and at most compares them has no wrong words (rule `copied` of interface.toml).
 There each case is a walk in which single bits of a word, and words beside codes, pass through every field.
 """
 

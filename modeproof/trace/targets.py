@@ -1,4 +1,4 @@
-"""What logs can be of: a device or the whole system, as spec/<document>/traces.toml declares them."""
+"""What logs can be of: a device or the whole system, as spec/<document>/replay.toml declares them."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ from msgspec import Meta
 from modeproof.graph.values import ValueForms
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import documents
-from modeproof.registers.load import load_interface, read_register
+from modeproof.registers.load import load_interface
+from modeproof.registers.replay import load_targets
 from modeproof.registers.rows import Device
-from modeproof.registers.typed import Entry, LowerName, Name, Text, typed_rows
+from modeproof.registers.typed import Entry, LowerName, Name, Text, typed
 
 PLACEHOLDER = re.compile(r"\$([a-z][a-z0-9_]*)\.(\w+)")
 SEEN, WORDS = "seen", "words"
@@ -41,7 +42,7 @@ class _Copies(Entry, frozen=True, kw_only=True):
 
 
 class _Row(Entry, frozen=True, kw_only=True):
-    """A row of traces.toml."""
+    """A target of replay.toml."""
 
     id: LowerName
     module: Name
@@ -116,14 +117,15 @@ class Target:
 
 
 def targets_of(place: Path, document: str) -> tuple[Target, ...]:
-    """All targets of a document; none when it has no traces.toml.
+    """All targets of a document; none when its replay.toml declares none.
 
     Raises Unjudged for a register that is wrong, and for a device or parameter that does not exist.
     """
-    if not (place / "spec" / document / "traces.toml").is_file():
+    source = f"spec/{document}/replay.toml"
+    found = load_targets(place, document)
+    rows = [typed(_Row, row, f"{source}: target {id}") for id, row in found.items()]
+    if not rows:
         return ()
-    source = f"spec/{document}/traces.toml"
-    rows = typed_rows(_Row, source, read_register(place, document, "traces", "target"), "target")
     interface = load_interface(place, document)
     forms = ValueForms([int(mode) for mode in interface.constants.get("MODES", ())])
     return tuple(_target(place, document, row, interface.devices, forms) for row in rows)
@@ -132,7 +134,7 @@ def targets_of(place: Path, document: str) -> tuple[Target, ...]:
 def _target(
     place: Path, document: str, row: _Row, devices: Mapping[str, Device], forms: ValueForms
 ) -> Target:
-    source = f"spec/{document}/traces.toml: [[target]] {row.id}"
+    source = f"spec/{document}/replay.toml: target {row.id}"
     for name in row.devices:
         if name not in devices:
             raise Unjudged(f"{source}: no device {name!r}; {suggestion(name, devices)}")

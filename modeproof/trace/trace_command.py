@@ -46,7 +46,7 @@ def add_parser(commands: Any) -> None:
         description=_DESCRIPTION,
         epilog="exit status: 0 CONFORMS, 1 DIFFERS, 2 could not be judged",
     )
-    parser.add_argument("target", metavar="TARGET", help="a device, or the system; see spec/*/traces.toml")
+    parser.add_argument("target", metavar="TARGET", help="a device, or the system; see spec/*/replay.toml")
     parser.add_argument("log", metavar="LOG", type=Path, help="JSON Lines, or a table that ends in .csv")
     parser.add_argument("--document", metavar="NAME", help="the document, where two have this target")
     parser.add_argument(
@@ -182,7 +182,7 @@ def _write(
     why: Why | None = None,
 ) -> dict[str, Any]:
     folder = place / "spec" / target.document
-    registers = [folder / f"{name}.toml" for name in ("interface", "traces", "classes", "runs")]
+    registers = [folder / f"{name}.toml" for name in ("interface", "replay", "runs")]
     inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
     options = [f"--param {quoted(given)}" for given in args.param]
     options += ["--from anywhere"] if args.begins == "anywhere" else []

@@ -16,8 +16,9 @@ import z3
 
 from programs.equality.binding import Binding
 from programs.invariants.relations import Relation, Vocabulary, like
+from programs.semantics.obligations import Obligation
 from programs.semantics.terms import Slot, compared_with, constant, in_range, live, slots, symbol
-from programs.semantics.translator import Obligation, Scan, Translator
+from programs.semantics.translator import Scan, Translator
 
 OUTPUTS = "outputs are equal"
 RANGES = "memory stays within its ranges"

@@ -15,7 +15,8 @@ from programs.equality.binding import Binding
 from programs.equality.product import Pair, Product
 from programs.equality.shortest_path import Way
 from programs.invariants.relations import Values
-from programs.semantics.interpreter import Limit, Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Limit, Overflow
 from programs.semantics.value_paths import memory_of, put
 
 SUITES = ("sequences", "times", "brief")

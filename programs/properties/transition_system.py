@@ -19,9 +19,11 @@ from programs.language.subset import check, reached
 from programs.language.tree import BOOL, Expression, Source, Unit
 from programs.language.types import Types
 from programs.semantics.document_blocks import Block, check_parameters, with_blocks
-from programs.semantics.interpreter import Limit, Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Limit, Overflow
+from programs.semantics.obligations import Obligation
 from programs.semantics.terms import TRUE, Slot, in_range, slots, symbol
-from programs.semantics.translator import Obligation, Translator
+from programs.semantics.translator import Translator
 from programs.semantics.translator_expressions import Context
 from programs.semantics.value_paths import put, value_at, whole
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
-from importlib import import_module
 from typing import Any
 
 import z3
@@ -13,6 +12,7 @@ import z3
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.places import documents
 from modeproof.ground.places import root as repository_root
+from modeproof.kit.by_name import module_named
 from modeproof.registers import Signal, load_interface
 from proofs.explorer.device import Device
 from proofs.explorer.ends import Fork, Tree, in_terms
@@ -37,7 +37,7 @@ def reference(target: str) -> Reference:
     known = targets()
     if target not in known:
         raise Unjudged(f"no target {target!r}; {suggestion(target, known)}")
-    module = import_module(f"proofs.{known[target]}.devices")
+    module = module_named(f"proofs.{known[target]}.devices")
     device = next(device for device in module.DEVICES if device.name == target)
     return Reference(device, known[target])
 

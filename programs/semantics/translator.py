@@ -8,7 +8,7 @@ clock; any other one remembers how long ago it was started.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import z3
@@ -26,14 +26,12 @@ from programs.language.tree import (
     Instance,
     Leave,
     Loop,
-    Place,
     Return,
     Scalar,
-    Source,
-    Type,
     Unit,
 )
 from programs.language.types import Types
+from programs.semantics.obligations import Obligation, Obliged
 from programs.semantics.terms import (
     FALSE,
     TRUE,
@@ -42,22 +40,12 @@ from programs.semantics.terms import (
     both,
     constant,
     either,
-    in_range,
     merge,
     negated,
     singles,
     standard_call,
 )
 from programs.semantics.translator_expressions import Context
-
-
-@dataclass(frozen=True)
-class Obligation:
-    """What must hold in every scan so that the program stays within its types."""
-
-    formula: z3.BoolRef
-    text: str
-    place: Place
 
 
 @dataclass(frozen=True)
@@ -105,14 +93,8 @@ class Left:
         )
 
 
-@dataclass
-class Translator:
-    """Translates one scan of a unit. wrap: integers and times wrap instead of owing their range."""
-
-    source: Source
-    unit: Unit
-    wrap: bool = False
-    obligations: list[Obligation] = field(default_factory=list)
+class Translator(Obliged):
+    """Translates one scan of a unit."""
 
     def scan(self, memory: Mapping[str, Any], dt_ms: Any) -> Scan:
         """One scan from this memory, inputs included."""
@@ -280,30 +262,3 @@ class Translator:
             at.put(spots, pin(name), env)
         for name, target in outputs:
             at.assign(target, pin(name), env, here)
-
-    def fitted(self, term: Any, given: Type, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
-        """A term of the type `given` as a value of the type `kind`."""
-        assert isinstance(given, Scalar)
-        inside = kind.low <= given.low and given.high <= kind.high
-        return self.widened(term, given, kind) if inside else self.ranged(term, kind, place, here)
-
-    def widened(self, term: Any, given: Type, kind: Scalar) -> Any:
-        """A bit string as a longer one."""
-        if kind.kind == "bits" and isinstance(given, Scalar) and given.width < kind.width:
-            return z3.ZeroExt(kind.width - given.width, term)
-        return term
-
-    def ranged(self, term: Any, kind: Scalar, place: Place, here: z3.BoolRef) -> Any:
-        """The term within the range of its type: as an obligation, or wrapped."""
-        if kind.kind not in ("int", "time") or (
-            z3.is_int_value(term) and kind.low <= term.as_long() <= kind.high
-        ):
-            return term
-        if self.wrap and kind.base is None:
-            return (term - kind.low) % (kind.high - kind.low + 1) + kind.low
-        self.owe(z3.Implies(here, in_range(kind, term)), f"a value stays within {kind.name}", place)
-        return term
-
-    def owe(self, formula: z3.BoolRef, text: str, place: Place) -> None:
-        """Note an obligation."""
-        self.obligations.append(Obligation(formula, text, place))

@@ -6,7 +6,7 @@ import operator
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import z3
 
@@ -30,6 +30,7 @@ from programs.language.tree import (
     Unit,
 )
 from programs.language.types import Types
+from programs.semantics.obligations import Obliged
 from programs.semantics.terms import (
     FALSE,
     TRUE,
@@ -44,9 +45,6 @@ from programs.semantics.terms import (
     singles,
     truncated,
 )
-
-if TYPE_CHECKING:
-    from programs.semantics.translator import Translator
 
 _BITS: Mapping[str, Callable[[Any, Any], Any]] = {
     "AND": operator.and_, "OR": operator.or_, "XOR": operator.xor,
@@ -68,7 +66,7 @@ Places = list[tuple[z3.BoolRef, str]]
 class Context:
     """Where a body stands: the translator, the types of its unit, and the path above its variables."""
 
-    translator: Translator
+    translator: Obliged
     types: Types
     above: str
 

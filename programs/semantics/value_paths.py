@@ -8,8 +8,9 @@ from typing import Any
 
 from programs.language.memory import default
 from programs.language.tree import Array, Struct, Type, Unit
-from programs.semantics.interpreter import Frame, Machine
+from programs.semantics.interpreter import Machine
 from programs.semantics.interpreter_blocks import Standard
+from programs.semantics.memory_of_units import Frame
 
 
 def steps(path: str) -> list[str]:

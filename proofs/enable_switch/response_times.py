@@ -1,4 +1,4 @@
-"""How soon the block answers: the bounds of spec/enable_switch/response.toml, which stand there alone."""
+"""How soon the block answers: the bounds of spec/enable_switch/properties.toml, which stand there alone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How soon the block answers: the bounds of spec/guard_locking/response.toml, which stand there alone."""
+"""How soon the block answers: the bounds of spec/guard_locking/properties.toml, which stand there alone."""
 
 from __future__ import annotations
 

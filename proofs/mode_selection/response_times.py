@@ -1,4 +1,4 @@
-"""How soon each device answers: the bounds of spec/mode_selection/response.toml, which stand there alone."""
+"""How soon each device answers: the bounds of spec/mode_selection/properties.toml, stated there alone."""
 
 from __future__ import annotations
 

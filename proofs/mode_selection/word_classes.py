@@ -1,7 +1,7 @@
 """Why a few words are enough for the models: our code cannot tell the members of one class apart.
 
 The models try a few words: zero, the five codes, and one word for all others. Which inputs they take together
-is written by hand, in classes.toml and in the alphabet `Words` of the OPEN_ module; here both are read, and
+is written by hand, in interface.toml and in the alphabet `Words` of the OPEN_ module; here both are read, and
 checked against the paths of the shipped `step`. A class that is too coarse for the code has a counterexample:
 two members that lead to two ends.
 """
@@ -25,7 +25,7 @@ from proofs.theorem import Queries, TheoremError, claim, control, theorem
 from proofs.words import one_of
 
 ROOT: Final = Path(__file__).parents[2]
-CLASSES: Final = "spec/mode_selection/classes.toml"
+CLASSES: Final = "spec/mode_selection/interface.toml"
 OPEN_MODULE: Final = {"fplc": "spec/mode_selection/FplcOpen.tla", "hmi": "spec/mode_selection/HmiOpen.tla"}
 
 
@@ -49,7 +49,7 @@ def alphabet(device: Device) -> tuple[int, ...]:
 
 
 def classes(device: Device) -> list[dict[str, Any]]:
-    """The rows of classes.toml for the device."""
+    """The rows of interface.toml for the device."""
     rows = tomllib.loads((ROOT / CLASSES).read_text(encoding="utf-8"))["class"]
     return [row for row in rows if row["device"] == device.name]
 
@@ -134,7 +134,7 @@ def _indistinguishable(device: Device) -> Queries:
     """For each class of the device and each control state: two members lead to the same end."""
     rows = classes(device)
     if not rows:
-        raise TheoremError(f"classes.toml has no class of {device.name}")
+        raise TheoremError(f"interface.toml has no class of {device.name}")
     for scan in scans(device):
         for row in rows:
             for name, old, new, both in _others(device, row) if row["rule"] == "words" else _counts(row):
@@ -161,7 +161,7 @@ def the_fplc_cannot_tell_the_words_of_one_class_apart() -> Queries:
     in MW07, that are neither zero nor a code, and for any two to four outputs that are set.
 
     So one such word and one such pair of outputs in the models stand for all of them. The classes are read
-    from classes.toml and from the alphabet of the model; what a scan leaves behind depends on no word itself.
+    from interface.toml and the alphabet of the model; what a scan leaves behind depends on no word itself.
     """
     yield from _indistinguishable(FPLC)
     yield from _too_coarse(FPLC, "CheckSelection", "MW03")
@@ -173,7 +173,7 @@ def the_panel_cannot_tell_the_words_of_one_class_apart() -> Queries:
     """In every control state and with all else equal, the panel does the same for any two words in
     ReadAuthorization, or in CheckMSO, that are neither zero nor a code.
 
-    The classes are read from classes.toml and from the alphabet of the model.
+    The classes are read from interface.toml and from the alphabet of the model.
     """
     yield from _indistinguishable(HMI)
     yield from _too_coarse(HMI, "Inhibited", "ReadAuthorization")

@@ -6,13 +6,13 @@ theorems judge them (`JUDGES`, by device).
 
 from __future__ import annotations
 
-import importlib
 import inspect
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from modeproof.kit.by_name import module_named
 from proofs.mutants.copies import Change
 from proofs.mutants.copy_judge import Bench
 from proofs.mutants.shipped import Subject, functions_of, shipped
@@ -32,12 +32,12 @@ def bench_of(document: str) -> Bench:
 
 
 def _subjects(document: str) -> Sequence[Subject]:
-    found: Sequence[Subject] = importlib.import_module(f"proofs.{document}.subjects").SUBJECTS
+    found: Sequence[Subject] = module_named(f"proofs.{document}.subjects").SUBJECTS
     return found
 
 
 def _judges(document: str) -> Mapping[str, Sequence[Theorem]]:
-    found: Mapping[str, Sequence[Theorem]] = importlib.import_module(f"proofs.{document}.judges").JUDGES
+    found: Mapping[str, Sequence[Theorem]] = module_named(f"proofs.{document}.judges").JUDGES
     return found
 
 
@@ -78,6 +78,6 @@ def reached(document: str) -> dict[str, tuple[Path, frozenset[str]]]:
         for module, function in functions_of(subject.device):
             found.setdefault(module, set()).add(function)
     return {
-        name: (Path(inspect.getfile(importlib.import_module(name))), frozenset(functions))
+        name: (Path(inspect.getfile(module_named(name))), frozenset(functions))
         for name, functions in found.items()
     }

@@ -14,13 +14,13 @@ parameters.
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, Final
 
 import z3
 
+from modeproof.kit.by_name import module_named
 from proofs.explorer.device import Device, symbol_of
 from proofs.explorer.errors import ExplorationError
 from proofs.explorer.explore import Path, conjunction, disjunction, explore
@@ -136,7 +136,7 @@ class Bench:
 
 def bench_of(document: str) -> Bench:
     """Explore every device of a document. Raises ExplorationError."""
-    subjects: Sequence[Subject] = importlib.import_module(f"proofs.{document}.subjects").SUBJECTS
+    subjects: Sequence[Subject] = module_named(f"proofs.{document}.subjects").SUBJECTS
     return Bench(f"refimpl.{document}", {subject.device.name: explored(subject) for subject in subjects})
 
 

@@ -1,4 +1,4 @@
-"""How soon the block answers: the bounds of spec/testable_safety_sensor/response.toml, which stand there."""
+"""How soon the block answers: the bounds of spec/testable_safety_sensor/properties.toml, stated there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each class of the table of faults (spec/mode_selection/faults.toml), as what a device reads instead.
+"""Each class of the table of faults (spec/mode_selection/assumptions.toml), as what a device reads instead.
 
 A fault stands from the moment at which it is put in until it is taken out. It changes what is read, never
 what was written. Each function gets the inputs of a scan and returns those that are read.

@@ -3,7 +3,7 @@
 (* The enable switch with three channels and three stages: released (0),   *)
 (* enabled (1), pressed through (2).  One step is one call.  i holds the   *)
 (* inputs of the call by the names of interface.toml, and dt in ticks.     *)
-(* The document (document.toml) gives one signal sequence, ES-SEQ-0 to     *)
+(* The document (clauses.toml)  gives one signal sequence, ES-SEQ-0 to     *)
 (* ES-SEQ-9.  The states, their codes, the priorities and every reaction   *)
 (* that the sequence does not show are this project's design: findings     *)
 (* ESF-01 and those that the comments name.                                *)

@@ -1,7 +1,7 @@
 ---------------------------- MODULE KeyFlowsSwaps ----------------------------
 (***************************************************************************)
 (* KeyFlows with a bound on how often the key is swapped, for the chart of *)
-(* growth (scaling.toml).  No run checks anything by it: in KeyFlows a key *)
+(* growth (runs.toml).     No run checks anything by it: in KeyFlows a key *)
 (* may be swapped without end.                                             *)
 (***************************************************************************)
 EXTENDS KeyFlows

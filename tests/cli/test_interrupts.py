@@ -18,13 +18,14 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.places import TREE
-from modeproof.ground.proofs import proofs_module
+from modeproof.ground.solvers import needing_solvers
 from tests.any_machine import until
 
 LIMIT_S = 40
 HARD = """
-from modeproof.ground.proofs import proofs_module
-proofs_module("proofs.theorem")
+from modeproof.ground.solvers import needing_solvers
+with needing_solvers():
+    import proofs.theorem
 import z3
 # here
 first, second = z3.BitVecs("first second", 128)
@@ -51,7 +52,8 @@ def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(autouse=True)
 def deaf() -> Iterator[None]:
     """An interrupt of this process would stop z3's work for good, and other tests still need it."""
-    proofs_module("proofs.theorem")
+    with needing_solvers():
+        import proofs.theorem  # noqa: F401
     before = signal.set_wakeup_fd(-1)
     yield
     signal.set_wakeup_fd(before)
@@ -186,8 +188,9 @@ def test_the_end_of_a_copy_leaves_its_parent_alone() -> None:
     """A worker out of time is ended before it has handlers of its own: it writes into our pipe."""
     text = """
 import os, signal, sys, time
-from modeproof.ground.proofs import proofs_module
-proofs_module("proofs.theorem")
+from modeproof.ground.solvers import needing_solvers
+with needing_solvers():
+    import proofs.theorem
 import z3
 signal.signal(signal.SIGTERM, lambda *_: None)
 child = os.fork()
@@ -209,8 +212,9 @@ def test_a_signal_that_ends_nothing_ends_no_query() -> None:
     """A timer, say, or the end of a child: whatever has a handler is told to the same pipe."""
     text = """
 import signal, time
-from modeproof.ground.proofs import proofs_module
-proofs_module("proofs.theorem")
+from modeproof.ground.solvers import needing_solvers
+with needing_solvers():
+    import proofs.theorem
 import z3
 signal.signal(signal.SIGUSR1, lambda *_: None)
 signal.raise_signal(signal.SIGUSR1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import SimpleNamespace
@@ -27,9 +26,7 @@ def test_theorems_are_asked_without_sharing_when_preparing_fails(monkeypatch: py
 
     for prepared, expected in ((made, ["left"]), (broken, [])):
         left.clear()
-        monkeypatch.setattr(
-            importlib, "import_module", lambda name, it=prepared: SimpleNamespace(prepared=it)
-        )
+        monkeypatch.setattr(prove, "module_named", lambda name, it=prepared: SimpleNamespace(prepared=it))
         with prove._prepared("any") as seconds:
             assert seconds >= 0 and left == []
         assert left == expected

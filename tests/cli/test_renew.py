@@ -210,7 +210,7 @@ def test_unsafe_code_is_refused_with_the_scans(root: Path) -> None:
     assert files(root) == before
 
 
-def test_vectors_of_a_machine_wait_for_every_block_that_was_changed() -> None:
+def test_vectors_of_a_machine_wait_for_every_changed_block() -> None:
     assert _blocks_of(TREE, ["refimpl/guard_locking/sf_guard_locking.py"]) == [
         ("guard_locking", "sf_guard_locking")
     ]

@@ -131,5 +131,5 @@ def test_no_document_at_all_is_refused(toy: Path) -> None:
 def test_registers_that_cannot_be_read_are_unjudged_with_evidence(toy: Path) -> None:
     (record,), _ = check_registers(toy, ["toy"], "full", Progress(quiet=True))
     assert (record["verdict"], record["as_expected"]) == ("UNJUDGED", False)
-    assert "spec/toy/document.toml" in record["reason"]
+    assert "spec/toy/clauses.toml" in record["reason"]
     assert evidence.read(evidence.evidence_path(toy, "toy", "registers")) == record

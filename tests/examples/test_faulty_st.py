@@ -23,7 +23,7 @@ JUDGED = [name for name, fault in FAULTS.items() if fault.target != "fplc" or na
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=[pytest.mark.long] * (place % 2 == 1 if name not in FEW else name == FEW[0]))
+        pytest.param(name, marks=[pytest.mark.long] * (place % 3 > 0 if name not in FEW else name == FEW[0]))
         for place, name in enumerate(JUDGED)
     ],
 )

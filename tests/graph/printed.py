@@ -161,7 +161,7 @@ def lamp_graph(
     """The graph of the lamp, joined with its declaration."""
     room = folder / "spec" / "toy"
     room.mkdir(parents=True, exist_ok=True)
-    (room / "classes.toml").write_text(classes, encoding="utf-8")
+    (room / "interface.toml").write_text(classes, encoding="utf-8")
     (room / "sequences.toml").write_text(sequences, encoding="utf-8")
     graph = read_graph(write(folder / "OPEN_Lamp.txt", lines() if printed is None else printed))
     return join(

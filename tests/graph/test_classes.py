@@ -1,4 +1,4 @@
-"""A letter that stands for a class: the one that classes.toml names, or another member that is there."""
+"""A letter that stands for a class: the one that interface.toml names, or another member that is there."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def the_class(folder: Path, *alphabet: str) -> InputClass:
     """The class of several fields set, as seen by a graph with these letters."""
     room = folder / "spec" / "toy"
     room.mkdir(parents=True, exist_ok=True)
-    (room / "classes.toml").write_text(SEVERAL, encoding="utf-8")
+    (room / "interface.toml").write_text(SEVERAL, encoding="utf-8")
     [found] = load_classes(folder, "toy", "latch", [letter(on) for on in alphabet])
     return found
 

@@ -13,7 +13,7 @@ import pytest
 from modeproof.kit.__main__ import main as kit_main
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.profile import ALL, CAUTIOUS, LETTER, of_profile
-from modeproof.kit.vectors import Suite, open_suite
+from modeproof.kit.vectors import Suite, open_suite, read_lines
 from modeproof.registers.load import load_interface
 from modeproof.registers.profiles import profiles_of
 from modeproof.suites.write import write_suite
@@ -98,9 +98,16 @@ def test_a_case_by_its_id_is_run_whatever_its_profile(
     assert "no case with the id" in capsys.readouterr().out
 
 
-def test_a_profile_without_a_case_is_no_pass(capsys: pytest.CaptureFixture[str]) -> None:
-    assert kit_main(conform("soak", "refimpl", "--profile", "cautious")) == 2
-    assert "no case of soak is for the profile cautious" in capsys.readouterr().err
+def test_a_profile_without_a_case_is_no_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    rows = [json.loads(line) for line in read_lines(ROOT / "vectors/sf_edm/brief.jsonl.gz")]
+    kept = [row for row in rows[1:] if "AFTER_RESET" not in row["params"]]
+    head = {**rows[0], "cases": len(kept), "scans": sum(len(row["scans"]) for row in kept)}
+    path = tmp_path / "letter.jsonl"
+    path.write_text("".join(f"{json.dumps(row)}\n" for row in (head, *kept)), "utf-8")
+    given = ["conform", "sf_edm", "--builtin", "refimpl", "--vectors", str(path), "--profile"]
+    assert kit_main([*given, "letter"]) == 0
+    assert kit_main([*given, "cautious"]) == 2
+    assert "no case of brief is for the profile cautious" in capsys.readouterr().err
 
 
 def test_a_target_without_profiles_is_left_whole(tmp_path: Path) -> None:

@@ -59,8 +59,8 @@ def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copytree(ROOT / "spec" / NAME, tmp_path / "spec" / NAME)
     for file in ("safety.toml", "killers.toml"):
         path = tmp_path / "spec" / NAME / file
-        head, *rows = re.split(r"(?m)^(?=\[\[(?:property|killer)\]\]$)", path.read_text("utf-8"))
-        kept = [row for row in rows if any(f'= "{id}"\n' in row for id in KEPT)]
+        head, *rows = re.split(r"(?m)^(?=\[\[(?:property\]\]|killer\.))", path.read_text("utf-8"))
+        kept = [row for row in rows if any(f'= "{id}"\n' in row or f".{id}]]" in row for id in KEPT)]
         assert len(kept) == len(KEPT)
         path.write_text(head + "".join(kept), "utf-8")
     (tmp_path / "spec" / NAME / "tlc.toml").unlink()  # its runs ask for properties that are not kept
@@ -99,12 +99,11 @@ def test_the_evidence_has_verdicts_matrix_and_mistakes(tree: Path, monkeypatch: 
     assert doubt_on_machine(record) == ""
 
 
-CONTRACT = """[[run]]
-id = "keeps_contactors"
+TLC = (ROOT / "spec" / NAME / "tlc.toml").read_text("utf-8")
+CONTRACT = f"""[run.keeps_contactors]
 keeps = "SF_EDM"
-distinct = 61
-generated = 1753
-"""
+counts = [61, 1753]
+{TLC[TLC.index("[block.") :]}"""
 
 
 @pytest.mark.deep
@@ -198,7 +197,7 @@ def test_each_property_of_the_shipped_machine_falls_with_its_edit() -> None:
 
 def test_a_property_without_an_edit_that_breaks_it_is_named(tree: Path) -> None:
     assert troubles_of_machine(tree, NAME) == ""
-    edit(tree, "killers.toml", 'property = "stop-stops"', 'property = "stop-steps"')
+    edit(tree, "killers.toml", "[[killer.stop-stops]]", "[[killer.stop-steps]]")
     found = looked_at(tree / "spec" / NAME)
     assert any(text.startswith("stop-stops: no edit of the wiring is known") for text in found)
     assert any(text.startswith("stop-steps: ") and "no such property" in text for text in found)

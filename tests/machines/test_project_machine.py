@@ -80,7 +80,7 @@ def test_runs_break_nothing_of_the_shipped_wiring() -> None:
     assert not plain(TEXT, 6).look().broken
 
 
-@pytest.mark.deep
+@pytest.mark.long  # as `make verify` does
 def test_every_property_of_the_shipped_wiring_is_proved(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

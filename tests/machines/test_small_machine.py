@@ -52,10 +52,9 @@ first = true
 row = [{ Key = true, Door = true }, { Start = true }, { Start = false, scans = 3 }]
 """
 CLOSED = ("closed", 'holds = "S_Drive"\nonly_if = "Door AND Key"')
-KILLERS = """[[killer]]
-property = "closed"
-row = "block.running.inputs.R1"
-text = "Stop"
+KILLERS = """[[killer.closed]]
+in = "block.running.inputs.R1"
+new = "Stop"
 scans = ["10: Start=1"]
 """
 
@@ -275,8 +274,8 @@ def test_an_edit_with_which_a_property_falls_is_found(
         outcome(folder, basis_of(machine_of(folder)))
     assert main(["machine", "--killers", "--quiet"]) == 0
     assert "1 of 1 properties fall with an edit" in capsys.readouterr().out
-    assert ('text = "Stop"' in path.read_text("utf-8")) or not recorded
-    assert 'property = "closed"' in path.read_text("utf-8")
+    assert ('new = "Stop"' in path.read_text("utf-8")) or not recorded
+    assert "[[killer.closed]]" in path.read_text("utf-8")
 
 
 def test_a_property_that_nothing_breaks_is_named(

@@ -11,7 +11,8 @@ from programs.language.memory import leaves
 from programs.language.subset import check
 from programs.language.tree import Array, Source, Struct, Unit
 from programs.readers.structured_text.units import read_text
-from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Overflow
 from programs.semantics.terms import constant, slots, symbol
 from programs.semantics.translator import Translator
 from programs.semantics.value_paths import memory_of, value_at

@@ -1,4 +1,4 @@
-"""Response times whose theorem counts down a number: so many calls are really needed (response.toml)."""
+"""Response times whose theorem counts down a number: so many calls are really needed (properties.toml)."""
 
 from __future__ import annotations
 

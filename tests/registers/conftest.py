@@ -13,7 +13,8 @@ from modeproof.registers.pins import repin
 from modeproof.registers.register_judge import judge
 
 FILES = {
-    "spec/door/document.toml": """
+    "spec/door/clauses.toml": """
+[paper]
 title = "A door"
 number = "D-1"
 edition = "1"
@@ -24,8 +25,6 @@ sha256 = "0000000000000000000000000000000000000000000000000000000000000000"
 available = ["the text"]
 not_available = ["the drawings"]
 not_endorsed = "nobody endorses this"
-""",
-    "spec/door/clauses.toml": """
 [[clause]]
 id = "DR-1-1"
 title = "the latch shuts"
@@ -90,9 +89,8 @@ environments = ["honest"]
 antecedent = "open_seen"
 """,
     "spec/door/killers.toml": """
-[[by_construction]]
-property = "OpenIsUnlocked"
-reason = "no run of this door can be started"
+[by_construction]
+OpenIsUnlocked = "no run of this door can be started"
 """,
     "spec/door/findings.toml": """
 [[finding]]

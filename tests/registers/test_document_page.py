@@ -67,7 +67,7 @@ def test_without_a_page_nothing_is_said(tree: Any) -> None:
         ("spec/door/findings.toml", 'decision = "at once"', 'decision = "later"'),
         ("spec/door/findings.toml", "the bolt comes out", "the bolt stays in"),
         ("spec/door/properties.toml", "the bolt is in", "the bolt is out"),
-        ("spec/door/document.toml", "the drawings", "the index"),
+        ("spec/door/clauses.toml", "the drawings", "the index"),
         ("proofs/door/bolt.py", "@theorem", "@other"),
     ],
     ids=lambda text: text.strip()[:24],

@@ -10,7 +10,7 @@ import pytest
 from modeproof.ground.places import documents
 from modeproof.registers import Unjudged, load_document, load_interface, rows, typed
 
-REGISTERS = ("document", "clauses", "interface", "properties", "findings", "assumptions")
+REGISTERS = ("clauses", "interface", "properties", "findings", "assumptions")
 
 
 def refusal(tree: Any) -> str:
@@ -46,8 +46,14 @@ text = "It is green."
 """
 
 
-def test_rows_by_their_ids_take_from_the_default_what_they_leave_out(tree: Any) -> None:
-    tree.write("spec/door/clauses.toml", KEYED)
+def paper(tree: Any) -> str:
+    """The head of the clauses as they are."""
+    text = (tree.root / "spec/door/clauses.toml").read_text(encoding="utf-8")
+    return str(text[: text.index("[[clause]]")])
+
+
+def test_rows_by_id_take_the_rest_from_the_default(tree: Any) -> None:
+    tree.write("spec/door/clauses.toml", paper(tree) + KEYED)
     first, second = load_document(tree.root, "door").clauses
     assert (first.id, first.kind, first.device) == ("DR-1-1", "behaviour", ("latch",))
     assert (second.id, second.kind, second.device) == ("DR-1-2", "behaviour", ())
@@ -64,7 +70,7 @@ def test_rows_by_their_ids_take_from_the_default_what_they_leave_out(tree: Any) 
 )
 def test_a_default_or_an_id_that_is_wrong_is_refused(tree: Any, old: str, new: str, words: str) -> None:
     assert old in KEYED
-    tree.write("spec/door/clauses.toml", KEYED.replace(old, new, 1))
+    tree.write("spec/door/clauses.toml", paper(tree) + KEYED.replace(old, new, 1))
     assert words in refusal(tree)
 
 
@@ -79,8 +85,8 @@ def test_a_default_or_an_id_that_is_wrong_is_refused(tree: Any, old: str, new: s
         ("clauses", "[[clause]]", "[[clauses]]", ["unknown key 'clauses'", "did you mean 'clause'?"]),
         ("clauses", 'title = "colour"', "title = 7", ["DR-1-4: title", "must be a text in quotes, not 7"]),
         ("clauses", 'title = "colour"', 'title = ""', ["DR-1-4: title", "must not be empty"]),
-        ("document", "prefix", "prefixx", ["unknown key 'prefixx'", "did you mean 'prefix'?"]),
-        ("document", 'sha256 = "0', 'sha256 = "x', ["sha256", "SHA-256"]),
+        ("clauses", "prefix", "prefixx", ["unknown key 'prefixx'", "did you mean 'prefix'?"]),
+        ("clauses", 'sha256 = "0', 'sha256 = "x', ["sha256", "SHA-256"]),
         ("interface", "published", "publised", ["devices.latch", "unknown key 'publised'"]),
         (
             "interface",
@@ -133,8 +139,8 @@ def test_broken_toml_is_refused_with_its_line(tree: Any) -> None:
 
 
 def test_a_key_given_twice_is_refused(tree: Any) -> None:
-    tree.edit("spec/door/document.toml", 'number = "D-1"', 'number = "D-1"\nnumber = "D-2"')
-    assert "line 3" in refusal(tree)
+    tree.edit("spec/door/clauses.toml", 'number = "D-1"', 'number = "D-1"\nnumber = "D-2"')
+    assert "not valid TOML: Cannot overwrite a value (at line 4" in refusal(tree)
 
 
 def test_bytes_that_are_no_text_are_refused(tree: Any) -> None:

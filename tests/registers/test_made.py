@@ -120,3 +120,82 @@ def test_a_definition_that_replaces_nothing_is_a_problem(
     for file, name, text in problems:
         assert file == "spec/toy/ToyAsPrinted.tla" and found is not None
         assert name == found[0] and text.startswith(found[1])
+
+
+ROWS = """
+[default.run]
+lanes = ["full"]
+environment = "honest"
+specification = "Spec"
+
+[constants]
+N = "4"
+SLEEP = "FALSE"
+PRINT = "FALSE"
+ELSEWHERE = "1"
+
+[run.MC_toy]
+module = "Toy"
+properties = ["TypeOK", "Small", "NeverDown", "Reaches"]
+counts = [16, 33]
+
+[run.MC_less]
+module = "Toy"
+constants = { N = "2" }
+view = "View"
+properties = ["MC_toy", "PrintState"]
+without = ["Reaches"]
+
+[based.MC_less]
+NEG_less = { reading = "Stops", property = "Small", trace_length = 3 }
+"""
+
+
+def made_tree(root: Path, rows: str = ROWS) -> Path:
+    tree(root, "")
+    (root / "spec/toy/runs.toml").write_text(rows)
+    return root
+
+
+def test_a_cfg_is_made_of_row_constants_and_default(tmp_path: Path) -> None:
+    root = made_tree(tmp_path)
+    toy, less, negative = load_runs(root, "toy")
+    cfg = parse_cfg(cfg_text(root, less), "x.cfg")
+    assert {name: one.text for name, one in cfg.constants.items()} == {
+        "N": "2",
+        "SLEEP": "FALSE",
+        "PRINT": "FALSE",
+    }, "a constant that the modules do not declare is not given"
+    assert (cfg.specification, cfg.view) == ("Spec", "View")
+    assert (cfg.invariants, cfg.properties) == (("TypeOK", "Small", "PrintState"), ("NeverDown",))
+    assert (toy.distinct, toy.generated, less.properties[-1]) == (16, 33, "PrintState")
+    assert (negative.base, negative.module, negative.lanes) == ("MC_less", "Toy", ("full",))
+    changed = parse_cfg(cfg_text(root, negative), "x.cfg")
+    assert (changed.checked, changed.constants["N"].text) == (("Small",), "2")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('without = ["Reaches"]', 'without = ["Risen"]', "without: Risen is none of its properties"),
+        ("NEG_less = {", 'NEG_less = { base = "MC_toy",', "declared twice, or has another base"),
+        ("NEG_less = {", "MC_less = {", "declared twice, or has another base"),
+        ("counts = [16, 33]", "counts = [16]", "counts"),
+        ("[based.MC_less]", "[based.MC_more]", "unknown base 'MC_more'"),
+        ("[constants]", "[constant]", "unknown key 'constant'"),
+        ('specification = "Spec"', 'specfication = "Spec"', "unknown key 'specfication'"),
+    ],
+)
+def test_a_row_that_is_short_for_nothing_is_refused(old: str, new: str, said: str, tmp_path: Path) -> None:
+    assert old in ROWS
+    with pytest.raises(Unjudged, match=said):
+        load_runs(made_tree(tmp_path, ROWS.replace(old, new)), "toy")
+
+
+def test_a_changed_row_is_not_what_was_pinned(tmp_path: Path) -> None:
+    less = ROWS.replace('"NeverDown", ', "")
+    before, after = (
+        {run.id: cfg_text(root, run) for run in load_runs(root, "toy")}
+        for root in (made_tree(tmp_path / "a"), made_tree(tmp_path / "b", less))
+    )
+    assert before["MC_toy"] != after["MC_toy"] and before["MC_less"] != after["MC_less"]

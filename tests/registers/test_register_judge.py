@@ -85,7 +85,7 @@ def test_a_sound_document_has_no_problem_and_a_full_matrix(tree: Any) -> None:
             "the_bolt_moves: proves the unknown property 'OpenIsUnlockd'; did you mean 'OpenIsUnlocked'",
         ),
         # registers that contradict each other
-        (SPEC + "document.toml", '"DR"', '"DX"', "DR-1-1: the id does not begin with the prefix DX-"),
+        (SPEC + "clauses.toml", '"DR"', '"DX"', "DR-1-1: the id does not begin with the prefix DX-"),
         (SPEC + "clauses.toml", '["latch"]', '["lach"]', "unknown device 'lach'; did you mean 'latch'?"),
         (
             SPEC + "interface.toml",

@@ -57,8 +57,8 @@ def test_what_cannot_be_read_is_never_a_pass(tree: Any, registers_command: Comma
 def test_an_unknown_document_and_an_empty_tree_are_refused(tree: Any, registers_command: Command) -> None:
     with pytest.raises(Unjudged, match="did you mean 'door'"):
         registers_command(tree.root, "--document", "dooor")
-    (tree.root / "spec/door/document.toml").unlink()
-    with pytest.raises(Unjudged, match=r"spec/door/document\.toml: not found"):
+    (tree.root / "spec/door/clauses.toml").unlink()
+    with pytest.raises(Unjudged, match=r"spec/door/clauses\.toml: not found"):
         registers_command(tree.root)
     shutil.rmtree(tree.root / "spec/door")
     with pytest.raises(Unjudged, match="holds no document; there is nothing to do"):

@@ -10,7 +10,7 @@ from modeproof.registers import Unjudged, load_document, read_sources
 from modeproof.registers.responses import bounds, chain_bounds, section
 from tests.stated_times import stated_times
 
-FILE = "spec/door/response.toml"
+FILE = "spec/door/properties.toml"
 PROOF = "proofs/door/bolt.py"
 ROWS = stated_times("door", "latch", "DR")
 
@@ -18,7 +18,7 @@ ROWS = stated_times("door", "latch", "DR")
 @pytest.fixture
 def timed(tree: Any) -> Any:
     """The door with response times, and a theorem that names the one that has a bound."""
-    tree.write(FILE, ROWS)
+    tree.write(FILE, (tree.root / FILE).read_text(encoding="utf-8") + ROWS)
     tree.edit(PROOF, 'findings=["E-01"])', 'findings=["E-01"], responses=["DRR-1", "DRR-2"])')
     tree.pin()
     return tree
@@ -66,13 +66,13 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
             FILE,
             "times = { T_HOLD_ms = 200 }",
             "",
-            "DRR-1: [example] of spec/door/response.toml has no ms for T_HOLD_ms, which DRR-1",
+            "DRR-1: [example] of spec/door/properties.toml has no ms for T_HOLD_ms, which DRR-1",
         ),
         (
             FILE,
             "{ latch = 10 }",
             "{ door = 10 }",
-            "DRR-1: [example] of spec/door/response.toml has no ms for latch, which DRR-1 needs",
+            "DRR-1: [example] of spec/door/properties.toml has no ms for latch, which DRR-1 needs",
         ),
         (
             FILE,
@@ -87,7 +87,12 @@ def test_the_page_has_each_row_with_all_its_cells(timed: Any) -> None:
         (FILE, "{ T_HOLD_ms = 200 }", "{ T_HOLD_ms = 200, T_OFF_ms = 3 }", "with a bound needs T_OFF_ms"),
         (FILE, 'then = "the lamp"\n', "", "DRC-1: give both `then` and `then_ms`, or neither"),
         (FILE, "then_ms = 7\n", "", "DRC-1: give both `then` and `then_ms`, or neither"),
-        (FILE, '"DR-1-1"', '"DR-1-0"', "DRR-1: cites DR-1-0, which no register"),
+        (
+            FILE,
+            'in"\nclauses = ["DR-1-1"',
+            'in"\nclauses = ["DR-1-0"',
+            "DRR-1: cites DR-1-0, which no register",
+        ),
     ],
 )
 def test_a_contradiction_is_found(timed: Any, file: str, old: str, new: str, expected: str) -> None:
@@ -103,11 +108,9 @@ def test_a_bound_of_no_call_is_refused(timed: Any) -> None:
 
 
 def test_a_register_beside_it_without_a_cycle_is_told(timed: Any) -> None:
-    timed.write(
-        "spec/gate/response.toml", ROWS.replace("latch = 10", "lamp = 10").replace('"door"', '"gate"')
-    )
+    timed.write("spec/gate/properties.toml", ROWS.replace("latch = 10", "lamp = 10"))
     timed.edit(FILE, '"door DRR-1"', '"gate DRR-1"')
-    expected = f"{FILE}: DRC-1: [example] of spec/gate/response.toml has no ms for latch, which DRR-1 needs"
+    expected = f"{FILE}: DRC-1: [example] of spec/gate/properties.toml has no ms for latch, which DRR-1 needs"
     assert [problem for problem in timed.problems() if "DRC-1" in problem] == [expected]
 
 

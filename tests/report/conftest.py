@@ -73,8 +73,8 @@ cfg_sha256 = "{hash}"
 {pins}
 """
 REGISTERS = {
-    "document": """
-document = "box"
+    "clauses": """
+[paper]
 title = "A box"
 number = "BX 1"
 edition = "first"
@@ -85,8 +85,6 @@ sha256 = "0000000000000000000000000000000000000000000000000000000000000000"
 available = ["text"]
 not_available = ["drawings"]
 not_endorsed = "by nobody"
-""",
-    "clauses": """
 [[clause]]
 id = "BX-1-1"
 title = "the box shuts"

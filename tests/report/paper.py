@@ -189,7 +189,7 @@ def make_whole(root: Path) -> Path:
     make_paper(root)
     (root / "docs").mkdir(exist_ok=True)
     (root / "docs" / "limits.md").write_text(LIMITS)
-    (root / "docs" / "glossary.toml").write_text(GLOSSARY)
+    (root / "docs" / "report.toml").write_text(GLOSSARY)
     put(root, "registers", kind="registers", result={"clauses": 2, "citations": 9})
     return root
 

@@ -47,7 +47,7 @@ def with_register(root: Path, condition: str) -> Path:
     for name in RUNS:
         put(made, name, result={**RESULT[name], **SAID})
     (made / "docs").mkdir()
-    (made / "docs" / "tools.toml").write_text(REGISTER.replace("{condition}", condition))
+    (made / "docs" / "report.toml").write_text(REGISTER.replace("{condition}", condition))
     return made
 
 
@@ -173,7 +173,7 @@ def test_missing_registers_are_named_and_damaged_ones_are_holes(tmp_path: Path) 
     assert [one.status for one in part(gather(root)).troubles] == [NOTE]
     assert "no known problem of a tool is judged" in make(root).html
     (root / "docs").mkdir()
-    (root / "docs" / "tools.toml").write_text("[[problem]]\n")
+    (root / "docs" / "report.toml").write_text("[[problem]]\n")
     assert [one.status for one in part(gather(root)).troubles] == [HOLE]
 
 

@@ -23,7 +23,7 @@ from tests.report.paper import change, entry, make_whole, put, without
 ROOT = Path(__file__).resolve().parents[2]
 
 
-CONTRACT = '[[contract]]\ndevice = "box"\n[[contract.property]]\nid = "ShutsOverDoor"\nsays = "x"\n'
+CONTRACT = '[contract.box.property.ShutsOverDoor]\nsays = "x"\n'
 
 
 @pytest.fixture
@@ -141,7 +141,7 @@ def test_a_word_that_is_not_explained_would_be_found(ours: Sources) -> None:
 
 
 def test_meanings_explain_the_words_that_they_use(root: Path) -> None:
-    with (root / "docs" / "glossary.toml").open("a") as file:
+    with (root / "docs" / "report.toml").open("a") as file:
         file.write('[[term]]\nword = "hatch"\nsays = "A door that has a LAMP."\n')
     html = Terms(gather(root)).explained("<p>the hatch</p>")
     assert re.findall("<dfn>(.*?)</dfn>", html) == ["door", "hatch", "LAMP"] and "&lt;b&gt;" in html
@@ -179,7 +179,7 @@ def test_the_commit_is_that_of_the_tree_and_says_changes(root: Path) -> None:
 
 
 def test_foreign_text_cannot_leave_its_place_in_the_style(root: Path) -> None:
-    change(root / "spec/box/document.toml", 'title = "A box"', "title = '\"; } </style><b>'")
+    change(root / "spec/box/clauses.toml", 'title = "A box"', "title = '\"; } </style><b>'")
     html = make(root).html
     assert r'@top-left { content: "\22 \3b  \7d  \3c /style\3e \3c b\3e "; }' in html
     assert css_string('a"\\\n') == r'"a\22 \5c \a "'
@@ -187,7 +187,7 @@ def test_foreign_text_cannot_leave_its_place_in_the_style(root: Path) -> None:
 
 def test_a_report_of_one_document_has_its_own_folder(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (root / "spec" / "lid").mkdir()
-    (root / "spec/lid/document.toml").write_text("damaged")
+    (root / "spec/lid/interface.toml").write_text("damaged")
     other = json.loads((root / "build/evidence/box/MC_Box.json").read_text())
     other["tools"]["modeproof"] = {"version": "0", "sha256": "0" * 64}
     (root / "build/evidence/lid").mkdir()

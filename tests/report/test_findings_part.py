@@ -12,8 +12,7 @@ from modeproof.report.sources import DIFFERS, HOLE, gather
 from tests.report.paper import RESULT, change, entry, make_paper, put, second, without
 
 FAULTS = """
-document = "box"
-[matrix]
+[faults.matrix]
 run = "WIT_Box"
 title = "door"
 [[fault]]
@@ -119,7 +118,8 @@ def test_a_document_without_a_fault_table_says_so(root: Path) -> None:
 
 
 def test_the_fault_table_says_what_holds_falls_or_is_unmodelled(root: Path) -> None:
-    (root / "spec" / "box" / "faults.toml").write_text(FAULTS)
+    with (root / "spec" / "box" / "assumptions.toml").open("a") as file:
+        file.write(FAULTS)
     gone, late = entry(faults, root)["faults"]
     assert (gone["holds"], gone["runs"][0]["word"]) == (["ShutsOverDoor"], "HOLDS")
     assert (gone["falls"][0]["needs"], gone["falls"][0]["steps"].value) == ("one hand", 1)
@@ -130,7 +130,8 @@ def test_the_fault_table_says_what_holds_falls_or_is_unmodelled(root: Path) -> N
 
 
 def test_an_unreached_cell_of_the_fault_matrix_says_so(root: Path) -> None:
-    (root / "spec" / "box" / "faults.toml").write_text(FAULTS)
+    with (root / "spec" / "box" / "assumptions.toml").open("a") as file:
+        file.write(FAULTS)
     runs = root / "spec" / "box" / "runs.toml"
     change(runs, 'witnesses = ["Close"]', 'witnesses = ["Close", "door at noon: shut", "door at dusk: open"]')
     put(root, "WIT_Box", result={"reached": ["Close", "door at noon: shut"]})

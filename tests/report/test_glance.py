@@ -257,7 +257,7 @@ def test_names_headings_drawings_and_attributes_keep_their_text(root: Path, html
 
 
 def test_a_verdict_word_is_one_in_capitals_only(root: Path) -> None:
-    with (root / "docs" / "glossary.toml").open("a") as file:
+    with (root / "docs" / "report.toml").open("a") as file:
         file.write('[[term]]\nword = "HOLDS"\nsays = "always"\n')
     html = Terms(gather(root)).linked("scope", "<p>it holds a HOLDS</p>")
     assert html == '<p>it holds a <a class="term" href="#term-holds">HOLDS</a></p>'
@@ -275,7 +275,7 @@ def test_the_glossary_is_escaped_and_its_words_have_anchors(root: Path) -> None:
 
 @pytest.mark.parametrize("text", ["[[term", "term = 3", '[[term]]\nword = "x"\n'])
 def test_a_damaged_glossary_is_a_hole(root: Path, text: str) -> None:
-    (root / "docs" / "glossary.toml").write_text(text)
+    (root / "docs" / "report.toml").write_text(text)
     found = glossary.part(gather(root))
     assert [one.status for one in found.troubles] == [HOLE] and found.data["terms"] == []
     assert make(root).status == HOLE

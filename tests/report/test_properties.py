@@ -141,8 +141,10 @@ def test_the_runs_table_has_every_declared_run_with_its_command(root: Path) -> N
 
 def test_an_edit_says_where_it_was_not_judged(root: Path) -> None:
     file = root / "spec/box/killers.toml"
-    place = 'property = "ShutsOverDoor"\nrun = "MC_Box"\nmodule = "Box"\n'
-    row = f"[[killer]]\n{place}old = 'Ready(i) == i.door \\/ ~Needed'\nnew = 'Ready(i) == TRUE'\n"
+    place = 'run = "MC_Box"\nin = "Box"\n'
+    row = (
+        f"[[killer.ShutsOverDoor]]\n{place}old = 'Ready(i) == i.door \\/ ~Needed'\nnew = 'Ready(i) == TRUE'\n"
+    )
     file.write_text(row)
     (told,) = part(gather(root)).troubles
     assert (told.status, told.what) == (HOLE, "box: an edit of ShutsOverDoor was not judged on this text")

@@ -16,7 +16,8 @@ from tests.stated_times import stated_times
 def root(tmp_path: Path) -> Path:
     """The box with response times, and its theorem names them."""
     root = make_paper(tmp_path)
-    (root / "spec" / "box" / "response.toml").write_text(stated_times("box", "box", "BX"))
+    with (root / "spec" / "box" / "properties.toml").open("a") as file:
+        file.write(stated_times("box", "box", "BX"))
     change(root / "proofs" / "box" / "box_safety.py", '["E-01"],', '["E-01"], responses=["BXR-1", "BXR-2"],')
     return root
 

@@ -52,7 +52,7 @@ def test_the_published_chart_is_that_of_the_figures() -> None:
 
 
 def test_a_series_without_its_run_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "spec/box/scaling.toml"
+    path = tmp_path / "spec/box/runs.toml"
     path.parent.mkdir(parents=True)
     path.write_text('[[series]]\nx = "levels"\ntitle = "t"\npoints = []\n')
     with pytest.raises(Unjudged, match="run is missing"):

@@ -140,7 +140,7 @@ FAULTS: dict[str, Callable[[Path], Any]] = {
     "is no file of vectors (BadGzipFile)": _plain,
     "is not there": _gone,
     "is of another text: spec/box/sequences.toml has changed": _other_text,
-    "is of another text: spec/box/interface.toml and 2 more": lambda root: (
+    "is of another text: spec/box/interface.toml and 3 more": lambda root: (
         root / "vectors/SHA256SUMS"
     ).unlink(),
     "holds 2 cases and says 3": lambda root: put_vectors(root, cases=3),

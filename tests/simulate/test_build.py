@@ -123,7 +123,7 @@ FOUND = {"id": "E-01", "title": "title", "story": "story"}
 
 
 def test_an_edit_that_fits_nowhere_makes_no_page(recorded_place: Path) -> None:
-    readings = recorded_place / "scenes" / SCENE / "readings.toml"
+    readings = recorded_place / "scenes" / SCENE / "stories.toml"
     text = readings.read_text(encoding="utf-8")
     for old, new, said in (
         ("s.selection, 0)", "nothing, 0)", "does not hold just once"),

@@ -7,10 +7,10 @@ import fnmatch
 import pytest
 
 from modeproof.ground.places import documents, root
-from modeproof.ground.proofs import code_under_proof
 from modeproof.strength.code import Code
 from modeproof.strength.mutant_judge import judge
 from modeproof.strength.register import Rejudged
+from proofs.mutants import bench
 from tests.strength.shipped import bench_of, mutants_of
 
 DOCUMENT = "mode_selection"
@@ -31,7 +31,7 @@ def test_some_are_named() -> None:
 
 @pytest.mark.parametrize("document", documents(root()))
 def test_every_explained_survivor_is_a_mutant_of_this_text(document: str) -> None:
-    code = Code(root(), document, code_under_proof())
+    code = Code(root(), document, bench)
     for every, explained in (
         (mutants_of(document), bench_of(document).strength.explained),
         (code.mutants, code.register.survivors),

@@ -59,7 +59,7 @@ def relay_graph(folder: Path, change: Callable[[str], str] = lambda text: text) 
     """The graph of the relay: it copies one word a scan, A to X and B to Y in turn."""
     room = folder / "spec" / "toy"
     room.mkdir(parents=True, exist_ok=True)
-    (room / "classes.toml").write_text(change(CLASSES), encoding="utf-8")
+    (room / "interface.toml").write_text(change(CLASSES), encoding="utf-8")
     letters = [(a, b) for a in WORDS for b in WORDS]
     printed = [f'<<"INPUT", {n}, [A |-> {a}, B |-> {b}, dt |-> 1]>>' for n, (a, b) in enumerate(letters)]
     start = ("CopyA", 0, 0)

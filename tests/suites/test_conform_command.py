@@ -59,11 +59,10 @@ edges = 54
 def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     room = tmp_path / "spec" / "toy"
     room.mkdir(parents=True)
-    (room / "interface.toml").write_text(INTERFACE)
+    (room / "interface.toml").write_text(INTERFACE + WORDS)
     (room / "runs.toml").write_text(RUNS)
     (room / "models").mkdir()
     (room / "models/OPEN_Lamp.cfg").write_text("SPECIFICATION Spec\nINVARIANT PrintState\n")
-    (room / "classes.toml").write_text(WORDS)
     (room / "sequences.toml").write_text(SEQUENCES)
     graphs = tmp_path / "build" / "graphs" / "toy"
     graphs.mkdir(parents=True)
@@ -166,7 +165,7 @@ def test_a_suite_built_once_judges_an_adapter(toy: Path, capsys: pytest.CaptureF
     assert found["verdict"] == "CONFORMS"
     assert "every transition" in found["result"]["says"]["guarantees"]
 
-    (toy / "spec" / "toy" / "classes.toml").write_text("")
+    (toy / "spec" / "toy" / "interface.toml").write_text(INTERFACE)
     assert main(["conform", "lamp", "--adapter", command, "--quiet"]) == 0
     assert vectors.stat().st_mtime_ns != stamp, "a suite older than its sources is built anew"
     assert kit_main(["conform", "lamp", "--adapter", command, "--vectors", str(vectors), "--quiet"]) == 0

@@ -18,17 +18,13 @@ from tests.suites.test_conform_command import toy as toy  # the fixture
 
 PROPERTIES = '[[property]]\nid = "LightNeedsCode"\nclauses = ["TOY-1"]\n'
 CONTRACT = """
-[[contract]]
-device = "lamp"
+[contract.lamp]
 constants = { CODE = 0x0FF0 }
 
-[[contract.rule]]
-name = "codes"
-kind = "recent"
-is = "press and word == CODE"
+[contract.lamp.rules]
+codes = { recent = "press and word == CODE" }
 
-[[contract.property]]
-id = "LightNeedsCode"
+[contract.lamp.property.LightNeedsCode]
 says = "The lamp goes on only with its code."
 when = "LAMP and not was_LAMP"
 holds = "True in codes"
@@ -66,16 +62,16 @@ def test_a_contract_enters_the_header_with_clauses_and_rebuilds(toy: Path) -> No
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ('id = "LightNeedsCode"', 'id = "LightNeedsCod"', "'LightNeedsCod' is not in properties.toml"),
+        (".LightNeedsCode]", ".LightNeedsCod]", "'LightNeedsCod' is not in properties.toml"),
         ("True in codes", "True in code", "unknown name 'code'"),
-        ('kind = "recent"', 'kind = "rescent"', "one of the kinds"),
+        ("{ recent", "{ rescent", "rule 'codes' is a text, or a table with recent"),
+        ('CODE" }', 'CODE", starts = true }', "rule 'codes': unknown key starts"),
         ("CODE = 0x0FF0", "CODA = 0x0FF0", "unknown name 'CODE'"),
         ('says = "', 'say = "', "unknown key say"),
-        ("[[contract.property]]", "[[contract.properties]]", "unknown key properties"),
+        ("lamp.property", "lamp.properties", "unknown key properties"),
         ("was_LAMP", "was_lamp", "unknown name 'was_lamp'"),
-        ('device = "lamp"', 'device = "lamp', "spec/toy/contracts.toml"),
-        ('device = "lamp"', 'device = "lamp"\ntables = ["REE"]', "has no table 'REE'"),
-        ("[[contract.rule]]", '[[contract]]\ndevice = "lamp"\n[[contract.rule]]', "has two contracts"),
+        ("[contract.lamp]", "[contract.lamp", "spec/toy/contracts.toml"),
+        ("[contract.lamp]", '[contract.lamp]\ntables = ["REE"]', "has no table 'REE'"),
     ],
 )
 def test_what_does_not_fit_is_refused(toy: Path, old: str, new: str, said: str) -> None:

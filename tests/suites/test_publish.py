@@ -18,6 +18,7 @@ from modeproof.suites.build import published
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.lint import lint
 from modeproof.suites.publish import Published, _same, publish
+from tests.suites.test_conform_command import INTERFACE
 from tests.suites.test_conform_command import toy as toy  # the fixture
 
 
@@ -44,7 +45,7 @@ def test_what_was_built_is_published_unless_it_is_the_same(
     assert files[0].read_bytes() == packed_otherwise
 
 
-def test_a_file_with_the_same_lines_is_kept_however_it_is_packed(tmp_path: Path) -> None:
+def test_a_file_with_the_same_lines_is_kept(tmp_path: Path) -> None:
     def packed(name: str, level: int, case: str = "{}") -> Path:
         (tmp_path / name).write_bytes(gzip.compress(f'{{"cases": 1}}\n{case}\n'.encode(), level))
         return tmp_path / name
@@ -60,7 +61,7 @@ def test_a_file_with_the_same_lines_is_kept_however_it_is_packed(tmp_path: Path)
     [
         (
             "register",
-            "spec/toy/classes.toml has changed since it was published; if that was not meant, undo it",
+            "spec/toy/interface.toml has changed since it was published; if that was not meant, undo it",
         ),
         ("cfg", "spec/toy/runs.toml, OPEN_Lamp has changed"),
         ("comment", ""),
@@ -79,11 +80,11 @@ def test_a_published_file_of_another_text_is_found_without_rebuilding(
     assert check_vectors(toy) == []
     path = toy / "vectors/lamp/brief.jsonl.gz"
     if spoil == "register":
-        (toy / "spec/toy/classes.toml").write_text("")
+        (toy / "spec/toy/interface.toml").write_text(INTERFACE)
     elif spoil == "cfg":
         (toy / "spec/toy/models/OPEN_Lamp.cfg").write_text("SPECIFICATION Other\nINVARIANT PrintState\n")
     elif spoil == "comment":
-        for name in ("Lamp.tla", "classes.toml"):
+        for name in ("Lamp.tla", "interface.toml"):
             text = (toy / "spec/toy" / name).read_text()
             mark = "\\* a comment\n" if name.endswith(".tla") else "# a comment\n"
             end = text.rindex("====") if name.endswith(".tla") else len(text)

@@ -122,8 +122,6 @@ def test_only_the_quick_compiler_compiles_a_run_of_little_heap(heap_mb: int, sma
         ("LIVE", 1, False),
     ],
 )
-def test_a_run_of_few_states_is_compiled_quickly_whatever_its_heap(
-    kind: str, generated: int | None, small: bool
-) -> None:
+def test_a_run_of_few_states_is_compiled_quickly(kind: str, generated: int | None, small: bool) -> None:
     run = declared("MC_toy", heap_mb=1536, kind=kind, generated=generated)
     assert (QUICK in command_line(run, TOOLS, Path("/states"))) == small

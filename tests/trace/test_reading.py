@@ -258,10 +258,10 @@ COPIES = 'copies = { one = "33CC", other = "0001", compares = ["ReadAuthorizatio
             "plc: copies: plc has no output that it remembers",
         ),
         ('["ReadAuthorization", "MW01"]', '["MW03", "MW03"]', "plc: copies: plc has no input 'MW03'"),
-        ('id = "hmi"\n', f'id = "hmi"\n{COPIES}', "hmi: copies: hmi has no output that it remembers"),
+        ("[target.hmi]\n", f"[target.hmi]\n{COPIES}", "hmi: copies: hmi has no output that it remembers"),
         (
-            'id = "key_flows"\n',
-            f'id = "key_flows"\n{COPIES}',
+            "[target.key_flows]\n",
+            f"[target.key_flows]\n{COPIES}",
             "key_flows: copies: belongs to a target of one",
         ),
     ],
@@ -270,9 +270,9 @@ def test_a_comparison_that_no_device_makes_is_refused(
     tmp_path: Path, old: str, new: str, expected: str
 ) -> None:
     shutil.copytree(root() / "spec" / "mode_selection", tmp_path / "spec" / "mode_selection")
-    path = tmp_path / "spec" / "mode_selection" / "traces.toml"
+    path = tmp_path / "spec" / "mode_selection" / "replay.toml"
     text = path.read_text()
     assert COPIES in text and old in text
     path.write_text(text.replace(old, new))
-    with pytest.raises(Unjudged, match=rf"\[\[target\]\] {expected}"):
+    with pytest.raises(Unjudged, match=rf"target {expected}"):
         targets_of(tmp_path, "mode_selection")

@@ -4,40 +4,75 @@ template of the same name in `page/`.
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator
+from types import ModuleType
 
 from modeproof.report.part import Maker
-
-FILED = ("summary", "functions", "findings", "machine", "limits", "reproduce")
-"""What is printed and filed; the first has the troubles of all."""
-ORDER = (
-    *FILED,
-    "review",
-    "verdict",
-    "scope",
-    "system",
-    "charts",
-    "properties",
-    "responses",
-    "assumptions",
-    "readings",
-    "faults",
-    "conformance",
-    "programs",
-    "strength",
-    "proofs",
-    "matrix",
-    "traces",
-    "explorer",
-    "confidence",
-    "changes",
-    "glossary",
+from modeproof.report.parts import (
+    assumptions,
+    changes,
+    charts,
+    confidence,
+    conformance,
+    explorer,
+    faults,
+    findings,
+    functions,
+    glossary,
+    limits,
+    machine,
+    matrix,
+    programs,
+    proofs,
+    properties,
+    readings,
+    reproduce,
+    responses,
+    review,
+    scope,
+    strength,
+    summary,
+    system,
+    traces,
+    verdict,
 )
+
+_FILED = (summary, functions, findings, machine, limits, reproduce)
+_ANNEX = (
+    review,
+    verdict,
+    scope,
+    system,
+    charts,
+    properties,
+    responses,
+    assumptions,
+    readings,
+    faults,
+    conformance,
+    programs,
+    strength,
+    proofs,
+    matrix,
+    traces,
+    explorer,
+    confidence,
+    changes,
+    glossary,
+)
+
+
+def _id(module: ModuleType) -> str:
+    return module.__name__.rpartition(".")[2]
+
+
+FILED = tuple(map(_id, _FILED))
+"""What is printed and filed; the first has the troubles of all."""
+ORDER = tuple(map(_id, (*_FILED, *_ANNEX)))
 """All parts. What is not filed is the annex: it closes on the screen and is printed on request."""
 
 
 def makers() -> Iterator[tuple[str, Maker]]:
     """Each part's id and how it is made."""
-    for name in ORDER:
-        yield name, importlib.import_module(f"{__name__}.{name}").part
+    for module in (*_FILED, *_ANNEX):
+        yield _id(module), module.part

@@ -18,14 +18,16 @@ ID = "confidence"
 def part(sources: Sources) -> Part:
     """Tools, cross-checks, problems. Without the register the tools alone, and that it is missing."""
     data: dict[str, Any] = {"tools": _tools(sources), "checks": [], "problems": [], "register": SOURCE}
+    none = Trouble(NOTE, ID, f"{SOURCE} states none: no known problem of the tools is judged")
     if sources.content(SOURCE) is None:
-        trouble = Trouble(NOTE, ID, f"{SOURCE} is missing: no known problem of the tools is judged")
-        return Part(ID, "Tool confidence", data, (trouble,))
+        return Part(ID, "Tool confidence", data, (none,))
     try:
         register = load_tools(sources.root)
     except Unjudged as error:
         trouble = Trouble(HOLE, ID, f"known problems of the tools cannot be read: {error.message}")
         return Part(ID, "Tool confidence", data, (trouble,))
+    if not register.problems:
+        return Part(ID, "Tool confidence", data, (none,))
     troubles: list[Trouble] = []
     data["checks"] = [_check(sources, check) for check in register.checks]
     data["problems"] = [_problem(sources, problem, troubles) for problem in register.problems]

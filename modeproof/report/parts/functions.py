@@ -74,7 +74,7 @@ def _owed(sources: Sources, document: Document, troubles: list[Trouble]) -> set[
         return set()
     try:
         contracts = tomllib.loads(content.decode("utf-8"))["contract"]
-        return {str(row["id"]) for contract in contracts for row in contract.get("property", ())}
+        return {id for contract in contracts.values() for id in contract.get("property", {})}
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         troubles.append(Trouble(HOLE, ID, f"{path} cannot be read: {error}"))
         return set()

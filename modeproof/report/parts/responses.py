@@ -30,7 +30,7 @@ def _document(sources: Sources, document: Document) -> dict[str, Any]:
     return {
         "id": document.name,
         "title": document.about.title,
-        "register": document.source("response"),
+        "register": document.source("properties"),
         "example": example_of(document),
         "rows": bounds(document, texts_of(sources, document)),
         "chains": chain_bounds(document),

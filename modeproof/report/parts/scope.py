@@ -29,12 +29,12 @@ def _document(document: Document) -> dict[str, Any]:
         "edition": about.edition,
         "publisher": about.publisher,
         "seed": about.seed,
-        "sha256": Figure(about.sha256, document.source("document")),
+        "sha256": Figure(about.sha256, document.source("clauses")),
         "available": about.available,
         "not_available": about.not_available,
         "not_endorsed": about.not_endorsed,
         "sources": about.sources,
-        "register": document.source("document"),
+        "register": document.source("clauses"),
         "devices": [
             _device(device, document.source("interface")) for device in document.interface.devices.values()
         ],

@@ -10,6 +10,8 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from modeproof.simulate.program.by_name import module_named
+
 TOOK = "_took"
 """The name that a marked `return` of the copy calls."""
 
@@ -41,7 +43,7 @@ class Device:
     """
 
     def __init__(self, module: str, labelled: str, params: dict[str, Any], source: str = "") -> None:
-        self.code: Any = _program(module, source) if source else __import__(module, fromlist=["step"])
+        self.code: Any = _program(module, source) if source else module_named(module)
         self.state: Any = self.code.power_up(self.code.Params(**params))
         self.out: Any = self.code.outputs(self.state)
         self.step = ""

@@ -8,6 +8,7 @@ from browser import document, window
 from javascript import JSON
 
 from modeproof.simulate.program.block import Block, recorded
+from modeproof.simulate.program.by_name import module_named
 from modeproof.simulate.program.play import Player, of_log, of_recorded, of_story
 from modeproof.simulate.program.suites import judge
 from modeproof.simulate.program.view import View
@@ -28,7 +29,7 @@ class Page:
         self.drawn_fault: dict[str, str] = {}
         self.code: dict[str, Any] = {}
         for name in FACTS["scenes"]:
-            self.code[name] = __import__(f"scenes.{name}.scene", fromlist=["Scene"])
+            self.code[name] = module_named(f"scenes.{name}.scene")
             self.open_cells(name, [{"title": "", "params": {}}])
         self.parts = [nav.attrs["data-part"] for nav in document.select("nav [data-part]")]
         for nav in document.select("nav [data-part]"):
@@ -334,7 +335,7 @@ class Page:
         try:
             header = JSON.parse(lines[0])
             module = FACTS["documents"][header["document"]]["module"] + header["target"]
-            code = __import__(module, fromlist=["step"])
+            code = module_named(module)
             header["suite"], header["inputs"], header["cases"]
         except Exception as error:  # whatever the text is; the browser's own complaint is no ValueError
             self.unread(files[0], f"not a vector file of a device in this page: {error}", files)

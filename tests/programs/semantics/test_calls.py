@@ -8,7 +8,7 @@ import pytest
 
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
-from programs.semantics.interpreter import Overflow
+from programs.semantics.interpreter_expressions import Overflow
 from tests.programs.semantics.test_semantics_edges import Scans, rows
 
 ADD = """FUNCTION Add2 : INT

@@ -13,7 +13,8 @@ from programs.readers.scl import structured_text
 from programs.readers.structured_text.units import read_text
 from programs.semantics import terms
 from programs.semantics import translator_expressions as values
-from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Overflow
 from tests.programs.fuzz import difference_of_text, difference_of_translator, source_of
 from tests.programs.semantics.test_semantics_edges import rows
 
@@ -220,7 +221,8 @@ def test_a_wrong_copy_would_be_noticed(monkeypatch: pytest.MonkeyPatch, fault: s
     )
     assert difference_of_text(text, 1, 30) == ""
     if fault == "shared":
-        monkeypatch.setattr("programs.semantics.interpreter.deepcopy", lambda value: value)
+        for module in ("interpreter", "interpreter_expressions"):
+            monkeypatch.setattr(f"programs.semantics.{module}.deepcopy", lambda value: value)
     else:
         monkeypatch.setattr(values.Context, "put", lambda self, places, made, env: env.update(
             {f"{places[0][1]}{leaf}": term for leaf, term in made.items()}))  # fmt: skip

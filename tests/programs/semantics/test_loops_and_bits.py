@@ -10,7 +10,8 @@ import z3
 from programs.language.tree import Bit
 from programs.semantics import translator as symbolic
 from programs.semantics import translator_expressions as values
-from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Overflow
 from programs.semantics.translator import Left
 from tests.programs.fuzz import difference_of_text, source_of
 from tests.programs.small_blocks import END, HEAD, INT, given

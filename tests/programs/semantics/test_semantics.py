@@ -10,7 +10,8 @@ import z3
 
 from modeproof.ground.errors import Unjudged
 from programs.language.subset import check
-from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Overflow
 from tests.programs.fuzz import difference_of_text, source_of
 
 KITCHEN = Path(__file__).with_name("kitchen.st")

@@ -16,7 +16,8 @@ from programs.semantics import interpreter_blocks as run_standard
 from programs.semantics import terms
 from programs.semantics import translator as symbolic
 from programs.semantics import translator_expressions as values
-from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Overflow
 from programs.semantics.terms import slots
 from tests.programs.fuzz import difference_of_text, difference_of_translator, source_of
 from tests.programs.generate import program

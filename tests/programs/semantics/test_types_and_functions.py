@@ -7,7 +7,8 @@ import pytest
 from modeproof.ground.errors import Unjudged
 from programs.readers import attributes
 from programs.semantics import terms
-from programs.semantics.interpreter import Machine, Overflow
+from programs.semantics.interpreter import Machine
+from programs.semantics.interpreter_expressions import Overflow
 from tests.programs.fuzz import difference_of_text, source_of
 from tests.programs.generate import program
 from tests.programs.small_blocks import BOOL, END, HEAD, INT, given, ready, refusal

@@ -1,45 +1,28 @@
-"""The way to the room `proofs`: its modules are imported when they are needed."""
+"""Importing what needs a solver: a clear line when there is none, and Ctrl-C that reaches Python."""
 
 from __future__ import annotations
 
+import contextlib
 import functools
-import importlib
 import os
 import signal
 import sys
 import threading
+from collections.abc import Iterator
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
 
 
-def code_under_proof() -> Any:
-    """What says of a document's code which of it is to be changed, and judges changed copies of it.
-
-    Raises Unjudged when the proofs cannot be imported.
-    """
-    return proofs_module("proofs.mutants.bench")
-
-
-def copies_of_code() -> Any:
-    """What makes a copy of a package of code with one definition changed. Raises Unjudged."""
-    return proofs_module("proofs.mutants.copies")
-
-
-def observer_of_code() -> Any:
-    """What proves that nobody can tell a changed copy by inputs and outputs. Raises Unjudged."""
-    return proofs_module("proofs.mutants.observed")
-
-
-def proofs_module(name: str) -> Any:
-    """A module of the room `proofs`. Raises Unjudged when it, or a solver, cannot be imported."""
+@contextlib.contextmanager
+def needing_solvers() -> Iterator[None]:
+    """Around imports of what cannot run without a solver. Raises Unjudged when one of them is missing."""
     try:
-        module = importlib.import_module(name)
-        if "z3" in sys.modules:
-            _hear_interrupts(sys.modules["z3"])
-        return module
+        yield
     except ImportError as error:
         raise Unjudged(f"proofs cannot be run: {error}") from None
+    if "z3" in sys.modules:
+        _hear_interrupts(sys.modules["z3"])
 
 
 @functools.cache
