@@ -106,7 +106,7 @@ def current_graph(place: Path, run: Run) -> Path:
     return graph_file(place, run)
 
 
-COMPARED_BY = ("modeproof.suites.conform_command",)
+COMPARED_BY = ("modeproof/suites/conform_command.py",)
 """The module that compares a graph with an implementation."""
 
 
