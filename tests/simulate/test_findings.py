@@ -143,7 +143,7 @@ def facts_of(place: Path) -> dict[str, Any]:
 
 
 def test_every_finding_with_a_counterexample_can_be_played(known: dict[str, Any]) -> None:
-    """What is missing is made by modeproof check, modeproof walks and modeproof simulate --record."""
+    """What is missing is made by modeproof renew."""
     for name in DOCUMENTS:
         document, about = load_document(ROOT, name), known[name]
         assert [finding["id"] for finding in about["findings"]] == [of.id for of in document.findings]

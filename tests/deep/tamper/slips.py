@@ -256,8 +256,8 @@ THEOREMS = (
     says(
         "a theorem of the plc leaves out the words",
         "proofs/mode_selection/plc_safety.py",
-        "    return TRUE, z3.And(_copied(scan, word), *others)",
-        "    return TRUE, z3.And(*others)",
+        "    return z3.And(_copied(scan, word), *others)",
+        "    return z3.And(*others)",
     ),
     says(
         "a theorem allows every pair of steps",
@@ -484,8 +484,8 @@ MODELS = (
     Case(
         "a witness that no step reaches",
         RUNS,
-        'witnesses = ["Deactivate", ',
-        'witnesses = ["Deactivated", "Deactivate", ',
+        'witnesses = [\n    "Deactivate", ',
+        'witnesses = [\n    "Deactivated", "Deactivate", ',
         "check WIT_SF_EDM --quiet",
         1,
         "UNREACHED",
@@ -512,10 +512,18 @@ def register(name: str, file: str, old: str, new: str | None, of: str, status: i
 REGISTERS = (
     register("the pins are gone", PINS, "", None, "is not pinned"),
     register(
-        "a pin is taken out", PINS, 'StopAtOnce = "', 'StopsAtOnce = "', "checked.StopAtOnce: is not pinned"
+        "a pin is taken out",
+        PINS,
+        'ResetsAtOnce = "',
+        'Another = "',
+        "checked.ResetsAtOnce: is not pinned",
     ),
     register(
-        "a pin is changed", PINS, 'StopAtOnce = "', 'StopAtOnce = "0000000000000000"\nStopped = "', PINNED
+        "a pin is changed",
+        PINS,
+        'ResetsAtOnce = "',
+        'ResetsAtOnce = "0000000000000000"\nStopped = "',
+        PINNED,
     ),
     register("pins of another document", PINS, 'document = "edm"', 'document = "edm2"', "is another's"),
     register(
@@ -609,15 +617,31 @@ REGISTERS = (
         "vectors/sf_edm/brief.jsonl.gz: is not in SHA256SUMS",
     ),
     register(
+        "a state has no code",
+        "spec/edm/interface.toml",
+        'InitError = "C100"\n',
+        "",
+        "InitError: each state has a code, and no other",
+    ),
+    register(
         "main runs are moved to the exhaustive lane",
         RUNS,
-        '[run.MC_SF_EDM_arbitrary]\nmodule = "EDMOpen"\nlanes = ["full"]',
-        '[run.MC_SF_EDM_arbitrary]\nmodule = "EDMOpen"\nlanes = ["exhaustive"]',
+        "[run.MC_SF_EDM_arbitrary]\n",
+        '[run.MC_SF_EDM_arbitrary]\nlanes = ["exhaustive"]\n',
         "lane",
     ),
 )
 
 CODE = (
+    Case(
+        "unsafe code is not published, also not in the vectors of the machine",
+        "refimpl/guard_locking/sf_guard_locking.py",
+        "if i.UnlockRequest and i.S_SafetyActive:",
+        "if i.UnlockRequest:",
+        "renew --document guard_locking --quiet",
+        1,
+        "specification and reference implementation differ",
+    ),
     Case(
         "the code ends nothing with Activate",
         "refimpl/edm/sf_edm.py",
