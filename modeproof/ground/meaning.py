@@ -115,9 +115,13 @@ def reached(root: Path, *entries: Path | str) -> tuple[Path, ...]:
 
 
 def is_there(root: Path, name: str) -> bool:
-    """Whether a module or package of this dotted name lies below the root."""
+    """Whether a file of this path, or a module or package of this dotted name, lies below the root."""
     place = root.joinpath(*name.split("."))
-    return place.with_name(f"{place.name}.py").is_file() or (place / "__init__.py").is_file()
+    return (
+        (root / name).is_file()
+        or place.with_name(f"{place.name}.py").is_file()
+        or (place / "__init__.py").is_file()
+    )
 
 
 @dataclass(frozen=True)

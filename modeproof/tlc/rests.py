@@ -20,7 +20,7 @@ from modeproof.registers.tla import read_modules
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain
 
-CODE = ("modeproof.tlc.check",)
+CODE = ("modeproof/tlc/check.py",)
 """The module that runs TLC and judges what it says."""
 
 
