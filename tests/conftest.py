@@ -12,15 +12,18 @@ from typing import Any
 import pytest
 from xdist.scheduler import LoadScopeScheduling
 
-from tests.any_machine import PATIENCE_S, no_hurry
-from tests.groups import group_of
-from tests.tiers import divide
+HERE = Path(__file__).resolve().parent
+# Modules beside the tests assert too and show their values. This must come before they are imported.
+pytest.register_assert_rewrite(*(f"tests.{path.stem}" for path in HERE.iterdir()))
+
+from tests.any_machine import PATIENCE_S, no_hurry  # noqa: E402
+from tests.groups import group_of  # noqa: E402
+from tests.tiers import divide  # noqa: E402
 
 no_hurry()
 signal.signal(signal.SIGINT, signal.default_int_handler)  # whoever started us may have them ignored, as nohup
 for number in (signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else [])):
     signal.signal(number, signal.SIG_DFL)
-HERE = Path(__file__).resolve().parent
 
 
 class ByGroup(LoadScopeScheduling):  # type: ignore[misc]

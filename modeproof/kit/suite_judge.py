@@ -69,6 +69,8 @@ def run_suite(
         verdict.interrupted = True
     verdict.seconds = time.monotonic() - began
     run.cover()
+    if verdict.word == DIFFERS and verdict.difference is not None:
+        verdict.reason = verdict.reason or verdict.difference.in_a_line
     if verdict.word == CONFORMS:
         verdict.reason = run.too_little()
         verdict.word = UNJUDGED if verdict.reason else CONFORMS
@@ -90,6 +92,7 @@ class _Run:
         self.on_hello: Callable[[Hello], None] | None = None
         self.hello: Hello | None = None
         self.hidden: frozenset[str] = frozenset()
+        self.left_out: frozenset[str] = frozenset()
         self.watch: Watch | None = None
         self.programs: list[Program] = []
         self.seen: list[set[tuple[int, int, int]]] = [set() for _ in suite.steps]
@@ -229,6 +232,7 @@ class _Run:
                 self.on_hello(hello)
             self.hello = hello
             self.hidden = frozenset(hello.unobserved) - frozenset(self.suite.codes)
+            self.left_out = frozenset(self.suite.codes) - frozenset(session.compared)
             verdict.outputs = (len(session.compared), len(self.suite.outputs) - len(session.not_compared))
             verdict.adapter = f"{hello.name} {hello.version}".strip()
             verdict.unobserved = hello.unobserved
@@ -301,10 +305,15 @@ class _Run:
         self.verdict.ids[case.id] = "passed" if shows else "not seen"
 
     def _shows(self, last: Scan | None, scan: Scan) -> bool:
-        """Whether a compared output changes in this scan, or none does: else nobody saw what happened."""
+        """Whether a compared output changes in this scan, or none does: else nobody saw what happened.
+
+        What the document gives no values for says nothing here, unless it is compared.
+        """
         if not self.hidden or last is None or last.outputs is scan.outputs:
             return True
-        changed = {name for name, value in scan.outputs.items() if last.outputs[name] != value}
+        changed = {
+            name for name, value in scan.outputs.items() if last.outputs[name] != value
+        } - self.left_out
         return not changed or bool(changed - self.hidden)
 
     def _tell(self) -> None:

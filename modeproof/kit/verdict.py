@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from modeproof.kit.errors import plain
 from modeproof.kit.relation import Options
 from modeproof.kit.vectors import Case
 
@@ -13,6 +15,10 @@ CONFORMS, DIFFERS, UNJUDGED = "CONFORMS", "DIFFERS", "UNJUDGED"
 EXIT = {CONFORMS: 0, DIFFERS: 1, UNJUDGED: 2}
 PROTOCOL = "protocol"
 """Stands for the step where an adapter answered what it must refuse."""
+MOST_TOLD = 3
+"""Outputs that a difference names in one line."""
+LONGEST_REASON = 400
+"""Characters of that line."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +67,18 @@ class Difference:
     def cause(self) -> tuple[str, ...]:
         """What differences of one cause are likely to share: property or step, and the wrong outputs."""
         return (self.broken or self.step, *sorted(self.expected))
+
+    @property
+    def in_a_line(self) -> str:
+        """Where the first wrong scan is, and what is wrong there."""
+        wrong = [
+            f"{name} is {json.dumps(self.got.get(name, self.got))}, expected {json.dumps(wanted)}"
+            for name, wanted in self.expected.items()
+        ]
+        more = f", and {len(wrong) - MOST_TOLD} more" if len(wrong) > MOST_TOLD else ""
+        about = f"breaks {self.broken}" if self.broken else self.step
+        where = f"case {self.case.id}, scan {self.scan} ({about})"
+        return plain(f"{where}: {'; '.join(wrong[:MOST_TOLD])}{more}", LONGEST_REASON)
 
 
 @dataclass

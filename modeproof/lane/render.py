@@ -18,6 +18,7 @@ from modeproof.ground.places import add_document_option, chosen_documents, docum
 from modeproof.ground.places import root as repository_root
 from modeproof.registers.citations import read_sources
 from modeproof.registers.document_page import page, page_name, picture_name, tables_of, tellings
+from modeproof.registers.findings_page import findings_pages
 from modeproof.registers.load import load_document
 from modeproof.registers.replay import load_replay
 from modeproof.registers.rows import Document
@@ -85,7 +86,10 @@ def _changed(place: Path, texts: Mapping[str, str]) -> list[str]:
 def rendered(document: Document) -> dict[str, str]:
     """The page of a document, and its chart where growth was measured."""
     place, name = document.root, document.name
-    texts = {page_name(name): page(document, read_sources(document), _tables(document))}
+    texts = {
+        page_name(name): page(document, read_sources(document), _tables(document)),
+        **findings_pages(document),
+    }
     if curves := curves_of(place, name):
         texts[picture_name(name)] = chart(curves)
     return texts

@@ -60,7 +60,8 @@ def render(document: str, lines: Sequence[Line], records: Sequence[Record], widt
     out = [f"== {document}", *table([line for line in lines if line.verdict != ASIDE], columns)]
     if aside:
         names = ", ".join(f"{line.property} ({line.environment})" for line in aside)
-        out.append(_fit(f"{len(aside)} more {ASIDE}: {names}", columns))
+        checked = f"{len(lines) - len(aside)} of {len(lines)} properties checked"
+        out.append(_fit(f"{checked}, by environment; {ASIDE}: {names}", columns))
     tlc = [r for r in records if r["kind"] == "tlc"]
     for kind, label, words in GROUPS:
         group = [r for r in tlc if r["result"].get("run") == kind]
@@ -89,8 +90,9 @@ def total(count: int, lines: Sequence[Line], records: Sequence[Record], seconds:
     """All documents together, in the words of their screens; `seconds` by the clock."""
     shown = [line for line in lines if line.verdict != ASIDE]
     good = sum(1 for line in shown if not line.status)
+    asked = f"{len(shown)} of {len(lines)} checked in this lane, " if len(shown) < len(lines) else ""
     tlc = [record for record in records if record["kind"] == "tlc"]
-    out = [f"== {count} documents", f"{'properties':<12} {good} of {len(shown)} hold, by environment"]
+    out = [f"== {count} documents", f"{'properties':<12} {asked}{good} of {len(shown)} hold, by environment"]
     groups = [
         (label, [record for record in tlc if record["result"].get("run") == kind], words)
         for kind, label, words in GROUPS

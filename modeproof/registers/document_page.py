@@ -16,6 +16,16 @@ from typing import Any
 
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import markdown, read_text, read_toml
+from modeproof.registers.findings_page import (
+    CLASSES,
+    counted,
+    evidence_of,
+    findings_name,
+    findings_pages,
+    run_of,
+    sentence,
+)
+from modeproof.registers.fitted import fitted
 from modeproof.registers.killers import ways_to_fall
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
 from modeproof.registers.responses import section
@@ -23,17 +33,7 @@ from modeproof.registers.rows import Document, Finding, Problem, Property, Telli
 from modeproof.registers.runs import ASKING, Run
 from modeproof.registers.stale import stale
 
-CLASSES = {
-    "safety": "Safety: the other reading starts the machine, or hides a fault",
-    "hazard": "Hazard: the text has one reading, which leaves something to the machine",
-    "availability": "Availability: the other reading stops the machine or its user",
-    "wording": "Wording: no effect once it is noticed",
-}
 _TABLE = re.compile(r"<!-- begin trace (\w+) (\w{12}) -->\n(.*?)<!-- end trace -->\n", re.DOTALL)
-_BY_NUMBER = re.compile(r"\b[Tt]he (first|second|third|fourth|fifth|last|other two)\b")
-"""A decision or a consequence that names readings by their number."""
-_MANY = 3
-"""Of a finding with more counterexamples than this, the line names only the first ones."""
 
 
 def page_name(document: str) -> str:
@@ -60,7 +60,7 @@ def check_document_page(document: Document, sources: Sources) -> list[Problem]:
     problems = [
         Problem(document.source("findings"), finding.id, f"telling: {telling.run} is no counterexample of it")
         for finding, telling in tellings(document)
-        if _run(document, telling.run) is None or telling.run not in finding.evidence
+        if run_of(document, telling.run) is None or telling.run not in finding.evidence
     ]
     name = page_name(document.name)
     if problems or not (document.root / name).is_file():
@@ -71,11 +71,15 @@ def check_document_page(document: Document, sources: Sources) -> list[Problem]:
         if tables.get(telling.run) is None:
             cause = f"the table of {telling.run} is missing, was changed by hand, or its run has changed"
             problems.append(Problem(name, "", stale(cause, document.name)))
-    if not problems and (expected := page(document, sources, tables)) != text:
-        line = _first_difference(expected, text)
-        problems.append(
-            Problem(name, "", stale(f"line {line} is not what the registers give", document.name))
-        )
+    if not problems:
+        pages = {name: page(document, sources, tables), **findings_pages(document)}
+        for name, expected in pages.items():
+            there = (document.root / name).is_file()
+            text = read_text(document.root, document.root / name) if there else ""
+            if expected != text:
+                line = _first_difference(expected, text)
+                cause = f"line {line} is not what the registers give"
+                problems.append(Problem(name, "", stale(cause, document.name)))
     return problems
 
 
@@ -87,7 +91,7 @@ def tables_of(document: Document, text: str) -> dict[str, str]:
 
 def _digest(document: Document, name: str, table: str) -> str:
     """What a table rests on: the pins of its run, and its own text."""
-    run = _run(document, name)
+    run = run_of(document, name)
     pins = None if run is None else [run.property, run.trace_length, run.distinct]
     return hashlib.sha256(json.dumps([name, pins, table]).encode("utf-8")).hexdigest()[:12]
 
@@ -114,7 +118,7 @@ def page(document: Document, sources: Sources, tables: Mapping[str, str]) -> str
         *_faults(document),
         *_growth(document),
     ]
-    return "\n".join(parts)
+    return fitted("\n".join(parts))
 
 
 def _head(document: Document) -> str:
@@ -126,11 +130,11 @@ def _head(document: Document) -> str:
     return f"""# {about.title}
 
 <!-- made by modeproof render from spec/{name}: edit the registers there, not this page -->
-**What it is.** {_sentence(about.edition)}{number} Publisher: {about.publisher.removesuffix(".")}.
+**What it is.** {sentence(about.edition)}{number} Publisher: {about.publisher.removesuffix(".")}.
 
-**What we had.** {_sentence("; ".join(about.available))}
+**What we had.** {sentence("; ".join(about.available))}
 
-**What we did not have.** {_sentence("; ".join(about.not_available) or "nothing is missing")}
+**What we did not have.** {sentence("; ".join(about.not_available) or "nothing is missing")}
 
 {about.not_endorsed}
 
@@ -152,8 +156,7 @@ def _shown(document: Document, sources: Sources) -> str:
     kinds = Counter(clause.kind for clause in document.clauses)
     rows = [
         [
-            "statements of the text: what a program does, what must be true of it, what is assumed, and "
-            "what is left out with a reason",
+            "statements of the text: behaviour, requirements, assumptions, left out with a reason",
             f"{len(document.clauses)}: {kinds['behaviour']}, {kinds['property']}, {kinds['assumption']}, "
             f"{kinds['not modelled']}",
             f"`modeproof registers --matrix --document {name}`",
@@ -164,8 +167,7 @@ def _shown(document: Document, sources: Sources) -> str:
             f"`modeproof check --document {name} 'MC_*' 'OPEN_*' 'LIVE_*'`",
         ],
         [
-            "counterexamples: on purpose we tried another reading, dropped an assumption or planted a fault, "
-            "and the named requirement fails",
+            "counterexamples: another reading, a dropped assumption or a planted fault, tried on purpose",
             str(len(negatives)),
             f"`modeproof check --document {name} 'NEG_*'`",
         ],
@@ -203,7 +205,7 @@ def _harmless(document: str, asking: Sequence[Run]) -> Iterator[list[str]]:
     if alone:
         names = " ".join(run.id for run in alone)
         yield [
-            "other readings that break no property, in every module and profile that can ask one",
+            "other readings that break no property, in every module and profile",
             f"{len(alone)} in {len(alone) + sum(bool(run.of) for run in asking)} runs",
             f"`modeproof check --document {document} {names} '*_with_*'`",
         ]
@@ -211,11 +213,11 @@ def _harmless(document: str, asking: Sequence[Run]) -> Iterator[list[str]]:
 
 def _fallen(document: Document, sources: Sources) -> list[str]:
     kinds = Counter(falls.kind for falls in ways_to_fall(document, sources).values())
-    much = f"{kinds['negative']} with a counterexample above, {kinds['edit']} with an edit of their own"
+    much = f"{kinds['negative']} above, {kinds['edit']} with an edit of their own"
     if rest := kinds["by construction"]:
         much += f", {rest} by construction (`killers.toml` says why)"
     command = f"`modeproof mutate spec --killers --complete --document {document.name}`"
-    return ["properties that fall when one operator of a device is changed", much, command]
+    return ["properties that fail after one edit of a device", much, command]
 
 
 def _profiles(document: Document) -> Iterator[str]:
@@ -230,8 +232,8 @@ def _profiles(document: Document) -> Iterator[str]:
                 f"`{signal.name}`: {signal.why}",
                 letter,
                 cautious if cautious != letter else "the same",
-                signal.because or _sentence(finding.decision),
-                f"{_sentence(finding.consequence)} {_evidence(document, finding)}",
+                signal.because or sentence(finding.decision),
+                f"{sentence(finding.consequence)} {evidence_of(document, finding)}",
             ]
         )
     of = [profile_of(document.root, run, document.interface) for run in document.runs]
@@ -289,16 +291,16 @@ def _counterexamples(document: Document, tables: Mapping[str, str]) -> Iterator[
         "`dt` is the time since the scan before, in ticks of the model.\n"
     )
     for finding, trace in found:
-        run, table = _run(document, trace.run), tables[trace.run]
+        run, table = run_of(document, trace.run), tables[trace.run]
         mark = f"trace {trace.run} {_digest(document, trace.run, table)}"
         assert run is not None
         falls = falls_of(document, run)
         requirement = (
-            f"{_sentence(falls.sentence)} (`{falls.id}`)" if falls is not None else f"`{run.property}`"
+            f"{sentence(falls.sentence)} (`{falls.id}`)" if falls is not None else f"`{run.property}`"
         )
         yield (
             f"### {finding.id}: {finding.title}\n\n"
-            f"{_sentence(trace.story)}\n\n"
+            f"{sentence(trace.story)}\n\n"
             f"What fails: {requirement}\n\n"
             f"<!-- begin {mark} -->\n{table}<!-- end trace -->\n\n"
             f"`modeproof check {trace.run} --trace`{_tried(run)}\n"
@@ -322,65 +324,12 @@ def falls_of(document: Document, run: Run) -> Property | None:
 
 
 def _findings(document: Document) -> str:
-    count = {name: sum(finding.severity == name for finding in document.findings) for name in CLASSES}
-    lines = [
-        "## Findings\n",
+    page = Path(findings_name(document.name)).name
+    return (
+        "## Findings\n\n"
         "Where the text contradicts itself, is silent, or can be read in more than one way: "
-        f"{len(document.findings)} findings, "
-        + ", ".join(f"{number} {name}" for name, number in count.items())
-        + ".\nEach says what the text says, what we decided, what happens otherwise, and the command that "
-        "shows it. We did not have\nthe drawings; where one could settle the matter (†), the finding is no "
-        f"error of the document. All readings: [findings.toml](../{document.source('findings')}).",
-    ]
-    for name, words in CLASSES.items():
-        rows = [finding for finding in document.findings if finding.severity == name]
-        if rows:
-            lines += ["", f"### {words}", ""]
-        for finding in rows:
-            lines.append(_finding(document, finding))
-    return "\n".join(lines) + "\n"
-
-
-def _finding(document: Document, finding: Finding) -> str:
-    mark = " †" if finding.drawing_could_settle else ""
-    parts = [f"- **{finding.id}{mark}: {finding.title}.** {_sentence(finding.says)}"]
-    if _BY_NUMBER.search(f"{finding.decision} {finding.consequence}"):
-        readings = "; ".join(f"({number}) {text}" for number, text in enumerate(finding.readings, 1))
-        parts.append(f"*Readings:* {readings}.")
-    parts.append(f"*Decided:* {_sentence(finding.decision)}")
-    if finding.severity != "wording":
-        parts += [f"*Otherwise:* {_sentence(finding.consequence)}", _evidence(document, finding)]
-    return " ".join(parts)
-
-
-def _evidence(document: Document, finding: Finding) -> str:
-    """What shows a finding, with the command."""
-    runs = [run for name in finding.evidence if (run := _run(document, name)) is not None]
-    negatives = [run for run in runs if run.kind == "NEG"]
-    clauses = {clause.id for clause in document.clauses}
-    theorems = [name for name in finding.evidence if _run(document, name) is None and name not in clauses]
-    if negatives:
-        lengths: dict[str, set[int]] = {}
-        for run in negatives[:_MANY]:
-            lengths.setdefault(run.property, set()).add((run.trace_length or 1) - 1)
-        said = [f"`{name}` fails {_after(found)}" for name, found in lengths.items()]
-        names = " ".join(run.id for run in negatives[:_MANY])
-        more = f" ({len(negatives) - _MANY} more in the report)" if len(negatives) > _MANY else ""
-        return f"{', '.join(said)}: `modeproof check {names} --trace`{more}."
-    if runs:
-        return f"Checked: `modeproof check {' '.join(run.id for run in runs)}`."
-    if theorems:
-        return f"Proved: `modeproof prove --document {document.name} {' '.join(theorems)}`."
-    return f"Not shown by a run: {_sentence(finding.evidence_open)}"
-
-
-def _after(lengths: set[int]) -> str:
-    """After how many steps a property fails, in one run or in several."""
-    *others, last = sorted(lengths)
-    if last == 0:
-        return "in the first state"
-    several = f"{', '.join(map(str, others))} and {last}" if others else str(last)
-    return f"after {several} step" + ("" if several == "1" else "s")
+        f"[{counted(document)}]({page}).\n"
+    )
 
 
 def _faults(document: Document) -> Iterator[str]:
@@ -429,15 +378,3 @@ def _growth(document: Document) -> Iterator[str]:
         f"{data['measured_on']}, one worker. All figures: {source}.\n\n"
         + markdown(["series", "varied", "distinct states", "CPU seconds"], rows)
     )
-
-
-def _run(document: Document, name: str) -> Run | None:
-    return next((run for run in document.runs if run.id == name), None)
-
-
-def _sentence(text: str) -> str:
-    text = " ".join(text.split())
-    first = text.split(" ", 1)[0]
-    name = any(mark in first for mark in "_0123456789")  # a name keeps its spelling
-    begin = text if name else text[:1].upper() + text[1:]
-    return begin + ("" if text.endswith((".", "?", "!")) else ".")

@@ -12,6 +12,7 @@ from pathlib import Path, PurePosixPath
 
 from modeproof.registers.document_page import page_name
 from modeproof.registers.files import read_text, shown
+from modeproof.registers.fitted import fitted
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.stale import stale
@@ -110,7 +111,7 @@ def render_index(document: Document, here: PurePosixPath) -> str:
     links = [
         f"[{words}]({_relative(path, here)})" for path, words in places if (document.root / path).exists()
     ]
-    return f"- **`{name}`** {document.about.title}. Targets: {targets}. {', '.join(links)}.\n"
+    return fitted(f"- **`{name}`** {document.about.title}. Targets: {targets}. {', '.join(links)}.")
 
 
 def _relative(path: str, here: PurePosixPath) -> str:

@@ -40,6 +40,8 @@ COMPARISONS: Mapping[type[ast.cmpop], tuple[str, str]] = {
     ast.Gt: (">", ">="),
     ast.GtE: (">=", ">"),
 }
+REPLACE = "replace"
+"""The function of the standard library that changes fields of a record."""
 OPERATORS: Mapping[type[ast.operator], tuple[str, str]] = {
     ast.Add: ("+", "-"),
     ast.Sub: ("-", "+"),
@@ -117,10 +119,15 @@ def _program(module: Module, scope: tuple[int, int], edit: Edit | None) -> str:
     """The program of these lines, with the edit made: two edits that give the same one are the same."""
     lines = module.lines[scope[0] - 1 : scope[1]]
     if edit is None:
-        return ast.dump(ast.parse("\n".join(lines)))
+        return _dumped("\n".join(lines))
     place, moved = edit.place, scope[0] - 1
     own = replace(place, first_line=place.first_line - moved, last_line=place.last_line - moved)
-    return ast.dump(ast.parse(applied(lines, Edit(own, edit.new))))
+    return _dumped(applied(lines, Edit(own, edit.new)))
+
+
+def _dumped(text: str) -> str:
+    """The syntax of lines that may be those of a method."""
+    return ast.dump(ast.parse(f"if True:\n{text}" if text.startswith(" ") else text))
 
 
 def _all_edits(
@@ -380,22 +387,38 @@ class _Function:
         )
 
     def _of_call(self, node: ast.Call) -> Iterator[Found]:
-        """The fields of the state that a step builds."""
-        if not isinstance(node.func, ast.Name) or node.func.id != self.rule.record:
-            return
+        """The fields of the state that a step builds, or changes by `replace`."""
         before = next(
             (argument.arg for argument in self.function.args.args if _named(argument, self.rule.record)), ""
         )
+        if not before or not isinstance(node.func, ast.Name):
+            return
         first = self._first_values()
-        fields = self.module.classes.get(self.rule.record, ())
-        for name, value in zip(fields, node.args, strict=False):
-            if not before or name == "params":
-                continue
+        given = self._given(node, before)
+        for name, value in given.items():
             text, kept = self.module.source(value), f"{before}.{name}"
             if text != kept:
                 yield "reset missing" if text == first.get(name) else "field unchanged", value, kept
             elif name in first:
                 yield "wrong reset", value, first[name]
+        if given and node.func.id == REPLACE:
+            whole = self.module.source(node)
+            for name in first.keys() - given.keys():
+                yield "wrong reset", node, f"{whole.rstrip(')').rstrip(', ')}, {name}={first[name]})"
+
+    def _given(self, node: ast.Call, before: str) -> dict[str, ast.expr]:
+        """The fields that a call gives to the state, without its parameters."""
+        assert isinstance(node.func, ast.Name)
+        named = {keyword.arg: keyword.value for keyword in node.keywords if keyword.arg}
+        if node.func.id == REPLACE:
+            changed = node.args[0] if node.args else None
+            found = named if isinstance(changed, ast.Name) and changed.id == before else {}
+        elif node.func.id == self.rule.record:
+            fields = self.module.classes.get(self.rule.record, ())
+            found = {**dict(zip(fields, node.args, strict=False)), **named}
+        else:
+            found = {}
+        return {name: value for name, value in found.items() if name != "params"}
 
     def _first_values(self) -> dict[str, str]:
         """The text of each field at power-up."""
@@ -408,8 +431,7 @@ class _Function:
                 and isinstance(node.func, ast.Name)
                 and node.func.id == self.rule.record
             ):
-                fields = self.module.classes.get(self.rule.record, ())
-                return dict(zip(fields, map(self.module.source, node.args), strict=False))
+                return {name: self.module.source(value) for name, value in self._given(node, "").items()}
         return {}
 
 

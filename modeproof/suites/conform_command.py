@@ -188,7 +188,7 @@ def _record(
         code=COMPARED_BY,
         place=place,
         result={**about, **as_record(verdict), "says": suite.says},
-        reason="" if verdict.status == 0 else verdict.reason or "the program differs",
+        reason="" if verdict.status == 0 else verdict.reason,
     )
 
 

@@ -6,7 +6,7 @@ import io
 from typing import Any
 
 from modeproof.ground.progress import Progress
-from modeproof.lane.summary import failures, render
+from modeproof.lane.summary import failures, render, total
 from modeproof.report.verdicts import ASIDE, PropertyRow, property_lines, status_of
 
 
@@ -58,7 +58,18 @@ def test_a_line_names_each_profile_in_which_the_property_holds() -> None:
 def test_a_property_of_another_lane_is_named_and_not_counted() -> None:
     (line,) = property_lines([SAFE], [], DECLARED)
     assert (line.verdict, line.status) == (ASIDE, 0)
-    assert render("toy", [line], [], width=100) == "== toy\n1 more not in this lane: Safety (honest)"
+    assert render("toy", [line], [], width=100) == (
+        "== toy\n0 of 1 properties checked, by environment; not in this lane: Safety (honest)"
+    )
+
+
+def test_a_lane_says_how_many_properties_it_checked() -> None:
+    other = PropertyRow("Other", "Other", ("honest",))
+    declared = {**DECLARED, "MC_b": {("Other", "honest")}}
+    lines = property_lines([SAFE, other], [tlc("MC_a")], declared)
+    said = "properties   1 of 2 checked in this lane, 1 of 1 hold, by environment"
+    assert said in total(2, lines, [], 1.0)
+    assert "properties   1 of 1 hold, by environment" in total(2, lines[:1], [], 1.0)
 
 
 def test_the_weakest_of_several_runs_counts() -> None:

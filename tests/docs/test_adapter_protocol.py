@@ -29,7 +29,7 @@ def test_the_page_names_every_field_that_the_kit_reads() -> None:
     asked: set[str] = set()
     read_hello(Asked(ok=True), SUITE.outputs, "exact")
     table = PAGE.partition("## What hello says")[2].partition("\n## ")[0]
-    rows = re.findall(r"^\| (`.*?) \|", table, re.MULTILINE)
+    rows = re.findall(r"^- \*\*(`.*?)\*\*$", table, re.MULTILINE)
     assert asked == {name for row in rows for name in re.findall(r"`(\w+)`", row)}
 
 
@@ -70,7 +70,7 @@ def test_each_table_is_one_table(page: str) -> None:
     tables = [block.splitlines() for block in re.split(r"\n(?!\|)", text) if "\n|" in f"\n{block}"]
     rows = [[line for line in table if line.startswith("|")] for table in tables]
     rows = [table for table in rows if table]
-    assert len(rows) >= 3
+    assert rows
     for table in rows:
         assert re.fullmatch(r"[|:-]+", table[1]), table[0]
         assert {line.count("|") for line in table} == {table[1].count("|")}, table[0]

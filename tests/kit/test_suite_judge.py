@@ -55,7 +55,10 @@ def test_a_wrong_program_differs_with_scan_step_clauses_and_way(suite: Suite, tm
     assert found is not None and found.step == "Expire" and found.clauses == ("TOY-Expire",)
     assert dict(found.expected) == {"LAMP": False, "MW": "0000"} and found.got["LAMP"] is True
     assert len(found.shortest.scans) in (2, 3) and found.confirmed
+    where = f"case {found.case.id}, scan {found.scan} (Expire): "
+    assert verdict.reason == where + 'LAMP is true, expected false; MW is "0FF0", expected "0000"'
     text = as_text(verdict, "the command")
+    assert text.endswith(f"DIFFERS: {verdict.reason}")
     for said in (found.case.id, "expected", "TOY-Expire", "again:   the command", "shortest way there"):
         assert said in text
     again = run_suite(suite, starter(tmp_path, "LIMIT = 501"), only=found.case.id)

@@ -13,6 +13,7 @@ from modeproof.ground.places import documents
 from modeproof.ground.places import root as repository_root
 from modeproof.registers import load_document, read_sources
 from modeproof.registers.document_page import check_document_page, page, page_name, tables_of, tellings
+from modeproof.registers.findings_page import findings_pages
 
 TABLE = "| scan | executes |\n|---|---|\n| 0 | power-up |\n"
 TELLING = '\n[finding.telling]\nrun = "NEG_Latch"\nstory = "The door is open, and the bolt comes out"\n'
@@ -35,6 +36,8 @@ def told(tree: Any) -> Any:
     findings = (tree.root / "spec/door/findings.toml").read_text(encoding="utf-8")
     tree.write("spec/door/findings.toml", findings + TELLING)
     tree.write("docs/door.md", made(tree.root))
+    for name, text in findings_pages(load_document(tree.root, "door")).items():
+        tree.write(name, text)
     return tree
 
 
@@ -43,16 +46,17 @@ def test_the_page_tells_story_requirement_table_and_finding(told: Any) -> None:
     for expected in (
         "# A door",
         "**What we did not have.** The drawings.",
-        "| 1 in 2 runs |",
-        "| theorems about our program for all words and times, by two solvers | 1 |",
+        "  - how much: 1 in 2 runs\n",
+        "**theorems about our program for all words and times, by two solvers**\n  - how much: 1\n",
         "### E-01: when it opens\n\nThe door is open, and the bolt comes out.\n\n"
         "What fails: While the door is open the bolt is in. (`OpenIsUnlocked`)\n\n<!-- begin trace NEG",
         TABLE,
         "`modeproof check NEG_Latch --trace`",
-        "- **E-01 †: when it opens.** Nothing. *Decided:* At once.",
         "1 of 4 clauses are not modelled",
     ):
         assert expected in text, text
+    findings = (told.root / "docs/door-findings.md").read_text(encoding="utf-8")
+    assert "**E-01 †: when it opens.** Nothing.\n- *Decided:* At once." in findings
     assert problems(told.root) == []
 
 
@@ -112,9 +116,9 @@ def test_a_run_with_another_reading_is_counted_apart(told: Any) -> None:
     further = msgspec.structs.replace(slow, id="OPEN_Latch_with_Slow", of=("MC_Latch_slow", "OPEN_Latch"))
     changed = replace(document, runs=(*document.runs, slow, further))
     text = page(changed, read_sources(document), {"NEG_Latch": TABLE})
-    assert "within the bounds of each run | 1 in 2 runs |" in text
-    shown = "| 1 in 2 runs | `modeproof check --document door MC_Latch_slow '*_with_*'` |"
-    assert f"in every module and profile that can ask one {shown}" in text
+    assert "within the bounds of each run**\n  - how much: 1 in 2 runs\n" in text
+    shown = "how much: 1 in 2 runs\n  - command: `modeproof check --document door MC_Latch_slow '*_with_*'`"
+    assert f"in every module and profile**\n  - {shown}" in text
 
 
 def test_what_changes_no_counterexample_leaves_its_table(told: Any) -> None:
@@ -135,5 +139,6 @@ def test_each_document_has_its_page_with_telling_counterexamples(name: str) -> N
     text = (repository_root() / page_name(name)).read_text(encoding="utf-8")
     assert 3 <= len(tellings(document)) <= 5
     assert set(tables_of(document, text)) == {telling.run for _, telling in tellings(document)}
+    listed = "".join(findings_pages(document).values())
     for finding in document.findings:
-        assert f"**{finding.id}" in text
+        assert f"**{finding.id}" in listed

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from modeproof.registers import Unjudged, load_document
+from modeproof.registers.findings_page import findings_pages
 from modeproof.registers.tables import check_pages, pages, render_blocks
 from tests.registers.test_document_page import made
 
@@ -108,6 +109,8 @@ def test_an_index_lists_each_document_with_its_page(tree: Any, registers_command
         tree.root, "docs/README.md"
     )
     tree.write("docs/door.md", made(tree.root))
+    for name, text in findings_pages(load_document(tree.root, "door")).items():
+        tree.write(name, text)
     assert registers_command(tree.root) == 1, "a page that the index does not name"
     assert "[what was shown and found](door.md), [registers and TLA+]" in render(tree.root, "docs/README.md")
     assert registers_command(tree.root) == 0

@@ -105,7 +105,7 @@ def test_times_and_host_alone_leave_a_result_the_same(change: dict[str, Any], sa
 
 
 def test_a_user_s_runs_are_shown_and_turn_nothing_red(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    said = {"verdict": "DIFFERS", "as_expected": False, "reason": "the program differs"}
+    said = {"verdict": "DIFFERS", "as_expected": False, "reason": "case box-1, scan 2 (Open): LID is false"}
     put(root, "mine_box_brief", kind="conformance", **said)
     path = evidence_path(root, "box", "mine_box_brief")
     place = root / "build/yours/box/mine_box_brief.json"
