@@ -111,7 +111,7 @@ EXPLAINED: dict[str, str] = {
     "it stands in no message and no verdict": """
         relation-cd0b4e00 relation-78915529 relation-5d547c50 relation-5910364b relation-00dad8c3
         relation-07c1c148 judge-a44b9cdd judge-05709487 judge-11ce6320""",
-    "a machine's own vectors (tests/kit/test_machine.py), real time, and rules over the past": """
+    "a machine's own vectors (tests/kit/test_machine_parameters.py), real time, and rules over the past": """
         judge-014c99c6 judge-92022dd9 judge-42122110 judge-f01247d5 judge-d9258abe""",
 }
 """The mutants that break no claim, by the reason."""
