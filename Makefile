@@ -12,6 +12,7 @@ STAMP := .venv/requirements.lock
 AWLSIM := .venv/awlsim.lock
 GRAMMAR := .venv/grammar.lock
 
+# What has not changed since it was judged is kept; `$(PY) -m modeproof verify --anew` judges all
 verify: $(STAMP) $(GRAMMAR)
 	@$(PY) -m modeproof verify
 
@@ -20,7 +21,7 @@ smoke: $(STAMP) $(GRAMMAR)
 
 # Hours: every run of TLC, every mutant by rule, every edit of our wiring. What fits already is kept, so it can be stopped and started again.
 exhaustive: $(STAMP) $(GRAMMAR)
-	@$(PY) -m modeproof check --lane exhaustive --resume
+	@$(PY) -m modeproof verify --lane exhaustive
 	@$(PY) -m modeproof mutate spec
 	@$(PY) -m modeproof mutate impl
 	@$(PY) -m modeproof mutate impl --judge vectors

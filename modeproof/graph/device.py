@@ -12,12 +12,14 @@ from modeproof.graph.classes import Copied, InputClass, load_classes, load_copie
 from modeproof.graph.graph import Graph
 from modeproof.graph.read import read_graph
 from modeproof.graph.values import ValueForms
+from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.meaning import reached
 from modeproof.ground.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run, load_runs
-from modeproof.tlc.resume import why_stale
+from modeproof.tlc.rests import inputs_of, row_of, why_stale
 
 TIME = "dt"
 """The field of an INPUT line that holds the time since the scan before, in ticks."""
@@ -104,12 +106,21 @@ def current_graph(place: Path, run: Run) -> Path:
     return graph_file(place, run)
 
 
-def compared_files(place: Path, run: Run, package: str) -> list[Path]:
-    """Every file that a comparison of this run's graph with `package` rests on, for its evidence."""
-    folders = [place / package, place / package / run.document]
-    code = [path for folder in folders for path in sorted(folder.glob("*.py"))]
-    registers = [place / "spec" / run.document / f"{name}.toml" for name in ("interface", "runs")]
-    return [path for path in [*code, *registers, graph_file(place, run)] if path.is_file()]
+COMPARED_BY = ("modeproof/suites/conform_command.py",)
+"""The module that compares a graph with an implementation."""
+
+
+def compared_rests(place: Path, run: Run, package: str) -> evidence.Rests:
+    """What a comparison of this run's graph with an implementation in `package` rests on.
+
+    Raises Unjudged when a file is missing.
+    """
+    folder = place / "spec" / run.document
+    registers = [path for path in [folder / "interface.toml"] if path.is_file()]
+    assert run.graph is not None
+    code = reached(place, f"{package}/{run.document}/{run.graph.device}.py")
+    inputs = evidence.hashes(place, [*code, *registers, graph_file(place, run)])
+    return evidence.Rests({**inputs_of(place, run), **inputs}, COMPARED_BY, said=row_of(run))
 
 
 def load_device_graph(place: Path, run: Run) -> DeviceGraph:

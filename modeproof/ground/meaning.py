@@ -12,6 +12,7 @@ import gc
 import gzip
 import hashlib
 import json
+import os
 import re
 import tomllib
 import zlib
@@ -32,6 +33,9 @@ _END = re.compile(r"^={4,}", re.MULTILINE)
 _CFG_TOKEN = re.compile(r'"[^"\n]*"?|[^\s"]+')
 _WORD = re.compile(r"\w+")
 _DOTTED = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
+_FILE = re.compile(r"[\w.-]+(?:/[\w.-]+)+\.(?:py|tla|cfg|toml|json)")
+_BY_NAME = frozenset({"import_module", "__import__", "module_named", "-m"})
+"""Where one of these is called or given, any string of the file may be the name of a module that it needs."""
 _ERRORS = (OSError, EOFError, ValueError, SyntaxError, RecursionError, MemoryError, zlib.error)
 """What the readers below may raise for a file that is damaged."""
 
@@ -40,7 +44,7 @@ _ERRORS = (OSError, EOFError, ValueError, SyntaxError, RecursionError, MemoryErr
 class _Read:
     """What was read in a file: its meaning, and the names of what it may use.
 
-    `names` are dotted names of modules for Python, words for TLA+.
+    `names` are, for Python, dotted names of modules and paths of files; for TLA+ words.
     """
 
     digest: str
@@ -84,8 +88,9 @@ def reached(root: Path, *entries: Path | str) -> tuple[Path, ...]:
     """All files below the root that these files need, themselves included, in the order of their paths.
 
     An entry is a file, a folder (all modules directly in it), or the dotted name of a module or package. A
-    Python module needs what it imports anywhere in it and what its strings name as a module; a TLA+ module
-    needs the modules beside it and in spec/common whose names stand in it. What is loaded by a name put
+    Python module needs what it imports anywhere in it, by a string too, and each file whose path from the
+    root is one of its strings; a TLA+ module needs the modules beside it and in spec/common whose names stand
+    in it. What is loaded by a name put
     together at run time is an entry of its own. Raises Unjudged for an entry that is not there.
     """
     waiting = [path for entry in entries for path in _entry(root, entry)]
@@ -101,12 +106,22 @@ def reached(root: Path, *entries: Path | str) -> tuple[Path, ...]:
             if path.suffix == ".tla":
                 waiting += _modules_beside(root, path, names)
             elif path.suffix == ".py":
-                for name in names:
-                    name = _absolute(root, path, name)
+                waiting += [root / name for name in names if "/" in name and (root / name).is_file()]
+                for name in (_absolute(root, path, name) for name in names if "/" not in name):
                     if name not in resolved:
                         resolved[name] = tuple(_module(root, name))
                     waiting += resolved[name]
     return tuple(sorted(found))
+
+
+def is_there(root: Path, name: str) -> bool:
+    """Whether a file of this path, or a module or package of this dotted name, lies below the root."""
+    place = root.joinpath(*name.split("."))
+    return (
+        (root / name).is_file()
+        or place.with_name(f"{place.name}.py").is_file()
+        or (place / "__init__.py").is_file()
+    )
 
 
 @dataclass(frozen=True)
@@ -169,8 +184,12 @@ def _sha256(text: str) -> str:
 def _python(content: bytes) -> tuple[str, frozenset[str]]:
     said: list[str] = []
     names: set[str] = set()
+    strings: set[str] = set()
     with _without_collection():
-        _say(ast.parse(content), said, names)
+        _say(ast.parse(content), said, names, strings)
+    names |= set(filter(_FILE.fullmatch, strings))
+    if _BY_NAME & strings:
+        names |= set(filter(_DOTTED.fullmatch, strings))
     return "".join(said), frozenset(names)
 
 
@@ -180,30 +199,30 @@ def said_by(nodes: Iterable[ast.AST]) -> str:
     """
     said: list[str] = []
     for node in nodes:
-        _say(node, said, set())
+        _say(node, said, set(), set())
     return "".join(said)
 
 
-def _say(node: Any, said: list[str], names: set[str]) -> None:
+def _say(node: Any, said: list[str], names: set[str], strings: set[str]) -> None:
     """Add what a part of a syntax tree says, in a form that is the same in all versions of Python."""
     kind = node.__class__
     if kind is list:
         said.append("[")
         for one in node:
             if not _is_docstring(one):
-                _say(one, said, names)
+                _say(one, said, names, strings)
         said.append("]")
     elif not isinstance(node, ast.AST):
         said.append(f"{node!r},")
-        if kind is str and _DOTTED.fullmatch(node):
-            names.add(node)
+        if kind is str:
+            strings.add(node)
     else:
         said.append(f"{kind.__name__}(")
         for field in kind._fields:
             value = getattr(node, field, None)
             if value is not None and value != [] and field != "kind":
                 said.append(f"{field}=")
-                _say(value, said, names)
+                _say(value, said, names, strings)
         said.append(")")
         if isinstance(node, ast.Import):
             names.update(alias.name for alias in node.names)
@@ -274,9 +293,7 @@ def _entry(root: Path, entry: Path | str) -> Iterator[Path]:
     path = root / entry
     found = [path] if path.is_file() else sorted(path.glob("*.py")) if path.is_dir() else []
     if not found and isinstance(entry, str):
-        place = root.joinpath(*entry.split("."))
-        there = place.with_name(f"{place.name}.py").is_file() or (place / "__init__.py").is_file()
-        found = list(_module(root, entry)) if there else []
+        found = list(_module(root, entry)) if is_there(root, entry) else []
     if not found or not path.is_relative_to(root):
         raise Unjudged(f"{entry}: no such file, folder or module below {root}")
     yield from found
@@ -294,13 +311,12 @@ def _absolute(root: Path, path: Path, name: str) -> str:
 
 def _module(root: Path, name: str) -> Iterator[Path]:
     """The files of a module and of the packages that hold it; a name in a module gives that module."""
-    place = root
+    place = str(root)
     for part in name.split("."):
-        if (place / f"{part}.py").is_file():
-            yield place / f"{part}.py"
-        place = place / part
-        if (place / "__init__.py").is_file():
-            yield place / "__init__.py"
+        place = f"{place}/{part}"
+        for file in (f"{place}.py", f"{place}/__init__.py"):
+            if os.path.isfile(file):
+                yield Path(file)
 
 
 def _modules_beside(root: Path, path: Path, words: frozenset[str]) -> Iterator[Path]:

@@ -10,12 +10,14 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import first_of
+from modeproof.ground.meaning import is_there
 from modeproof.report.evidence_judge import agreement_problems
 
 ID = "agreement"
@@ -26,7 +28,6 @@ def compare(
     document: str,
     module: ModuleType,
     verdicts: Mapping[str, str],
-    inputs: Mapping[str, str],
     tools: Mapping[str, Mapping[str, str | None]],
 ) -> dict[str, Any]:
     """Compare the rows with the verdicts on the theorems, by name, and write one piece of evidence.
@@ -58,7 +59,9 @@ def compare(
         command=f"modeproof prove --document {document}",
         started=started,
         seconds=time.time() - started,
-        inputs=inputs,
+        inputs=evidence.hashes(place, sorted((place / "spec" / document).glob("*.toml"))),
+        code=("modeproof.lane.agreement", *filter(partial(is_there, place), [module.__name__])),
+        place=place,
         tools=tools,
         result={"rows": rows, "problems": problems},
         reason=first_of(problems),

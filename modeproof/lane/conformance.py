@@ -6,17 +6,22 @@ through a suite of the lane, as a foreign program would.
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
+from modeproof.graph.device import compared_rests
 from modeproof.graph.implementation import REFERENCE
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence import Rests
 from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
+from modeproof.lane.keep import NOTHING, Keep
 from modeproof.registers.runs import Run, load_runs
 
 Record = dict[str, Any]
@@ -24,7 +29,7 @@ ANSWER_SECONDS = 30.0
 
 
 def compare_reference(
-    place: Path, names: Sequence[str], lane: str, progress: Progress
+    place: Path, names: Sequence[str], lane: str, progress: Progress, keep: Keep = NOTHING
 ) -> tuple[list[Record], dict[str, str]]:
     """Evidence for each OPEN run of the lane, and for each published target all of whose graphs are in the
     lane; by document, why there is none.
@@ -32,18 +37,22 @@ def compare_reference(
     A graph that is missing or incomplete, or an implementation that cannot be loaded, is UNJUDGED, and so is
     a document that has no graph in the lane.
     """
-    work, troubles = comparisons(place, names, lane)
-    return in_processes("conformance", work, progress, lambda record: say(record, progress)), troubles
+    work, troubles, kept = comparisons(place, names, lane, keep)
+    keep.say(progress)
+    return kept + in_processes("conformance", work, progress, lambda record: say(record, progress)), troubles
 
 
-def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task[Record]], dict[str, str]]:
+def comparisons(
+    place: Path, names: Sequence[str], lane: str, keep: Keep
+) -> tuple[list[Task[Record]], dict[str, str], list[Record]]:
     """What `compare_reference` has to do, each task by itself, what takes longest first; by document, why
-    there is nothing to do.
+    there is nothing to do; and what is kept.
     """
-    from modeproof.suites.conform_command import OWN_SUITES
+    from modeproof.suites.conform_command import OWN_SUITES, own_id, own_rests
 
     troubles: dict[str, str] = {}
     tasks: list[tuple[int, Task[Record]]] = []
+    found: list[Record] = []
     for document in names:
         try:
             runs = [run for run in load_runs(place, document) if run.graph is not None and lane in run.lanes]
@@ -54,11 +63,25 @@ def comparisons(place: Path, names: Sequence[str], lane: str) -> tuple[list[Task
             troubles[document] = error.message
             continue
         for target in targets:
-            task: Task[Record] = (_over_protocol, (place, document, target, OWN_SUITES[lane]))
+            given = place, document, target, OWN_SUITES[lane]
+            if kept := keep.record(
+                place, document, own_id(target, OWN_SUITES[lane]), partial(own_rests, *given)
+            ):
+                found.append(kept)
+                continue
+            task: Task[Record] = (_over_protocol, given)
             tasks.append((max(_edges(run) for run in runs if _is_of(run, target)), task))
-        tasks += [(_edges(run), (_one, (place, run))) for run in runs]
+        for run in runs:
+            id = f"{REFERENCE}_{run.id}"
+            rests = Rests({})
+            with contextlib.suppress(Unjudged):  # what is missing is said by the comparison
+                rests = compared_rests(place, run, REFERENCE)
+            if rests.code and (kept := keep.record(place, document, id, rests)):
+                found.append(kept)
+            else:
+                tasks.append((_edges(run), (_one, (place, run, rests.inputs))))
     tasks.sort(key=lambda task: -task[0])
-    return [task for _, task in tasks], troubles
+    return [task for _, task in tasks], troubles, found
 
 
 def _edges(run: Run) -> int:
@@ -76,7 +99,7 @@ def say(record: Record, progress: Progress) -> None:
     progress.say(f"{'ok ' if record['as_expected'] else 'NOT'} {line}; {record['seconds']:.1f} s{reason}")
 
 
-def _one(place: Path, run: Run) -> dict[str, Any]:
+def _one(place: Path, run: Run, inputs: Mapping[str, str]) -> dict[str, Any]:
     from modeproof.graph.export import export_file
     from modeproof.suites.conform_command import compared, comparison_record
 
@@ -85,9 +108,9 @@ def _one(place: Path, run: Run) -> dict[str, Any]:
     started = time.time()
     try:
         found, result = compared(place, run, REFERENCE)
-        record = comparison_record(place, run, REFERENCE, started, found, result)
+        record = comparison_record(place, run, REFERENCE, inputs, started, found, result)
     except Unjudged as error:
-        record = comparison_record(place, run, REFERENCE, started, None, {}, error.message)
+        record = comparison_record(place, run, REFERENCE, inputs, started, None, {}, error.message)
     evidence.write(place, record)
     return record
 
@@ -113,9 +136,9 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
     from modeproof.kit.vectors import open_suite
     from modeproof.registers.vector_files import published
     from modeproof.suites.build import ready_suite
-    from modeproof.suites.conform_command import OWN, own_files, own_record
+    from modeproof.suites.conform_command import OWN, own_id, own_record
 
-    name = f"adapter_{target}_{suite_name}"
+    name = own_id(target, suite_name)
     evidence.discard(place, document, name)
     started = time.time()
     try:
@@ -126,7 +149,7 @@ def _over_protocol(place: Path, document: str, target: str, suite_name: str) -> 
             lambda: Adapter([sys.executable, str(place / OWN), target], ANSWER_SECONDS),
             plan=Plan(Options(codes=True)),  # of our own code every output
         )
-        record = own_record(place, document, suite, found, started, own_files(place, document))
+        record = own_record(place, document, suite, found, started)
     except (Unjudged, KitUnjudged) as error:
         record = evidence.make(
             kind="conformance",

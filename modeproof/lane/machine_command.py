@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import argparse
+import re
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
-from modeproof.ground.places import machines, root
+from modeproof.ground.meaning import is_there, meaning_of, reached
+from modeproof.ground.places import TREE, documents, machines, root
 from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
@@ -21,8 +23,10 @@ from modeproof.tlc.toolchain import find_toolchain
 
 ID = "machine"
 MODELS = "tlc.toml"
-ROOMS = ("machines", "programs", "proofs", "refimpl")
-"""Whose Python a verdict on a machine rests on."""
+CODE = ("modeproof.lane.machine_command", "machines.evidence")
+"""What judges a machine, and .."""
+MODELS_CODE = ("modeproof.lane.machine_tlc", "machines.tlc_runs")
+"""..what makes its runs of TLC, and judges them."""
 FILES = ("program", "picture", "model")
 WORKS = (("vectors",), ("tlc",), ("trial",), ("killers",), ("evidence",))
 """What is done in the place of a judgement; those in a row are one."""
@@ -101,29 +105,69 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     return parser
 
 
-def judge_machine(place: Path, name: str) -> dict[str, Any]:
+def machine_rests(place: Path, name: str) -> evidence.Rests:
+    """What the verdicts on a machine of the project's own rest on. Raises Unjudged."""
+    folder = place / "spec" / name
+    tools: dict[str, Mapping[str, str | None]] = {**evidence.solvers()}
+    modules: list[Path] = []
+    if (folder / MODELS).exists():
+        modules = sorted((place / "spec").glob("*/*.tla"))
+        tools |= entries(find_toolchain())
+    proofs = _rests_of_proofs(place, name)
+    inputs = {**proofs.inputs, **evidence.hashes(place, modules)}
+    return evidence.Rests(inputs, (*proofs.code, *MODELS_CODE), tools)
+
+
+def _rests_of_proofs(place: Path, name: str) -> evidence.Rests:
+    """What the proofs and the scans rest on; TLC's runs have more.
+
+    Every document's devices are loaded, by a name that is put together.
+    """
+    files = [*(place / "spec" / name).glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
+    devices = (f"proofs.{document}.devices" for document in documents(place))
+    code = (*CODE, *(module for module in devices if is_there(place, module)))
+    home = place if is_there(place, CODE[-1]) else TREE
+    own = [path for path in reached(home, *code[1:]) if path.is_relative_to(home / "refimpl")]
+    inputs = {**evidence.hashes(place, files), **evidence.hashes(home, own)}
+    return evidence.Rests(inputs, code, evidence.solvers())
+
+
+def _rests_of_model(place: Path, task: Any) -> evidence.Rests:
+    """What a run of TLC rests on: the text that was made for it, and the modules that are named there."""
+    words = {word for text in task.files.values() for word in re.findall(r"\w+", text)}
+    named = [path for path in (place / "spec").glob("*/*.tla") if path.stem in words]
+    inputs = evidence.hashes(place, reached(place, *named)) if named else {}
+    inputs |= {file: meaning_of(file, text.encode()) for file, text in task.files.items()}
+    return evidence.Rests(inputs, MODELS_CODE, entries(find_toolchain()))
+
+
+def judge_machine(place: Path, name: str, anew: bool = True) -> dict[str, Any]:
     """Judge a machine of the project's own and write its evidence; a wiring that is refused is UNJUDGED.
 
-    Raises Unjudged when the evidence cannot be written.
+    anew: all of it; else the proofs, and each run of TLC, are taken from the evidence that is there, if what
+    they rest on is the same. Raises Unjudged when the evidence cannot be written.
     """
+    before = {} if anew else _before(place, name)
     evidence.discard(place, name, ID)
     started = time.time()
     folder = place / "spec" / name
-    sources = [path for room in ROOMS for path in (place / room).rglob("*.py")]
-    sources += [*folder.glob("*.toml"), *(place / "spec").glob("*/interface.toml")]
-    sources += [*(place / "spec").glob("*/*.tla")] if (folder / MODELS).exists() else []
-    inputs = evidence.hashes(place, sources)  # of what is judged now
+    rests = machine_rests(place, name)  # of what is judged now
     result: dict[str, Any] = {}
-    tools = evidence.solvers()
+    tools = rests.tools
     try:
-        with needing_solvers():
-            from machines.evidence import judged
-        result = judged(folder)
+        of_proofs = _rests_of_proofs(place, name).digest(place)
+        if before.get("rests") == of_proofs:
+            result = {key: value for key, value in before.items() if key not in ("models", "jar_pinned")}
+        else:
+            with needing_solvers():
+                from machines.evidence import judged
+            result = {"rests": of_proofs, "day": evidence.day(started), **judged(folder)}
         result["models"] = []
         if (folder / MODELS).exists():
             toolchain = find_toolchain()
-            models = list(_models(place, folder))
-            tools |= entries(toolchain, models[-1]["tlc"])
+            kept = {row["rests"]: row for row in before.get("models", ()) if row["as_expected"]}
+            models = list(_models(place, folder, kept))
+            tools = {**tools, **entries(toolchain, models[-1]["tlc"])}
             result |= {"models": models, "jar_pinned": toolchain.pinned}
         verdict, reason = verdict_on_machine(result)
         low, high = result["scan_ms"]
@@ -143,7 +187,9 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
         command="modeproof machine --evidence",
         started=started,
         seconds=time.time() - started,
-        inputs=inputs,
+        inputs=rests.inputs,
+        code=rests.code,
+        place=place,
         tools=tools,
         result=result,
         reason=reason,
@@ -152,15 +198,32 @@ def judge_machine(place: Path, name: str) -> dict[str, Any]:
     return record
 
 
-def _models(place: Path, folder: Path) -> Iterator[dict[str, Any]]:
+def _before(place: Path, name: str) -> Mapping[str, Any]:
+    """What was found of an earlier day, if it was as expected and nobody changed it since."""
+    try:
+        record = evidence.read(evidence.evidence_path(place, name, ID))
+    except Unjudged:
+        return {}
+    result: Mapping[str, Any] = record["result"]
+    return result if record["as_expected"] and evidence.is_sealed(record) else {}
+
+
+def _models(place: Path, folder: Path, kept: Mapping[str, dict[str, Any]]) -> Iterator[dict[str, Any]]:
     """The runs of TLC: that each block keeps its contract, and the cell over them. Raises Unjudged."""
     with needing_solvers():
         from machines.tlc_runs import tasks
     for task in tasks(None, folder):
+        rests = _rests_of_model(place, task).digest(place)
+        if rests in kept:
+            yield kept[rests]
+            continue
+        started = time.time()
         verdict, outcome = machine_tlc.judged(place, task, shipped=True)
         counts = outcome.log.counts
         yield {
             "run": task.id,
+            "rests": rests,
+            "day": evidence.day(started),
             "tlc": outcome.log.version,
             "verdict": verdict.verdict,
             "as_expected": verdict.as_expected,

@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import fnmatch
 import functools
-import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -16,15 +15,16 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.lock import only_one
 from modeproof.ground.options import add_command, write_json
-from modeproof.ground.places import add_document_option, build, chosen_documents, root
+from modeproof.ground.places import add_document_option, chosen_documents, root
 from modeproof.ground.processes import Task, in_processes, meanwhile
 from modeproof.ground.progress import Progress
-from modeproof.ground.solvers import needing_solvers
 from modeproof.kit.by_name import module_named
 from modeproof.lane import agreement
 from modeproof.lane.agreement import line as agreement_line
 from modeproof.lane.coverage import cover_documents
+from modeproof.lane.keep import NOTHING, Keep
 from modeproof.lane.summary import counted
+from modeproof.lane.theorem import prove_theorem, rests_of, theorems_of
 from modeproof.report.verdicts import never_needed, status_of
 
 
@@ -53,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged("no document has proofs (proofs/<document>/)")
     if args.coverage:
         return cover_documents(args, place, names, progress)
-    theorems = [theorem.name for name in names if args.theorems for theorem in _theorems_of(name)]
+    theorems = [theorem.name for name in names if args.theorems for theorem in theorems_of(name)]
     for pattern in args.theorems:  # a name need not be one of every document
         if not fnmatch.filter(theorems, pattern):
             raise Unjudged(f"no theorem is called {pattern!r}; {suggestion(pattern, theorems)}")
@@ -100,31 +100,48 @@ def prove_documents(
     lane: str = "full",
     beside: Sequence[Task[dict[str, Any]]] = (),
     on_beside: Callable[[dict[str, Any]], None] = lambda record: None,
+    keep: Keep = NOTHING,
 ) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Prove the theorems of documents and write one piece of evidence for each, and for all theorems of one
     document together one on their agreement with the model checker. Those of all documents are one queue.
 
     The lane smoke leaves out the slow ones, and so does not compare. By document comes why nothing was
     proved: there is no theorem, or the proofs cannot be imported. `beside` are other tasks that go first in
-    the queue, so that no core waits for the longest of them; `on_beside` gets each of their results.
+    the queue, so that no core waits for the longest of them; `on_beside` gets each of their results. What
+    `keep` keeps is not proved again.
     """
     whole = not patterns and lane != "smoke"
     tools = evidence.solvers()  # hashed before the processes are copies of this one
     troubles: dict[str, str] = {}
     theorems: dict[str, list[Any]] = {}
-    inputs: dict[str, dict[str, str]] = {}
+    rests: dict[tuple[str, str], evidence.Rests] = {}
+    of_module: dict[str, evidence.Rests] = {}
+    records: list[dict[str, Any]] = []
     for document in names:
         try:
-            theorems[document], inputs[document] = _theorems_to_prove(place, document, patterns, lane)
+            every = _theorems_to_prove(document, patterns, lane)
+            again = theorems[document] = []
+            for theorem in every:
+                key = document, theorem.name
+                module = theorem.build.__module__
+                if module not in of_module:
+                    of_module[module] = rests_of(place, document, module)
+                rests[key] = of_module[module]
+                kept = keep.record(place, *key, rests[key])
+                if kept is None:
+                    again.append(theorem)
+                else:
+                    records.append(kept)
         except Unjudged as error:
             troubles[document] = error.message
+    keep.say(progress)
 
     def slow_first(documents: Iterable[str]) -> list[Task[dict[str, Any]]]:
         every = [
             (theorem.slow, document, theorem.name) for document in documents for theorem in theorems[document]
         ]
         return [
-            (prove_theorem, (place, document, name, inputs[document], limit_ms, shared[document]))
+            (prove_theorem, (place, document, name, rests[document, name], limit_ms, shared[document]))
             for _, document, name in sorted(every, key=lambda one: not one[0])
         ]
 
@@ -139,20 +156,21 @@ def prove_documents(
         )
 
     shared: dict[str, float] = {}
-    records: list[dict[str, Any]] = []
     with contextlib.ExitStack() as stack:
 
         def prepare(document: str) -> None:
-            shared[document] = stack.enter_context(_prepared(document)) if whole else 0.0
+            needed = whole and theorems[document]
+            shared[document] = stack.enter_context(_prepared(document)) if needed else 0.0
 
         *fewer, most = sorted(theorems, key=lambda name: len(theorems[name])) or [""]
         for document in fewer:
             prepare(document)
         if most:  # of all it takes longest to prepare; meanwhile the theorems of the others are proved
             first = slow_first(fewer) if whole else []
-            records += meanwhile("proofs", first, functools.partial(prepare, most))
-        for record in records:
-            done(record)
+            soon = meanwhile("proofs", first, functools.partial(prepare, most))
+            records += soon
+            for record in soon:
+                done(record)
         proved = {(record["document"], record["id"]) for record in records}
         tasks = [task for task in slow_first(theorems) if task[1][1:3] not in proved]
         made = in_processes("proofs", [*beside, *tasks], progress, done, fork=whole)
@@ -161,27 +179,21 @@ def prove_documents(
         if whole and document not in troubles and _has_agreement(place, document):
             module = module_named(f"proofs.{document}.agreement")
             verdicts = {str(r["id"]): str(r["verdict"]) for r in records if r["document"] == document}
-            records.append(agreement.compare(place, document, module, verdicts, inputs[document], tools))
+            records.append(agreement.compare(place, document, module, verdicts, tools))
     return records, troubles
 
 
-def _theorems_to_prove(
-    place: Path, document: str, patterns: Sequence[str], lane: str
-) -> tuple[list[Any], dict[str, str]]:
-    """The theorems that are asked for, and the hashes of what they rest on. Raises Unjudged for none."""
+def _theorems_to_prove(document: str, patterns: Sequence[str], lane: str) -> list[Any]:
+    """The theorems that are asked for. Raises Unjudged for none."""
     theorems = [
         theorem
-        for theorem in _theorems_of(document)
+        for theorem in theorems_of(document)
         if (not patterns or any(fnmatch.fnmatchcase(theorem.name, p) for p in patterns))
         and (patterns or lane != "smoke" or not theorem.slow)
     ]
     if not theorems:
         raise Unjudged(f"no theorem of {document} is called {' or '.join(patterns) or 'anything'}")
-    sources = [*(place / "proofs").glob("*.py"), *(place / "proofs" / document).glob("*.py")]
-    sources += [*(place / "proofs" / "explorer").glob("*.py")]
-    sources += [*(place / "refimpl").glob("*.py"), *(place / "refimpl" / document).glob("*.py")]
-    sources += [*(place / "spec" / document).glob("*.tla"), *(place / "spec" / document).glob("*.toml")]
-    return theorems, evidence.hashes(place, sources)
+    return theorems
 
 
 @contextlib.contextmanager
@@ -200,80 +212,3 @@ def _prepared(document: str) -> Iterator[float]:
 
 def _has_agreement(place: Path, document: str) -> bool:
     return (place / "proofs" / document / "agreement.py").is_file()
-
-
-def _theorems_of(document: str) -> list[Any]:
-    with needing_solvers():
-        from proofs import theorem
-    # libz3 refuses wrong sorts by itself; its Python layer would check every argument once more.
-    vars(module_named("z3.z3"))["Z3_DEBUG"] = False
-    try:
-        return list(theorem.theorems_of(document))
-    except (theorem.TheoremError, ImportError) as error:
-        raise Unjudged(f"proofs of {document}: {error}") from None
-
-
-def prove_theorem(
-    place: Path, document: str, name: str, inputs: dict[str, str], limit_ms: int, shared_s: float
-) -> dict[str, Any]:
-    """Prove one theorem and write its evidence; `inputs` are the hashes of what it rests on, shared_s the
-    seconds of the processor for what was made for all theorems together.
-
-    Raises Unjudged when the proofs cannot be imported or a file cannot be written.
-    """
-    if str(place) not in sys.path:
-        sys.path.insert(0, str(place))
-    one = next(theorem for theorem in _theorems_of(document) if theorem.name == name)
-    with needing_solvers():
-        from proofs import runner
-    out = build(place) / "proofs" / document
-    evidence.discard(place, document, name)
-    started = time.time()
-    try:
-        (result,) = runner.prove_all([one], out, lambda line: None, limit_ms)
-    except OSError as error:
-        raise Unjudged(f"{out}: {error.strerror or error}") from None
-    good = result.verdict == "PROVED"
-    record = evidence.make(
-        kind="proof",
-        id=name,
-        document=document,
-        verdict=result.verdict,
-        expected="PROVED",
-        as_expected=good,
-        strength=f"{len(result.queries)} queries, each asked of two solvers",
-        command=f"modeproof prove --document {document} {name}",
-        started=started,
-        seconds=result.seconds,
-        inputs=inputs,
-        tools=evidence.solvers(),
-        result={
-            "sentence": result.sentence,
-            "remark": result.remark,
-            "clauses": list(result.clauses),
-            "findings": list(result.findings),
-            "properties": list(one.properties),
-            "premises": list(result.premises),
-            "unused": list(result.unused),
-            "work": round(result.work, 3),
-            "shared": round(shared_s, 3),
-            "queries": [
-                {
-                    "name": query.name,
-                    "expected": query.expected,
-                    "z3": query.z3,
-                    "cvc5": query.cvc5,
-                    "twin_of": query.twin_of,
-                    "seconds": round(query.seconds, 3),
-                    "detail": query.detail,
-                    "core": None if query.core is None else list(query.core),
-                    "work": [round(part, 3) for part in query.work],
-                    "smt2": query.smt2.relative_to(place).as_posix(),
-                }
-                for query in result.queries
-            ],
-        },
-        reason=result.reason if not good else "",
-    )
-    evidence.write(place, record)
-    return record

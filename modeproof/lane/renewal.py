@@ -38,7 +38,7 @@ from modeproof.tlc.check import Checked, check_all, pinned_anew, read_cfg
 from modeproof.tlc.check_command import line_of
 from modeproof.tlc.killers import judge_killers
 from modeproof.tlc.repin import Move, apply, moves
-from modeproof.tlc.resume import why_stale
+from modeproof.tlc.rests import why_stale
 from modeproof.tlc.toolchain import find_toolchain
 
 PACKS = Path("examples/faulty/run.py")

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import hashlib
+import os
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +19,18 @@ from modeproof.ground.places import add_document_option, chosen_documents, docum
 from modeproof.ground.processes import Task, in_processes
 from modeproof.ground.progress import Progress
 from modeproof.lane.conformance import compare_reference, comparisons, say
-from modeproof.lane.machine_command import judge_machine, troubles_of_machine
+from modeproof.lane.keep import NOTHING, Keep, kept_line
+from modeproof.lane.machine_command import ID as MACHINE
+from modeproof.lane.machine_command import judge_machine, machine_rests, troubles_of_machine
 from modeproof.lane.prove_command import prove_documents
 from modeproof.lane.summary import failures, machine_line, render, total
 from modeproof.registers.runs import LANES, Run, load_runs
+from modeproof.report.evidence_judge import doubt_on_machine
 from modeproof.report.verdicts import POSITIVE, Line, PropertyRow, property_lines, status_of
 from modeproof.tlc.check import check_all, register_problems, select
 from modeproof.tlc.check_command import line_of
+from modeproof.tlc.rests import rests_of
+from modeproof.tlc.run_judge_again import doubt
 from modeproof.tlc.toolchain import find_toolchain
 
 Records = list[dict[str, Any]]
@@ -32,20 +40,44 @@ Stage = Callable[[Path, Sequence[str], str, Progress], tuple[Records, Troubles]]
 """(root, documents, lane, progress) -> evidence of all documents, and what could not be judged."""
 
 REGISTERS = "registers"
+REGISTERS_CODE = ("modeproof.registers", "modeproof.tlc.check")
+_MADE = frozenset({"build", "__pycache__", "node_modules"})
+"""Folders that hold nothing that somebody wrote; nor do those whose names begin with a dot."""
 
 
 def check_registers(
-    place: Path, names: Sequence[str], lane: str, progress: Progress
+    place: Path, names: Sequence[str], lane: str, progress: Progress, keep: Keep = NOTHING
 ) -> tuple[Records, Troubles]:
     """Load all registers of each document and compare them with one another and with the tree.
 
     The verdict is EQUAL or DIFFERS; a register that cannot be read is UNJUDGED. What concerns no single
-    document is judged once, with the first.
+    document is judged once, with the first. The comparison reads comments as well, so that any byte counts.
     """
-    tasks: list[Task[dict[str, Any]]] = [
-        (_registers_of, (place, name, lane, number == 0)) for number, name in enumerate(names)
-    ]
-    return in_processes(REGISTERS, tasks, progress, lambda record: None, fork=True), {}
+    tree = "" if keep.anew else tree_sha256(place)
+    tasks: list[Task[dict[str, Any]]] = []
+    found: Records = []
+    for number, name in enumerate(names):
+        said = {"tree": tree, "with_tree": str(number == 0)}
+        rests = partial(evidence.Rests, _registers(place, name), REGISTERS_CODE, said=said)
+        if kept := keep.record(place, name, REGISTERS, rests):
+            found.append(kept)
+        else:
+            tasks.append((_registers_of, (place, name, lane, number == 0)))
+    return found + in_processes(REGISTERS, tasks, progress, lambda record: None, fork=True), {}
+
+
+def tree_sha256(place: Path) -> str:
+    """One hash of every file below the root that somebody wrote."""
+    digest = hashlib.sha256()
+    for folder, inner, files in os.walk(place):
+        inner[:] = sorted(name for name in inner if name not in _MADE and not name.startswith("."))
+        for path in (Path(folder) / name for name in sorted(files)):
+            digest.update(f"{path.relative_to(place)} {evidence.sha256(path)}\n".encode())
+    return digest.hexdigest()
+
+
+def _registers(place: Path, document: str) -> dict[str, str]:
+    return evidence.hashes(place, (place / "spec" / document).glob("*.toml"))
 
 
 def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dict[str, Any]:
@@ -54,7 +86,8 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
     evidence.discard(place, document, REGISTERS)
     started = time.time()
     problems: list[str] = []
-    result: dict[str, Any] = {}
+    result: dict[str, Any] = {"tree": tree_sha256(place), "with_tree": str(with_tree)}
+    inputs = _registers(place, document)
     verdict, reason = "EQUAL", ""
     try:
         problems += register_problems(place, document)
@@ -63,7 +96,7 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
         problems += [str(problem) for problem in (*judgement.problems, *tree)]
         if not judgement.rows:
             problems.append("the matrix has no row")
-        result = {
+        result |= {
             "clauses": len(judgement.rows),
             "citations": judgement.citations,
             "unresolved": judgement.unresolved,
@@ -74,7 +107,6 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
             reason = first_of(problems)
     except Unjudged as error:
         verdict, reason = "UNJUDGED", error.message
-    paths = sorted((place / "spec" / document).glob("*.toml"))
     record = evidence.make(
         kind="registers",
         id=REGISTERS,
@@ -86,7 +118,9 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
         command=f"modeproof verify --lane {lane}",
         started=started,
         seconds=time.time() - started,
-        inputs=evidence.hashes(place, paths),
+        inputs=inputs,
+        code=REGISTERS_CODE,
+        place=place,
         result={"problems": problems, **result},
         reason=reason,
     )
@@ -94,8 +128,10 @@ def _registers_of(place: Path, document: str, lane: str, with_tree: bool) -> dic
     return record
 
 
-def check_lane(place: Path, names: Sequence[str], lane: str, progress: Progress) -> tuple[Records, Troubles]:
-    """Every TLC run of the lane, those of all documents in one queue, the longest first.
+def check_lane(
+    place: Path, names: Sequence[str], lane: str, progress: Progress, keep: Keep = NOTHING
+) -> tuple[Records, Troubles]:
+    """Every TLC run of the lane that is not kept, those of all documents in one queue, the longest first.
 
     A document without a run in the lane is not judged. Raises Unjudged when Java or the jar is missing.
     """
@@ -110,11 +146,22 @@ def check_lane(place: Path, names: Sequence[str], lane: str, progress: Progress)
             troubles[document] = error.message
     if not runs:
         return [], troubles
-    done = check_all(place, runs, find_toolchain(), progress, lambda checked: progress.say(line_of(checked)))
-    for name in sorted({run.name for run in runs} - {one.run.name for one in done}):
+    tools = find_toolchain()
+    found: Records = []
+    again = []
+    for run in runs:
+        rests = partial(rests_of, place, run, tools)
+        kept = keep.record(place, run.document, run.id, rests, partial(doubt, place, run))
+        if kept is None:
+            again.append(run)
+        else:
+            found.append(kept)
+    keep.say(progress)
+    done = check_all(place, again, tools, progress, lambda checked: progress.say(line_of(checked)))
+    for name in sorted({run.name for run in again} - {one.run.name for one in done}):
         document, _, id = name.partition("/")
         troubles[document] = f"runs were not executed: {id}"
-    return [one.record for one in done], troubles
+    return found + [one.record for one in done], troubles
 
 
 def property_rows(place: Path, document: str) -> list[PropertyRow]:
@@ -188,14 +235,15 @@ def verify(
     bad += failures(machine_records, [])
     for line in dict.fromkeys(bad):
         progress.say(f"NOT AS EXPECTED  {line}")
+    progress.say(kept_line(everything))
     progress.say(f"{'evidence':<12} build/evidence/ ({len(everything)} files)")
     word = {0: "as expected", 1: "NOT as expected", 2: "NOT judged completely"}[status]
     progress.say(f"{'result':<12} {word} (exit status {status})")
     return status, everything
 
 
-def stages_of_verify() -> list[tuple[str, Stage]]:
-    """The stages of `verify`, each with its title, in their order.
+def stages_of_verify(keep: Keep = NOTHING) -> list[tuple[str, Stage]]:
+    """The stages of `verify`, each with its title, in their order; none judges what `keep` keeps.
 
     The comparisons with the implementation go first in the queue of the theorems: the longest of them keeps
     one core for half a minute. Their stage tells what came of them; where the theorems could not be asked it
@@ -206,9 +254,8 @@ def stages_of_verify() -> list[tuple[str, Stage]]:
     def prove(
         place: Path, names: Sequence[str], lane: str, progress: Progress
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
-        tasks, missing = comparisons(place, names, lane)
+        tasks, missing, found = comparisons(place, names, lane, keep)
         own = machines(place) if set(names) == set(documents(place)) else ()
-        found: list[dict[str, Any]] = []
         judged: list[dict[str, Any]] = []
 
         def take(record: dict[str, Any]) -> None:
@@ -219,9 +266,16 @@ def stages_of_verify() -> list[tuple[str, Stage]]:
                 found.append(record)
                 say(record, progress)
 
-        if lane == "full":  # it takes longest
-            tasks = [*((judge_machine, (place, name)) for name in own), *tasks]
-        records, troubles = prove_documents(place, names, progress, lane=lane, beside=tasks, on_beside=take)
+        for name in own if lane == "full" else ():
+            if kept := keep.record(
+                place, name, MACHINE, partial(machine_rests, place, name), doubt_on_machine
+            ):
+                judged.append(kept)
+            else:  # it takes longest
+                tasks.insert(0, (judge_machine, (place, name, keep.anew)))
+        records, troubles = prove_documents(
+            place, names, progress, lane=lane, beside=tasks, on_beside=take, keep=keep
+        )
         compared.append((found, missing))
         if lane != "full":
             troubles |= {name: why for name in own if (why := troubles_of_machine(place, name))}
@@ -230,9 +284,14 @@ def stages_of_verify() -> list[tuple[str, Stage]]:
     def compare(
         place: Path, names: Sequence[str], lane: str, progress: Progress
     ) -> tuple[list[dict[str, Any]], dict[str, str]]:
-        return compared.pop() if compared else compare_reference(place, names, lane, progress)
+        return compared.pop() if compared else compare_reference(place, names, lane, progress, keep)
 
-    return [("registers", check_registers), ("TLC", check_lane), ("proofs", prove), ("conformance", compare)]
+    return [
+        ("registers", partial(check_registers, keep=keep)),
+        ("TLC", partial(check_lane, keep=keep)),
+        ("proofs", prove),
+        ("conformance", compare),
+    ]
 
 
 def add_parser(commands: Any) -> None:
@@ -243,6 +302,9 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--lane", choices=LANES, default="full", help="smoke: under a minute; full: the default"
     )
+    parser.add_argument(
+        "--anew", action="store_true", help="judge everything again, whatever has not changed since"
+    )
     add_document_option(parser)
 
 
@@ -252,7 +314,7 @@ def run(args: argparse.Namespace) -> int:
     progress = Progress(quiet=args.quiet)
     names = chosen_documents(place, args.document)
     with only_one(place):
-        status, records = verify(place, names, args.lane, stages_of_verify(), progress)
+        status, records = verify(place, names, args.lane, stages_of_verify(Keep(args.anew)), progress)
         for name in names:  # everything that was written can be read back
             evidence.read_document(place, name)
         if args.lane == "full" and args.document is None:

@@ -188,7 +188,7 @@ def _shown(document: Document, sources: Sources) -> str:
     lanes = [run.id for run in document.runs if not {"smoke", "full"} & set(run.lanes)]
     more = (
         f"\n{len(lanes)} of these runs are no part of `verify`: "
-        f"`modeproof check --document {name} --lane exhaustive --resume`.\n"
+        f"`modeproof verify --document {name} --lane exhaustive`.\n"
         if lanes
         else ""
     )

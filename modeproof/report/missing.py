@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from modeproof.registers.rows import Document
 from modeproof.report.claims import LANE, theorem_rows
-from modeproof.report.sources import DIFFERS, HOLE, NOTE, Sources, Trouble, few
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, Sources, Trouble, few, version_of
 from modeproof.report.verdicts import status_of
 
 PART_OF = {
@@ -96,7 +96,8 @@ def mixed(sources: Sources) -> Iterator[Trouble]:
     for piece in sources.everything():
         name = f"{piece.record['document']}/{piece.id}"
         for tool, entry in piece.record["tools"].items():
-            version = f"{entry['version']} ({entry['sha256'][:12]})" if entry["sha256"] else entry["version"]
+            version, digest = version_of(tool, entry)
+            version += f" ({digest[:12]})" if digest else ""
             made.setdefault((str(tool), version), []).append(name)
         computer = piece.record["machine"]
         words = f"{computer['system']}, {computer.get('cpu', '')}, {computer['cores']} cores"

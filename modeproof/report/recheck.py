@@ -15,7 +15,7 @@ from modeproof.ground.evidence.files import YOURS, read
 from modeproof.ground.evidence.record import other_tools, result_sha256
 from modeproof.report.baseline import NAME
 from modeproof.report.integrity import json_of_page, seal_of_json, seal_of_page
-from modeproof.report.sources import DIFFERS, HOLE, NOTE, few
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, few, hash_of
 
 PAGE = "report.html"
 _SCRIPT = r'<script type="application/json" id="{id}">(.*?)</script>'
@@ -145,7 +145,7 @@ def _compare(
     Evidence whose hash is another but whose result is the same was made again.
     """
     for path, digest in files.items():
-        now = _sha256(root / path)
+        now = hash_of(root, path)
         if path.startswith(f"build/{YOURS}/"):
             if now != digest:
                 yield Difference("yours", path, "your run, made again since or taken away", NOTE)
@@ -156,7 +156,9 @@ def _compare(
         elif now != digest and (made := _made_again(root / path, results.get(path))):
             yield Difference(AGAIN, path, f"made again {made}: reproduced, same result", NOTE)
         elif now != digest:
-            yield Difference("differs", path, f"SHA-256 {now[:12]}, the report has {digest[:12]}", DIFFERS)
+            yield Difference(
+                "differs", path, f"its hash is {now[:12]}, the report has {digest[:12]}", DIFFERS
+            )
     for place in ("build/evidence/*/*.json", "spec/*/*.toml"):
         for one in sorted(root.glob(place)):
             name = one.relative_to(root).as_posix()
@@ -182,7 +184,7 @@ def _tools(root: Path, text: str, documents: Sequence[str]) -> Iterator[Differen
         if documents and path.parent.name not in documents:
             continue
         with contextlib.suppress(Unjudged):  # a file that is damaged is not as the report has it
-            for name in other_tools(read(path)):
+            for name in other_tools(root, read(path)):
                 if f"{path.stem} ({name}" in text:
                     continue
                 made.setdefault(name, []).append(f"{path.parent.name}/{path.stem}")

@@ -14,7 +14,8 @@ from typing import Any, TypeVar
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import OURS, YOURS, evidence_path, read
-from modeproof.ground.evidence.record import other_tools, result_sha256
+from modeproof.ground.evidence.record import other_tools, result_sha256, sha256
+from modeproof.ground.meaning import meaning
 from modeproof.ground.places import documents, machines
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
@@ -96,8 +97,8 @@ class Evidence:
 class Sources:
     """Registers and evidence of all documents.
 
-    `files` is the SHA-256 of every file that was read, and of those that evidence rests on, by its path
-    relative to the root; a part that reads another file reads it by `content`, so that it is among them.
+    `files` is the hash of every file that was read, and of those that evidence rests on, by its path relative
+    to the root (`hash_of`); a part that reads another file reads it by `content`, so that it is among them.
     """
 
     root: Path
@@ -142,7 +143,7 @@ class Sources:
             content = (self.root / path).read_bytes()
         except OSError:
             return None
-        self.files[path] = hashlib.sha256(content).hexdigest()
+        self.files[path] = hash_of(self.root, path) or ""
         return content
 
     @property
@@ -244,7 +245,7 @@ def _piece(
     artefacts = record["result"].get("artefacts", {})
     before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
     changed = (
-        *other_tools(record),
+        *other_tools(root, record),
         *(one for one, digest in before.items() if hashes[one] not in (digest, None)),
     )
     gone = tuple(file for file in before if hashes[file] is None)
@@ -288,17 +289,31 @@ def _stale(evidence: Mapping[str, Mapping[str, Evidence]]) -> Iterator[Trouble]:
         yield Trouble(NOTE, "reproduce", what, "", lost)
 
 
+def version_of(name: str, entry: Mapping[str, Any]) -> tuple[str, str]:
+    """The version of a tool, and its hash; that of modeproof is of the modules that judged each piece, so it
+    is no version of the tool.
+    """
+    return str(entry["version"]), "" if name == "modeproof" else str(entry["sha256"] or "")
+
+
+def hash_of(root: Path, path: str) -> str | None:
+    """The meaning of a file by its path relative to the root; None: no such file.
+
+    Of evidence it is the SHA-256, as `sha256sum` gives it: nobody writes that by hand.
+    """
+    try:
+        return (sha256 if path.startswith(f"build/{OURS}/") else meaning)(root / path)
+    except Unjudged:
+        return None
+
+
 class _Hashes(dict[str, str | None]):
-    """SHA-256 of files by their path relative to the root, each read once; None: no such file."""
+    """The hashes of files by their path relative to the root, each made once; None: no such file."""
 
     def __init__(self, root: Path) -> None:
         super().__init__()
         self._root = root
 
     def __missing__(self, path: str) -> str | None:
-        try:
-            with (self._root / path).open("rb") as stream:
-                self[path] = hashlib.file_digest(stream, "sha256").hexdigest()
-        except OSError:
-            self[path] = None
+        self[path] = hash_of(self._root, path)
         return self[path]

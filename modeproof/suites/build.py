@@ -24,7 +24,7 @@ from modeproof.suites.at import every_pair
 from modeproof.suites.contract import load_contract
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import Citations, NoCases, write_suite
-from modeproof.tlc.resume import why_stale
+from modeproof.tlc.rests import why_stale
 
 SAYING = ("properties", "clauses", "findings")
 """Registers of which a header repeats sentences."""
@@ -75,15 +75,12 @@ def ready_suite(
     `on_built` gets a line with the figures of a suite that was built. Raises Unjudged when a graph is
     missing, of another text, or not complete.
     """
+    if (path := current_suite(place, document, target, suite)) is not None:
+        return open_suite(path)
     path = suite_file(place, document, target, suite)
     runs = open_runs(place, document, target)
-    if not runs:
-        raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
     made_with = _made_with(place, document, target, [current_graph(place, run) for run in runs])
-    known = path.with_name(f"{suite}.key")
-    if path.is_file() and known.is_file() and known.read_text(encoding="utf-8") == made_with:
-        with contextlib.suppress(KitUnjudged):  # a leftover of another version is built anew
-            return open_suite(path)
+    known = _key_file(path)
     known.unlink(missing_ok=True)
     devices = [load_device_graph(place, run) for run in runs]
     if suite in SUITES and SUITES[suite].pairs:
@@ -100,6 +97,28 @@ def ready_suite(
     write_whole(known, made_with.encode())
     on_built(f"{target} {suite}: {stats}")
     return open_suite(path)
+
+
+def current_suite(place: Path, document: str, target: str, suite: str) -> Path | None:
+    """The file of a suite that was built of the present text; None: it has to be built.
+
+    Raises Unjudged when a graph is missing or of another text.
+    """
+    path = suite_file(place, document, target, suite)
+    runs = open_runs(place, document, target)
+    if not runs:
+        raise Unjudged(f"{document}: no OPEN run prints a graph of {target}")
+    made_with = _made_with(place, document, target, [current_graph(place, run) for run in runs])
+    known = _key_file(path)
+    if path.is_file() and known.is_file() and known.read_text(encoding="utf-8") == made_with:
+        with contextlib.suppress(KitUnjudged):  # a leftover of another version is built anew
+            open_suite(path)
+            return path
+    return None
+
+
+def _key_file(path: Path) -> Path:
+    return path.with_name(f"{path.name.partition('.')[0]}.key")
 
 
 def ready_suites(place: Path, document: str, names: Sequence[str], quiet: bool) -> list[Suite]:

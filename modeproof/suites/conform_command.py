@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import re
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from modeproof.graph.chart import chart
-from modeproof.graph.device import compared_files, load_device_graph, open_runs
+from modeproof.graph.device import COMPARED_BY, compared_rests, load_device_graph, open_runs
 from modeproof.graph.equal import Comparison, Difference, compare
 from modeproof.graph.export import write_export
 from modeproof.graph.implementation import REFERENCE, load_implementation
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.ground.lock import only_one
+from modeproof.ground.meaning import reached
 from modeproof.ground.places import build, root
 from modeproof.ground.progress import Progress
 from modeproof.kit import kit_command
@@ -32,9 +34,10 @@ from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.registers.stale import stale
 from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
-from modeproof.suites.build import find_target, make_graphs, ready_suite, say
+from modeproof.suites.build import current_suite, find_target, make_graphs, ready_suite, say
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
+from modeproof.tlc.rests import row_of
 
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
@@ -80,8 +83,7 @@ def _program(args: argparse.Namespace) -> int:
         if args.adapter is None or not whole or not verdict.adapter:
             continue
         if ours and suite.name in OWN_SUITES.values():
-            inputs = own_files(place, document)
-            record = own_record(place, document, suite, verdict, started, inputs)
+            record = own_record(place, document, suite, verdict, started)
             evidence.write(place, record)
         else:
             _write_yours(place, document, args, suite, verdict, started)
@@ -101,22 +103,34 @@ def _is_ours(args: argparse.Namespace) -> bool:
     return usual and args.adapter == f"python {OWN} {args.target}"
 
 
-def own_files(place: Path, document: str) -> list[Path]:
-    """What a run of the reference implementation rests on, besides the suite."""
-    return [place / OWN, *sorted((place / REFERENCE / document).glob("*.py"))]
+def own_id(target: str, suite: str) -> str:
+    """The name of the evidence of the reference implementation behind the adapter protocol."""
+    return f"adapter_{target}_{suite}"
 
 
-def own_record(
-    place: Path, document: str, suite: Suite, verdict: Verdict, started: float, inputs: Sequence[Path]
-) -> dict[str, Any]:
+def own_rests(place: Path, document: str, target: str, suite: str) -> evidence.Rests:
+    """What that rests on. Raises Unjudged when the suite has to be made before."""
+    path = published(place, target, suite) or current_suite(place, document, target, suite)
+    if path is None:
+        raise Unjudged(f"the suite {suite} of {target} has to be made")
+    return evidence.Rests(_own_inputs(place, document, target, path), COMPARED_BY)
+
+
+def _own_inputs(place: Path, document: str, target: str, suite: Path) -> dict[str, str]:
+    code = reached(place, OWN, f"{REFERENCE}/{document}/{target}.py")
+    return evidence.hashes(place, [*code, place / "spec" / document / "interface.toml", suite])
+
+
+def own_record(place: Path, document: str, suite: Suite, verdict: Verdict, started: float) -> dict[str, Any]:
     """The evidence of the reference implementation behind the adapter protocol."""
     about = {"device": suite.target, "implementation": REFERENCE}
     adapter = kit_command.quoted(f"python {OWN} {suite.target}")
     command = (
         f"modeproof conform {suite.target} --adapter {adapter} --suite {suite.name} --codes --profile {ALL}"
     )
-    id = f"adapter_{suite.target}_{suite.name}"
-    return _record(place, document, suite, verdict, id, command, started, [*inputs, suite.path], about)
+    id = own_id(suite.target, suite.name)
+    inputs = _own_inputs(place, document, suite.target, suite.path)
+    return _record(place, document, suite, verdict, id, command, started, inputs, about)
 
 
 def _write_yours(
@@ -139,7 +153,8 @@ def _write_yours(
         ]
     )
     id = "_".join([name[:60], args.target, suite.name, *manner, *profile])
-    record = _record(place, document, suite, verdict, id, command, started, [suite.path], {"name": name})
+    inputs = evidence.hashes(place, [suite.path])
+    record = _record(place, document, suite, verdict, id, command, started, inputs, {"name": name})
     evidence.write(place, record, evidence.YOURS)
     say(f"kept as {build(place).name}/{evidence.YOURS}/{document}/{id}.json; `modeproof report` shows it")
 
@@ -152,7 +167,7 @@ def _record(
     id: str,
     command: str,
     started: float,
-    inputs: Sequence[Path],
+    inputs: Mapping[str, str],
     about: Mapping[str, Any],
 ) -> dict[str, Any]:
     done, total = verdict.transitions
@@ -169,7 +184,9 @@ def _record(
         command=command,
         started=started,
         seconds=verdict.seconds,
-        inputs=evidence.hashes(place, inputs),
+        inputs=inputs,
+        code=COMPARED_BY,
+        place=place,
         result={**about, **as_record(verdict), "says": suite.says},
         reason="" if verdict.status == 0 else verdict.reason,
     )
@@ -276,6 +293,9 @@ def compare_run(place: Path, run: Run, builtin: str, progress: Progress, codes: 
     name = f"{builtin}_{run.id}"
     evidence.discard(place, run.document, name, folder)
     started = time.time()
+    inputs: Mapping[str, str] = {}
+    with contextlib.suppress(Unjudged):  # a program of another place
+        inputs = compared_rests(place, run, builtin).inputs
     progress.begin(name)
     try:
         found, result = compared(
@@ -287,7 +307,7 @@ def compare_run(place: Path, run: Run, builtin: str, progress: Progress, codes: 
         )
     finally:
         progress.end(name)
-    evidence.write(place, comparison_record(place, run, builtin, started, found, result), folder)
+    evidence.write(place, comparison_record(place, run, builtin, inputs, started, found, result), folder)
     return found
 
 
@@ -317,6 +337,7 @@ def comparison_record(
     place: Path,
     run: Run,
     builtin: str,
+    inputs: Mapping[str, str],
     started: float,
     found: Comparison | None,
     result: Mapping[str, Any],
@@ -346,8 +367,10 @@ def comparison_record(
         command=f"modeproof conform {device} --builtin {builtin} --document {run.document}",
         started=started,
         seconds=time.time() - started,
-        inputs=evidence.hashes(place, compared_files(place, run, builtin)),
-        result={"run": run.id, "device": device, "implementation": builtin, **result},
+        inputs=inputs,
+        code=COMPARED_BY,
+        place=place,
+        result={**row_of(run), "run": run.id, "device": device, "implementation": builtin, **result},
         reason=reason,
     )
 

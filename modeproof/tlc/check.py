@@ -6,7 +6,7 @@ import fnmatch
 import hashlib
 import shlex
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,7 @@ from modeproof.registers.runs import Run, load_runs
 from modeproof.tlc import children
 from modeproof.tlc.messages import Counts
 from modeproof.tlc.process import SMALL_HEAP_MB, Outcome, run_tlc
+from modeproof.tlc.rests import CODE, inputs_of
 from modeproof.tlc.run_judge import HOLDS, UNJUDGED, Judgement, judge
 from modeproof.tlc.run_judge_again import declared
 from modeproof.tlc.schedule import Job, machine_mb, memory_mb, run_all
@@ -44,8 +45,6 @@ class Checked:
     outcome: Outcome | None
     cfg_sha256: str
     record: dict[str, Any]
-    kept: bool = False
-    """Not run now: its evidence of an earlier run still fits."""
 
     @property
     def status(self) -> int:
@@ -150,9 +149,11 @@ def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Ch
     started = time.time()
     digest = ""
     outcome: Outcome | None = None
+    inputs: dict[str, str] = {}
     progress.begin(run.id)
     try:
         cfg, digest = read_cfg(place, run)
+        inputs = inputs_of(place, run)
         if 0 < (there := machine_mb()) < run.heap_mb:
             raise Unjudged(f"{run.name}: heap_mb = {run.heap_mb}, but this machine has {there} MiB of memory")
 
@@ -166,13 +167,14 @@ def check_one(place: Path, run: Run, tools: Toolchain, progress: Progress) -> Ch
 
         outcome = run_tlc(place, run, tools, on_progress, on_lines)
         judgement = _about_reading(place, run, judge(run, cfg, digest, outcome), outcome)
-        if read_cfg(place, run)[1] != digest:
-            judgement = Judgement(UNJUDGED, False, f"{run.config} was changed while TLC ran")
+        now = inputs_of(place, run)
+        if changed := [name for name in (*inputs, *now) if inputs.get(name) != now.get(name)]:
+            judgement = Judgement(UNJUDGED, False, f"{changed[0]} was changed while TLC ran")
     except Unjudged as error:
         judgement = Judgement(UNJUDGED, False, error.message)
     finally:
         progress.end(run.id)
-    record = _record(place, run, tools, judgement, outcome, started)
+    record = _record(place, run, tools, inputs, judgement, outcome, started)
     evidence.write(place, record)
     return Checked(run, judgement, outcome, digest, record)
 
@@ -183,7 +185,7 @@ def pinned_anew(place: Path, checked: Checked, tools: Toolchain) -> Checked:
     run = next(one for one in load_runs(place, checked.run.document) if one.id == checked.run.id)
     cfg, digest = read_cfg(place, run)
     judgement = judge(run, cfg, digest, checked.outcome)
-    record = _record(place, run, tools, judgement, checked.outcome, time.time())
+    record = _record(place, run, tools, inputs_of(place, run), judgement, checked.outcome, time.time())
     evidence.write(place, record)
     return Checked(run, judgement, checked.outcome, digest, record)
 
@@ -200,15 +202,6 @@ def _about_reading(place: Path, run: Run, judgement: Judgement, outcome: Outcome
     except Unjudged:
         return judgement  # the registers are judged elsewhere
     return replace(judgement, reason=f"{judgement.reason}: {words}") if words else judgement
-
-
-def kept(place: Path, run: Run) -> Checked:
-    """A run that is not run again, from its evidence, which has been found to fit."""
-    record = evidence.read(evidence.evidence_path(place, run.document, run.id))
-    result = record["result"]
-    reached = tuple(result.get("reached", ()))
-    judgement = Judgement(record["verdict"], True, "", result.get("violated", ""), reached)
-    return Checked(run, judgement, None, run.cfg_sha256 or "", record, kept=True)
 
 
 def check_all(
@@ -260,17 +253,20 @@ def _estimate(place: Path, run: Run) -> float:
 
 
 def _record(
-    place: Path, run: Run, tools: Toolchain, judgement: Judgement, outcome: Outcome | None, started: float
+    place: Path,
+    run: Run,
+    tools: Toolchain,
+    inputs: Mapping[str, str],
+    judgement: Judgement,
+    outcome: Outcome | None,
+    started: float,
 ) -> dict[str, Any]:
     folder = place / "spec" / run.document
-    paths = {folder / "runs.toml"}
-    made = (place / run.config).with_suffix(".tla") if run.base or not run.cfg else place / run.config
-    needed = (folder / run.cfg, folder / f"{run.module}.tla", place / run.config, made)
-    paths |= {path for path in needed if path.is_file()}
-    if outcome is not None:
+    paths: set[Path] = set()
+    if outcome is not None:  # should TLC have read more than was foreseen, the run is never kept
         spec = (place / "spec").resolve()
         parsed = (Path(name) if Path(name).is_absolute() else folder / name for name in outcome.log.files)
-        paths |= {path for path in parsed if path.resolve().is_relative_to(spec) and path.is_file()}
+        paths = {path for path in parsed if path.resolve().is_relative_to(spec) and path.is_file()}
     return evidence.make(
         kind="tlc",
         id=run.id,
@@ -283,7 +279,9 @@ def _record(
         command=f"modeproof check {run.name}",
         started=started,
         seconds=outcome.seconds if outcome is not None else time.time() - started,
-        inputs=evidence.hashes(place, sorted(paths)),
+        inputs={**evidence.hashes(place, paths), **inputs},
+        code=CODE,
+        place=place,
         tools=entries(tools, outcome.log.version if outcome is not None else ""),
         result=_result(place, run, tools, judgement, outcome),
         reason=judgement.reason,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +16,9 @@ from modeproof.ground.reason import ask_reason, refuse_in_ci
 from modeproof.registers.load import load_interface
 from modeproof.registers.replay import has_replay, load_replay, meanings
 from modeproof.registers.runs import LANES
-from modeproof.tlc.check import Checked, check_all, kept, register_problems, select
+from modeproof.tlc.check import Checked, check_all, register_problems, select
 from modeproof.tlc.messages import essence, format_trace
 from modeproof.tlc.repin import Move, apply, cfg_diff, moves
-from modeproof.tlc.resume import why_stale
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.tlc.walk import read_walk, recorded, walk_all
 
@@ -40,9 +38,6 @@ def add_parser(commands: Any) -> None:
         "--repin", action="store_true", help="move the pins of these runs to what they give now"
     )
     check.add_argument("--reason", metavar="TEXT", help="why the pins move (with --repin)")
-    check.add_argument(
-        "--resume", action="store_true", help="keep runs whose evidence still fits, run only the others"
-    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -54,8 +49,6 @@ def run(args: argparse.Namespace) -> int:
             raise Unjudged("--repin needs the runs by name")
     elif args.reason is not None:
         raise Unjudged("--reason belongs to --repin")
-    if args.resume and args.repin:
-        raise Unjudged("--resume keeps what is as expected, --repin makes anew: give one of them")
     lane = args.lane or (None if args.runs else "full")
     runs = select(place, args.runs, lane, args.document)
     if args.list:
@@ -65,11 +58,7 @@ def run(args: argparse.Namespace) -> int:
     tools = find_toolchain()
     progress = Progress(quiet=args.quiet)
     with only_one(place):
-        still = _resumed(args, place, runs, tools, progress)
-        again = [run for run in runs if run.name not in still]
-        done = list(still.values())
-        if again:
-            done += check_all(place, again, tools, progress, lambda checked: progress.say(line_of(checked)))
+        done = check_all(place, runs, tools, progress, lambda checked: progress.say(line_of(checked)))
         for checked in done if not args.repin or args.trace else ():
             _show_trace(place, checked, args, tools)
         status: int = max(checked.status for checked in done)
@@ -87,20 +76,6 @@ def run(args: argparse.Namespace) -> int:
         print(f"{good} of {len(done)} runs as expected")
     write_json(args, status, runs=[checked.record for checked in done], problems=problems)
     return status
-
-
-def _resumed(
-    args: argparse.Namespace, place: Path, runs: Sequence[Any], tools: Any, progress: Any
-) -> dict[str, Any]:
-    """With --resume: the runs that are kept, by their names; each run is said, with why it is run again."""
-    found: dict[str, Any] = {}
-    for run in runs if args.resume else ():
-        if reason := why_stale(place, run, tools):
-            progress.say(f"again {run.name}: {reason}")
-        else:
-            found[run.name] = kept(place, run)
-            progress.say(line_of(found[run.name]))
-    return found
 
 
 def _show_trace(place: Path, checked: Checked, args: argparse.Namespace, tools: Toolchain) -> None:
@@ -175,11 +150,6 @@ def _repin(place: Path, done: list[Any], given: str | None) -> int:
 
 def line_of(checked: Checked) -> str:
     """One line that says how a run went."""
-    if checked.kept:
-        words, record = checked.judgement.words, checked.record
-        return (
-            f"ok  {checked.run.name}: {words}; kept, of {record['started']}, {record['seconds']:.1f} s then"
-        )
     counts = checked.outcome.log.counts if checked.outcome is not None else None
     seconds = checked.outcome.seconds if checked.outcome is not None else 0.0
     parts = [f"{'ok ' if checked.status == 0 else 'NOT'} {checked.run.name}: {checked.judgement.words}"]

@@ -13,7 +13,7 @@ from modeproof.registers.profiles import strength_of
 from modeproof.registers.runs import Run
 from modeproof.tlc.messages import Counts, Log, TraceState
 from modeproof.tlc.process import Outcome
-from modeproof.tlc.resume import declaration_sha256
+from modeproof.tlc.rests import declaration_sha256
 from modeproof.tlc.run_judge import REACHED, VIOLATED, judge
 
 

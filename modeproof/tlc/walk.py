@@ -27,6 +27,7 @@ from typing import Any
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.meaning import meaning
 from modeproof.ground.places import build
 from modeproof.registers.load import load_interface
 from modeproof.registers.replay import Traces, load_replay
@@ -87,12 +88,12 @@ def walk_path(place: Path, document: str, run: str) -> Path:
 
 
 def spec_hashes(place: Path, document: str) -> dict[str, str]:
-    """The hashes of every module, of the register and of this file, which a walk depends on."""
+    """The meanings of every module, of the register and of this file, on which a walk rests."""
     folder = place / "spec" / document
     common = (place / "spec" / "common").glob("*.tla")
     found = evidence.hashes(place, sorted([*folder.glob("*.tla"), *common, folder / "replay.toml"]))
     own = (Path(__file__), Path(walk_module.__file__))
-    return found | {f"modeproof/tlc/{path.name}": evidence.sha256(path) for path in own}
+    return found | {f"modeproof/tlc/{path.name}": meaning(path) for path in own}
 
 
 def read_walk(place: Path, document: str, trace: Recorded) -> dict[str, Any] | None:

@@ -18,7 +18,7 @@ from proofs.mode_selection.ranges import FLAG_WORD, MODES, free_mode, mode_of, w
 from proofs.theorem import Queries, claim, theorem
 from proofs.words import constant
 
-SPECIFICATION: Final = Path(__file__).resolve().parents[2] / "spec" / "mode_selection" / "CodeTables.tla"
+SPECIFICATION: Final = Path(__file__).resolve().parents[2] / "spec/mode_selection/CodeTables.tla"
 
 _DEFINITION = re.compile(
     r"^(\w+)\s*==\s*(?:TLCEval\()?\[\s*m\s+\\in\s+MSO\s*\|->\s*CASE\b((?:[^\[\]]|\[\])*)\]", re.M

@@ -24,8 +24,9 @@ from proofs.mode_selection.ranges import accepted, codes
 from proofs.theorem import Queries, TheoremError, claim, control, theorem
 from proofs.words import one_of
 
-SPECIFICATION: Final = Path(__file__).parents[2] / "spec" / "mode_selection"
-OPEN_MODULE: Final = {"fplc": "FplcOpen.tla", "hmi": "HmiOpen.tla"}
+ROOT: Final = Path(__file__).parents[2]
+CLASSES: Final = "spec/mode_selection/interface.toml"
+OPEN_MODULE: Final = {"fplc": "spec/mode_selection/FplcOpen.tla", "hmi": "spec/mode_selection/HmiOpen.tla"}
 
 
 def alphabet(device: Device) -> tuple[int, ...]:
@@ -33,7 +34,7 @@ def alphabet(device: Device) -> tuple[int, ...]:
 
     Of an alphabet with a shorter choice the longest counts: what the shorter one leaves out it does not try.
     """
-    text = (SPECIFICATION / OPEN_MODULE[device.name]).read_text(encoding="utf-8")
+    text = (ROOT / OPEN_MODULE[device.name]).read_text(encoding="utf-8")
     definition = re.search(r"^Words ==(.*(?:\n +.*)*)", text, re.MULTILINE)
     lists = re.findall(r"<<(.*?)>>", definition.group(1)) if definition else []
     items = [item.strip() for item in max(lists, key=len, default="").split(",")]
@@ -49,7 +50,7 @@ def alphabet(device: Device) -> tuple[int, ...]:
 
 def classes(device: Device) -> list[dict[str, Any]]:
     """The rows of interface.toml for the device."""
-    rows = tomllib.loads((SPECIFICATION / "interface.toml").read_text(encoding="utf-8"))["class"]
+    rows = tomllib.loads((ROOT / CLASSES).read_text(encoding="utf-8"))["class"]
     return [row for row in rows if row["device"] == device.name]
 
 

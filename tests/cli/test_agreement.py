@@ -35,7 +35,7 @@ def _module(*rows: Row, disagreements: tuple[str, ...] = ()) -> ModuleType:
 
 
 def _compared(place: Path, module: ModuleType, **verdicts: str) -> dict[str, Any]:
-    return compare(place, "toy", module, verdicts, {}, {})
+    return compare(place, "toy", module, verdicts, {})
 
 
 BOTH = _module(Row("One", "first"), Row("Two", "", "nobody knows"))

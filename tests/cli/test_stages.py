@@ -24,9 +24,9 @@ def toy(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, list[str
     made: list[str] = []
     compare_one = conformance._one
 
-    def counted(place: Path, run: Any) -> dict[str, Any]:
+    def counted(place: Path, run: Any, *more: Any) -> dict[str, Any]:
         made.append(run.id)
-        return compare_one(place, run)
+        return compare_one(place, run, *more)
 
     monkeypatch.setattr(conformance, "_targets", lambda place, document, lane: [])
     monkeypatch.setattr(conformance, "_one", counted)

@@ -18,7 +18,7 @@ from modeproof.graph.read import read_graph
 from modeproof.graph.values import ValueForms
 from modeproof.ground import evidence
 from modeproof.registers.rows import Device, Signal
-from modeproof.tlc.resume import declaration_sha256
+from modeproof.tlc.rests import declaration_sha256, inputs_of
 
 CODE, OTHER, TICK_MS, LIMIT = 0x0FF0, 1, 250, 2
 
@@ -83,7 +83,6 @@ def write(path: Path, printed: Iterable[str]) -> Path:
 def vouch(place: Path, document: str) -> None:
     """Write the evidence of each printed graph, as if TLC had made it from what is there now."""
     for run in open_runs(place, document):
-        files = [path for path in (place / "spec" / document).rglob("*") if path.suffix in (".tla", ".cfg")]
         printed = graph_file(place, run)
         (name, digest), *_ = evidence.hashes(place, [printed]).items()
         record = evidence.make(
@@ -96,7 +95,7 @@ def vouch(place: Path, document: str) -> None:
             command="modeproof check",
             started=0.0,
             seconds=1.0,
-            inputs=evidence.hashes(place, files),
+            inputs=inputs_of(place, run),
             result={"declaration": declaration_sha256(run), "graph": {"file": name, "sha256": digest}},
         )
         evidence.write(place, record)

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any
 
 import pytest
 
-from modeproof.graph.device import compared_files, graph_file
+from modeproof.graph.device import compared_rests, graph_file
 from modeproof.graph.equal import compare
 from modeproof.graph.implementation import load_implementation
 from modeproof.ground.errors import Unjudged
+from modeproof.tlc.check import select
+from modeproof.tlc.rests import row_of as said_of
 from tests.graph.printed import CODE, Inputs, Memory, Outputs, lamp, lamp_graph, lines, row_of, step
+from tests.toy_tree import toy_tree
 
 
 def test_the_lamp_and_its_graph_are_equal(tmp_path: Path) -> None:
@@ -145,17 +146,17 @@ def test_a_step_or_field_that_nobody_declared_is_refused(tmp_path: Path) -> None
         lamp_graph(tmp_path, [line.replace("word |-> 1]", "word |-> 70000]") for line in lines()])
 
 
-def test_only_existing_files_of_a_comparison_are_listed(tmp_path: Path) -> None:
-    run: Any = SimpleNamespace(document="toy", id="OPEN_Lamp")
-    wanted = [
-        tmp_path / "code" / "errors.py",
-        tmp_path / "code" / "toy" / "lamp.py",
-        *(tmp_path / "spec" / "toy" / f"{name}.toml" for name in ("interface", "runs")),
-        graph_file(tmp_path, run),
-    ]
-    for path in wanted:
+def test_a_comparison_rests_on_code_registers_specification_and_graph(tmp_path: Path) -> None:
+    root = toy_tree(tmp_path, "OPEN_toy")
+    (run,) = select(root)
+    code = root / "code" / "toy" / "toy.py"
+    for path in (code, root / "code" / "errors.py", graph_file(root, run), root / "spec/toy/interface.toml"):
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.touch()
-    assert compared_files(tmp_path, run, "code") == wanted
-    wanted[3].unlink()
-    assert compared_files(tmp_path, run, "code") == [path for path in wanted if path != wanted[3]]
+        path.write_text("import code.errors\n" if path == code else "")
+    wanted = {"code/errors.py", "code/toy/toy.py", "build/graphs/toy/OPEN_toy.txt"}
+    wanted |= {f"spec/toy/{name}" for name in ("interface.toml", "Toy.tla", "models/OPEN_toy.cfg")}
+    found = compared_rests(root, run, "code")
+    assert found.inputs.keys() == wanted and found.said == said_of(run)
+    code.unlink()
+    with pytest.raises(Unjudged, match=r"code/toy/toy\.py: no such file"):
+        compared_rests(root, run, "code")

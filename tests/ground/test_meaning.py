@@ -136,11 +136,13 @@ FILES = {
     "pack/middle.py": "def late():\n    from .inner import deep\n    from .. import other\n",
     "pack/inner/__init__.py": "from . import first\n",
     "pack/inner/first.py": "import json\n",
-    "pack/inner/deep.py": "NAME = 'pack.named'\n",
+    "pack/inner/deep.py": "import_module('pack.named')\nROWS = 'pack/rows.toml'\n",
+    "pack/rows.toml": "",
     "pack/named.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import pack.typed\n",
     "pack/typed.py": "",
     "other.py": "",
     "pack/unused.py": "",
+    "pack/words.py": "SAYS = 'pack.unused'\n",
 }
 
 
@@ -157,7 +159,7 @@ def names(root: Path, paths: tuple[Path, ...]) -> list[str]:
 
 def test_a_module_needs_what_it_imports_anywhere_in_it(tmp_path: Path) -> None:
     root = lay(tmp_path)
-    everything = sorted({*FILES} - {"pack/unused.py"})
+    everything = sorted({*FILES} - {"pack/unused.py", "pack/words.py"})
     assert names(root, reached(root, "pack.top")) == everything
     assert (
         reached(root, "pack/top.py") == reached(root, root / "pack" / "top.py") == reached(root, "pack.top")
@@ -165,6 +167,7 @@ def test_a_module_needs_what_it_imports_anywhere_in_it(tmp_path: Path) -> None:
     assert names(root, reached(root, "pack.inner")) == [
         f"pack/{name}.py" for name in ("__init__", "inner/__init__", "inner/first")
     ]
+    assert root / "pack/unused.py" not in reached(root, "pack.words"), "a word is no import"
     assert root / "pack/unused.py" in reached(root, "pack/")
 
 

@@ -311,11 +311,11 @@ def test_the_full_lane_of_all_documents_has_the_machine(
             on_beside(record_of("PROVED"))
         return [], {}
 
-    monkeypatch.setattr("modeproof.lane.verify.comparisons", lambda *_: ([], {}))
+    monkeypatch.setattr("modeproof.lane.verify.comparisons", lambda *_: ([], {}, []))
     monkeypatch.setattr("modeproof.lane.verify.prove_documents", prove)
     monkeypatch.setattr("modeproof.lane.verify.troubles_of_machine", lambda *_: "planted")
     stage = dict(stages_of_verify())["proofs"]
     records, found = stage(ROOT, names, lane, Progress(quiet=True))
-    assert asked == [(judge_machine, (ROOT, NAME))] * tasks
+    assert asked == [(judge_machine, (ROOT, NAME, True))] * tasks
     assert [record["document"] for record in records] == [NAME] * tasks
     assert found == troubles

@@ -114,7 +114,7 @@ def test_evidence_of_another_tool_is_no_evidence(
     assert recheck(root, page).status == 0
     there = made_by.own_tools() | made_by.solvers()
     other = {**there[tool], "sha256": "0" * 64}
-    monkeypatch.setattr(made_by, "own_tools", lambda: there | {tool: other})
+    monkeypatch.setattr(made_by, "own_tools", lambda *_: there | {tool: other})
     monkeypatch.setattr(made_by, "solvers", dict)
     assert main(["report", "--verify"]) == 1
     assert f"{tool} (the tool): was changed since it made the evidence of box/" in capsys.readouterr().out

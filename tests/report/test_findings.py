@@ -85,7 +85,7 @@ def _no_evidence(root: Path) -> None:
 
 
 def _other_cfg(root: Path) -> None:
-    change(root, "spec/box/models/MC_Box.cfg", "CONSTANTS", "CONSTANTS ")
+    change(root, "spec/box/models/MC_Box.cfg", "CONSTANTS", "CONSTANT")
 
 
 def _other_pin(root: Path) -> None:

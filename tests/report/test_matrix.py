@@ -86,7 +86,7 @@ def test_a_vector_says_how_programs_that_took_its_step_fared(root: Path) -> None
     wrong = {**fields, "verdict": "DIFFERS", "as_expected": False, "reason": "scan 3"}
     put(root, "adapter_box_wp", result={**result, "suite": "wp", "covered": {"Close": [1, 2]}}, **wrong)
     assert rows(root)["BX-1-1"]["vector"][0]["text"] == "DIFFERS (wp)"
-    change(root / "spec" / "box" / "Box.tla", "The box: it shuts", "The box: it shuts now")
+    change(root / "spec" / "box" / "Box.tla", "CODE == TLCEval", "CODE  == TLCEval")
     assert rows(root)["BX-1-1"]["vector"][0]["text"] == "of another text (brief)"
 
 

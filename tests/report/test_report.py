@@ -227,7 +227,7 @@ def test_a_damaged_register_is_a_hole_and_no_crash(root: Path) -> None:
 
 
 def test_stale_evidence_is_one_line_a_document_and_judges_nothing(root: Path) -> None:
-    change(root / "spec" / "box" / "Box.tla", "The box: it shuts", "The box: it shuts now")
+    change(root / "spec" / "box" / "Box.tla", "CODE == TLCEval", "CODE  == TLCEval")
     lines = [one for one in make(root).troubles if "of another text" in one.what and one.part == "verdict"]
     assert len(lines) == 1 and lines[0].status == HOLE and len(lines[0].items) == 7
     assert lines[0].what == "box: 7 of 7 pieces of evidence are of another text (spec/box/Box.tla)"

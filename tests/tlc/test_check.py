@@ -14,6 +14,7 @@ import pytest
 from msgspec.structs import replace as with_values
 
 from modeproof.ground import evidence
+from modeproof.ground.meaning import meaning_of
 from modeproof.ground.progress import Progress
 from modeproof.tlc import children, process
 from modeproof.tlc.check import SMALL_SHARE, Checked, check_all, check_one, select
@@ -100,9 +101,9 @@ def test_the_evidence_names_inputs_and_tools(good: tuple[Path, dict[str, Checked
     assert set(record["inputs"]) == {
         "spec/toy/Toy.tla",
         "spec/toy/models/NEG_small.cfg",
-        "spec/toy/runs.toml",
     }
-    assert record["inputs"]["spec/toy/models/NEG_small.cfg"] == sha256(CFGS["NEG_small"])
+    cfg = "spec/toy/models/NEG_small.cfg"
+    assert record["inputs"][cfg] == meaning_of(cfg, CFGS["NEG_small"].encode())
     assert record["tools"]["tlc"]["sha256"] and "2.15" in record["tools"]["tlc"]["version"]
     assert record["result"]["trace"][-1]["variables"]["count"] == "3"
     assert str(root) not in str(record["result"])

@@ -11,7 +11,7 @@ from msgspec.structs import replace as with_values
 from modeproof.graph.device import DeviceGraph, load_device_graph, read_device_graph
 from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
-from modeproof.tlc.resume import why_stale
+from modeproof.tlc.rests import why_stale
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.log_judge import Graphs
 from tests.spec.mode_selection.planted import DOCUMENT, Base, Trial

@@ -12,7 +12,7 @@ from modeproof.graph.device import DeviceGraph, load_device_graph, read_device_g
 from modeproof.ground.places import root
 from modeproof.registers.runs import load_runs
 from modeproof.tlc.process import run_tlc
-from modeproof.tlc.resume import why_stale
+from modeproof.tlc.rests import why_stale
 from modeproof.tlc.toolchain import find_toolchain
 from modeproof.trace.alphabet import Alphabet
 from modeproof.trace.follow import Followed

@@ -10,9 +10,11 @@ from modeproof.ground.evidence.files import (
     read_document,
     write,
 )
+from modeproof.ground.evidence.kept import Rests, why_again
 from modeproof.ground.evidence.record import (
     SCHEMA_VERSION,
-    hashes,
+    day,
+    is_sealed,
     machine,
     make,
     other_tools,
@@ -23,15 +25,19 @@ from modeproof.ground.evidence.record import (
     solvers,
     tool,
 )
+from modeproof.ground.meaning import meanings as hashes
 
 __all__ = [
     "OURS",
     "SCHEMA_VERSION",
     "YOURS",
+    "Rests",
+    "day",
     "discard",
     "discard_undeclared",
     "evidence_path",
     "hashes",
+    "is_sealed",
     "machine",
     "make",
     "other_tools",
@@ -43,5 +49,6 @@ __all__ = [
     "sha256",
     "solvers",
     "tool",
+    "why_again",
     "write",
 ]

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence.record import is_sealed, sealed
 from modeproof.ground.places import build
 from modeproof.kit import files
 
@@ -44,14 +45,14 @@ def evidence_path(place: Path, document: str, id: str, folder: str = OURS) -> Pa
 
 
 def write(place: Path, record: Mapping[str, Any], folder: str = OURS) -> Path:
-    """Write one piece of evidence and return its path.
+    """Write one piece of evidence, sealed, and return its path.
 
     Raises Unjudged when the record breaks the schema or cannot be written (no space, no permission); then
     nothing is left behind.
     """
     _check(record, "evidence to be written")
     path = evidence_path(place, record["document"], record["id"], folder)
-    text = json.dumps(record, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+    text = json.dumps(sealed(record), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
     write_whole(path, text.encode("utf-8"))
     return path
 
@@ -108,7 +109,8 @@ def read(path: Path) -> dict[str, Any]:
         raise Unjudged(f"{path}: {error.strerror or error}") from None
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
         raise Unjudged(f"{path}: not JSON: {error}") from None
-    _check(record, str(path))
+    if not (isinstance(record, dict) and is_sealed(record)):  # what was sealed here was checked before
+        _check(record, str(path))
     if path.stem != record["id"] or path.parent.name != record["document"]:
         raise Unjudged(f"{path}: holds the evidence of {record['document']}/{record['id']}")
     return dict(record)

@@ -14,10 +14,11 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.places import within
+from modeproof.ground.meaning import is_there, meaning, reached
+from modeproof.ground.places import TREE
 
 SCHEMA_VERSION = 1
-_OF_THE_RUN = frozenset({"started", "seconds", "machine", "tools", "command"})
+_OF_THE_RUN = frozenset({"started", "seconds", "machine", "tools", "command", "seal"})
 _OF_TIME_AND_HOST = frozenset(
     {"seconds", "work", "shared", "first_difference_s", "tlc_command", "log", "workers", "heap_mb"}
 )
@@ -31,20 +32,6 @@ def sha256(path: Path) -> str:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except OSError as error:
         raise Unjudged(f"{path}: {error.strerror or error}") from None
-
-
-def hashes(place: Path, paths: Iterable[Path]) -> dict[str, str]:
-    """SHA-256 of each file, by its path relative to the root `place`.
-
-    Raises Unjudged when a file cannot be read or lies outside the root.
-    """
-    found: dict[str, str] = {}
-    for path in paths:
-        try:
-            found[within(place, path)] = sha256(path)
-        except ValueError:
-            raise Unjudged(f"{path}: lies outside {place}") from None
-    return dict(sorted(found.items()))
 
 
 def tool(version: str, path: Path | None = None) -> dict[str, str | None]:
@@ -77,13 +64,16 @@ def solvers() -> dict[str, dict[str, str | None]]:
     return {"z3": package("z3-solver"), "cvc5": package("cvc5")}
 
 
-def other_tools(record: Mapping[str, Any]) -> tuple[str, ...]:
+def other_tools(place: Path, record: Mapping[str, Any]) -> tuple[str, ...]:
     """The tools that made a piece of evidence and have changed since, as far as they can be compared.
 
     Solvers of another system are other files of the same package, so only those of one like this are.
     """
     alike = all(record["machine"][key] == machine()[key] for key in ("system", "arch"))
-    now = {**own_tools(), **(solvers() if alike else {})}
+    try:
+        now = {**own_tools(place, *record["code"]), **(solvers() if alike else {})}
+    except Unjudged:  # a module that judged it is there no more
+        now = {"modeproof": tool("another", None)}
     return tuple(
         f"{name} (the tool)"
         for name, entry in record["tools"].items()
@@ -103,16 +93,52 @@ def result_sha256(record: Mapping[str, Any]) -> str:
         return list(map(kept, value)) if isinstance(value, (list, tuple)) else value
 
     found = {key: kept(value) for key, value in record.items() if key not in _OF_THE_RUN}
-    return hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()
+    return sha256_of(found)
+
+
+def seal_of(record: Mapping[str, Any]) -> str:
+    """SHA-256 of all that a record says: who edits it without thought is found out."""
+    return sha256_of({key: value for key, value in record.items() if key != "seal"})
+
+
+def sealed(record: Mapping[str, Any]) -> dict[str, Any]:
+    """The record as a file holds it, with its seal."""
+    said: dict[str, Any] = json.loads(json.dumps(record))
+    return said | {"seal": seal_of(said)}
+
+
+def is_sealed(record: Mapping[str, Any]) -> bool:
+    """Whether a record says what it said when it was written."""
+    return "seal" in record and record["seal"] == seal_of(record)
+
+
+def day(started: float) -> str:
+    """When something began, as evidence says it; `started` is seconds since the epoch."""
+    return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started))
+
+
+def sha256_of(value: Any) -> str:
+    """SHA-256 of a value as JSON."""
+    return hashlib.sha256(json.dumps(value, sort_keys=True).encode()).hexdigest()
 
 
 @cache
-def own_tools() -> dict[str, dict[str, str | None]]:
-    """Version and hash of modeproof itself (all its Python), and the version of Python."""
-    package = Path(__file__).resolve().parents[2]
+def own_tools(place: Path = TREE, *code: str) -> dict[str, dict[str, str | None]]:
+    """Version and hash of modeproof itself, and the version of Python.
+
+    The hash is of the meaning of these modules, which lie below `place` or in the tree of this package, and
+    of all of ours that they need; none named: of all Python of the package, byte for byte. Raises Unjudged
+    when a module is not there.
+    """
     digest = hashlib.sha256()
-    for source in sorted(package.rglob("*.py")):
-        digest.update(source.relative_to(package).as_posix().encode() + b"\0" + source.read_bytes() + b"\0")
+    found: dict[str, str] = {}
+    for entry in code:
+        root = place if is_there(place, entry) else TREE
+        found |= {path.relative_to(root).as_posix(): meaning(path) for path in reached(root, entry)}
+    package = TREE / "modeproof"
+    for source in () if code else sorted(package.rglob("*.py")):
+        found[source.relative_to(package).as_posix()] = sha256(source)
+    digest.update(repr(sorted(found.items())).encode())
     try:
         version = metadata.version("modeproof")
     except metadata.PackageNotFoundError:
@@ -160,30 +186,39 @@ def make(
     strength: str = "",
     inputs: Mapping[str, str] | None = None,
     tools: Mapping[str, Mapping[str, str | None]] | None = None,
+    code: Iterable[str] = (),
+    place: Path = TREE,
     result: Mapping[str, Any] | None = None,
     reason: str = "",
 ) -> dict[str, Any]:
     """One piece of evidence, ready to be written.
 
-    `started` is seconds since the epoch, `seconds` the duration. The machine, the Python and modeproof itself
-    are recorded in every piece.
+    `started` is seconds since the epoch, `seconds` the duration; `inputs` are the meanings of the files that
+    it rests on, `code` the modules below `place` that judged. The machine and the Python are always recorded.
     """
-    return {
-        "schema_version": SCHEMA_VERSION,
-        "kind": kind,
-        "id": id,
-        "document": document,
-        "verdict": verdict,
-        "expected": expected,
-        "as_expected": as_expected,
-        "environment": environment,
-        "strength": strength,
-        "command": command,
-        "started": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(started)),
-        "seconds": round(seconds, 3),
-        "inputs": dict(inputs or {}),
-        "tools": {**own_tools(), **{name: dict(entry) for name, entry in (tools or {}).items()}},
-        "machine": machine(),
-        "result": dict(result or {}),
-        "reason": " ".join(reason.split()),
-    }
+    code = tuple(code)
+    return sealed(
+        {
+            "schema_version": SCHEMA_VERSION,
+            "kind": kind,
+            "id": id,
+            "document": document,
+            "verdict": verdict,
+            "expected": expected,
+            "as_expected": as_expected,
+            "environment": environment,
+            "strength": strength,
+            "command": command,
+            "started": day(started),
+            "seconds": round(seconds, 3),
+            "inputs": dict(inputs or {}),
+            "code": list(code),
+            "tools": {
+                **own_tools(place, *code),
+                **{name: dict(entry) for name, entry in (tools or {}).items()},
+            },
+            "machine": machine(),
+            "result": dict(result or {}),
+            "reason": " ".join(reason.split()),
+        }
+    )

@@ -9,7 +9,7 @@ from modeproof.registers.tools import SOURCE, Check, ToolProblem, load_tools
 from modeproof.report.conditions import Met, judged
 from modeproof.report.part import Part
 from modeproof.report.snapshot import as_it_counts
-from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble
+from modeproof.report.sources import DIFFERS, HOLE, NOTE, Figure, Sources, Trouble, version_of
 from modeproof.report.verdicts import status_of
 
 ID = "confidence"
@@ -39,7 +39,7 @@ def _tools(sources: Sources) -> list[dict[str, Any]]:
     made: dict[tuple[str, str, str], list[str]] = {}
     for piece in sources.everything():
         for name, entry in piece.record["tools"].items():
-            key = (str(name), str(entry["version"]), str(entry["sha256"] or ""))
+            key = (str(name), *version_of(name, entry))
             made.setdefault(key, []).append(piece.path)
     return [
         {

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from typing import Any
 
 from modeproof.report.part import Part
-from modeproof.report.sources import Evidence, Figure, Sources
+from modeproof.report.sources import Evidence, Figure, Sources, version_of
 from modeproof.report.vendored import packages
 
 
@@ -39,6 +40,7 @@ def part(sources: Sources) -> Part:
                 for name, evidence in _evidence(sources).items()
             ],
             "made": _made(sources),
+            "days": _days(sources),
             "packages": packages(),
         },
     )
@@ -50,12 +52,18 @@ def _evidence(sources: Sources) -> dict[str, Mapping[str, Evidence]]:
     return {**sources.evidence, **machines}
 
 
+def _days(sources: Sources) -> list[dict[str, Any]]:
+    """On which days the results were judged, and how many on each."""
+    days = Counter(str(piece.record["started"])[:10] for piece in sources.everything())
+    return [{"day": day, "pieces": Figure(count, "build/evidence/")} for day, count in sorted(days.items())]
+
+
 def _made(sources: Sources) -> list[dict[str, Any]]:
     """Each tool and machine with the version or hash that evidence names, and how many pieces do."""
     counts: dict[tuple[str, str, str], int] = {}
     for piece in sources.everything():
         for tool, entry in piece.record["tools"].items():
-            key = (str(tool), str(entry["version"]), str(entry["sha256"] or ""))
+            key = (str(tool), *version_of(tool, entry))
             counts[key] = counts.get(key, 0) + 1
         machine: Mapping[str, Any] = piece.record["machine"]
         words = f"{machine['system']}, {machine['arch']}, {machine.get('cpu', '')}, {machine['cores']} cores"

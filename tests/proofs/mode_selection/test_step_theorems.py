@@ -121,7 +121,7 @@ def test_a_panel_with_a_sixth_word_fails_on_its_classes(monkeypatch: pytest.Monk
 
 
 class _Alphabet:
-    """A folder whose specification tries one code less."""
+    """A root whose specification tries one code less."""
 
     def __init__(self, original: Path) -> None:
         self.original = original
@@ -141,6 +141,6 @@ class _Alphabet:
 
 def test_an_alphabet_without_one_of_the_codes_is_too_coarse(monkeypatch: pytest.MonkeyPatch) -> None:
     assert not _fallen(PANEL_WORDS)
-    monkeypatch.setattr(word_classes, "SPECIFICATION", _Alphabet(word_classes.SPECIFICATION))
+    monkeypatch.setattr(word_classes, "ROOT", _Alphabet(word_classes.ROOT))
     assert word_classes.alphabet(HMI) != ()
     assert _fallen(PANEL_WORDS)
