@@ -6,8 +6,7 @@ from typing import Any
 
 import pytest
 
-from modeproof.registers import Unjudged, check_document, load_document
-from modeproof.registers import register_judge as judge
+from modeproof.registers import Unjudged, check_document, judge, load_document
 
 SPEC = "spec/door/"
 LATCH = "spec/door/Latch.tla"

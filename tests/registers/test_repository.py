@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from modeproof.ground.places import documents
-from modeproof.registers import judge_tree, load_document
-from modeproof.registers import register_judge as judge
+from modeproof.registers import judge, judge_tree, load_document
 from modeproof.registers.register_judge import Judgement
 
 ROOT = Path(__file__).resolve().parents[2]
