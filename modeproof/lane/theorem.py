@@ -37,7 +37,7 @@ def rests_of(place: Path, document: str, module: str) -> evidence.Rests:
     entries = [module]
     if is_there(place, shared := f"proofs.{document}.prepared"):
         entries.append(shared)
-    registers = [place / "spec" / document / f"{name}.toml" for name in ("interface", "response")]
+    registers = [place / "spec" / document / f"{name}.toml" for name in ("interface", "properties")]
     code = [path for path in reached(place, *entries) if path.is_relative_to(place / "refimpl")]
     inputs = evidence.hashes(place, [*code, *(path for path in registers if path.is_file())])
     return evidence.Rests(inputs, (*CODE, *entries), evidence.solvers())

@@ -120,7 +120,7 @@ def _not_judged(root: Path) -> None:
 
 
 def _page_by_hand(root: Path) -> None:
-    edit(root, "docs/sluice.md", "`OpensOverBeacon` fails after 2 steps", "`OpensOverBeacon` holds")
+    edit(root, "docs/sluice-findings.md", "`OpensOverBeacon` fails", "`OpensOverBeacon` holds")
 
 
 def _block_by_hand(root: Path) -> None:
@@ -132,7 +132,7 @@ STALE = {
     f"{BRIEF}: is not there": _no_vectors,
     f"vectors/gate: {GATE} has changed since it was published": _of_another_text,
     "MotorOnlyOpen: has not been judged": _not_judged,
-    "docs/sluice.md: line": _page_by_hand,
+    "docs/sluice-findings.md: line": _page_by_hand,
     "README.md: a rendered block has drifted": _block_by_hand,
 }
 

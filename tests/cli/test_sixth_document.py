@@ -140,7 +140,8 @@ def test_its_verdicts_name_what_the_document_does_not_give(done: dict[str, Any])
 
 def test_its_page_is_rendered_and_told_of(done: dict[str, Any], root: Path) -> None:
     page = (root / "docs/sluice.md").read_text(encoding="utf-8")
-    assert "`OpensOverBeacon` fails after 2 steps" in page
+    findings = " ".join((root / "docs/sluice-findings.md").read_text(encoding="utf-8").split())
+    assert "`OpensOverBeacon` fails after 2 steps" in findings
     assert "theorems about our program for all words and times, by two solvers | 3 |" in page
     assert "| 2 | `OpenGate` |" in page, page
     assert "in scan 2 the gate reads the same, and it executes `AwaitBeacon`, not `OpenGate`" in page

@@ -177,15 +177,6 @@ def test_vectors_of_an_own_wiring_are_written_and_judge(
     assert "edits show" in said or "no case is needed" in said
 
 
-def test_published_vectors_are_only_of_the_shipped_wiring(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    mine = tmp_path / "my.toml"
-    mine.write_text(SMALL, "utf-8")
-    assert main(["machine", str(mine), "--publish"]) == 2
-    assert "--vectors FOLDER writes those of yours" in capsys.readouterr().err
-
-
 def test_headers_say_what_is_not_shown() -> None:
     for name in NAMES:
         one = suite(name)

@@ -83,5 +83,5 @@ def test_every_document_states_its_response_times() -> None:
 
 def test_a_theorem_without_its_row_says_so() -> None:
     lost = replace(response_times.a_stop_request_is_answered_in_the_calls_of_its_row, responses=("EDMR-99",))
-    with pytest.raises(TheoremError, match=r"spec/edm/response\.toml has no EDMR-99"):
+    with pytest.raises(TheoremError, match=r"spec/edm/properties\.toml has no EDMR-99"):
         lost.queries()

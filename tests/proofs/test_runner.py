@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 import z3
 
-from modeproof.lane.prove_command import _theorems_of
+from modeproof.lane import theorem as lane_theorem
 from proofs import runner, solvers
 from proofs.runner import TheoremResult, prove, prove_all, unused_premises
 from proofs.solvers import Answer, Judgment, Solver, ask_cvc5, ask_z3, core_of
@@ -147,7 +147,7 @@ OF_WRONG_SORTS: dict[str, Callable[[], object]] = {
 
 def test_prove_leaves_the_second_look_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("z3.z3.Z3_DEBUG", True)
-    assert _theorems_of("edm")
+    assert lane_theorem.theorems_of("edm")
     assert not z3.z3_debug()
 
 

@@ -89,7 +89,7 @@ def test_parameters_of_the_same_proportion_need_no_tlc(toy: Path) -> None:
     for params, said in (
         ({"T": 1}, "has no parameter 'T'"),
         ({"T_ms": 0}, "T_ms"),
-        ({"T_ms": 501}, "OPEN_Lamp.cfg|traces.toml"),
+        ({"T_ms": 501}, "replay.toml: no constant of the model is set by lamp.T_ms"),
     ):
         with pytest.raises(Unjudged, match=said):
             graph_at(toy, "toy", "lamp", params)

@@ -111,7 +111,7 @@ def _words_in_clauses(texts: list[str]) -> dict[str, dict[int, set[int]]]:
 
 def _clause_texts() -> list[str]:
     with (SPECIFICATION.parent / "clauses.toml").open("rb") as file:
-        return [clause["text"] for clause in tomllib.load(file)["clause"]]
+        return [clause["text"] for clause in tomllib.load(file)["clause"].values()]
 
 
 def test_steps_of_figures_5_to_7_have_the_table_words() -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from pathlib import Path
 
 import pytest
 
+from modeproof.registers import load_document
+
 ROOT = Path(__file__).resolve().parents[3]
-CLAUSES = tomllib.loads((ROOT / "spec/mode_selection/clauses.toml").read_text(encoding="utf-8"))["clause"]
+CLAUSES = load_document(ROOT, "mode_selection").clauses
 DEVICES = ("fplc", "plc", "hmi", "eks")
 
 
@@ -20,6 +21,6 @@ def cited(name: str) -> set[str]:
 
 @pytest.mark.parametrize("device", DEVICES)
 def test_the_code_cites_every_behaviour_clause_of_its_device(device: str) -> None:
-    demanded = {c["id"] for c in CLAUSES if c["kind"] == "behaviour" and device in c["device"]}
+    demanded = {c.id for c in CLAUSES if c.kind == "behaviour" and device in c.device}
     assert len(demanded) > 5
     assert sorted(demanded - cited(device)) == []
