@@ -20,7 +20,8 @@ ROOT = Path(__file__).resolve().parents[2]
 if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
-from examples.faulty.run import HERE, WHOLE, Fault, load_faults, vectors  # noqa: E402
+from examples.faulty.run import HEAD, HEAD_PASSED, HERE, WHOLE, Fault, load_faults, vectors  # noqa: E402
+from modeproof.ground.fitted import fitted  # noqa: E402
 from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
 from modeproof.kit.suite_judge import Plan, Verdict, run_suite  # noqa: E402
@@ -97,17 +98,17 @@ def as_page(faults: Sequence[Fault], verdicts: Mapping[str, Verdict]) -> str:
         "",
         f"{len(caught)} faults are rejected with relation `exact`.",
         "",
-        "| fault | the mistake | breaks | suite | scans | at |",
+        HEAD,
         "|---|---|---|---|---:|---|",
         *(row(fault, verdicts[fault.id]) for fault in caught),
         "",
         "Not shown by any suite here:",
         "",
-        "| fault | the mistake | why not |",
+        HEAD_PASSED,
         "|---|---|---|",
         *(f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in faults if fault.reason),
     ]
-    return "\n".join(lines) + "\n"
+    return fitted("\n".join(lines))
 
 
 def main(argv: Sequence[str]) -> int:

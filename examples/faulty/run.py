@@ -32,6 +32,7 @@ ROOT = Path(__file__).resolve().parents[2]
 if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
+from modeproof.ground.fitted import fitted  # noqa: E402
 from modeproof.kit.adapter import Adapter  # noqa: E402
 from modeproof.kit.errors import Unjudged  # noqa: E402
 from modeproof.kit.suite_judge import Verdict, run_suite  # noqa: E402
@@ -41,6 +42,9 @@ from modeproof.kit.vectors import Suite, case_id, open_suite, read_lines  # noqa
 HERE = Path(__file__).resolve().parent
 PACK, PAGE, VECTORS = HERE / "faults.toml", HERE / "README.md", HERE / "vectors"
 FOLDER = ROOT / "examples/c"
+HEAD = "| fault | the mistake | breaks | suite | scans | at |"
+HEAD_PASSED = "| fault | the mistake | why not |"
+"""Of the faults that a suite shows, and of those that none does."""
 WHOLE, PARTS = "brief", ("tour", "words", "wp", "times", "parameters", "soak")
 """The first suite that a fault meets, and the others. Of those that are not published the pack holds what
 catches a fault."""
@@ -249,14 +253,14 @@ def as_page(
         "there; it may come later than the mistake. Of suites that are not published the pack holds only the",
         "beginnings of the cases that catch a fault, and *scans* counts in these.",
         "",
-        "| fault | the mistake | breaks | suite | scans | at |",
+        HEAD,
         "|---|---|---|---|---:|---|",
         *(row(fault, verdicts[fault.id]) for fault in caught),
     ]
     if passed:
-        lines += ["", "Not shown by any suite:", "", "| fault | the mistake | why not |", "|---|---|---|"]
+        lines += ["", "Not shown by any suite:", "", HEAD_PASSED, "|---|---|---|"]
         lines += [f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in passed]
-    return "\n".join(lines) + "\n"
+    return fitted("\n".join(lines))
 
 
 def row(fault: Fault, verdict: Verdict) -> str:

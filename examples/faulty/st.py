@@ -25,6 +25,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(ROOT))
 
 from modeproof.ground.errors import Unjudged  # noqa: E402
+from modeproof.ground.fitted import fitted  # noqa: E402
 from programs.equality.binding import read_binding  # noqa: E402
 from programs.equality.comparison import make  # noqa: E402
 from programs.equality.replay import replay  # noqa: E402
@@ -34,6 +35,7 @@ from programs.equality.verdict import judge as judge_product  # noqa: E402
 HERE = Path(__file__).resolve().parent
 PACK, PAGE = HERE / "st.toml", HERE / "st.md"
 SECONDS = 60.0
+HEAD_PROVED = "| fault | the edit | why it changes nothing |"
 LINE = r"^(?=\| ((?:st|scl|fbd|ld|stl)-\S+) \|)(.*)$"
 """A line of the page, and the fault that it is about."""
 BINDINGS = {
@@ -128,11 +130,11 @@ def as_page(faults: Sequence[Fault], rows: Mapping[str, str]) -> str:
         "",
         "PROVED equal in spite of the edit:",
         "",
-        "| fault | the edit | why it changes nothing |",
+        HEAD_PROVED,
         "|---|---|---|",
         *(f"| {fault.id} | {fault.mistake} | {fault.reason} |" for fault in faults if fault.reason),
     ]
-    return "\n".join(lines) + "\n"
+    return fitted("\n".join(lines))
 
 
 def row(fault: Fault, verdict: Verdict) -> str:

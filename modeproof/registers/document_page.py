@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from modeproof.ground.fitted import fitted
 from modeproof.registers.citations import Sources
 from modeproof.registers.files import markdown, read_text, read_toml
 from modeproof.registers.findings_page import (
@@ -25,7 +26,6 @@ from modeproof.registers.findings_page import (
     run_of,
     sentence,
 )
-from modeproof.registers.fitted import fitted
 from modeproof.registers.killers import ways_to_fall
 from modeproof.registers.profiles import PROFILES, differing, profile_of, rows_of, value_in
 from modeproof.registers.responses import section

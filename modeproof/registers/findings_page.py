@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from pathlib import PurePosixPath
 
-from modeproof.registers.fitted import fitted
+from modeproof.ground.fitted import fitted
 from modeproof.registers.rows import Document, Finding
 from modeproof.registers.runs import Run
 

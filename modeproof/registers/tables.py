@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path, PurePosixPath
 
+from modeproof.ground.fitted import fitted
 from modeproof.registers.document_page import page_name
 from modeproof.registers.files import read_text, shown
-from modeproof.registers.fitted import fitted
 from modeproof.registers.matrix import Row
 from modeproof.registers.rows import Document, Problem
 from modeproof.registers.stale import stale

@@ -172,9 +172,9 @@ FAULTS = (
     (
         "a clause that nothing carries out",
         "spec/sluice/clauses.toml",
-        'id = "SL-2-3"\ntitle = "colour"\ntext = "The beacon is amber."\nkind = "not modelled"\n'
+        '[clause.SL-2-3]\ntitle = "colour"\ntext = "The beacon is amber."\nkind = "not modelled"\n'
         'device = []\nbecause = "no colour decides anything"',
-        'id = "SL-2-3"\ntitle = "colour"\ntext = "The beacon is amber."\nkind = "behaviour"\n'
+        '[clause.SL-2-3]\ntitle = "colour"\ntext = "The beacon is amber."\nkind = "behaviour"\n'
         'device = ["beacon"]',
         "registers",
         "SL-2-3",

@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "for-assessors.md").read_text(encoding="utf-8")
 FENCED = re.findall(r"^```\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 LINES = [line for block in FENCED for line in block.splitlines()]
-MINUTES = re.findall(r"^\| \d+ \| ([^|]+) \|", PAGE, re.MULTILINE)
+MINUTES = re.findall(r"^- \*\*\d+\*\*\n  - part: (.+)$", PAGE, re.MULTILINE)
 PARTS = [part.strip() for cell in MINUTES for part in cell.split(",")]
 PROPERTY = re.findall(r"\(`(\w+)` of `(\w+)`", PAGE)
 RUNS = ("edm/MC_SF_EDM_arbitrary", "edm/NEG_SF_EDM_reset_by_level")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from modeproof.registers.fitted import WIDTH, fitted, too_long
+from modeproof.ground.fitted import WIDTH, fitted, too_long
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("", "docs", "examples", "vectors", ".github")

@@ -18,11 +18,12 @@ import pytest
 from hypothesis import given, settings
 
 from examples.faulty.awl import ADAPTER, AWL, PACK, PAGE, judge, judge_all, main, row, suite_of, write
-from examples.faulty.run import Fault, load_faults, vectors
+from examples.faulty.run import HEAD, HEAD_PASSED, Fault, load_faults, vectors
 from modeproof.kit.adapter import Adapter, parse_answer
 from modeproof.kit.suite_judge import Plan, Verdict
 from modeproof.kit.vectors import open_suite
 from refimpl.mode_selection import fplc, plc
+from tests.examples.entries import entries, entry
 from tests.examples.protocol import BYE, DARK, HELLO, REFUSED, RESET, scan, talk
 from tests.examples.test_c_program import params, scans_of, ways
 
@@ -208,11 +209,11 @@ def verdicts(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Verdict]:
 @pytest.mark.parametrize("fault", CAUGHT, ids=lambda one: one.id)
 def test_a_program_that_is_wrong_in_one_place_is_rejected(fault: Fault, verdicts: dict[str, Verdict]) -> None:
     verdict = verdicts[fault.id]
-    assert (verdict.word, verdict.status, verdict.reason) == ("DIFFERS", 1, "")
+    assert (verdict.word, verdict.status) == ("DIFFERS", 1)
     found = verdict.difference
     assert found is not None and found.expected != found.got
-    lines = PAGE.read_text(encoding="utf-8").splitlines()
-    assert row(fault, verdict) in lines, "run examples/faulty/awl.py --render"
+    assert verdict.reason.startswith(f"case {found.case.id}, scan {found.scan} ({found.step}): ")
+    assert entry(HEAD, row(fault, verdict)) in entries(PAGE), "run examples/faulty/awl.py --render"
 
 
 @pytest.mark.parametrize("fault", [one for one in FAULTS if one.reason], ids=lambda one: one.id)
@@ -231,8 +232,8 @@ def test_long_times_or_no_dwell_show_what_no_suite_shows(fault: Fault, tmp_path:
         assert any(
             answers(running, RESET | {"params": chosen}, way) != reference(chosen, way) for way in tries
         )
-    said = f"- **{fault.id}** - the mistake: {fault.mistake} - why not: {fault.reason}"
-    assert said in " ".join(PAGE.read_text(encoding="utf-8").split()), "run examples/faulty/awl.py --render"
+    line = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
+    assert entry(HEAD_PASSED, line) in entries(PAGE), "run examples/faulty/awl.py --render"
 
 
 def test_what_a_fault_breaks_is_declared_in_the_registers() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -13,6 +12,8 @@ import pytest
 
 from examples.faulty.run import (
     FPLC,
+    HEAD,
+    HEAD_PASSED,
     HERE,
     ROOT,
     SUITES,
@@ -34,6 +35,7 @@ from modeproof.kit.errors import Unjudged
 from modeproof.kit.suite_judge import Options, Plan, Verdict, run_suite
 from modeproof.kit.vectors import Suite
 from tests.any_machine import PATIENCE_S
+from tests.examples.entries import entries, entry
 from tests.examples.test_diagnosis import leads_there
 
 FAULTS = load_faults()
@@ -83,10 +85,6 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Judged]:
     return of
 
 
-def lines_of(program: Program) -> list[str]:
-    return program.page.read_text(encoding="utf-8").splitlines()
-
-
 @pytest.mark.deep
 @pytest.mark.parametrize(
     ("target", "fault"), [one for one in EVERY if not one[1].reason], ids=lambda one: getattr(one, "id", one)
@@ -95,10 +93,13 @@ def test_a_program_that_is_wrong_in_one_place_is_rejected(
     target: str, fault: Fault, judged: Callable[[str], Judged]
 ) -> None:
     verdict = judged(target).verdicts[fault.id]
-    assert (verdict.word, verdict.status, verdict.reason) == ("DIFFERS", 1, "")
+    assert (verdict.word, verdict.status) == ("DIFFERS", 1)
     found = verdict.difference
     assert found is not None and found.expected != found.got
-    assert row(fault, verdict) in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
+    assert verdict.reason.startswith(f"case {found.case.id}, scan {found.scan} ({found.step}): ")
+    assert entry(HEAD, row(fault, verdict)) in entries(PACKS[target].page), (
+        "run examples/faulty/run.py --render"
+    )
 
 
 @pytest.mark.deep
@@ -113,7 +114,7 @@ def test_a_fault_said_to_be_invisible_conforms_to_other_suites(
     for name in list(pack.suites)[1:]:
         assert judge(pack.programs[fault.id], pack.suites[name]).word == "CONFORMS"
     line = f"| {fault.id} | {fault.mistake} | {fault.reason} |"
-    assert line in lines_of(PACKS[target]), "run examples/faulty/run.py --render"
+    assert entry(HEAD_PASSED, line) in entries(PACKS[target].page), "run examples/faulty/run.py --render"
 
 
 @pytest.mark.deep
@@ -129,7 +130,8 @@ def test_what_only_our_own_codes_show_is_rejected_with_them(
     verdict = run_suite(
         pack.suites["brief"], lambda: Adapter([str(pack.programs[fault.id])]), plan=Plan(Options(codes=True))
     )
-    assert (verdict.word, verdict.reason) == ("DIFFERS", "")
+    assert verdict.word == "DIFFERS" and verdict.difference is not None
+    assert verdict.reason.startswith(f"case {verdict.difference.case.id}, scan ")
 
 
 @pytest.mark.deep
@@ -163,8 +165,7 @@ def test_nine_of_ten_diagnoses_name_what_the_fault_touches(judged: Callable[[str
 @pytest.mark.parametrize("program", PACKS.values(), ids=PACKS)
 def test_the_page_lists_exactly_the_faults_of_the_pack(program: Program) -> None:
     faults = load_faults(program.pack)
-    rows = re.findall(r"^- \*\*(\S+)\*\*$", program.page.read_text(encoding="utf-8"), re.MULTILINE)
-    assert sorted(rows) == sorted(fault.id for fault in faults)
+    assert sorted(one.split("**")[1] for one in entries(program.page)) == sorted(fault.id for fault in faults)
     assert len([fault for fault in faults if not fault.reason]) >= (40 if program == FPLC else 6)
 
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from examples.faulty.st import LINE, PAGE, judge, load_faults, main, row
+from examples.faulty.st import HEAD_PROVED, LINE, PAGE, judge, load_faults, main, row
 from modeproof.ground.errors import Unjudged
+from tests.examples.entries import entries, entry
 
 FAULTS = {fault.id: fault for fault in load_faults()}
 FEW = ("st-fplc-error-holds-the-mode", "st-fplc-level-kept-in-removal")
@@ -33,8 +34,7 @@ def test_a_faulty_program_gets_its_verdict(name: str, tmp_path: Path) -> None:
     assert found.word == fault.expected
     lines = PAGE.read_text("utf-8").splitlines()
     if fault.reason:
-        said = f"- **{fault.id}** - the edit: {fault.mistake} - why it changes nothing: {fault.reason}"
-        assert said in " ".join(" ".join(lines).split())
+        assert entry(HEAD_PROVED, f"| {fault.id} | {fault.mistake} | {fault.reason} |") in entries(PAGE)
     elif found.difference is not None and found.difference.found_by.startswith("published"):
         assert row(fault, found) in lines, "run examples/faulty/st.py --render"
     if name == FEW[0]:  # no vector shows it: it takes a way through most pairs
@@ -44,7 +44,7 @@ def test_a_faulty_program_gets_its_verdict(name: str, tmp_path: Path) -> None:
 def test_the_page_lists_exactly_the_faulty_programs() -> None:
     page = PAGE.read_text("utf-8")
     refuted = [name for name, _ in re.findall(LINE, page, re.MULTILINE)]
-    proved = re.findall(r"^- \*\*(\S+)\*\*$", page, re.MULTILINE)
+    proved = [one.split("**")[1] for one in entries(PAGE)]
     assert sorted([*refuted, *proved]) == sorted(FAULTS)
     shown = Counter(name.partition("-")[0] for name, fault in FAULTS.items() if not fault.reason)
     assert shown["st"] >= 30 and min(shown[name] for name in ("scl", "fbd", "ld", "stl")) >= 4

@@ -117,6 +117,8 @@ EXPLAINED: dict[str, str] = {
 """The mutants that break no claim, by the reason."""
 
 
+# A mutant may let a thread of the judge die
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 @pytest.mark.deep
 @pytest.mark.parametrize("name", ["judge", "relation", "verdict"])
 def test_each_mutant_of_the_judge_breaks_a_claim(name: str) -> None:

@@ -450,7 +450,7 @@ MODELS = (
         EDM,
         "Requested(i) == i.S_OutControl /\\ stopSeen",
         "Requested(i) == i.S_OutControl",
-        "check MC_SF_EDM_arbitrary --quiet",
+        "check MC_SF_EDM_cautious --quiet",  # in the letter stopSeen is TRUE wherever this is read
         1,
         "VIOLATED",
     ),
