@@ -58,7 +58,7 @@ RULES = (
         (
             "modeproof/registers",
             *("modeproof/ground/errors", "modeproof/ground/evidence/files"),
-            *("modeproof/ground/comments", "modeproof/ground/meaning"),
+            *("modeproof/ground/comments", "modeproof/ground/fitted", "modeproof/ground/meaning"),
             *("modeproof/ground/places", "modeproof/ground/progress", "modeproof/ground/reason"),
         ),
     ),
