@@ -102,4 +102,6 @@ def test_a_lost_fact_may_hold_where_a_flag_is_off() -> None:
     never = z3.Not(x)
     assert machine_trial._kept(edited, [never]) == []
     found = machine_trial._weakened(edited, [never])
-    assert {z3.simplify(lemma).sexpr() for lemma in found} == {"(or y (not x))", "true"}
+    # z3 writes the parts of OR in the order in which it has met them, also in other tests
+    expected = {z3.simplify(lemma).sexpr() for lemma in (z3.Or(y, z3.Not(x)), yes)}
+    assert {z3.simplify(lemma).sexpr() for lemma in found} == expected
