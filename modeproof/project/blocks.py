@@ -69,6 +69,11 @@ def _fit(source: Source, unit: Unit, of: Reference) -> Fit | None:
             return (wanted == "bool") == (isinstance(kind, Scalar) and kind.kind == "bool")
 
         found, doubtful = matched(list(signals), left, fits)
+        lost = [signal for signal in signals if signal not in found]
+        free = [name for name in left if name not in found.values() and lost and fits(lost[0], name)]
+        if group != "parameters" and len(lost) == len(free) == 1:  # the only one that is left
+            found[lost[0]] = free[0]
+            doubtful.clear()
         taken |= set(found.values())
         names |= {signal: name for signal, name in found.items() if likeness(signal, name) != SURE}
         if group == "parameters":

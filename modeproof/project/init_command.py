@@ -34,9 +34,8 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `init` to the commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "init",
-        help=f"write {PROJECT_FILE} from the programs, wirings and logs of this folder",
-        description="Look through this folder for programs (ST, SCL, AWL, PLCopen XML), wirings, properties and "
-        f"logs, and write {PROJECT_FILE} with an entry for each that fits. An existing one is left alone.",
+        description="Look through this folder for programs (ST, SCL, AWL, PLCopen XML), wirings, properties "
+        f"and logs, and write {PROJECT_FILE}: an entry for each that fits. An existing one is left alone.",
         epilog="exit status: 0 it is written, 2 it is not",
     )
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")

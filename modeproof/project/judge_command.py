@@ -25,7 +25,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `judge` to the commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "judge",
-        help=f"judge all that {PROJECT_FILE} lists: programs, machines, adapters, logs",
         description=f"Judge all that {PROJECT_FILE} lists, each entry by its own command. A result whose "
         "files, options and tool are the same as before is kept. See docs/your-project.md.",
         epilog="exit status: 0 all as expected, 1 an entry is not, else 2: one could not be judged",

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 SURE, NEAR = 1.0, 0.9
+ALIKE = 0.85
+"""The part of the letters of two names that are the same, in the same order."""
 LEAST = 3
 """Characters of a name that may be the end or the beginning of another one."""
 
@@ -13,18 +16,23 @@ LEAST = 3
 def likeness(ours: str, yours: str) -> float:
     """From 0, nothing alike, to 1: alike but for case, underscores and `_ms`.
 
-    A prefix or an ending more, or one letter, is near. Names with different digits are never alike: they are
-    two channels.
+    The same words in another order, a prefix or an ending more, or few letters, are near. Names with
+    different digits are never alike: they are two channels.
     """
     one, other = _bare(ours), _bare(yours)
     if one == other:
         return SURE
     if re.findall(r"\d+", one) != re.findall(r"\d+", other):
         return 0.0
+    if _words(ours) == _words(yours):
+        return NEAR
     short, long = sorted((one, other), key=len)
     if len(short) >= LEAST and (long.startswith(short) or long.endswith(short)):
         return NEAR * (0.9 + 0.1 * len(short) / len(long))
-    return NEAR if len(short) > LEAST and _one_letter(short, long) else 0.0
+    if len(short) > LEAST and _one_letter(short, long):
+        return NEAR
+    ratio = difflib.SequenceMatcher(None, one, other).ratio()
+    return NEAR * ratio if ratio >= ALIKE else 0.0
 
 
 def matched(
@@ -77,6 +85,11 @@ def weight(name: str, known: Mapping[str, float]) -> float:
 
 def _bare(name: str) -> str:
     return re.sub(r"_ms$", "", name.casefold()).replace("_", "")
+
+
+def _words(name: str) -> list[str]:
+    """The words of a name such as ResetRequest or reset_request, in any order."""
+    return sorted(word.casefold() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+", name))
 
 
 def _one_letter(short: str, long: str) -> bool:

@@ -19,6 +19,7 @@ from modeproof.ground.places import documents, machines, root
 from modeproof.kit.builtin import REFERENCE
 from modeproof.kit.machine_reference import Wired
 from modeproof.project.blocks import Fit, best_fit
+from modeproof.project.entries import KINDS
 from modeproof.project.found import Found
 from modeproof.trace import machine_log
 from modeproof.trace.lines import read_lines
@@ -71,6 +72,7 @@ class Proposals:
         for name in self.found.logs:
             self.tell(name)
             self._log(name)
+        self.entries.sort(key=lambda entry: [kind.KIND for kind in KINDS].index(entry.kind))
         for name in (*self.found.properties, *self.found.uses):
             if name not in self.used:
                 what = "properties" if name in self.found.properties else "the use of a machine"
@@ -315,7 +317,7 @@ def _what_is_bound(fit: Fit) -> str:
     if fit.names:
         parts.append(", ".join(f"{name} is taken for {signal}" for signal, name in fit.names.items()))
     if fit.empty:
-        parts.append(f"write what is {', '.join(fit.empty)}")
+        parts.append(f"write your names for {', '.join(fit.empty)}")
     if fit.why:
         parts.append(fit.why)
     return f": {'; '.join(parts)}"
