@@ -1,20 +1,23 @@
-"""The one shape of what a command found about a user's program, wiring or log; `outcome.schema.json` is made of it.
+"""What a command found about a user's program, wiring or log, in one shape.
 
-An `Outcome` is one run of a command. It has a `Demand` for each thing that was asked: equality with a target,
-a property, a suite, a log. A demand that does not stand has a `Problem`: which rule, where, and the scans.
+`outcome.schema.json` is made of it. An `Outcome` is one run of a command. It has a `Demand` for each thing
+that was asked: equality with a target, a property, a suite, a log. A demand that does not stand has a
+`Problem`: which rule, where, and the scans.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
 import msgspec
 
-from modeproof.ground.errors import Unjudged
+from modeproof.ground.errors import LONGEST, Unjudged
+from modeproof.ground.evidence import own_tools, sha256
 from modeproof.kit.errors import plain
 from modeproof.kit.files import write_text
 
@@ -29,8 +32,8 @@ class _Row(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     """Part of an outcome."""
 
 
-class File(_Row):
-    """A file that was judged, or by which something was judged: its path from the project folder, with `/`."""
+class File(_Row, frozen=True, kw_only=True):
+    """A file that was judged, or by which one was: its path from the project folder, with `/`."""
 
     path: str
     sha256: str
@@ -38,7 +41,7 @@ class File(_Row):
     """`program`, `binding`, `properties`, `wiring`, `use`, `log`, `vectors`, `adapter`."""
 
 
-class Tool(_Row):
+class Tool(_Row, frozen=True, kw_only=True):
     """A tool that took part. sha256: of its files, where that is known."""
 
     name: str
@@ -46,15 +49,15 @@ class Tool(_Row):
     sha256: str = ""
 
 
-class Spot(_Row):
-    """A place in a file: its path from the project folder, with `/`. line and column count from 1; 0: not known."""
+class Spot(_Row, frozen=True, kw_only=True):
+    """A place in a file: its path from the project folder, with `/`. line, column: from 1; 0: not known."""
 
     file: str
     line: int = 0
     column: int = 0
 
 
-class Rule(_Row):
+class Rule(_Row, frozen=True, kw_only=True):
     """What a problem is about: an id, and a sentence that says it."""
 
     id: str
@@ -64,7 +67,7 @@ class Rule(_Row):
     """Where it stands: a document and its page, or a file."""
 
 
-class Scan(_Row):
+class Scan(_Row, frozen=True, kw_only=True):
     """One scan of a counterexample, with whole rows."""
 
     dt_ms: int | None
@@ -80,7 +83,7 @@ class Scan(_Row):
     """The line of the program that set what is wrong."""
 
 
-class Counterexample(_Row):
+class Counterexample(_Row, frozen=True, kw_only=True):
     """Scans from power-up; the last is the wrong one."""
 
     scans: list[Scan]
@@ -96,7 +99,7 @@ class Counterexample(_Row):
     """The number of the first scan here: those before it are left out of a log."""
 
 
-class Problem(_Row):
+class Problem(_Row, frozen=True, kw_only=True):
     """What is wrong with one demand, or what is missing to judge it."""
 
     rule: Rule
@@ -107,7 +110,7 @@ class Problem(_Row):
     counterexample: Counterexample | None = None
 
 
-class Demand(_Row):
+class Demand(_Row, frozen=True, kw_only=True):
     """One thing that was asked, and the word that answers it."""
 
     id: str
@@ -120,7 +123,7 @@ class Demand(_Row):
     problems: list[Problem] = []
 
 
-class Outcome(_Row):
+class Outcome(_Row, frozen=True, kw_only=True):
     """One run of a command. `status` is its exit status: 0 as expected, 1 not as expected, 2 not judged."""
 
     command: Literal["prove-program", "conform", "machine", "trace"]
@@ -176,7 +179,7 @@ def write(path: Path, outcome: Outcome) -> None:
 
 
 def read(path: Path) -> Outcome:
-    """A record that was written before. Raises Unjudged: of another version, changed by hand, or no record."""
+    """A record. Raises Unjudged: of another version, changed since it was written, or none at all."""
     again = "remove it and judge again"
     try:
         table = json.loads(path.read_text("utf-8"))
@@ -194,7 +197,7 @@ def read(path: Path) -> Outcome:
 
 def unjudged(command: Any, subject: str, target: str, again: str, reason: str, **known: Any) -> Outcome:
     """The outcome of a run that ended without a verdict: a file is gone, or refused."""
-    reason = plain(" ".join(reason.split()), 4000)
+    reason = plain(" ".join(reason.split()), LONGEST)
     sentence = f"{UNJUDGED}: {reason}"
     base = {"started": "", "seconds": 0.0, "tools": tools(), "text": sentence}
     return Outcome(
@@ -218,10 +221,8 @@ def schema() -> dict[str, Any]:
 
 def tools(versions: Mapping[str, str] | None = None) -> list[Tool]:
     """modeproof itself, with its hash, Python, and other tools by their versions."""
-    from modeproof.ground.evidence import own_tools
-
-    own = own_tools()
-    found = [Tool(name=name, version=str(row["version"]), sha256=row["sha256"] or "") for name, row in own.items()]
+    own = own_tools().items()
+    found = [Tool(name=name, version=str(row["version"]), sha256=row["sha256"] or "") for name, row in own]
     known = {tool.name for tool in found}
     return found + [
         Tool(name=name, version=version) for name, version in (versions or {}).items() if name not in known
@@ -230,18 +231,21 @@ def tools(versions: Mapping[str, str] | None = None) -> list[Tool]:
 
 def files(role: str, hashes: Mapping[str, str] | Iterable[Path]) -> list[File]:
     """Files with their hashes; paths that are given alone are read. Raises Unjudged."""
-    from modeproof.ground.evidence import sha256
-
     rows = hashes if isinstance(hashes, Mapping) else {str(path): sha256(path) for path in hashes}
     return [File(path=shown_path(path), sha256=digest, role=role) for path, digest in rows.items()]
 
 
 def shown_path(path: str | Path) -> str:
     """A path from the project folder, with `/`; one that lies outside stays as it is given."""
-    given = Path(path)
+    given, place = Path(path), project().resolve()
     whole = given.resolve()
-    place = project().resolve()
     return whole.relative_to(place).as_posix() if whole.is_relative_to(place) else given.as_posix()
+
+
+def project() -> Path:
+    """The nearest folder above with a project file, else the current folder."""
+    stands = Path(os.curdir).resolve()
+    return next((one for one in (stands, *stands.parents) if (one / "modeproof.toml").is_file()), stands)
 
 
 def _seal(outcome: Outcome) -> str:
