@@ -17,6 +17,8 @@ from modeproof.ground.places import TREE, documents, machines, root
 from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
+from modeproof.output.options import add_options, carried_out
+from modeproof.output.outcome import Outcome
 from modeproof.report.verdicts import status_of, verdict_on_machine
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import find_toolchain
@@ -30,7 +32,7 @@ MODELS_CODE = ("modeproof.lane.machine_tlc", "machines.tlc_runs")
 FILES = ("program", "picture", "model")
 WORKS = (("vectors",), ("tlc",), ("trial",), ("killers",), ("evidence",))
 """What is done in the place of a judgement; those in a row are one."""
-JUDGED = ("json", "junit", "recheck")
+JUDGED = ("json", "junit", "recheck", "record")
 """What belongs to a judgement."""
 
 
@@ -100,6 +102,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--evidence", action="store_true", help="judge the project's own as `verify` does, and write evidence"
     )
+    add_options(parser, judge)
     parser.set_defaults(run=run)
     return parser
 
@@ -277,12 +280,29 @@ def run(args: argparse.Namespace) -> int:
         return max(map(status_of, records), default=2)
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
+    _can_read()
+    if args.tlc is not None:
+        return machine_tlc.run(args)
+    others = [name for row in (FILES, *WORKS) for name in row if getattr(args, name) not in (None, False)]
+    if not others:
+        return carried_out(args).status
+    with needing_solvers():
+        from machines import machine_command
+    return machine_command.run(args)
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge a wiring, print the verdicts, and return what was found. Raises Unjudged."""
+    _look(args)
+    _can_read()
+    with needing_solvers():
+        from machines import machine_command
+    return machine_command.judge(args)
+
+
+def _can_read() -> None:
+    """Raises Unjudged where what reads a wiring is not installed."""
     try:
         import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
         raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
-    if args.tlc is not None:
-        return machine_tlc.run(args)
-    with needing_solvers():
-        from machines import machine_command
-    return machine_command.run(args)
