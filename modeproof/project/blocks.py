@@ -13,8 +13,8 @@ from programs.language.tree import Scalar, Source, Unit
 from programs.semantics.reference import Reference, reference, targets
 
 ENOUGH = 0.6
-"""The part of a target's names, by their weight, that a unit has at least. Inputs that it has besides count
-against it.
+"""The part of a target's names, by their weight, that a unit has at least. Inputs that it has
+besides count against it.
 """
 OF_ITS_NAME = 0.3
 """The same of a unit whose name is that of the target."""
@@ -60,8 +60,8 @@ def _fit(source: Source, unit: Unit, of: Reference) -> Fit | None:
     have = whole = 0.0
     taken: set[str] = set()
     for group, section in (("inputs", "input"), ("outputs", "output"), ("parameters", "input")):
-        signals, variables = of.signals(group), unit.of(section)
-        left = [name for name in variables if name not in taken]
+        signals = of.signals(group)
+        left = [name for name in unit.of(section) if name not in taken]
 
         def fits(signal: str, name: str, group: str = group, section: str = section) -> bool:
             kind = unit.of(section)[name].type
@@ -69,40 +69,31 @@ def _fit(source: Source, unit: Unit, of: Reference) -> Fit | None:
             return (wanted == "bool") == (isinstance(kind, Scalar) and kind.kind == "bool")
 
         found, doubtful = matched(list(signals), left, fits)
-        lost = [signal for signal in signals if signal not in found]
-        free = [name for name in left if name not in found.values() and lost and fits(lost[0], name)]
-        if group != "parameters" and len(lost) == len(free) == 1:  # the only one that is left
-            found[lost[0]] = free[0]
-            doubtful.clear()
+        if group != "parameters":
+            whole += sum(weight(signal, _weights()) for signal in signals)
+            have += sum(weight(signal, _weights()) for signal in found)
+            lost = [signal for signal in signals if signal not in found]
+            could = {
+                signal: [name for name in left if name not in found.values() and fits(signal, name)]
+                for signal in lost
+            }
+            if len(lost) == 1 and len(could[lost[0]]) == 1:  # the only one that is left
+                found[lost[0]] = could[lost[0]][0]
+            empty |= {signal: doubtful.get(signal, could[signal]) for signal in lost if signal not in found}
         taken |= set(found.values())
         names |= {signal: name for signal, name in found.items() if likeness(signal, name) != SURE}
-        if group == "parameters":
-            continue
-        for signal in signals:
-            whole += weight(signal, _weights())
-            if signal in found:
-                have += weight(signal, _weights())
-            else:
-                empty[signal] = doubtful.get(signal, [])
     spare = tuple(name for name in unit.of("input") if name not in taken)
-    share = have / (whole + len(spare)) if whole else 0.0
+    nameless = sum(name in of.signals("inputs") for name in empty)
+    share = have / (whole + max(0, len(spare) - nameless)) if whole else 0.0
     if share < (OF_ITS_NAME if likeness(of.device.name, unit.name) else ENOUGH):
         return None
     outputs = tuple(name for name in empty if name in of.signals("outputs"))
-    free = {"input": spare, "output": [name for name in unit.of("output") if name not in taken]}
-    empty = {
-        name: could or list(free["output" if name in outputs else "input"]) for name, could in empty.items()
-    }
-    return Fit(
-        of.device.name, unit, share, names, empty, outputs, spare, _why(source, unit, of, names, empty)
-    )
+    why = "" if empty else _why(source, unit, of, names)
+    return Fit(of.device.name, unit, share, names, empty, outputs, spare, why)
 
 
-def _why(
-    source: Source, unit: Unit, of: Reference, names: dict[str, str], empty: dict[str, list[str]]
-) -> str:
-    if empty:
-        return ""
+def _why(source: Source, unit: Unit, of: Reference, names: dict[str, str]) -> str:
+    """Why the unit would be refused with these names; nothing where it would not."""
     try:
         Binding(of, source, unit, names)
     except Unjudged as error:

@@ -79,8 +79,9 @@ def read(path: Path, shown: str) -> Project:
     lines = dict[str, int]()
     for number, row in rows:
         lines.setdefault(row, number)
-    wrong: list[str] = []
-    wrong += _version(shown, lines, table)
+    wrong = list(_version(shown, lines, table))
+    if wrong and "version" in table:  # what else is there may be of that form
+        raise Wrong(wrong)
     known = ["version", *(kind.KIND for kind in KINDS)]
     for key in table:
         if key not in known:
@@ -108,7 +109,7 @@ def read(path: Path, shown: str) -> Project:
             if entry is not None:
                 entries.append(Listed(name, entry))
     if wrong:
-        raise Wrong(wrong)
+        raise Wrong(sorted(wrong, key=_line_of))
     order = {row: number for number, (row, _) in enumerate(lines.items())}
     entries.sort(key=lambda entry: order.get(f"{entry.row.KIND}.{entry.name}", len(order)))
     return Project(path, shown, tuple(entries), lines)
@@ -210,6 +211,11 @@ def _place(shown: str, lines: Mapping[str, int], head: str, key: str = "") -> st
     while row and not (number := lines.get(row, 0)):
         row = row.rpartition(".")[0]
     return f"{_line(shown, number)}: {whole}"
+
+
+def _line_of(said: str) -> int:
+    found = re.match(r"[^:]*:(\d+):", said)
+    return int(found[1]) if found else 0
 
 
 def _line(shown: str, number: int) -> str:

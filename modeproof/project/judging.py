@@ -27,12 +27,14 @@ from modeproof.output import outcome
 from modeproof.output.outcome import Outcome
 from modeproof.project import basis
 from modeproof.project.basis import Basis
-from modeproof.project.entries import Adapter, Binding, Program
+from modeproof.project.entries import Adapter, Binding, Log, Machine, Program
 from modeproof.project.file import Listed, Project
 
 START = "import sys; sys.path.insert(0, sys.argv.pop(1)); from modeproof.cli import main; sys.exit(main())"
 """Starts the tool as it is here, whatever the current folder holds."""
 BINDINGS = "bindings"
+LONG = (Machine.KIND, Log.KIND)
+"""What takes longest, and is begun first."""
 GRACE_S = 5.0
 """For a command that was told to end."""
 
@@ -74,6 +76,7 @@ class Judging:
             if why and why != basis.FIRST:
                 names = ", ".join(name for name, reason in reasons.items() if reason == why)
                 self.say(f"judged again: {names}: {why}")
+        waiting.sort(key=lambda entry: entry.row.KIND not in LONG)
         self.progress.expect(len(waiting))
         with ThreadPoolExecutor(max(1, min(self.jobs, len(waiting)))) as pool:
             futures = {pool.submit(self._one, entry): entry for entry in waiting}
