@@ -18,7 +18,7 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged, suggestion
-from modeproof.ground.places import root
+from modeproof.ground.places import TREE, root
 from modeproof.kit.by_name import module_named
 from modeproof.kit.parser import Parser
 
@@ -105,6 +105,8 @@ _HEARD: list[int] = []
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
+    if str(TREE) not in sys.path:  # an editable install knows the package alone, and rooms stand beside it
+        sys.path.insert(0, str(TREE))
     if _COMPLETION in os.environ:
         _complete()
     given = sys.argv[1:] if argv is None else argv
