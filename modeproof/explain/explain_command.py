@@ -28,7 +28,7 @@ def add_parser(commands: Any) -> None:
         "explain",
         description="Says of a clause, finding, property, assumption, run, theorem, target, signal, state, "
         "step, diagnostic code, verdict or word of the field what it is, where it is, and what was shown.",
-        epilog="examples: modeproof explain EDM-IN-RESET-1; modeproof explain E-52; modeproof explain HOLDS",
+        epilog="ids are in spec/ and in all pages; docs/reference.md has the words of verdicts",
     )
     parser.add_argument(
         "word", nargs="+", metavar="WORD", help="an id or a word; DOCUMENT/ID where two have it"
