@@ -100,14 +100,16 @@ def test_a_root_without_a_specification_is_one_line(
     assert "no folder `spec` here" in only_line(capsys)
 
 
-def test_a_command_judges_the_tree_in_which_it_stands(
+def test_a_spec_folder_of_somebody_else_means_nothing(
     toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.delenv("MODEPROOF_ROOT")
     monkeypatch.chdir(toy / "spec" / "toy")
     assert main(["check", "MC_toy", "--quiet", "--json", "out.json"]) == 0
     assert capsys.readouterr().out.startswith(f"tree         {toy}\n")
     assert json.loads(Path("out.json").read_text())["tree"] == str(toy)
+    monkeypatch.delenv("MODEPROOF_ROOT")
+    assert main(["check", "MC_toy", "--quiet"]) == 2
+    assert "no run 'MC_toy' in runs.toml of edm" in only_line(capsys)
 
 
 @pytest.mark.parametrize("named", [True, False])
@@ -211,6 +213,15 @@ def test_the_help_names_each_command_in_its_group(capsys: pytest.CaptureFixture[
     assert {"verify", "conform", "prove-program", "trace", "report", "doctor"} <= set(GROUPS["commands"])
 
 
+def test_the_help_loads_no_command() -> None:
+    loaded = "from modeproof.cli import main; main(['--help'])"
+    said = "import atexit, sys; atexit.register(lambda: print('loaded:', *sys.modules)); " + loaded
+    done = subprocess.run([sys.executable, "-c", said], cwd=TREE, capture_output=True, text=True, check=True)
+    assert all(f"  {name}" in done.stdout for name in COMMANDS)
+    modules = set(done.stdout.partition("loaded:")[2].split())
+    assert "modeproof.ground.places" in modules and modules.isdisjoint({*COMMANDS.values(), "msgspec", "z3"})
+
+
 def test_the_version_names_the_tool_as_evidence_does(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["--version"])
@@ -245,6 +256,14 @@ def test_the_version_names_the_tool_as_evidence_does(capsys: pytest.CaptureFixtu
         (["vectors", "build", "F_PLC"], "no target 'F_PLC'; did you mean 'fplc'? "),
         ([], "the following arguments are required: COMMAND"),
         (["conform", "fplc"], "--help` says what is allowed"),
+        (["machine", "--bad"], "no option --bad (`modeproof machine --help` says what is allowed)"),
+        (["machine", "x.toml", "--propertis", "y"], "no option --propertis; did you mean --properties? (`mo"),
+        (["conform", "fplc", "--adapt=x"], "no option --adapt; did you mean --adapter? (`modeproof conform"),
+        (["prove", "--cov"], "no option --cov; did you mean --coverage? (`modeproof prove --help`"),
+        (["vectors", "build", "--ane"], "did you mean --anew? (`modeproof vectors build --help`"),
+        (["--vers"], "no option --vers; did you mean --version? (`modeproof --help`"),
+        (["check", "MC_x", "--debug"], "no option --debug (`modeproof check --help`"),
+        (["doctor", "now"], "too much: now (`modeproof doctor --help`"),
     ],
 )
 def test_a_slip_is_one_line_with_what_was_meant(
