@@ -88,7 +88,7 @@ def _bare(name: str) -> str:
 
 
 def _words(name: str) -> list[str]:
-    """The words of a name such as ResetRequest or reset_request, in any order."""
+    """The words of a name, which capitals or underscores divide, in any order."""
     return sorted(word.casefold() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+", name))
 
 
