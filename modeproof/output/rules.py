@@ -17,7 +17,8 @@ def rules_of(ids: Iterable[str], document: str = "") -> list[Rule]:
     A finding's id is of one document, so it is only found where that is named. Raises Unjudged for a register
     that cannot be read.
     """
-    known = _known(root(), document)
+    place = root()
+    known = _known(place, document if document in documents(place) else "")
     return [known[id] for id in dict.fromkeys(ids) if id in known]
 
 

@@ -36,7 +36,7 @@ from modeproof.registers.runs import Run
 from modeproof.registers.stale import stale
 from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
 from modeproof.suites.build import current_suite, find_target, make_graphs, ready_suite, say
-from modeproof.suites.conform_outcome import outcome_of
+from modeproof.suites.conform_outcome import about, outcome_of
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
 from modeproof.tlc.rests import row_of
@@ -45,7 +45,7 @@ from modeproof.tlc.rests import row_of
 def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `conform` to the commands."""
     parser = kit_command.add_parser(commands, run=run)
-    add_options(parser, judge)
+    add_options(parser, judge, about)
     return parser
 
 

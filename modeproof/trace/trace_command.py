@@ -26,7 +26,7 @@ from modeproof.trace.exact import Scans
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
 from modeproof.trace.log_judge import Graphs, Judgement, judge_logs, why_not
-from modeproof.trace.outcomes import again, outcome_of
+from modeproof.trace.outcomes import about, outcome_of
 from modeproof.trace.table import TableForm, read_table, wire_param
 from modeproof.trace.targets import Target, find_target, rather_of
 from modeproof.trace.text import as_json, as_record, as_text
@@ -81,7 +81,7 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
-    add_options(parser, judge)
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
 
 
@@ -201,7 +201,7 @@ def _write(
         as_expected=not isinstance(found, str) and found.status == 0,
         environment="as the log",
         strength=f"one log of {len(log.rows):,} lines",
-        command=again(args),
+        command=about(args).again,
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),
