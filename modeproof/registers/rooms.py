@@ -78,6 +78,7 @@ RULES = (
 ROOMS = (
     "refimpl",
     *("modeproof/kit", "modeproof/s7", "modeproof/ground", "modeproof/registers", "modeproof/output"),
+    "modeproof/explain",
     "proofs",
     *("modeproof/tlc", "modeproof/graph", "modeproof/suites", "modeproof/strength", "modeproof/trace"),
     *("programs/language", "programs/semantics", "programs/readers", "programs/invariants"),
