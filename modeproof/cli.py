@@ -227,7 +227,8 @@ def _stop_on_signals() -> dict[int, Any]:
 
     pid, previous = os.getpid(), dict[int, Any]()
     ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not ignored, as under nohup
-    for number in (signal.SIGTERM, signal.SIGHUP, *([signal.SIGINT] if ours else [])):
-        with contextlib.suppress(ValueError, AttributeError):  # not the main thread
+    others = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    for number in (*others, *([signal.SIGINT] if ours else [])):
+        with contextlib.suppress(ValueError):  # not the main thread
             previous[number] = signal.signal(number, stop)
     return previous

@@ -165,7 +165,7 @@ def _disk(place: Path) -> Finding:
 def _memory() -> Finding:
     try:
         size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
-    except (OSError, ValueError):
+    except (OSError, ValueError, AttributeError):  # the last is Windows
         return Finding("memory", True, "unknown", needed=False)
     mend = (
         "the full lane wants 6 GB; `make smoke` needs less, MODEPROOF_HEAP_MB limits all Java heaps together"
