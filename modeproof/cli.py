@@ -20,34 +20,72 @@ from typing import Any, NoReturn
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged, suggestion
 from modeproof.ground.places import root
 from modeproof.kit.by_name import module_named
+from modeproof.kit.parser import Parser
 
 GROUPS = {
     "commands": {
-        "verify": "modeproof.lane.verify",
-        "conform": "modeproof.suites.conform_command",
-        "prove-program": "modeproof.lane.prove_program_command",
-        "machine": "modeproof.lane.machine_command",
-        "trace": "modeproof.trace.trace_command",
-        "simulate": "modeproof.simulate.simulate_command",
-        "report": "modeproof.report.report_command",
-        "doctor": "modeproof.lane.doctor",
+        "verify": ("modeproof.lane.verify", "registers, TLC, conformance and proofs; ends with a summary"),
+        "conform": (
+            "modeproof.suites.conform_command",
+            "judge a program by the specification: your own behind an adapter, or a built-in one",
+        ),
+        "prove-program": (
+            "modeproof.lane.prove_program_command",
+            "prove a PLC program equal to a target, or show where it differs",
+        ),
+        "machine": (
+            "modeproof.lane.machine_command",
+            "judge how the documents' blocks are wired to a machine",
+        ),
+        "trace": (
+            "modeproof.trace.trace_command",
+            "judge a recorded log of a device, or of the whole system, by the specification",
+        ),
+        "simulate": (
+            "modeproof.simulate.simulate_command",
+            "a page to play with: the reference implementation runs in the browser, offline",
+        ),
+        "report": (
+            "modeproof.report.report_command",
+            "the assessor's report: one HTML file, from registers and evidence",
+        ),
+        "doctor": ("modeproof.lane.doctor", "tell what this machine lacks, and how to mend it"),
     },
     "commands for maintainers": {
-        "renew": "modeproof.lane.renew",
-        "check": "modeproof.tlc.check_command",
-        "prove": "modeproof.lane.prove_command",
-        "registers": "modeproof.registers.registers_command",
-        "render": "modeproof.lane.render",
-        "walks": "modeproof.lane.walks",
-        "vectors": "modeproof.suites.vectors_command",
-        "map": "modeproof.suites.map_command",
-        "mutate": "modeproof.strength.mutate_command",
+        "renew": (
+            "modeproof.lane.renew",
+            "after a change: make everything anew that was made from the text before it",
+        ),
+        "check": ("modeproof.tlc.check_command", "run TLC on declared runs and judge them"),
+        "prove": (
+            "modeproof.lane.prove_command",
+            "prove the theorems of a document with Z3, re-checked by cvc5",
+        ),
+        "registers": (
+            "modeproof.registers.registers_command",
+            "judge the registers and the matrix from clause to vector",
+        ),
+        "render": ("modeproof.lane.render", "make docs/<document>.md and the blocks in README.md anew"),
+        "walks": (
+            "modeproof.lane.walks",
+            "follow every recorded counterexample once more: what was on the wires, for the report",
+        ),
+        "vectors": ("modeproof.suites.vectors_command", "build, check and show the test suites"),
+        "map": (
+            "modeproof.suites.map_command",
+            "write or check a map: where the signals of a target are in the memory of a PLC",
+        ),
+        "mutate": (
+            "modeproof.strength.mutate_command",
+            "one-edit mutants of the specification or of the code, and what each of them breaks",
+        ),
     },
 }
-"""The commands as the help groups them, each with the module that has its `add_parser`."""
+"""The commands as the help groups them: the module that has the `add_parser` of each, and what it is for."""
 
-COMMANDS = {name: module for group in GROUPS.values() for name, module in group.items()}
-"""The same without groups; only the module of the command given is imported."""
+COMMANDS = {name: module for group in GROUPS.values() for name, (module, _) in group.items()}
+"""The modules without groups; only that of the command given is imported."""
+SUMMARIES = {name: summary for group in GROUPS.values() for name, (_, summary) in group.items()}
 
 JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report", "mutate", "renew")
 """Commands that end in a verdict: their first line names the tree that it is about."""
@@ -60,7 +98,7 @@ _HEARD: list[int] = []
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
     given = sys.argv[1:] if argv is None else argv
-    args = argparse.Namespace(debug="--debug" in given)
+    args = argparse.Namespace(debug=given[:1] == ["--debug"])
     hook = sys.unraisablehook
     _HEARD.clear()
     previous = _stop_on_signals()
@@ -110,11 +148,14 @@ def main(argv: list[str] | None = None) -> int:
     return EXIT_UNJUDGED
 
 
-class _Parser(argparse.ArgumentParser):
-    """A parser whose refusal is one line, like any other of ours."""
+class _Commands(argparse._SubParsersAction):  # type: ignore[type-arg]
+    """The commands, each with its summary from the table above."""
 
-    def error(self, message: str) -> NoReturn:
-        raise Unjudged(f"{message} (`{self.prog} --help` says what is allowed)")
+    def add_parser(self, name: str, **options: Any) -> argparse.ArgumentParser:
+        summary = SUMMARIES[name]
+        options.setdefault("description", summary[0].upper() + summary[1:] + ".")
+        parser: argparse.ArgumentParser = super().add_parser(name, help=summary, **options)
+        return parser
 
 
 class _Grouped(argparse.HelpFormatter):
@@ -140,7 +181,7 @@ def make_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     command = next((word for word in argv if not word.startswith("-")), None)
     if command is not None and command not in COMMANDS:
         raise Unjudged(f"no command {command!r}; {suggestion(command, COMMANDS)}")
-    parser = _Parser(
+    parser = Parser(
         prog="modeproof",
         description="Checks published safety procedures by TLA+ models and proofs. It certifies nothing.",
         epilog="exit status: 0 as expected, 1 not as expected, 2 could not be judged",
@@ -149,11 +190,12 @@ def make_parser(argv: Sequence[str]) -> argparse.ArgumentParser:
     parser.add_argument("--debug", action="store_true", help="show where an error comes from")
     parser.add_argument("--version", action=_Version, nargs=0, help="show version and SHA-256 of the tool")
     commands = parser.add_subparsers(
-        dest="command", required=True, metavar="COMMAND", title=next(iter(GROUPS))
+        action=_Commands, dest="command", required=True, metavar="COMMAND", title=next(iter(GROUPS))
     )
-    for name, module in COMMANDS.items():
-        if command in (name, None):
-            _add(commands, name, module)
+    for name in COMMANDS if command is None else ():  # the help lists them; no module is needed for that
+        commands.add_parser(name)
+    if command is not None:
+        _add(commands, command)
     return parser
 
 
@@ -169,19 +211,13 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _add(commands: Any, name: str, module: str) -> None:
-    """One command. If its packages are missing, the command says so when it is called."""
+def _add(commands: Any, name: str) -> None:
+    """One command with its options. Raises Unjudged where its packages are missing."""
     try:
-        module_named(module).add_parser(commands)
+        module_named(COMMANDS[name]).add_parser(commands)
     except ImportError as error:
-        cause = str(error)
-
-        def refuse(args: argparse.Namespace) -> int:
-            raise Unjudged(f"{name} cannot be loaded: {cause}; `modeproof doctor` tells how to mend it")
-
-        parser = commands.add_parser(name, help=f"cannot be loaded: {cause}")
-        parser.add_argument("rest", nargs=argparse.REMAINDER)
-        parser.set_defaults(run=refuse)
+        mend = "`modeproof doctor` tells how to mend it"
+        raise Unjudged(f"{name} cannot be loaded: {error}; {mend}") from error
 
 
 def _complain(line: str) -> None:

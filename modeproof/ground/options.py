@@ -13,12 +13,10 @@ from modeproof.ground.places import root
 
 
 def add_command(
-    commands: Any, name: str, run: Callable[[argparse.Namespace], int], text: str
+    commands: Any, name: str, run: Callable[[argparse.Namespace], int]
 ) -> argparse.ArgumentParser:
-    """Add a command whose help is `text`, with --json and --quiet."""
-    parser: argparse.ArgumentParser = commands.add_parser(
-        name, help=text, description=text[0].upper() + text[1:] + "."
-    )
+    """Add a command with --json and --quiet."""
+    parser: argparse.ArgumentParser = commands.add_parser(name)
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
 
-from modeproof.kit.kit_command import add_parser
+from modeproof.kit.errors import Unjudged
+from modeproof.kit.kit_command import EXIT_UNJUDGED, add_parser
+from modeproof.kit.parser import Parser
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status."""
-    parser = argparse.ArgumentParser(prog="modeproof-kit")
-    add_parser(parser.add_subparsers(dest="command", required=True, metavar="COMMAND"))
-    args = parser.parse_args(argv)
+    parser = Parser(prog="modeproof-kit", description="Judges a program by the vectors that are packed here.")
+    add_parser(parser.add_subparsers(dest="command", required=True, metavar="conform"))
+    try:
+        args = parser.parse_args(argv)
+    except Unjudged as error:
+        print(f"modeproof-kit: {error}", file=sys.stderr)
+        return EXIT_UNJUDGED
     return int(args.run(args))
 
 

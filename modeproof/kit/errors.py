@@ -38,12 +38,17 @@ def suggestion(name: str, allowed: Iterable[str]) -> str:
     Capitals, hyphens and other marks make no difference to what is close.
     """
     names = list(dict.fromkeys(allowed))
-    bare = {_bare(known): known for known in reversed(names)}
-    close = difflib.get_close_matches(_bare(name), bare, n=1, cutoff=0.5)
-    mean = f"did you mean {bare[close[0]]!r}? " if close else ""
+    close = nearest(name, names)
+    mean = f"did you mean {close[0]!r}? " if close else ""
     if mean and len(names) > MANY:
         return f"{mean}{len(names):,} names are allowed"
     return f"{mean}allowed: {', '.join(names)}" if names else "there are none"
+
+
+def nearest(name: str, allowed: Iterable[str], most: int = 1) -> list[str]:
+    """The allowed names that somebody may have meant, the closest first."""
+    bare = {_bare(known): known for known in reversed(list(dict.fromkeys(allowed)))}
+    return [bare[one] for one in difflib.get_close_matches(_bare(name), bare, n=most, cutoff=0.5)]
 
 
 def _bare(name: str) -> str:

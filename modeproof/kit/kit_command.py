@@ -49,11 +49,8 @@ def add_parser(
     commands: Any, run: Callable[[argparse.Namespace], int] | None = None
 ) -> argparse.ArgumentParser:
     """Add `conform`. `run` takes its place where more is at hand than vectors."""
-    text = "judge a program by the specification: your own behind an adapter, or a built-in one"
     parser: argparse.ArgumentParser = commands.add_parser(
         "conform",
-        help=text,
-        description=text[0].upper() + text[1:] + ".",
         epilog="exit status: 0 CONFORMS or EQUAL, 1 DIFFERS, 2 UNJUDGED",
     )
     parser.add_argument(

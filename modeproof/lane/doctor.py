@@ -196,8 +196,7 @@ def report(findings: list[Finding]) -> tuple[str, int]:
 
 def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, or 2 where something that is needed is missing."""
-    text = "tell what this machine lacks, and how to mend it"
-    parser = commands.add_parser("doctor", help=text, description=f"{text.capitalize()}.")
+    parser = commands.add_parser("doctor")
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.set_defaults(run=run)
 

@@ -38,7 +38,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `machine` to the commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "machine",
-        help="judge how the documents' blocks are wired to a machine",
         description="PROVED (0): each property is true after every scan, for every input. REFUTED (1): scans "
         "from power-up that break one. UNKNOWN (2): neither, or the file was refused. See "
         "docs/wire-your-machine.md.",

@@ -30,9 +30,7 @@ from modeproof.report.verdicts import never_needed, status_of
 
 def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns the worst status of the theorems and raises Unjudged."""
-    parser = add_command(
-        commands, "prove", run, "prove the theorems of a document with Z3, re-checked by cvc5"
-    )
+    parser = add_command(commands, "prove", run)
     parser.add_argument("theorems", nargs="*", metavar="THEOREM", help="name or pattern (default: all)")
     add_document_option(parser)
     parser.add_argument(

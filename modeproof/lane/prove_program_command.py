@@ -19,7 +19,6 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `prove-program` to the commands."""
     parser: argparse.ArgumentParser = commands.add_parser(
         "prove-program",
-        help="prove a PLC program equal to a target, or show where it differs",
         description="PROVED (0): equal outputs in every scan from power-up. REFUTED (1): the scans after "
         "which they differ. UNKNOWN (2): neither.",
     )

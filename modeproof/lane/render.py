@@ -35,7 +35,6 @@ def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, or 1 where --check finds drift, and raises Unjudged."""
     parser = commands.add_parser(
         "render",
-        help="make docs/<document>.md and the blocks in README.md anew",
         description="Makes the page of each document from its registers, with tables of its most telling "
         "counterexamples from build/evidence/, then the blocks in README.md and docs/. "
         "Exit status: 0 written, 1 drifted (with --check), 2 evidence is missing.",

@@ -38,7 +38,6 @@ def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0 renewed, 1 refused, 2 not judged."""
     parser = commands.add_parser(
         "renew",
-        help="after a change: make everything anew that was made from the text before it",
         description="Makes anew what is stale: pins, edits that break properties, vectors, recorded stories, "
         "pages. First the specification judges the change: what it does not accept is not published. Exit "
         "status: 0 renewed or nothing to do, 1 refused and nothing written, 2 could not be judged.",

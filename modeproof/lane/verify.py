@@ -296,9 +296,7 @@ def stages_of_verify(keep: Keep = NOTHING) -> list[tuple[str, Stage]]:
 
 def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns the worst status of all and raises Unjudged."""
-    parser = add_command(
-        commands, "verify", run, "registers, TLC, conformance and proofs; ends with a summary"
-    )
+    parser = add_command(commands, "verify", run)
     parser.add_argument(
         "--lane", choices=LANES, default="full", help="smoke: under a minute; full: the default"
     )

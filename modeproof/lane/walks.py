@@ -29,7 +29,6 @@ def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, or 2 where a trace could not be followed."""
     parser = commands.add_parser(
         "walks",
-        help="follow every recorded counterexample once more: what stood on the wires, for the report",
         description="Follows the counterexamples in build/evidence/ with TLC, one start for each module, and "
         "writes build/walks/. Exit status: 0 all followed, 2 some could not be; the report then shows their "
         "variables alone.",

@@ -26,7 +26,6 @@ def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0 as expected, 1 not as expected, and raises Unjudged."""
     parser = commands.add_parser(
         "registers",
-        help="judge the registers and the matrix from clause to vector",
         description="Judges the registers of every document: schemas, contradictions, citations, orphans, "
         "names. Exit status: 0 as expected, 1 not as expected, 2 could not be judged.",
     )

@@ -27,7 +27,6 @@ def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns 0, 1 (not as expected) or 2 (something is missing)."""
     parser = commands.add_parser(
         "report",
-        help="the assessor's report: one HTML file, from registers and evidence",
         description="Makes build/report/report.html and report.json from the registers and from what lies in "
         "build/evidence/. Exit status: 0 complete and as expected, 1 something is not as expected or "
         "contradicts something else, 2 something is missing; the report is made in every case.",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import signal
 import sys
@@ -12,6 +11,7 @@ from typing import Any
 
 from modeproof.kit.errors import Unjudged
 from modeproof.kit.kit_command import TEST_RIG
+from modeproof.kit.parser import Parser
 from modeproof.kit.signals import Signal, loads, read_signals, shown
 from modeproof.kit.vectors import Suite, open_suite
 from modeproof.s7.program import S7Program, connect
@@ -101,7 +101,7 @@ def _check(values: Any, signals: Mapping[str, Signal]) -> None:
 
 def main(argv: list[str] | None = None) -> int:
     """Serve until bye or the end of the input."""
-    parser = argparse.ArgumentParser(prog="python -m modeproof.s7", description="a PLC as an adapter")
+    parser = Parser(prog="python -m modeproof.s7", description="a PLC as an adapter")
     parser.add_argument("target", metavar="TARGET", help="what the program in the PLC claims to be")
     parser.add_argument("--host", required=True, metavar="HOST[:PORT]", help="the PLC; the port of S7 is 102")
     parser.add_argument(
@@ -117,9 +117,9 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("--member", default="", metavar="NAME", help="the vector file in the archive FILE")
     parser.add_argument("--timeout", type=float, default=10.0, metavar="S", help="limit for the PLC (10 s)")
     parser.add_argument(TEST_RIG, dest="test_rig", action="store_true", help="no machine hangs on this PLC")
-    args = parser.parse_args(argv)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(2))  # so that what was written is put back
     try:
+        args = parser.parse_args(argv)
         if not args.test_rig:
             raise Unjudged(f"this writes into the memory of a PLC: {TEST_RIG} is missing (docs/s7.md)")
         suite = open_suite(args.vectors, args.member)

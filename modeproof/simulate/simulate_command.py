@@ -25,7 +25,6 @@ def add_parser(subparsers: Subparsers) -> argparse.ArgumentParser:
     """Add the command; `args.run(args)` returns 0 and raises Unjudged where the page cannot be made."""
     parser = subparsers.add_parser(
         "simulate",
-        help="a page to play with: the reference implementation runs in the browser, offline",
         description="Writes one HTML file; a double click opens it. It runs the files of refimpl/ and plays "
         "the recorded counterexample of each finding (simulate.html#finding=E-52). It proves nothing.",
     )

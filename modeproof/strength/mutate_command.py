@@ -40,8 +40,7 @@ TLC_MB = 768
 
 def add_parser(commands: Any) -> None:
     """Add `mutate` to the commands of modeproof."""
-    text = "one-edit mutants of the specification or of the code, and what each of them breaks"
-    parser = commands.add_parser("mutate", help=text, description=text[0].upper() + text[1:] + ".")
+    parser = commands.add_parser("mutate")
     parser.add_argument(
         "what",
         choices=("spec", "impl"),

@@ -21,8 +21,7 @@ from modeproof.suites.contract import declare, declare_parameters
 
 def add_parser(commands: Any) -> None:
     """Add `map`; its exit status is 0, or 2 for a map that cannot be used."""
-    text = "where the signals of a target lie in the memory of a PLC: write a map to start from, or check one"
-    parser = commands.add_parser("map", help=text, description=text[0].upper() + text[1:] + ".")
+    parser = commands.add_parser("map")
     parser.add_argument("target", metavar="TARGET", help="a device of the interface register")
     parser.add_argument("--document", metavar="NAME", help="the document of the target, where two have one")
     parser.add_argument("--out", type=Path, metavar="FILE", help="write there instead of to standard output")

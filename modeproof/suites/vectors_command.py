@@ -35,7 +35,6 @@ def add_parser(commands: Any) -> None:
     """Add `vectors`; its exit status is 0 as expected, 1 not as expected."""
     parser = commands.add_parser(
         "vectors",
-        help="build, check and show the test suites",
         description="Builds the test suites from the graphs, checks the files, and shows what is in them.",
     )
     actions = parser.add_subparsers(dest="action", required=True, metavar="ACTION")

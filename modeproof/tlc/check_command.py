@@ -25,7 +25,7 @@ from modeproof.tlc.walk import read_walk, recorded, walk_all
 
 def add_parser(commands: Any) -> None:
     """Add the command; `args.run(args)` returns the worst status of the runs and raises Unjudged."""
-    check = add_command(commands, "check", run, "run TLC on declared runs and judge them")
+    check = add_command(commands, "check", run)
     check.add_argument(
         "runs", nargs="*", metavar="RUN", help="id or pattern, such as MC_* (default: the full lane)"
     )

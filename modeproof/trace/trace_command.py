@@ -42,7 +42,6 @@ def add_parser(commands: Any) -> None:
     """Add `trace` to the commands."""
     parser = commands.add_parser(
         "trace",
-        help="judge a recorded log of a device, or of the whole system, by the specification",
         description=_DESCRIPTION,
         epilog="exit status: 0 CONFORMS, 1 DIFFERS, 2 could not be judged",
     )

@@ -211,6 +211,15 @@ def test_the_help_names_each_command_in_its_group(capsys: pytest.CaptureFixture[
     assert {"verify", "conform", "prove-program", "trace", "report", "doctor"} <= set(GROUPS["commands"])
 
 
+def test_the_help_loads_no_command() -> None:
+    loaded = "from modeproof.cli import main; main(['--help'])"
+    said = "import atexit, sys; atexit.register(lambda: print('loaded:', *sys.modules)); " + loaded
+    done = subprocess.run([sys.executable, "-c", said], cwd=TREE, capture_output=True, text=True, check=True)
+    assert all(f"  {name}" in done.stdout for name in COMMANDS)
+    modules = set(done.stdout.partition("loaded:")[2].split())
+    assert "modeproof.ground.places" in modules and modules.isdisjoint({*COMMANDS.values(), "msgspec", "z3"})
+
+
 def test_the_version_names_the_tool_as_evidence_does(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["--version"])
@@ -245,6 +254,14 @@ def test_the_version_names_the_tool_as_evidence_does(capsys: pytest.CaptureFixtu
         (["vectors", "build", "F_PLC"], "no target 'F_PLC'; did you mean 'fplc'? "),
         ([], "the following arguments are required: COMMAND"),
         (["conform", "fplc"], "--help` says what is allowed"),
+        (["machine", "--bad"], "no option --bad (`modeproof machine --help` says what is allowed)"),
+        (["machine", "x.toml", "--propertis", "y"], "no option --propertis; did you mean --properties? (`mo"),
+        (["conform", "fplc", "--adapt=x"], "no option --adapt; did you mean --adapter? (`modeproof conform"),
+        (["prove", "--cov"], "no option --cov; did you mean --coverage? (`modeproof prove --help`"),
+        (["vectors", "build", "--ane"], "did you mean --anew? (`modeproof vectors build --help`"),
+        (["--vers"], "no option --vers; did you mean --version? (`modeproof --help`"),
+        (["check", "MC_x", "--debug"], "no option --debug (`modeproof check --help`"),
+        (["doctor", "now"], "too much: now (`modeproof doctor --help`"),
     ],
 )
 def test_a_slip_is_one_line_with_what_was_meant(
