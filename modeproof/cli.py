@@ -8,6 +8,7 @@ from __future__ import annotations
 import _thread
 import argparse
 import contextlib
+import io
 import os
 import signal
 import sys
@@ -101,6 +102,8 @@ def main(argv: list[str] | None = None) -> int:
     args = argparse.Namespace(debug=given[:1] == ["--debug"])
     hook = sys.unraisablehook
     _HEARD.clear()
+    if isinstance(sys.stdout, io.TextIOWrapper):  # escapes for what the code page of a console does not have
+        sys.stdout.reconfigure(errors="backslashreplace")
     previous = _stop_on_signals()
     try:
         args = make_parser(given).parse_args(given)

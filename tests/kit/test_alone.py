@@ -92,7 +92,7 @@ def found(source: str) -> list[str]:
         if isinstance(node, ast.keyword) and node.arg in ("preexec_fn", "start_new_session", "pass_fds"):
             problems.append(f"{node.arg}")
         if isinstance(node, ast.If | ast.IfExp) and (
-            "win32" in ast.unparse(node.test) or "_WINDOWS" in ast.unparse(node.test)
+            "win32" in ast.unparse(node.test) or "WINDOWS" in ast.unparse(node.test)
         ):
             guarded = True
         for child in ast.iter_child_nodes(node):

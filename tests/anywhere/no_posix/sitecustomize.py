@@ -13,6 +13,7 @@ import multiprocessing
 import os
 import select
 import signal
+import subprocess  # noqa: F401  before msvcrt is there, by which it tells where it is
 import sys
 from fcntl import LOCK_EX, LOCK_NB, lockf
 from types import ModuleType
