@@ -1,4 +1,4 @@
-"""Where things lie: the repository root, the document folders, and the ignored build folder."""
+"""Where things lie: the tree of the tool, the user's project, and the folder for all that is made."""
 
 from __future__ import annotations
 
@@ -10,30 +10,44 @@ from pathlib import Path
 from modeproof.ground.errors import Unjudged, suggestion
 
 TREE = Path(__file__).resolve().parents[2]
-"""The repository that this package is of."""
+"""The tree that this package is of: a checkout, or `_home` of an installed wheel, of the same layout."""
+
+INSTALLED = TREE.name == "_home"
+"""Whether this is an installed wheel, in which nothing is ever written."""
+
+PROJECT_FILE = "modeproof.toml"
+"""The file that lists what is a user's; its folder is their project."""
 
 
 def root() -> Path:
-    """The repository root: MODEPROOF_ROOT, else the tree in which the command stands, else `TREE`.
+    """The tree that is judged: `TREE`, or, for maintainers, the one that MODEPROOF_ROOT names.
 
-    Raises Unjudged when there is no `spec` folder in it, or when it has a modeproof of its own that is not
-    this one: a copied checkout would be judged by the tool of the original.
+    Raises Unjudged when the latter has no `spec` folder, and when it, or the current folder, is of another
+    checkout with a modeproof of its own: a copied checkout would be judged by the tool of the original.
     """
     named = os.environ.get("MODEPROOF_ROOT")
-    if named:
-        place = Path(named).resolve()
-    else:
-        stands = Path(os.curdir).resolve()
-        place = next((one for one in (stands, *stands.parents) if documents(one)), TREE)
-    if not (place / "spec").is_dir():
-        raise Unjudged(f"{place}: no folder `spec` here; set MODEPROOF_ROOT to the root of the repository")
-    own = place / "modeproof"
-    if (own / "cli.py").is_file() and not own.samefile(TREE / "modeproof"):
-        raise Unjudged(
-            f"{place} has a modeproof of its own, and this is the one of {TREE}: nothing was judged; "
-            f"in {place} run `make venv` and `.venv/bin/python -m modeproof`"
-        )
-    return place
+    if named and not (Path(named) / "spec").is_dir():
+        raise Unjudged(f"{Path(named).resolve()}: no folder `spec` here; unset MODEPROOF_ROOT")
+    for place in [Path(named).resolve()] if named else _above():
+        own = place / "modeproof"
+        if (own / "cli.py").is_file() and documents(place) and not own.samefile(TREE / "modeproof"):
+            raise Unjudged(
+                f"{place} has a modeproof of its own, and this is the one of {TREE}: nothing was judged; "
+                f"in {place} run `make venv` and `.venv/bin/python -m modeproof`"
+            )
+    return Path(named).resolve() if named else TREE
+
+
+def _above() -> tuple[Path, ...]:
+    """The current folder and those above it."""
+    here = Path(os.curdir).resolve()
+    return (here, *here.parents)
+
+
+def project() -> Path:
+    """The user's project: the nearest folder with a project file, from the current one up, else that one."""
+    above = _above()
+    return next((place for place in above if (place / PROJECT_FILE).is_file()), above[0])
 
 
 def documents(place: Path) -> tuple[str, ...]:
@@ -72,15 +86,38 @@ def add_document_option(parser: argparse.ArgumentParser) -> None:
 
 
 def within(place: Path, path: Path) -> str:
-    """The path of a file relative to the root. Raises ValueError for one that lies outside.
+    """The path of a file relative to the root; of one that was made, `build/...`, wherever that folder is.
 
-    In a copied tree `build` leads to that of the original; what is in it lies inside all the same.
+    Raises ValueError for one that lies outside. In a copied tree `build` leads to that of the original; what
+    is in it lies inside all the same.
     """
     if path.is_relative_to(place) and ".." not in path.parts:
         return path.relative_to(place).as_posix()
+    made = build(place)
+    if path.is_relative_to(made) and ".." not in path.parts:
+        return f"{BUILD}/{path.relative_to(made).as_posix()}"
     return path.resolve().relative_to(place.resolve()).as_posix()
 
 
+def located(place: Path, name: str) -> Path:
+    """The file of a name that `within` gave."""
+    room, _, rest = name.partition("/")
+    return build(place) / rest if room == BUILD else place / name
+
+
+BUILD = "build"
+"""The name of the folder for all that is made, in a checkout and in what evidence says."""
+
+
 def build(place: Path) -> Path:
-    """The folder for all that is made: graphs, logs, evidence, reports. Never under version control."""
-    return place / "build"
+    """The folder for all that is made: graphs, logs, evidence, reports. Never under version control.
+
+    MODEPROOF_STATE names it; else it is `build` of a checkout, for whoever stands in it, and `.modeproof` of
+    the user's project for everybody else.
+    """
+    named = os.environ.get("MODEPROOF_STATE")
+    if named:
+        return Path(named).resolve()
+    if place != TREE or (not INSTALLED and place in _above()):
+        return place / BUILD
+    return project() / ".modeproof"

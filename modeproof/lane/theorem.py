@@ -10,7 +10,7 @@ from typing import Any
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.meaning import is_there, reached
-from modeproof.ground.places import build
+from modeproof.ground.places import build, within
 from modeproof.ground.solvers import needing_solvers
 from modeproof.kit.by_name import module_named
 
@@ -100,7 +100,7 @@ def prove_theorem(
                     "detail": query.detail,
                     "core": None if query.core is None else list(query.core),
                     "work": [round(part, 3) for part in query.work],
-                    "smt2": query.smt2.relative_to(place).as_posix(),
+                    "smt2": within(place, query.smt2),
                     "smt2_sha256": evidence.sha256(query.smt2),
                 }
                 for query in result.queries

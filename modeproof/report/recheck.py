@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.files import YOURS, read
+from modeproof.ground.evidence.files import OURS, YOURS, read
 from modeproof.ground.evidence.record import other_tools, result_sha256
+from modeproof.ground.places import build, located, within
 from modeproof.report.baseline import NAME
 from modeproof.report.integrity import json_of_page, seal_of_json, seal_of_page
 from modeproof.report.sources import DIFFERS, HOLE, NOTE, few, hash_of
@@ -153,15 +154,15 @@ def _compare(
             yield Difference("gone", path, "it was made, and is made again by what used it", NOTE)
         elif now is None:
             yield Difference("gone", path, f"the report has it as {digest[:12]}", HOLE)
-        elif now != digest and (made := _made_again(root / path, results.get(path))):
+        elif now != digest and (made := _made_again(located(root, path), results.get(path))):
             yield Difference(AGAIN, path, f"made again {made}: reproduced, same result", NOTE)
         elif now != digest:
             yield Difference(
                 "differs", path, f"its hash is {now[:12]}, the report has {digest[:12]}", DIFFERS
             )
-    for place in ("build/evidence/*/*.json", "spec/*/*.toml"):
-        for one in sorted(root.glob(place)):
-            name = one.relative_to(root).as_posix()
+    for place, pattern in (build(root) / OURS, "*/*.json"), (root / "spec", "*/*.toml"):
+        for one in sorted(place.glob(pattern)):
+            name = within(root, one)
             if name not in files and (not documents or one.parent.name in documents):
                 yield Difference("new", name, "the report does not know it", DIFFERS)
 

@@ -16,7 +16,7 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import OURS, YOURS, evidence_path, read
 from modeproof.ground.evidence.record import other_tools, result_sha256, sha256
 from modeproof.ground.meaning import meaning
-from modeproof.ground.places import documents, machines
+from modeproof.ground.places import build, documents, located, machines, within
 from modeproof.registers.load import load_document
 from modeproof.registers.rows import Document
 from modeproof.report.evidence_judge import contradiction, doubt_on_machine
@@ -140,7 +140,7 @@ class Sources:
     def content(self, path: str) -> bytes | None:
         """A file by its path relative to the root, and from now on one of `files`; None: there is none."""
         try:
-            content = (self.root / path).read_bytes()
+            content = located(self.root, path).read_bytes()
         except OSError:
             return None
         self.files[path] = hash_of(self.root, path) or ""
@@ -186,8 +186,8 @@ def gather(root: Path, filing: Filing | None = None) -> Sources:
             files[shown] = hashes[shown] or ""
         pieces: dict[str, dict[str, Evidence]] = {OURS: {}, YOURS: {}}
         for folder, of in pieces.items():
-            for path in sorted((root / "build" / folder / name).glob("*.json")):
-                shown = path.relative_to(root).as_posix()
+            for path in sorted((build(root) / folder / name).glob("*.json")):
+                shown = within(root, path)
                 files[shown] = hashes[shown] or ""
                 try:
                     piece, before = _piece(root, partial(contradiction, root, found[name]), path, hashes)
@@ -232,7 +232,7 @@ def _machines(root: Path, hashes: _Hashes, files: dict[str, str]) -> Iterator[tu
                 piece, before = _piece(root, doubt_on_machine, path, hashes)
             except Unjudged:  # its part says so
                 read_files.pop()
-        shown = [file.relative_to(root).as_posix() for file in read_files]
+        shown = [within(root, file) for file in read_files]
         files |= {file: digest for file in (*shown, *before) if (digest := hashes[file]) is not None}
         yield name, piece
 
@@ -241,7 +241,7 @@ def _piece(
     root: Path, doubt: Callable[[Mapping[str, Any]], str], path: Path, hashes: _Hashes
 ) -> tuple[Evidence, Sequence[str]]:
     """One piece of evidence, and the files that it rests on or made. Raises Unjudged as `read` does."""
-    record, shown = read(path), path.relative_to(root).as_posix()
+    record, shown = read(path), within(root, path)
     artefacts = record["result"].get("artefacts", {})
     before = {**record["inputs"], **(artefacts if isinstance(artefacts, Mapping) else {})}
     changed = (
@@ -302,7 +302,7 @@ def hash_of(root: Path, path: str) -> str | None:
     Of evidence it is the SHA-256, as `sha256sum` gives it: nobody writes that by hand.
     """
     try:
-        return (sha256 if path.startswith(f"build/{OURS}/") else meaning)(root / path)
+        return (sha256 if path.startswith(f"build/{OURS}/") else meaning)(located(root, path))
     except Unjudged:
         return None
 

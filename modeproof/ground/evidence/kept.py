@@ -14,6 +14,7 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.record import is_sealed, own_tools, sha256_of
 from modeproof.ground.meaning import meaning
+from modeproof.ground.places import located
 
 _NO_PART_OF_A_RESULT = frozenset({"start-up cache"})
 """Tools that make a result come sooner and no other."""
@@ -60,7 +61,12 @@ def why_again(place: Path, record: Mapping[str, Any], rests: Rests, alone: bool 
         if _which(name, record["tools"]) != _which(name, tools):
             return "the code that judges it has changed" if name == "modeproof" else f"{name} is another"
     return next(
-        (f"{name} is not what it made" for name, digest in made(record) if not _is(place / name, digest)), ""
+        (
+            f"{name} is not what it made"
+            for name, digest in made(record)
+            if not _is(located(place, name), digest)
+        ),
+        "",
     )
 
 

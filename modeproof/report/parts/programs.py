@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from modeproof.ground.places import build
+from modeproof.ground.places import build, within
 from modeproof.report.part import Part
 from modeproof.report.sources import DIFFERS, NOTE, Sources, Trouble
 
@@ -23,7 +23,7 @@ def part(sources: Sources) -> Part:
     programs, troubles = [], []
     folder = build(sources.root) / "programs"
     for path in sorted(folder.glob("*.json")) if folder.is_dir() else ():
-        place = str(path.relative_to(sources.root))
+        place = within(sources.root, path)
         try:
             record = json.loads(sources.content(place) or b"")
             doubt = contradiction(record)
