@@ -21,7 +21,6 @@ if sys.platform == "win32":
     def _take(handle: int) -> None:
         os.lseek(handle, _FAR, os.SEEK_SET)
         msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-        os.lseek(handle, 0, os.SEEK_SET)
 else:
     import fcntl
 
@@ -46,6 +45,7 @@ def only_one(place: Path, wait_for: str = "") -> Iterator[None]:
         _held(handle, path, wait_for)
         try:
             os.ftruncate(handle, 0)
+            os.lseek(handle, 0, os.SEEK_SET)
             os.write(handle, f"{os.getpid()}\n".encode())
         except OSError as error:
             raise Unjudged(f"{path}: cannot be written: {error.strerror or error}") from None

@@ -155,9 +155,7 @@ def machine() -> dict[str, Any]:
     """What this computer is: system, architecture, processor, cores, memory in MiB (0: unknown)."""
     cpu = platform.processor()
     with contextlib.suppress(OSError), open("/proc/cpuinfo", encoding="utf-8") as lines:
-        cpu = next(
-            (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), cpu
-        )
+        cpu = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), cpu)
     return {
         "system": f"{platform.system()} {platform.release()}",
         "arch": platform.machine(),
