@@ -19,7 +19,7 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged, suggestion
-from modeproof.ground.places import root
+from modeproof.ground.places import TREE, root
 from modeproof.kit.by_name import module_named
 from modeproof.kit.parser import Parser
 
@@ -50,6 +50,11 @@ GROUPS = {
             "modeproof.report.report_command",
             "the assessor's report: one HTML file, from registers and evidence",
         ),
+        "explain": (
+            "modeproof.explain.explain_command",
+            "what an id or a word is, where it is, and what was shown",
+        ),
+        "completion": ("modeproof.lane.completion", "let your shell complete commands and options"),
         "doctor": ("modeproof.lane.doctor", "tell what this machine lacks, and how to mend it"),
     },
     "commands for maintainers": {
@@ -92,12 +97,19 @@ JUDGES = ("verify", "check", "prove", "conform", "trace", "registers", "report",
 """Commands that end in a verdict: their first line names the tree that it is about."""
 
 
+_COMPLETION = "_ARGCOMPLETE"
+"""Set by a shell that asks what may come next."""
+
 _HEARD: list[int] = []
 """The signals that told this run of `main` to stop."""
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command and return its exit status. Expected errors end in one line on standard error and 2."""
+    if str(TREE) not in sys.path:  # an editable install knows the package alone, and rooms stand beside it
+        sys.path.insert(0, str(TREE))
+    if _COMPLETION in os.environ:
+        _complete()
     given = sys.argv[1:] if argv is None else argv
     args = argparse.Namespace(debug=given[:1] == ["--debug"])
     hook = sys.unraisablehook
@@ -221,6 +233,18 @@ def _add(commands: Any, name: str) -> None:
     except ImportError as error:
         mend = "`modeproof doctor` tells how to mend it"
         raise Unjudged(f"{name} cannot be loaded: {error}; {mend}") from error
+
+
+def _complete() -> None:
+    """Answer the shell what may come next in its line, and end. See `completion`."""
+    import argcomplete
+
+    line = os.environ.get("COMP_LINE", "")[: int(os.environ.get("COMP_POINT", "0"))]
+    words = line.split()[1:]
+    typed = words if line[-1:].isspace() else words[:-1]
+    known = next((word for word in typed if word in COMMANDS), None)
+    with contextlib.suppress(Unjudged):  # a command whose packages are missing has nothing to offer
+        argcomplete.autocomplete(make_parser([known] if known else []))
 
 
 def _complain(line: str) -> None:

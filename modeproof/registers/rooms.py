@@ -66,7 +66,7 @@ RULES = (
 
 ROOMS = (
     "refimpl",
-    *("modeproof/kit", "modeproof/s7", "modeproof/ground", "modeproof/registers"),
+    *("modeproof/kit", "modeproof/s7", "modeproof/ground", "modeproof/registers", "modeproof/explain"),
     "proofs",
     *("modeproof/tlc", "modeproof/graph", "modeproof/suites", "modeproof/strength", "modeproof/trace"),
     *("programs/language", "programs/semantics", "programs/readers", "programs/invariants"),
