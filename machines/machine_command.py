@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import hashlib
 import itertools
-import shlex
 import threading
 import time
 import tomllib
@@ -87,7 +86,8 @@ def judge(args: argparse.Namespace) -> Outcome:
         own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() and not args.source else None
         found = machine.all(args.seconds, own, args.recheck)
     seconds = time.process_time() - started
-    text = "\n".join([*lines_of(machine, found, seconds), f"  again       {_again(args)}"])
+    again = args.about(args).again
+    text = "\n".join([*lines_of(machine, found, seconds), f"  again       {again}"])
     print(text)
     record = record_of(machine, found, seconds, read)
     if args.json is not None:
@@ -96,7 +96,7 @@ def judge(args: argparse.Namespace) -> Outcome:
         cases = [_case(machine, verdict) for verdict in found]
         write_text(args.junit, junit_of(machine.file, cases, round(seconds, 1), "modeproof machine"))
     shown = {verdict.asked.id: list(_values(machine, verdict.scans)) for verdict in found}
-    return outcome_of(machine, found, record, shown, text=text, again=_again(args), clock=clock)
+    return outcome_of(machine, found, record, shown, text=text, again=again, clock=clock)
 
 
 def _file(args: argparse.Namespace) -> Path:
@@ -180,20 +180,6 @@ def _at_work(progress: Progress) -> Iterator[None]:
         over.set()
         clock.join()
         progress.end(NAME)
-
-
-def _again(args: argparse.Namespace) -> str:
-    """The command that judges the same files again."""
-    words = ["modeproof", "machine", *([str(args.file)] if args.file else [])]
-    for option in ("properties", "use"):
-        if (path := getattr(args, option)) is not None:
-            words += [f"--{option}", str(path)]
-    if args.source:
-        words += ["--source", *map(str, args.source)]
-    if args.unit is not None:
-        words += ["--unit", args.unit]
-    words += [f"--{option}" for option in ("equal", "recheck") if getattr(args, option)]
-    return shlex.join(words)
 
 
 def _case(machine: Machine, verdict: Verdict) -> Case:

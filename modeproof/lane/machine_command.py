@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import shlex
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -17,8 +18,8 @@ from modeproof.ground.places import TREE, documents, machines, root
 from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
-from modeproof.output.options import add_options, carried_out
-from modeproof.output.outcome import Outcome
+from modeproof.output.options import About, add_options, carried_out
+from modeproof.output.outcome import Outcome, shown_path
 from modeproof.report.verdicts import status_of, verdict_on_machine
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import find_toolchain
@@ -102,7 +103,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--evidence", action="store_true", help="judge the project's own as `verify` does, and write evidence"
     )
-    add_options(parser, judge)
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
     return parser
 
@@ -298,6 +299,33 @@ def judge(args: argparse.Namespace) -> Outcome:
     with needing_solvers():
         from machines import machine_command
     return machine_command.judge(args)
+
+
+def about(args: argparse.Namespace) -> About:
+    """What the arguments ask for."""
+    words = ["modeproof", "machine", *([str(args.file)] if args.file else [])]
+    for option in ("properties", "use"):
+        if (path := getattr(args, option)) is not None:
+            words += [f"--{option}", str(path)]
+    if args.source:
+        words += ["--source", *map(str, args.source)]
+    if args.unit is not None:
+        words += ["--unit", args.unit]
+    words += [f"--{option}" for option in ("equal", "recheck") if getattr(args, option)]
+    sources = args.source or [args.file or root() / "spec/machine_cell/wiring.toml"]
+    return About(
+        command="machine",
+        subject=", ".join(map(shown_path, sources)),
+        target="equal" if args.equal else shown_path(args.properties) if args.properties else "",
+        again=shlex.join(words),
+        files={
+            "program": args.source or (),
+            "wiring": [args.file],
+            "properties": [args.properties],
+            "use": [args.use],
+        },
+        part=args.unit or "",
+    )
 
 
 def _can_read() -> None:

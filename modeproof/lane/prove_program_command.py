@@ -12,8 +12,9 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.solvers import needing_solvers
-from modeproof.output.options import add_options, carried_out
-from modeproof.output.outcome import Outcome
+from modeproof.kit.kit_command import quoted
+from modeproof.output.options import About, add_options, carried_out
+from modeproof.output.outcome import Outcome, shown_path
 
 SECONDS = 300
 """Limit of a search, of CPU time, where --seconds names no other."""
@@ -53,16 +54,16 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="TOML",
         help="in the place of --target: properties of your own program",
     )
-    add_options(parser, judge)
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
     return parser
 
 
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdict. Raises Unjudged."""
+    _look(args)
     if args.recheck is None:
         return carried_out(args).status
-    _look(args)
     with needing_solvers():
         from programs.commands import prove_program
     with _not_too_deep([args.recheck]):
@@ -78,6 +79,23 @@ def judge(args: argparse.Namespace) -> Outcome:
         if args.property is not None:
             return prove_properties.judge_properties(args)
         return prove_program.judge_program(args)
+
+
+def about(args: argparse.Namespace) -> About:
+    """What the arguments ask for."""
+    words: list[object] = ["modeproof", "prove-program", *args.files]
+    for name in ("target", "property", "unit", "binding"):
+        if (given := getattr(args, name)) is not None:
+            words += [f"--{name}", given]
+    words += ["--wrap"] * args.wrap
+    return About(
+        command="prove-program",
+        subject=", ".join(map(shown_path, args.files)),
+        target=args.target or shown_path(args.property or ""),
+        again=" ".join(quoted(str(word)) for word in words),
+        files={"program": args.files, "binding": [args.binding], "properties": [args.property]},
+        part=args.unit or "",
+    )
 
 
 @contextlib.contextmanager

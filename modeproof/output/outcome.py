@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal
@@ -18,6 +17,7 @@ import msgspec
 
 from modeproof.ground.errors import LONGEST, Unjudged
 from modeproof.ground.evidence import own_tools, sha256
+from modeproof.ground.places import project, root
 from modeproof.kit.errors import plain
 from modeproof.kit.files import write_text
 
@@ -235,17 +235,23 @@ def files(role: str, hashes: Mapping[str, str] | Iterable[Path]) -> list[File]:
     return [File(path=shown_path(path), sha256=digest, role=role) for path, digest in rows.items()]
 
 
+TOOL = "modeproof:"
+"""How the path of a file begins that is of the tool itself."""
+
+
 def shown_path(path: str | Path) -> str:
-    """A path from the project folder, with `/`; one that lies outside stays as it is given."""
-    given, place = Path(path), project().resolve()
+    """A path from the project folder, with `/`; of a file of the tool from its tree; else as it is given."""
+    given = Path(path)
     whole = given.resolve()
-    return whole.relative_to(place).as_posix() if whole.is_relative_to(place) else given.as_posix()
+    for above, place in (("", project().resolve()), (TOOL, root().resolve())):
+        if whole.is_relative_to(place):
+            return above + whole.relative_to(place).as_posix()
+    return given.as_posix()
 
 
-def project() -> Path:
-    """The nearest folder above with a project file, else the current folder."""
-    stands = Path(os.curdir).resolve()
-    return next((one for one in (stands, *stands.parents) if (one / "modeproof.toml").is_file()), stands)
+def path_of(shown: str) -> Path:
+    """The file of a path that `shown_path` gave."""
+    return root() / shown.removeprefix(TOOL) if shown.startswith(TOOL) else project() / shown
 
 
 def _seal(outcome: Outcome) -> str:

@@ -36,7 +36,7 @@ from modeproof.registers.runs import Run
 from modeproof.registers.stale import stale
 from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
 from modeproof.suites.build import current_suite, find_target, make_graphs, ready_suite, say
-from modeproof.suites.conform_outcome import outcome_of
+from modeproof.suites.conform_outcome import about, outcome_of
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
 from modeproof.tlc.rests import row_of
@@ -45,7 +45,7 @@ from modeproof.tlc.rests import row_of
 def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `conform` to the commands."""
     parser = kit_command.add_parser(commands, run=run)
-    add_options(parser, judge)
+    add_options(parser, judge, about)
     return parser
 
 
@@ -84,8 +84,7 @@ def _program(args: argparse.Namespace) -> tuple[list[Suite], list[Verdict]]:
             raise Unjudged("--vectors names one file, and --suite others: give one of them")
         suites = kit_command.open_vectors(args)
     else:
-        with only_one(place):
-            suites = _suites(place, document, device, args)
+        suites = _suites(place, document, device, args)
     suites = kit_command.in_profile(args, suites)
     ours = _is_ours(args)
     if ours:  # by this Python, whatever `python` is here
@@ -254,8 +253,9 @@ def _suites(place: Path, document: str, device: Device, args: argparse.Namespace
             kit_command.greet(args, device.outputs)
             greeted = True
         try:
-            make_graphs(place, open_runs(place, document, args.target), args.quiet)
-            found.append(ready_suite(place, document, args.target, name, say))
+            with only_one(place, wait_for="this run"):
+                make_graphs(place, open_runs(place, document, args.target), args.quiet)
+                found.append(ready_suite(place, document, args.target, name, say))
         except NoCases:
             if name in (args.suite or ()):
                 raise

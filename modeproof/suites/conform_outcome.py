@@ -11,11 +11,10 @@ from typing import Any
 from modeproof.kit import kit_command
 from modeproof.kit.adapter import split_command
 from modeproof.kit.diagnosis import step_there
-from modeproof.kit.resume import identity
 from modeproof.kit.text import as_text, difference_lines, joint_word, verdict_word
 from modeproof.kit.vectors import EXACT, Case, Suite
 from modeproof.kit.verdict import EXIT, UNJUDGED, Difference, Verdict
-from modeproof.output.options import Clock
+from modeproof.output.options import About, Clock
 from modeproof.output.outcome import (
     Counterexample,
     Demand,
@@ -62,7 +61,7 @@ def outcome_of(
             as_text(verdict, kit_command.again(args, suite, verdict), suite, verdict is verdicts[-1])
             for suite, verdict in pairs
         ),
-        again=_again(args),
+        again=args.about(args).again,
         started=clock.started,
         seconds=clock.seconds,
     )
@@ -79,14 +78,13 @@ def _hash(path: Path) -> str:
 
 def _own_files(args: argparse.Namespace) -> list[File]:
     """The files that the command of the adapter names, without the program that only starts them."""
+    maps = [args.map] if args.map is not None else []
+    return [*files("adapter", _adapter_files(args)), *files("map", maps)]
+
+
+def _adapter_files(args: argparse.Namespace) -> list[Path]:
     words = split_command(args.adapter) if args.adapter else []
-    named = {
-        word: digest
-        for word, digest in identity(words).items()
-        if Path(word).is_file() and word != sys.executable
-    }
-    maps = files("map", [args.map]) if args.map is not None else []
-    return [*files("adapter", named), *maps]
+    return [Path(word) for word in words if Path(word).is_file() and word != sys.executable]
 
 
 def _not_shown(suite: Suite, verdict: Verdict) -> list[str]:
@@ -176,8 +174,8 @@ def _spot(own: Sequence[File]) -> Spot | None:
     return Spot(file=own[-1].path) if own else None
 
 
-def _again(args: argparse.Namespace) -> str:
-    """The command line that does the whole again."""
+def about(args: argparse.Namespace) -> About:
+    """What the arguments ask for."""
     words = ["modeproof", "conform", args.target, kit_command.program_words(args)]
     words += [f"--document {args.document}"] if args.document else []
     words += [f"--vectors {kit_command.quoted(str(args.vectors))}"] if args.vectors else []
@@ -187,4 +185,11 @@ def _again(args: argparse.Namespace) -> str:
     words += [f"--{name} {getattr(args, name)}" for name in usual if getattr(args, name) != usual[name]]
     words += [f"--param {kit_command.quoted(text)}" for text in args.param]
     words += ["--codes"] * bool(args.codes)
-    return " ".join(words)
+    return About(
+        command="conform",
+        subject=args.name or _program(args),
+        target=args.target,
+        again=" ".join(words),
+        files={"adapter": _adapter_files(args), "map": [args.map], "vectors": [args.vectors]},
+        part=" ".join([*(args.suite or ()), args.relation, args.profile or ""]),
+    )

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.kit.kit_command import quoted
-from modeproof.output.options import Clock
+from modeproof.output.options import About, Clock
 from modeproof.output.outcome import (
     Counterexample,
     Demand,
@@ -33,15 +33,21 @@ MOST_SCANS = 40
 """Lines of a log that are shown before the one that does not fit."""
 
 
-def again(args: argparse.Namespace) -> str:
-    """The command line that judges the log again."""
+def about(args: argparse.Namespace) -> About:
+    """What the arguments ask for."""
     words = ["modeproof trace", args.target, quoted(str(args.log))]
     words += [f"--param {quoted(given)}" for given in args.param]
     words += ["--from anywhere"] if args.begins == "anywhere" else []
     words += [f"--samples {str(args.samples).replace(' to ', '-')}"] if args.samples else []
     words += ["--codes"] if args.codes else []
     words += [f"--wiring {quoted(str(args.wiring))}"] if args.wiring is not None else []
-    return " ".join(words)
+    return About(
+        command="trace",
+        subject=shown_path(args.log),
+        target=args.target,
+        again=" ".join(words),
+        files={"log": [args.log], "wiring": [args.wiring]},
+    )
 
 
 def outcome_of(
@@ -127,7 +133,7 @@ def _common(
         "tools": tools(),
         "trusted": TRUSTED,
         "text": text,
-        "again": again(args),
+        "again": about(args).again,
         "started": clock.started,
         "seconds": clock.seconds,
     }

@@ -6,6 +6,8 @@ import argparse
 import re
 import sys
 import time
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,8 +19,10 @@ from modeproof.ground.places import root
 from modeproof.kit.errors import plain
 from modeproof.output.options import Clock, add_options, carried_out
 from modeproof.output.outcome import Outcome
+from modeproof.registers.runs import Run
 from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome as Ended
+from modeproof.tlc.rests import why_stale
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace import machine_log as machine
@@ -26,7 +30,7 @@ from modeproof.trace.exact import Scans
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
 from modeproof.trace.log_judge import Graphs, Judgement, judge_logs, why_not
-from modeproof.trace.outcomes import again, outcome_of
+from modeproof.trace.outcomes import about, outcome_of
 from modeproof.trace.table import TableForm, read_table, wire_param
 from modeproof.trace.targets import Target, find_target, rather_of
 from modeproof.trace.text import as_json, as_record, as_text
@@ -81,7 +85,7 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
-    add_options(parser, judge)
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
 
 
@@ -106,41 +110,47 @@ def judge(args: argparse.Namespace) -> Outcome:
         log = without_codes(log, target)
     tools = find_toolchain()
     id = f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
-    with only_one(place):
-        evidence.discard(place, target.document, id, evidence.YOURS)
-        started = time.time()
-        graphs = Graphs(place, lambda runs: make_graphs(place, runs, args.quiet))
-        if not args.quiet:
-            print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+    evidence.discard(place, target.document, id, evidence.YOURS)
+    started = time.time()
+    graphs = Graphs(place, partial(_make_graphs, place, args.quiet))
+    if not args.quiet:
+        print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+    try:
+        (found,), outcome = judge_logs(
+            place,
+            target,
+            [log],
+            graphs,
+            tools,
+            anywhere=args.begins == "anywhere",
+            samples=args.samples,
+            say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
+        )
+    except Unjudged as error:
+        _write(place, args, target, log, id, started, tools, graphs, error.message)
+        raise
+    why: Why | None = None
+    unsaid = ""
+    if args.samples is None:
         try:
-            (found,), outcome = judge_logs(
-                place,
-                target,
-                [log],
-                graphs,
-                tools,
-                anywhere=args.begins == "anywhere",
-                samples=args.samples,
-                say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
-            )
-        except Unjudged as error:
-            _write(place, args, target, log, id, started, tools, graphs, error.message)
-            raise
-        why: Why | None = None
-        unsaid = ""
-        if args.samples is None:
-            try:
-                why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
-            except Unjudged as error:  # the verdict stands all the same
-                unsaid = error.message
-        text = as_text(target, found, why, args.samples)
-        print(text)
-        if unsaid:
-            print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
-        record = _write(place, args, target, log, id, started, tools, graphs, found, outcome, why)
+            why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
+        except Unjudged as error:  # the verdict stands all the same
+            unsaid = error.message
+    text = as_text(target, found, why, args.samples)
+    print(text)
+    if unsaid:
+        print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
+    record = _write(place, args, target, log, id, started, tools, graphs, found, outcome, why)
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
     return outcome_of(args, target, found, why, record, text, clock)
+
+
+def _make_graphs(place: Path, quiet: bool, runs: Sequence[Run]) -> None:
+    """Have what is missing made; a run that makes it already is waited for."""
+    if any(why_stale(place, run) for run in runs):
+        with only_one(place, wait_for="this log"):
+            make_graphs(place, runs, quiet)
 
 
 def scan_times(text: str) -> Scans:
@@ -201,7 +211,7 @@ def _write(
         as_expected=not isinstance(found, str) and found.status == 0,
         environment="as the log",
         strength=f"one log of {len(log.rows):,} lines",
-        command=again(args),
+        command=about(args).again,
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),

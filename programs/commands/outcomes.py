@@ -9,7 +9,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from modeproof.kit.kit_command import quoted
 from modeproof.output.options import Clock
 from modeproof.output.outcome import (
     Counterexample,
@@ -293,17 +292,7 @@ def _common(args: argparse.Namespace, record: Mapping[str, Any], text: str, cloc
         "trusted": record["trusted"],
         "not_shown": record["not_shown"],
         "text": text,
-        "again": _again(args),
+        "again": args.about(args).again,
         "started": clock.started,
         "seconds": clock.seconds,
     }
-
-
-def _again(args: argparse.Namespace) -> str:
-    """The command line that judges the same again."""
-    words: list[object] = ["modeproof", "prove-program", *args.files]
-    for name in ("target", "property", "unit", "binding"):
-        if (given := getattr(args, name)) is not None:
-            words += [f"--{name}", given]
-    words += ["--wrap"] * args.wrap
-    return " ".join(quoted(str(word)) for word in words)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
+import os
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -12,6 +14,7 @@ from typing import Any
 
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
+from modeproof.kit.kit_command import quoted
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from programs.certificates import certificate_folder as folder
@@ -86,7 +89,15 @@ def _keep(found: Verdict, path: Path | None) -> str:
     if path is None:
         place.parent.mkdir(parents=True, exist_ok=True)
     write_text(place, vector_of(found.difference, found.product.binding))
-    return f"{place}; test it with `modeproof conform {reference.device.name} --vectors {place} ...`"
+    here = quoted(_from_here(place))
+    return f"{here}; test it with `modeproof conform {reference.device.name} --vectors {here} ...`"
+
+
+def _from_here(path: Path) -> str:
+    """A path from the current folder, where there is one: there is none to another drive."""
+    with contextlib.suppress(ValueError):
+        return os.path.relpath(path)
+    return str(path)
 
 
 # ---------------------------------------------------------------- what is printed
