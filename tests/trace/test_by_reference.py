@@ -30,7 +30,7 @@ def test_a_log_that_fits_fits(name: str, capsys: pytest.CaptureFixture[str]) -> 
     ("name", "line", "output"),
     [("fplc_wrong_echo", 29, "MW05    33CC       0FF0"), ("fplc_short_dwell", 40, "MW01    0000       3333")],
 )
-def test_the_first_wrong_scan_is_the_one_that_tlc_finds(
+def test_the_first_wrong_scan_is_that_of_tlc(
     name: str, line: int, output: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     log, record = LOGS / f"{name}.jsonl", tmp_path / "out.json"
@@ -58,9 +58,7 @@ def test_what_is_open_is_refused(
     assert words in capsys.readouterr().err
 
 
-def test_a_time_that_decides_is_no_reason_to_call_a_log_wrong(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_open_time_that_decides_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     lines = (LOGS / "fplc_short_dwell.jsonl").read_text().splitlines()
     row = json.loads(lines[38])
     del row["dt_ms"]
