@@ -84,8 +84,7 @@ def _program(args: argparse.Namespace) -> tuple[list[Suite], list[Verdict]]:
             raise Unjudged("--vectors names one file, and --suite others: give one of them")
         suites = kit_command.open_vectors(args)
     else:
-        with only_one(place):
-            suites = _suites(place, document, device, args)
+        suites = _suites(place, document, device, args)
     suites = kit_command.in_profile(args, suites)
     ours = _is_ours(args)
     if ours:  # by this Python, whatever `python` is here
@@ -254,8 +253,9 @@ def _suites(place: Path, document: str, device: Device, args: argparse.Namespace
             kit_command.greet(args, device.outputs)
             greeted = True
         try:
-            make_graphs(place, open_runs(place, document, args.target), args.quiet)
-            found.append(ready_suite(place, document, args.target, name, say))
+            with only_one(place, wait_for="this run"):
+                make_graphs(place, open_runs(place, document, args.target), args.quiet)
+                found.append(ready_suite(place, document, args.target, name, say))
         except NoCases:
             if name in (args.suite or ()):
                 raise

@@ -7,6 +7,7 @@ import re
 import sys
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +19,10 @@ from modeproof.ground.places import root
 from modeproof.kit.errors import plain
 from modeproof.output.options import Clock, add_options, carried_out
 from modeproof.output.outcome import Outcome
+from modeproof.registers.runs import Run
 from modeproof.suites.build import make_graphs
 from modeproof.tlc.process import Outcome as Ended
+from modeproof.tlc.rests import why_stale
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace import machine_log as machine
@@ -111,38 +114,37 @@ def judge(args: argparse.Namespace) -> Outcome:
     except Unjudged as missing:
         return _by_reference(place, args, target, log, clock, missing)
     id = _id(args, target)
-    with only_one(place):
-        evidence.discard(place, target.document, id, evidence.YOURS)
-        started = time.time()
-        graphs = Graphs(place, lambda runs: make_graphs(place, runs, args.quiet))
-        if not args.quiet:
-            print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+    evidence.discard(place, target.document, id, evidence.YOURS)
+    started = time.time()
+    graphs = Graphs(place, partial(_make_graphs, place, args.quiet))
+    if not args.quiet:
+        print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+    try:
+        (found,), outcome = judge_logs(
+            place,
+            target,
+            [log],
+            graphs,
+            tools,
+            anywhere=args.begins == "anywhere",
+            samples=args.samples,
+            say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
+        )
+    except Unjudged as error:
+        _write(place, args, target, log, id, started, tools, graphs.used, error.message)
+        raise
+    why: Why | None = None
+    unsaid = ""
+    if args.samples is None:
         try:
-            (found,), outcome = judge_logs(
-                place,
-                target,
-                [log],
-                graphs,
-                tools,
-                anywhere=args.begins == "anywhere",
-                samples=args.samples,
-                say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
-            )
-        except Unjudged as error:
-            _write(place, args, target, log, id, started, tools, graphs.used, error.message)
-            raise
-        why: Why | None = None
-        unsaid = ""
-        if args.samples is None:
-            try:
-                why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
-            except Unjudged as error:  # the verdict stands all the same
-                unsaid = error.message
-        text = as_text(target, found, why, args.samples)
-        print(text)
-        if unsaid:
-            print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
-        record = _write(place, args, target, log, id, started, tools, graphs.used, found, outcome, why)
+            why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
+        except Unjudged as error:  # the verdict stands all the same
+            unsaid = error.message
+    text = as_text(target, found, why, args.samples)
+    print(text)
+    if unsaid:
+        print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
+    record = _write(place, args, target, log, id, started, tools, graphs.used, found, outcome, why)
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
     return outcome_of(args, target, found, why, record, text, clock)
@@ -167,6 +169,13 @@ def _by_reference(
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
     return outcome_of(args, target, found, why, record, text, clock)
+
+
+def _make_graphs(place: Path, quiet: bool, runs: Sequence[Run]) -> None:
+    """Have what is missing made; a run that makes it already is waited for."""
+    if any(why_stale(place, run) for run in runs):
+        with only_one(place, wait_for="this log"):
+            make_graphs(place, runs, quiet)
 
 
 def scan_times(text: str) -> Scans:
