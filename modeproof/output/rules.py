@@ -18,14 +18,14 @@ def rules_of(ids: Iterable[str], document: str = "") -> list[Rule]:
     that cannot be read.
     """
     place = root()
-    known = _known(place, document if document in documents(place) else "")
+    known = _known(place, document if document in _with_clauses(place) else "")
     return [known[id] for id in dict.fromkeys(ids) if id in known]
 
 
 @cache
 def _known(place: Path, document: str) -> dict[str, Rule]:
     found: dict[str, Rule] = {}
-    for name in [document] if document else documents(place):
+    for name in [document] if document else _with_clauses(place):
         about, clauses = load_clauses(place, name)
         for clause in clauses:
             where = ", ".join(part for part in (about.title, _pages(clause.pages)) if part)
@@ -34,6 +34,10 @@ def _known(place: Path, document: str) -> dict[str, Rule]:
             sentence = f"{finding.title} We decided: {finding.decision}"
             found[finding.id] = Rule(id=finding.id, kind="finding", sentence=sentence, source=about.title)
     return found
+
+
+def _with_clauses(place: Path) -> list[str]:
+    return [name for name in documents(place) if (place / "spec" / name / "clauses.toml").is_file()]
 
 
 def _pages(pages: str) -> str:
