@@ -62,24 +62,26 @@ def run(args: argparse.Namespace) -> int:
         return EXIT_UNJUDGED
     if not entries:
         raise Unjudged(f"{judging.project.shown}: lists nothing to judge (docs/your-project.md)")
+    watch = Watch(partial(begin, quiet=True), judging, entries) if args.watch else None
     found = judging.all(entries, args.anew)
     show(judging, found)
-    if not args.watch:
+    if watch is None:
         return status_of(found)
     print("watching; Ctrl-C ends it", file=sys.stderr, flush=True)
-    return Watch(begin, found).run(judging, entries)
+    return watch.run(found)
 
 
-def begun(path: Path, args: argparse.Namespace) -> tuple[Judging, Sequence[Listed]]:
+def begun(path: Path, args: argparse.Namespace, quiet: bool = False) -> tuple[Judging, Sequence[Listed]]:
     """The project file as it is now, with the entries asked for. Raises Unjudged and Wrong."""
     read_in = read(path, Path(os.path.relpath(path)).as_posix())
     entries = read_in.chosen(args.names)
     if wrong := list(problems_of(read_in, entries)):
         raise Wrong(wrong)
-    progress = Progress(quiet=args.quiet)
+    quiet = quiet or args.quiet
+    progress = Progress(quiet=quiet)
 
     def say(line: str) -> None:
-        if not args.quiet:
+        if not quiet:
             print(line, file=sys.stderr, flush=True)
 
     return Judging(read_in, args.jobs, progress, say), entries
