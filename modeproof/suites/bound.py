@@ -9,11 +9,13 @@ checks it by prices of the states (linear programming duality), and gives the co
 from __future__ import annotations
 
 from collections import Counter
-
-import networkx
+from typing import TYPE_CHECKING
 
 from modeproof.graph.columns import Columns
 from modeproof.ground.errors import Unjudged
+
+if TYPE_CHECKING:  # who judges by suites that are there needs no networks
+    import networkx
 
 _RESET, _SOURCE = -1, -2
 Arcs = dict[tuple[int, int], int]
@@ -21,6 +23,8 @@ Arcs = dict[tuple[int, int], int]
 
 def lower_bound(columns: Columns, initial: int) -> int:
     """Scans and resets that every suite needs which takes each transition. Raises Unjudged when unproved."""
+    import networkx
+
     supply, arcs = problem(columns, initial)
     network: networkx.DiGraph[int] = networkx.DiGraph()
     for state, excess in supply.items():
@@ -52,6 +56,8 @@ def problem(columns: Columns, initial: int) -> tuple[Counter[int], Arcs]:
 
 def _prices(arcs: Arcs, flow: dict[int, dict[int, int]]) -> dict[int, int]:
     """Distances in the residual network from a source that reaches all (Bellman and Ford)."""
+    import networkx
+
     costs = dict(arcs)
     for (node, other), cost in arcs.items():
         if flow[node].get(other, 0) > 0:
