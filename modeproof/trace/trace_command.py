@@ -17,10 +17,11 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import root
 from modeproof.kit.errors import plain
-from modeproof.kit.kit_command import quoted
+from modeproof.output.options import Clock, add_options, carried_out
+from modeproof.output.outcome import Outcome
 from modeproof.registers.runs import Run
 from modeproof.suites.build import make_graphs
-from modeproof.tlc.process import Outcome
+from modeproof.tlc.process import Outcome as Ended
 from modeproof.tlc.rests import why_stale
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
@@ -29,6 +30,7 @@ from modeproof.trace.exact import Scans
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
 from modeproof.trace.log_judge import Graphs, Judgement, judge_logs, why_not
+from modeproof.trace.outcomes import about, outcome_of
 from modeproof.trace.table import TableForm, read_table, wire_param
 from modeproof.trace.targets import Target, find_target, rather_of
 from modeproof.trace.text import as_json, as_record, as_text
@@ -83,14 +85,20 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run `trace`; the exit status is that of the verdict."""
-    place = root()
+    return carried_out(args).status
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge a log, print the verdict, and return what was found. Raises Unjudged."""
+    place, clock = root(), Clock()
     if machine.is_machine(place, args.target):
-        return machine.run(args, place, read_log)
+        return machine.judge(args, place, read_log, clock)
     if args.wiring is not None:
         raise Unjudged(f"--wiring is for a whole machine, and {args.target} is none")
     target = find_target(place, args.target, args.document)
@@ -128,13 +136,14 @@ def run(args: argparse.Namespace) -> int:
             why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
         except Unjudged as error:  # the verdict stands all the same
             unsaid = error.message
-    print(as_text(target, found, why, args.samples))
+    text = as_text(target, found, why, args.samples)
+    print(text)
     if unsaid:
         print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
     record = _write(place, args, target, log, id, started, tools, graphs, found, outcome, why)
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
-    return found.status
+    return outcome_of(args, target, found, why, record, text, clock)
 
 
 def _make_graphs(place: Path, quiet: bool, runs: Sequence[Run]) -> None:
@@ -187,16 +196,12 @@ def _write(
     tools: Toolchain,
     graphs: Graphs,
     found: Judgement | str,
-    outcome: Outcome | None = None,
+    outcome: Ended | None = None,
     why: Why | None = None,
 ) -> dict[str, Any]:
     folder = place / "spec" / target.document
     registers = [folder / f"{name}.toml" for name in ("interface", "replay", "runs")]
     inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
-    options = [f"--param {quoted(given)}" for given in args.param]
-    options += ["--from anywhere"] if args.begins == "anywhere" else []
-    options += [f"--samples {str(args.samples).replace(' to ', '-')}"] if args.samples else []
-    options += ["--codes"] if args.codes else []
     record = evidence.make(
         kind="trace",
         id=id,
@@ -206,7 +211,7 @@ def _write(
         as_expected=not isinstance(found, str) and found.status == 0,
         environment="as the log",
         strength=f"one log of {len(log.rows):,} lines",
-        command=" ".join(["modeproof trace", target.id, quoted(str(args.log)), *options]),
+        command=about(args).again,
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),
