@@ -15,6 +15,14 @@ TREE = Path(__file__).resolve().parents[2]
 INSTALLED = TREE.name == "_home"
 """Whether this is an installed wheel, in which nothing is ever written."""
 
+
+def mend(extra: str = "") -> str:
+    """What installs what is missing, here: a command; `extra` is the extra of the wheel that has it."""
+    if not INSTALLED:
+        return "`make venv`"
+    return f'`pip install "modeproof[{extra}]"`' if extra else "`pip install --force-reinstall modeproof`"
+
+
 PROJECT_FILE = "modeproof.toml"
 """The file that lists what is a user's; its folder is their project."""
 
