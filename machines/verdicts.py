@@ -22,9 +22,9 @@ from machines.candidate_invariants import Candidates, Sample, sample_of, state_o
 from machines.composed_program import Observer, Watched, cell_of, looked, spelled
 from machines.concrete_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
 from machines.missing_names import EXPRESSIONS, lacking, observers_lacking
-from machines.wiring import Wiring, rows_of, wiring_of
+from machines.wiring import Wiring, wiring_of
 from modeproof.ground.errors import Unjudged
-from modeproof.registers.typed import typed
+from modeproof.registers.typed import rows_of, typed
 from programs.certificates.certificate_folder import Obligation
 from programs.certificates.recheck import SOLVERS
 from programs.invariants.induction import System, conjuncts, is_inductive, named

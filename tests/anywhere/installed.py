@@ -1,4 +1,4 @@
-"""The tool as a user has it: installed from the wheelhouse, with no checkout, make, gcc, git or Java about."""
+"""The tool as a user has it: from the wheelhouse, with no checkout, make, gcc, git or Java about."""
 
 from __future__ import annotations
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
@@ -42,7 +41,7 @@ def test_what_is_needed_by_what_is_needed_is_needed_too(tmp_path: Path) -> None:
 
 def test_a_package_may_have_rows_for_several_pythons() -> None:
     rows = locked(
-        "# note\na-b==1 ; x \\\n    --hash=sha256:1\n    # via c\nA_b==2 \\\n    --hash=sha256:2\nc==3 \\\n  -\n"
+        "# note\na-b==1 ; x \\\n    --hash=sha256:1\n\nA_b==2 \\\n    --hash=sha256:2\nc==3 \\\n  -\n"
     )
     assert set(rows) == {"a-b", "c"} and rows["a-b"].count("--hash") == 2
 

@@ -63,7 +63,7 @@ def test_no_java_anywhere_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("MODEPROOF_JAVA", raising=False)
     monkeypatch.setenv("PATH", "/nowhere")
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    with pytest.raises(Unjudged, match="`make venv` installs"):
+    with pytest.raises(Unjudged, match="run `make venv`"):
         toolchain.find_java()
 
 
