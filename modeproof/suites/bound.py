@@ -9,13 +9,9 @@ checks it by prices of the states (linear programming duality), and gives the co
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING
 
 from modeproof.graph.columns import Columns
 from modeproof.ground.errors import Unjudged
-
-if TYPE_CHECKING:  # who judges by suites that are there needs no networks
-    import networkx
 
 _RESET, _SOURCE = -1, -2
 Arcs = dict[tuple[int, int], int]
@@ -23,7 +19,7 @@ Arcs = dict[tuple[int, int], int]
 
 def lower_bound(columns: Columns, initial: int) -> int:
     """Scans and resets that every suite needs which takes each transition. Raises Unjudged when unproved."""
-    import networkx
+    import networkx  # an installed tool that makes no suites has none
 
     supply, arcs = problem(columns, initial)
     network: networkx.DiGraph[int] = networkx.DiGraph()
