@@ -65,7 +65,7 @@ def test_the_help_is_there_at_once(installed: Installed, tmp_path: Path) -> None
 
 
 def test_what_is_not_installed_is_one_line(installed: Installed, tmp_path: Path) -> None:
-    done = installed.run(tmp_path, "modeproof", "check", "MC_SF_EDM", status=2)
+    done = installed.run(tmp_path, "modeproof", "check", "WIT_SF_EDM", status=2)
     [line] = done.stderr.splitlines()
     assert "the TLC jar is missing" in line and 'pip install "modeproof[tlc]"' in line
 
