@@ -27,7 +27,7 @@ from programs.language.tree import Place
 
 Values = Sequence[tuple[int, Mapping[str, Any], Mapping[str, Any]]]
 """Of each scan its time, the inputs, and the signals after it."""
-ORDER = ("REFUTED", "UNKNOWN", "NOT JUDGED", "PROVED")
+ORDER = ("REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY", "PROVED")
 _WIRE = re.compile(r"(.+):(\d+): ([\w.]+); ")
 _NAME = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 

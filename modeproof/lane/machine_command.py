@@ -14,7 +14,7 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.meaning import is_there, meaning_of, reached
-from modeproof.ground.places import TREE, documents, machines, root
+from modeproof.ground.places import TREE, adding, documents, machines, root
 from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
@@ -333,4 +333,4 @@ def _can_read() -> None:
     try:
         import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
-        raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
+        raise Unjudged(f"a wiring cannot be read: {error}; {adding('', 'it')}") from None

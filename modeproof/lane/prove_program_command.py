@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import adding
 from modeproof.ground.solvers import needing_solvers
 from modeproof.kit.kit_command import quoted
 from modeproof.output.options import About, add_options, carried_out
@@ -133,4 +134,4 @@ def _look(args: argparse.Namespace) -> None:
     try:
         import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
-        raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
+        raise Unjudged(f"programs cannot be read: {error}; {adding('', 'it')}") from None

@@ -26,6 +26,7 @@ from modeproof.tlc.rests import why_stale
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace import machine_log as machine
+from modeproof.trace.by_reference import judge_by_reference
 from modeproof.trace.exact import Scans
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
@@ -108,8 +109,11 @@ def judge(args: argparse.Namespace) -> Outcome:
         raise Unjudged(error.message + rather_of(place, target, args.log)) from None
     if not args.codes:
         log = without_codes(log, target)
-    tools = find_toolchain()
-    id = f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
+    try:
+        tools = find_toolchain()
+    except Unjudged as missing:
+        return _by_reference(place, args, target, log, clock, missing)
+    id = _id(args, target)
     evidence.discard(place, target.document, id, evidence.YOURS)
     started = time.time()
     graphs = Graphs(place, partial(_make_graphs, place, args.quiet))
@@ -127,7 +131,7 @@ def judge(args: argparse.Namespace) -> Outcome:
             say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
         )
     except Unjudged as error:
-        _write(place, args, target, log, id, started, tools, graphs, error.message)
+        _write(place, args, target, log, id, started, tools, graphs.used, error.message)
         raise
     why: Why | None = None
     unsaid = ""
@@ -140,7 +144,28 @@ def judge(args: argparse.Namespace) -> Outcome:
     print(text)
     if unsaid:
         print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
-    record = _write(place, args, target, log, id, started, tools, graphs, found, outcome, why)
+    record = _write(place, args, target, log, id, started, tools, graphs.used, found, outcome, why)
+    if args.json is not None:
+        write_whole(args.json, as_json("trace", found.status, record))
+    return outcome_of(args, target, found, why, record, text, clock)
+
+
+def _id(args: argparse.Namespace, target: Target) -> str:
+    return f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
+
+
+def _by_reference(
+    place: Path, args: argparse.Namespace, target: Target, log: Log, clock: Clock, missing: Unjudged
+) -> Outcome:
+    """The same without TLC, as far as that goes. Raises Unjudged."""
+    if target.system or args.samples is not None or args.begins == "anywhere":
+        raise Unjudged(f"{missing.message}; without it a log of one device from power-up can be judged")
+    id, started = _id(args, target), time.time()
+    evidence.discard(place, target.document, id, evidence.YOURS)
+    found, why = judge_by_reference(target, log)
+    text = as_text(target, found, why)
+    print(text)
+    record = _write(place, args, target, log, id, started, None, [], found, why=why)
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
     return outcome_of(args, target, found, why, record, text, clock)
@@ -193,15 +218,15 @@ def _write(
     log: Log,
     id: str,
     started: float,
-    tools: Toolchain,
-    graphs: Graphs,
+    tools: Toolchain | None,
+    graphs: Sequence[Path],
     found: Judgement | str,
     outcome: Ended | None = None,
     why: Why | None = None,
 ) -> dict[str, Any]:
     folder = place / "spec" / target.document
     registers = [folder / f"{name}.toml" for name in ("interface", "replay", "runs")]
-    inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
+    inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs]
     record = evidence.make(
         kind="trace",
         id=id,
@@ -215,7 +240,7 @@ def _write(
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),
-        tools=entries(tools, outcome.log.version if outcome is not None else ""),
+        tools={} if tools is None else entries(tools, outcome.log.version if outcome is not None else ""),
         result={
             "target": target.id,
             "log": {"name": args.log.name, "sha256": evidence.sha256(args.log), "lines": len(log.rows)},

@@ -38,10 +38,11 @@ class Taken:
     """A step that the specification takes in this scan, and the outputs after it, in Python form.
 
     `effects` are the conjuncts that set what the wrong outputs depend on, `outputs` their definitions.
+    The reference tells no step: then there is no place.
     """
 
     step: str
-    place: Place
+    place: Place | None
     cites: tuple[str, ...]
     expected: Mapping[str, Any]
     wrong: tuple[str, ...]
