@@ -44,7 +44,7 @@ FOLDER = Path("spec/machine_cell")
 DESIGN, CLAIM = "the project's own design after the five papers", "nothing here is a claim about a paper"
 OWN = f"{DESIGN}; {CLAIM}"
 TRUST = ("the reader of wirings", *TRUSTED)
-WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED")
+WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY")
 NAME = "machine"
 
 
@@ -212,7 +212,7 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     for verdict in found:
         yield from _verdict(machine, verdict)
     words = [verdict.word for verdict in found]
-    seen = WORDS if "NOT JUDGED" in words else WORDS[:3]
+    seen = (*WORDS[:3], *(word for word in WORDS[3:] if word in words))
     counts = [f"{words.count(word)} {word}" for word in seen]
     yield f"  verdicts    {', '.join(counts)}"
     if proved := [one.how for one in found if one.word == "PROVED"]:
