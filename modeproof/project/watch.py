@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
+from modeproof.output.outcome import TOOL
 from modeproof.project.basis import digest
 from modeproof.project.file import Listed, Wrong
 from modeproof.project.judging import Judged, Judging
@@ -82,7 +83,7 @@ class Watch:
         self.found = found
         for file in (file for one in found for file in one.outcome.files):
             path = self.judging.folder / file.path
-            if path not in self.stamps:
+            if path not in self.stamps and not file.path.startswith(TOOL):
                 self.stamps[path], self.hashes[path] = None, file.sha256
 
     def _changed(self) -> list[Path]:

@@ -43,6 +43,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
             **{"command": own[0], "subject": own[1], "target": "sf_edm", "word": word, "status": status},
             **{"sentence": word, "again": " ".join(own), "started": "", "seconds": 1.0, "demands": [demand]},
             files=outcome.files("program", [judging.folder / own[1]]),
+            tools=outcome.tools(),
         )
         outcome.write(Path(record), found)
         return status, ""
