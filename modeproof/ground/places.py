@@ -44,6 +44,13 @@ def _above() -> tuple[Path, ...]:
     return (here, *here.parents)
 
 
+def adding(extra: str, package: str) -> str:
+    """What to do where a package is missing that an extra of the wheel brings."""
+    if INSTALLED:
+        return f"pip install 'modeproof[{extra}]'" if extra else "pip install --force-reinstall modeproof"
+    return f"run `make venv` (it installs {package})"
+
+
 def project() -> Path:
     """The user's project: the nearest folder with a project file, from the current one up, else that one."""
     above = _above()

@@ -11,9 +11,7 @@ import contextlib
 import json
 import os
 import shlex
-import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -22,6 +20,7 @@ from typing import IO, Any, Protocol
 
 from modeproof.kit.errors import Unjudged, plain
 from modeproof.kit.lines import END, TOO_LONG, Lines, lines_of
+from modeproof.kit.process_group import APART, WINDOWS, end_all
 from modeproof.kit.signals import loads, shown
 
 LONGEST_LINE = 1 << 20
@@ -36,7 +35,6 @@ ENDING_S = 1.0
 _TAIL = 2000
 _REMEMBERED = 20_000
 _ENCODE = json.JSONEncoder(separators=(",", ":")).encode
-_WINDOWS = sys.platform == "win32"
 
 
 class Program(Protocol):
@@ -92,7 +90,6 @@ class Adapter:
         self._real_time = False
         self._requests: dict[tuple[Any, ...], bytes] = {}
         self._answers: dict[bytes, Mapping[str, Any]] = {}
-        group: dict[str, Any] = {} if _WINDOWS else {"start_new_session": True}
         try:
             self.process = subprocess.Popen(
                 self.command,
@@ -100,7 +97,7 @@ class Adapter:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.PIPE,
                 bufsize=0,
-                **group,
+                **APART,
             )
         except (OSError, ValueError) as error:
             cause = getattr(error, "strerror", None) or error
@@ -269,13 +266,7 @@ class Adapter:
         return f"{how}; it said: {plain(words[-1], 200)}" if words else how
 
     def _kill(self) -> None:
-        with contextlib.suppress(OSError):
-            if sys.platform == "win32":
-                subprocess.run(
-                    ["taskkill", "/T", "/F", "/PID", str(self.process.pid)], capture_output=True, check=False
-                )
-            else:
-                os.killpg(self.process.pid, signal.SIGKILL)
+        end_all(self.process.pid)
         with contextlib.suppress(OSError):
             self.process.kill()
 
@@ -319,10 +310,10 @@ def parse_answer(line: bytes) -> dict[str, Any]:
 def split_command(command: str) -> list[str]:
     """The words of a command line as this system writes it; no shell is used."""
     try:
-        words = shlex.split(command, posix=not _WINDOWS)
+        words = shlex.split(command, posix=not WINDOWS)
     except ValueError as error:
         raise Unjudged(f"--adapter: {error}: {command}") from None
-    return [word.strip('"') for word in words] if _WINDOWS else words
+    return [word.strip('"') for word in words] if WINDOWS else words
 
 
 def _printable(line: bytes) -> str:

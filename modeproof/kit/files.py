@@ -6,11 +6,15 @@ import contextlib
 import json
 import os
 import tempfile
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from modeproof.kit.errors import Unjudged
+
+_ATTEMPTS, _PAUSE_S = 20, 0.05
+"""A search engine or a virus scanner lets go of a file within a second; an editor may not."""
 
 
 def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
@@ -32,7 +36,7 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
             stream.flush()
             os.fsync(stream.fileno())
         os.chmod(part, mode)
-        os.replace(part, path)
+        _replace(part, path)
         part = ""
         with contextlib.suppress(OSError):  # not every system opens a folder
             folder = os.open(path.parent, os.O_RDONLY)
@@ -44,6 +48,16 @@ def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
         if part:
             with contextlib.suppress(OSError):
                 os.unlink(part)
+
+
+def _replace(part: str, path: Path) -> None:
+    """Put a file into its place. Windows refuses that while another program has the old one open."""
+    for _ in range(_ATTEMPTS - 1):
+        with contextlib.suppress(PermissionError):
+            os.replace(part, path)
+            return
+        time.sleep(_PAUSE_S)
+    os.replace(part, path)
 
 
 def write_json(path: Path, record: Mapping[str, Any]) -> None:

@@ -335,7 +335,7 @@ def _identity(args: argparse.Namespace) -> dict[str, Any]:
     """What a note of passed cases is true of: the program, as far as it can be known, and every option."""
     words = split_command(args.adapter) if args.adapter else []
     return {
-        "program": _program_words(args),
+        "program": program_words(args),
         "files": identity([*words, *([str(args.map)] if args.map else [])]) | package_files(args.builtin),
         **{name: getattr(args, name) for name in ("relation", "latency", "hold", "slow", "codes", "param")},
         "profile": profile_of(args),
@@ -369,7 +369,8 @@ def s7_adapter(args: argparse.Namespace, suite: Suite) -> list[str]:
     return command
 
 
-def _program_words(args: argparse.Namespace) -> str:
+def program_words(args: argparse.Namespace) -> str:
+    """The options that name the program."""
     if args.adapter is not None:
         return f"--adapter {quoted(args.adapter)}"
     if args.s7 is not None:
@@ -384,7 +385,7 @@ def again(args: argparse.Namespace, suite: Suite, verdict: Verdict) -> str:
         return ""
     packed = sys.argv[0].endswith(".pyz")
     words = [f"python3 {quoted(sys.argv[0])}" if packed else "modeproof", "conform", args.target]
-    words.append(_program_words(args))
+    words.append(program_words(args))
     if args.document:
         words.append(f"--document {args.document}")
     words.append(f"--vectors {quoted(str(suite.path))}" if args.vectors else f"--suite {suite.name}")

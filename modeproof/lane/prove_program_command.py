@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import ctypes
 import math
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import adding
 from modeproof.ground.solvers import needing_solvers
+from modeproof.kit.kit_command import quoted
+from modeproof.output.options import About, add_options, carried_out
+from modeproof.output.outcome import Outcome, shown_path
 
 SECONDS = 300
 """Limit of a search, of CPU time, where --seconds names no other."""
@@ -49,12 +55,66 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
         metavar="TOML",
         help="in the place of --target: properties of your own program",
     )
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
     return parser
 
 
 def run(args: argparse.Namespace) -> int:
     """Run it; the exit status is that of the verdict. Raises Unjudged."""
+    _look(args)
+    if args.recheck is None:
+        return carried_out(args).status
+    with needing_solvers():
+        from programs.commands import prove_program
+    with _not_too_deep([args.recheck]):
+        return prove_program.run_recheck(args)
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge the program, print the verdict, and return what was found. Raises Unjudged."""
+    _look(args)
+    with needing_solvers():
+        from programs.commands import prove_program, prove_properties
+    with _not_too_deep(args.files):
+        if args.property is not None:
+            return prove_properties.judge_properties(args)
+        return prove_program.judge_program(args)
+
+
+def about(args: argparse.Namespace) -> About:
+    """What the arguments ask for."""
+    words: list[object] = ["modeproof", "prove-program", *args.files]
+    for name in ("target", "property", "unit", "binding"):
+        if (given := getattr(args, name)) is not None:
+            words += [f"--{name}", given]
+    words += ["--wrap"] * args.wrap
+    return About(
+        command="prove-program",
+        subject=", ".join(map(shown_path, args.files)),
+        target=args.target or shown_path(args.property or ""),
+        again=" ".join(quoted(str(word)) for word in words),
+        files={"program": args.files, "binding": [args.binding], "properties": [args.property]},
+        part=args.unit or "",
+    )
+
+
+@contextlib.contextmanager
+def _not_too_deep(files: Sequence[Path]) -> Iterator[None]:
+    """Refuses what is too deep for Python: an expression, or a list of statements in one another."""
+    try:
+        yield
+    except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
+        if "recursion" not in f"{type(error).__name__} {error}".lower():
+            raise
+        raise Unjudged(
+            f"{', '.join(map(str, files))}: an expression, or a list of ELSIF, CASE or RETURN, is too long "
+            "or too deep for this reader; split it"
+        ) from None
+
+
+def _look(args: argparse.Namespace) -> None:
+    """Raises Unjudged for options that do not go together, or where a package is missing."""
     asked = [name for name in ("target", "property", "recheck") if getattr(args, name) is not None]
     if len(asked) != 1 or (args.recheck is None) != bool(args.files):
         raise Unjudged(
@@ -62,7 +122,7 @@ def run(args: argparse.Namespace) -> int:
             "your own; or a certificate alone, with --recheck"
         )
     beside = {
-        "recheck": ("binding", "unit", "wrap", "certificate", "vector", "junit", "json", "seconds"),
+        "recheck": ("binding", "unit", "wrap", "certificate", "vector", "junit", "json", "seconds", "record"),
         "property": ("vector",),
     }
     for name in beside.get(asked[0], ()):
@@ -74,16 +134,4 @@ def run(args: argparse.Namespace) -> int:
     try:
         import tree_sitter_iec61131_3_st  # noqa: F401
     except ImportError as error:
-        raise Unjudged(f"programs cannot be read: {error}; `make venv` installs what is missing") from None
-    with needing_solvers():
-        from programs.commands import prove_program, prove_properties
-    try:
-        return prove_program.run(args) if args.property is None else prove_properties.run(args)
-    except (RecursionError, ctypes.ArgumentError) as error:  # the latter is how z3 passes it on
-        if "recursion" not in f"{type(error).__name__} {error}".lower():
-            raise
-        files = ", ".join(map(str, args.files or [args.recheck]))
-        raise Unjudged(
-            f"{files}: an expression, or a list of ELSIF, CASE or RETURN, is too long or too deep for this "
-            "reader; split it"
-        ) from None
+        raise Unjudged(f"programs cannot be read: {error}; {adding('', 'it')}") from None

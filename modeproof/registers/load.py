@@ -46,21 +46,21 @@ def load_document(root: Path, name: str) -> Document:
     """
     if not (root / "spec" / name).is_dir():
         raise Unjudged(f"spec/{name}: no such document; {suggestion(name, documents(root))}")
-    clauses = read_register(root, name, "clauses", "paper", "chapter", "clause")
+    about, clauses = load_clauses(root, name)
     assumed = read_register(root, name, "assumptions", "assumption", "fault", "faults")
     at_faults = f"spec/{name}/assumptions.toml"
     faults = typed(Faults, assumed.get("faults", {}), f"{at_faults}: [faults]")
     return Document(
         root=root,
         name=name,
-        about=typed(About, clauses.get("paper", {}), f"spec/{name}/clauses.toml: [paper]"),
-        clauses=tuple(_clauses(f"spec/{name}/clauses.toml", clauses)),
+        about=about,
+        clauses=clauses,
         interface=load_interface(root, name),
         properties=tuple(
             prop if prop.tla else msgspec.structs.replace(prop, tla=prop.id)
             for prop in _rows(root, name, "properties", "property", Property, *TIMES)
         ),
-        findings=_rows(root, name, "findings", "finding", Finding),
+        findings=load_findings(root, name),
         assumptions=typed_rows(Assumption, at_faults, assumed, "assumption"),
         runs=load_runs(root, name),
         faults=typed_rows(Fault, at_faults, assumed, "fault") if "fault" in assumed else (),
@@ -68,6 +68,18 @@ def load_document(root: Path, name: str) -> Document:
         matrix=faults.matrix,
         responses=load_responses(root, name),
     )
+
+
+def load_clauses(root: Path, name: str) -> tuple[About, tuple[Clause, ...]]:
+    """Which paper it is, and its clauses; needs no other register. Raises Unjudged like `load_document`."""
+    source = f"spec/{name}/clauses.toml"
+    table = read_register(root, name, "clauses", "paper", "chapter", "clause")
+    return typed(About, table.get("paper", {}), f"{source}: [paper]"), tuple(_clauses(source, table))
+
+
+def load_findings(root: Path, name: str) -> tuple[Finding, ...]:
+    """The findings; needs no other register. Raises Unjudged like `load_document`."""
+    return _rows(root, name, "findings", "finding", Finding)
 
 
 def _clauses(source: str, data: Table) -> Iterator[Clause]:

@@ -34,19 +34,30 @@ RULES = (
     Rule("scenes", ("scenes", "refimpl", "modeproof/simulate/program"), stdlib_only=True),
     Rule("modeproof/simulate/program", ("modeproof/simulate/program",)),
     Rule("proofs", ("proofs", "refimpl", "modeproof/registers", "modeproof/kit/by_name")),
-    Rule("programs", ("programs", "proofs", "modeproof/registers", "modeproof/ground", "modeproof/kit")),
+    Rule(
+        "programs",
+        (
+            *("programs", "proofs", "modeproof/registers", "modeproof/ground", "modeproof/kit"),
+            "modeproof/output",
+        ),
+    ),
     Rule(
         "machines",
         (
             *("machines", "programs", "modeproof/registers", "modeproof/ground", "modeproof/kit"),
+            "modeproof/output",
             *("refimpl/machine_cell", "refimpl/errors"),
         ),
     ),
     Rule("modeproof/kit", ("modeproof/kit",), stdlib_only=True),
     Rule(
+        "modeproof/output",
+        ("modeproof/output", "modeproof/registers", "modeproof/ground", "modeproof/kit"),
+    ),
+    Rule(
         "modeproof/report",
         (
-            *("modeproof/report", "modeproof/registers", "modeproof/ground/evidence"),
+            *("modeproof/report", "modeproof/output", "modeproof/registers", "modeproof/ground/evidence"),
             *("modeproof/ground/errors", "modeproof/ground/meaning"),
             *("modeproof/ground/places", "modeproof/ground/progress"),
             # What judges evidence again
@@ -66,7 +77,8 @@ RULES = (
 
 ROOMS = (
     "refimpl",
-    *("modeproof/kit", "modeproof/s7", "modeproof/ground", "modeproof/registers", "modeproof/explain"),
+    *("modeproof/kit", "modeproof/s7", "modeproof/ground", "modeproof/registers", "modeproof/output"),
+    "modeproof/explain",
     "proofs",
     *("modeproof/tlc", "modeproof/graph", "modeproof/suites", "modeproof/strength", "modeproof/trace"),
     *("programs/language", "programs/semantics", "programs/readers", "programs/invariants"),
@@ -74,7 +86,7 @@ ROOMS = (
     "machines",
     "modeproof/report",
     *("modeproof/simulate/program", "scenes", "modeproof/simulate/program/page", "modeproof/simulate"),
-    *("modeproof/lane", "modeproof/cli", "modeproof/__main__"),
+    *("modeproof/project", "modeproof/lane", "modeproof/cli", "modeproof/__main__"),
 )
 """Every room from the ground up: a module imports from its own room and from those before it."""
 

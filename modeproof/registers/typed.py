@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Annotated, Any, TypeVar, get_args, get_origin
 
 import msgspec
@@ -71,6 +71,17 @@ def typed(kind: type[Row], values: Table, place: str) -> Row:
                 if isinstance(entry, str) and entry in value[:n]:
                     raise Unjudged(f"{place}: {key} holds {entry!r} twice")
     return row
+
+
+def rows_of(text: str) -> Iterator[tuple[int, str]]:
+    """The number of each line that begins a row, and the row as a path."""
+    above = ""
+    for number, line in enumerate(text.splitlines(), 1):
+        if head := re.match(r"\s*\[([^\[\]]+)\]", line):
+            above = head[1].replace(" ", "")
+            yield number, above
+        elif key := re.match(r"\s*([\w.-]+)\s*=", line):
+            yield number, f"{above}.{key[1]}".lstrip(".")
 
 
 def only_keys(source: str, data: Table, known: Iterable[str]) -> None:

@@ -8,6 +8,7 @@ from functools import cache
 from importlib import metadata, resources
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import adding
 
 SCRIPT, STYLE = "datatables-script", "datatables-style"
 """The ids of the payload; the page unpacks them when the first table comes into view."""
@@ -38,7 +39,7 @@ def tables() -> tuple[bytes, bytes]:
         style = folder.joinpath("dt_bundle.css").read_text(encoding="utf-8")
     except (ModuleNotFoundError, OSError) as error:
         raise Unjudged(
-            f"itables, which carries DataTables, cannot be read: {error}; run make setup"
+            f"itables, which carries DataTables, cannot be read: {error}; {adding('report', 'itables')}"
         ) from None
     found = list(_EXPORT.finditer(script))
     names = {

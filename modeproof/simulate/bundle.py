@@ -6,6 +6,7 @@ from importlib import metadata, resources
 from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import adding
 
 HERE = Path(__file__).parent
 
@@ -16,7 +17,7 @@ def brython() -> tuple[str, str]:
         text = resources.files("brython").joinpath("data", "brython.js").read_text(encoding="utf-8")
         version = metadata.version("brython")
     except (ModuleNotFoundError, OSError) as error:
-        raise Unjudged(f"Brython cannot be read: {error}; run make venv") from None
+        raise Unjudged(f"Brython cannot be read: {error}; {adding('simulate', 'brython')}") from None
     return text, f"Brython {version}, BSD-3-Clause, Copyright (c) 2012 Pierre Quentel, https://brython.info"
 
 

@@ -77,7 +77,9 @@ def png(place: Path, page: Path, id: str, step: int) -> bytes:
     try:
         from playwright.sync_api import Error, FloatRect, sync_playwright
     except ModuleNotFoundError:
-        raise Unjudged("playwright is missing, which drives Chromium; run make venv") from None
+        raise Unjudged(
+            "playwright is missing, which drives Chromium; only a checkout has it: run `make venv` there"
+        ) from None
     if chromium is None:
         raise Unjudged("Chromium is missing, which draws the page; install it, or ask for a .svg")
     try:

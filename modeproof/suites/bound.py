@@ -10,8 +10,6 @@ from __future__ import annotations
 
 from collections import Counter
 
-import networkx
-
 from modeproof.graph.columns import Columns
 from modeproof.ground.errors import Unjudged
 
@@ -21,6 +19,8 @@ Arcs = dict[tuple[int, int], int]
 
 def lower_bound(columns: Columns, initial: int) -> int:
     """Scans and resets that every suite needs which takes each transition. Raises Unjudged when unproved."""
+    import networkx  # an installed tool that makes no suites has none
+
     supply, arcs = problem(columns, initial)
     network: networkx.DiGraph[int] = networkx.DiGraph()
     for state, excess in supply.items():
@@ -52,6 +52,8 @@ def problem(columns: Columns, initial: int) -> tuple[Counter[int], Arcs]:
 
 def _prices(arcs: Arcs, flow: dict[int, dict[int, int]]) -> dict[int, int]:
     """Distances in the residual network from a source that reaches all (Bellman and Ford)."""
+    import networkx
+
     costs = dict(arcs)
     for (node, other), cost in arcs.items():
         if flow[node].get(other, 0) > 0:

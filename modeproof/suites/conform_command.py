@@ -26,15 +26,17 @@ from modeproof.ground.progress import Progress
 from modeproof.kit import kit_command
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.profile import ALL, LETTER
-from modeproof.kit.suite_judge import EXIT
-from modeproof.kit.text import as_record, joint_word, write_json
+from modeproof.kit.text import as_record, write_json
 from modeproof.kit.vectors import EXACT, SETTLED, WIRING, Suite, open_suite
 from modeproof.kit.verdict import Verdict
+from modeproof.output.options import Clock, add_options, carried_out
+from modeproof.output.outcome import Outcome
 from modeproof.registers.rows import Device
 from modeproof.registers.runs import Run
 from modeproof.registers.stale import stale
 from modeproof.registers.vector_files import of_machine, published, published_files, suite_name, why_stale
 from modeproof.suites.build import current_suite, find_target, make_graphs, ready_suite, say
+from modeproof.suites.conform_outcome import about, outcome_of
 from modeproof.suites.kinds import SUITES
 from modeproof.suites.write import NoCases
 from modeproof.tlc.rests import row_of
@@ -42,17 +44,29 @@ from modeproof.tlc.rests import row_of
 
 def add_parser(commands: Any) -> argparse.ArgumentParser:
     """Add `conform` to the commands."""
-    return kit_command.add_parser(commands, run=run)
+    parser = kit_command.add_parser(commands, run=run)
+    add_options(parser, judge, about)
+    return parser
 
 
 def run(args: argparse.Namespace) -> int:
     """Run `conform`; the exit status is that of the verdict."""
+    alone = args.builtin is not None and args.suite is None and args.vectors is None
+    if alone and not of_machines(root(), args.target):
+        if args.record is not None:
+            raise Unjudged("--record has no effect with --builtin alone, which compares our own code")
+        return _builtin(args)
+    return carried_out(args).status
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge a program by suites, print the verdicts, and return what was found. Raises Unjudged."""
+    clock = Clock()
     try:
         if suites := machine_suites(root(), args):
-            return EXIT[joint_word(kit_command.judge(args, kit_command.in_profile(args, suites)))]
-        if args.builtin is not None and args.suite is None and args.vectors is None:
-            return _builtin(args)
-        return _program(args)
+            suites = kit_command.in_profile(args, suites)
+            return outcome_of(args, suites, kit_command.judge(args, suites), clock)
+        return outcome_of(args, *_program(args), clock)
     except KitUnjudged as error:
         raise Unjudged(str(error)) from None
 
@@ -60,7 +74,7 @@ def run(args: argparse.Namespace) -> int:
 # ----------------------------------------------------------------------------------------------- adapter
 
 
-def _program(args: argparse.Namespace) -> int:
+def _program(args: argparse.Namespace) -> tuple[list[Suite], list[Verdict]]:
     place = root()
     document, device = find_target(place, args.target, args.document)
     if not device.published and args.builtin is None:
@@ -70,8 +84,7 @@ def _program(args: argparse.Namespace) -> int:
             raise Unjudged("--vectors names one file, and --suite others: give one of them")
         suites = kit_command.open_vectors(args)
     else:
-        with only_one(place):
-            suites = _suites(place, document, device, args)
+        suites = _suites(place, document, device, args)
     suites = kit_command.in_profile(args, suites)
     ours = _is_ours(args)
     if ours:  # by this Python, whatever `python` is here
@@ -87,7 +100,7 @@ def _program(args: argparse.Namespace) -> int:
             evidence.write(place, record)
         else:
             _write_yours(place, document, args, suite, verdict, started)
-    return EXIT[joint_word(verdicts)]
+    return suites, verdicts
 
 
 OWN = "examples/adapters/refimpl_adapter.py"
@@ -192,6 +205,11 @@ def _record(
     )
 
 
+def of_machines(place: Path, target: str) -> list[Path]:
+    """The published suites of a whole machine; none: the target is none."""
+    return [path for path in published_files(place, target) if of_machine(path)]
+
+
 def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
     """The suites asked for, if the target is a whole machine: it has vectors and no register.
 
@@ -200,7 +218,7 @@ def machine_suites(place: Path, args: argparse.Namespace) -> list[Suite]:
     if args.vectors is not None:
         suites = kit_command.open_vectors(args)
         return suites if all(WIRING in suite.header for suite in suites) else []
-    files = [path for path in published_files(place, args.target) if of_machine(path)]
+    files = of_machines(place, args.target)
     names = [suite_name(path) for path in files]
     asked = [name for name in args.suite or () if name != kit_command.FAST]
     if files and (strange := [name for name in asked if name not in names]):
@@ -235,8 +253,9 @@ def _suites(place: Path, document: str, device: Device, args: argparse.Namespace
             kit_command.greet(args, device.outputs)
             greeted = True
         try:
-            make_graphs(place, open_runs(place, document, args.target), args.quiet)
-            found.append(ready_suite(place, document, args.target, name, say))
+            with only_one(place, wait_for="this run"):
+                make_graphs(place, open_runs(place, document, args.target), args.quiet)
+                found.append(ready_suite(place, document, args.target, name, say))
         except NoCases:
             if name in (args.suite or ()):
                 raise

@@ -24,7 +24,7 @@ step of the specification each scan takes. What the outputs must be, it does not
 
     [[branch]]                          another ending: the flow up to the step `at`, then these scans
     of = "switch on"
-    at = ["SwitchOn"]                   one case for each; {at} names it; "end" goes on after the flow
+    at = ["SwitchOn"]                   one case for each; {at} names it; "end", or no `at`: after the flow
     why = "Figure 1: the word of the other button switches nothing on ({at} does not come)."
     clauses = ["LAMP-1-2"]
     for = { n = [0, 1], other = [0, 1] }
@@ -77,30 +77,16 @@ Names = Mapping[str, int]
 
 def plan(device: DeviceGraph, columns: Columns) -> Scripts:
     """The cases that the document's room declares for this graph; `notes` count them by flow."""
-    found = _Declared(device)
+    found = _Cases(device)
     cases = list(found.cases())
     return Scripts(cases, {"clauses": sorted({clause for case in cases for clause in case.clauses})})
 
 
-def _read(place: Path, document: str) -> dict[str, Any]:
-    path = place / "spec" / document / FILE
-    return read_toml(place, path) if path.is_file() else {}
+class Declared:
+    """The rows of a document's file, each with all that it needs and nothing else. Raises Unjudged."""
 
-
-@dataclass(frozen=True)
-class _Scan:
-    """One scan as declared; `set` may still name tables."""
-
-    set: Mapping[str, Any]
-    dt_ms: int | None
-    step: str
-
-
-class _Declared:
-    def __init__(self, device: DeviceGraph) -> None:
-        self.device, self.alphabet = device, Alphabet(device)
-        self.where = f"spec/{device.document}/{FILE}"
-        rows = {} if device.place is None else _read(device.place, device.document)
+    def __init__(self, rows: Mapping[str, Any], document: str) -> None:
+        self.where = f"spec/{document}/{FILE}"
         self.tables: Mapping[str, list[Any]] = rows.get("tables", {})
         self.groups: Mapping[str, list[str]] = rows.get("groups", {})
         every = rows.get("flow", [])
@@ -117,12 +103,8 @@ class _Declared:
                 raise Unjudged(f"{self.where}: a branch of {row['of']!r}, which is no flow")
             self.branches.append(row)
 
-    def _is_mine(self, row: Mapping[str, Any]) -> bool:
-        graphs = [row["graph"]] if isinstance(row["graph"], str) else row["graph"]
-        return row["device"] == self.device.device.id and self.device.run in graphs
-
     def _only(self, row: Mapping[str, Any], allowed: set[str], name: object) -> None:
-        optional = {"for", "when", "basis"} | ({"graph"} if "of" in allowed else set())
+        optional = {"for", "when", "basis"} | ({"graph", "at"} if "of" in allowed else set())
         missing = allowed - optional - set(row)
         if set(row) - allowed or missing:
             odd = sorted((set(row) - allowed) | missing)[0]
@@ -130,6 +112,36 @@ class _Declared:
         for scan in row["scans"]:
             if set(scan) - _SCAN or "step" not in scan:
                 raise Unjudged(f"{self.where}: {name}: a scan needs `step` and has set, dt_ms, times besides")
+
+
+def read(place: Path, document: str) -> Declared:
+    """What the document's room declares; nothing where it has no such file."""
+    path = place / "spec" / document / FILE
+    return Declared(read_toml(place, path) if path.is_file() else {}, document)
+
+
+@dataclass(frozen=True)
+class _Scan:
+    """One scan as declared; `set` may still name tables."""
+
+    set: Mapping[str, Any]
+    dt_ms: int | None
+    step: str
+
+
+class _Cases:
+    def __init__(self, device: DeviceGraph) -> None:
+        self.device, self.alphabet = device, Alphabet(device)
+        self.where = f"spec/{device.document}/{FILE}"
+        declared = (
+            Declared({}, device.document) if device.place is None else read(device.place, device.document)
+        )
+        self.tables, self.groups = declared.tables, declared.groups
+        self.flows, self.branches = declared.flows, declared.branches
+
+    def _is_mine(self, row: Mapping[str, Any]) -> bool:
+        graphs = [row["graph"]] if isinstance(row["graph"], str) else row["graph"]
+        return row["device"] == self.device.device.id and self.device.run in graphs
 
     # --------------------------------------------------------------------------------------------- cases
 
@@ -145,7 +157,7 @@ class _Declared:
     def _branch(self, name: str, flow: Mapping[str, Any], branch: Mapping[str, Any]) -> Iterator[Script]:
         main = self._scans(flow)
         steps = [scan.step for scan in main]
-        for at in branch.get("at", ["end"]):
+        for at in branch.get("at", [END]):
             if at not in (*steps, END):
                 raise Unjudged(f"{self.where}: a branch of {name} at {at}, which is no step of it")
             begins = len(steps) if at == END else steps.index(at)

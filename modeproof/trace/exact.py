@@ -9,15 +9,19 @@ between them and its scan time allow, first with the inputs of the one and then 
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+
+import msgspec
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.places import build
 from modeproof.registers.runs import Run
 from modeproof.registers.tla import closure, read_modules
+from modeproof.tlc.children import room
 from modeproof.tlc.messages import essence
 from modeproof.tlc.process import Outcome, run_tlc
 from modeproof.tlc.tla_values import TlaError, canonical, parse
@@ -187,11 +191,9 @@ class _Work:
     def told(self, pieces: Sequence[_Piece]) -> tuple[_Told, ...]:
         """What TLC says of these pieces."""
         name = f"Trace_{self.target.id}"
-        folder = build(self.place) / "trace" / self.target.document / name
-        write_whole(folder / f"{name}.tla", self.text(name, pieces).encode())
-        write_whole(folder / f"{name}.cfg", cfg_text(self.target).encode())
         run = trace_run(self.target, name, HEAP_ANYWHERE_MB if self.anywhere else HEAP_MB)
-        self.outcome = checked(run.name, run_tlc(self.place, run, self.tools, made_in=folder))
+        texts = {f"{name}.tla": self.text(name, pieces), run.cfg: cfg_text(self.target)}
+        self.outcome = run_alone(self.place, run, self.tools, texts)
         best = [self.before(piece) for piece in pieces]
         views: list[list[Mapping[str, str]]] = [[] for _ in pieces]
         states: list[list[str]] = [[] for _ in pieces]
@@ -333,6 +335,24 @@ def _exact(after: str) -> list[str]:
         "        LET w == LogRead(v, t) IN LogScan(w) /\\ LogFitsAfter(w, LogOut(line + 1))",
         "    /\\ line' = line + 1 /\\ log' = log",
     ]
+
+
+def run_alone(place: Path, run: Run, tools: Toolchain, texts: Mapping[str, str]) -> Outcome:
+    """Let TLC judge a module that was made here. Several processes may do so at once: each has a folder and
+    a log of its own, which are gone when it is done. Raises Unjudged as `checked`.
+    """
+    apart = msgspec.structs.replace(run, id=f"{run.id}-{os.getpid()}")
+    try:
+        folder = build(place) / "trace" / run.document
+        folder.mkdir(parents=True, exist_ok=True)
+        with room(f"{apart.id}.", folder) as own:
+            for name, text in texts.items():
+                write_whole(own / name, text.encode())
+            return checked(run.name, run_tlc(place, apart, tools, made_in=own))
+    except OSError as error:
+        raise Unjudged(f"{run.name}: {error.filename}: {error.strerror or error}") from None
+    finally:
+        (build(place) / "tlc" / run.document / f"{apart.id}.log").unlink(missing_ok=True)
 
 
 def trace_run(target: Target, name: str, heap_mb: int) -> Run:

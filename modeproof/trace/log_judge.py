@@ -118,14 +118,19 @@ def compared(target: Target, log: Log, passed: Mapping[str, Mapping[str, str]]) 
     return Compared(outputs, lines)
 
 
+BY_TLC, BY_REFERENCE = "TLC", "reference"
+"""Who judged."""
+
+
 @dataclass(frozen=True)
 class Judgement:
-    """What came out for one log. `accepted` lines fit the specification, by TLC."""
+    """What came out for one log. `accepted` lines fit the specification, by TLC or by the reference."""
 
     log: Log
     followed: Followed | NotFollowed
     matched: Matched
     compared: Compared
+    by: str = BY_TLC
 
     @property
     def accepted(self) -> int:

@@ -22,8 +22,11 @@ from modeproof.kit.builtin import REFERENCE
 from modeproof.kit.errors import Unjudged as KitUnjudged
 from modeproof.kit.errors import plain
 from modeproof.kit.machine_reference import Wired
+from modeproof.output.options import Clock
+from modeproof.output.outcome import Outcome
 from modeproof.registers.rows import Device, Signal
 from modeproof.trace.log import Log, Row
+from modeproof.trace.outcomes import outcome_of_machine
 from modeproof.trace.targets import Part, Target
 
 FILE = "wiring.toml"
@@ -47,8 +50,10 @@ def is_machine(place: Path, name: str) -> bool:
     return (place / "spec" / name / FILE).is_file()
 
 
-def run(args: argparse.Namespace, place: Path, read: Callable[[argparse.Namespace, Target], Log]) -> int:
-    """Judge a log; the exit status is that of the verdict. Raises Unjudged."""
+def judge(
+    args: argparse.Namespace, place: Path, read: Callable[[argparse.Namespace, Target], Log], clock: Clock
+) -> Outcome:
+    """Judge a log, print the verdict, and return what was found. Raises Unjudged."""
     file = args.wiring or place / "spec" / args.target / FILE
     if args.samples is not None or args.begins != "power-up":
         raise Unjudged("a log of a machine has every scan from power-up: no --samples, no --from anywhere")
@@ -58,7 +63,8 @@ def run(args: argparse.Namespace, place: Path, read: Callable[[argparse.Namespac
     log = read(args, target)
     found = judged(log, target, program, (0, *table["scan_ms"], table["cycle_ms"]))
     word = "CONFORMS" if found.accepted == len(log.rows) else "DIFFERS"
-    print("\n".join(plain(line, LONGEST) for line in lines_of(log, target, found, word, file)))
+    text = "\n".join(plain(line, LONGEST) for line in lines_of(log, target, found, word, file))
+    print(text)
     if args.json is not None:
         status = int(word == "DIFFERS")
         row = None if word == "CONFORMS" else log.rows[found.accepted]
@@ -75,7 +81,14 @@ def run(args: argparse.Namespace, place: Path, read: Callable[[argparse.Namespac
             "expected": dict(found.expected),
         }
         write_whole(args.json, (json.dumps(record, indent=1) + "\n").encode())
-    return int(word == "DIFFERS")
+    unseen = [name for name, count in found.compared.items() if not count]
+    return outcome_of_machine(
+        args, log, found.accepted, found.expected, file, [*map(_unseen, unseen), NOT_SHOWN], text, clock
+    )
+
+
+def _unseen(name: str) -> str:
+    return f"output {name}: no line that fits shows it"
 
 
 def _table(file: Path) -> dict[str, Any]:

@@ -24,7 +24,7 @@ def as_text(target: Target, found: Judgement, why: Why | None = None, samples: S
     lines = [f"{log.name}: {found.accepted:,} of {total:,} {unit} of {target.id} fit the specification"]
     lines += [f"  {line}" for line in _observed(target, found)]
     lines.append(f"  by graph: {_followed(found.followed, unit)}")
-    lines.append(f"  by TLC:   {found.accepted:,} {unit}{_exactness(target, found, samples)}")
+    lines.append(f"  {f'by {found.by}:':<9} {found.accepted:,} {unit}{_exactness(target, found, samples)}")
     if found.accepted < total:
         row = log.rows[found.accepted]
         lines.append(f"first impossible {unit[:-1]}: {found.accepted + 1:,}, line {row.line} of the log")
@@ -135,7 +135,8 @@ def _taken(target: Target, row: Row, taken: Taken) -> list[str]:
             shown_value(target, row.device, name, values[name]) for values in (taken.expected, row.outputs)
         )
         lines.append(f"{name:<{width}}  {expected:<9}  {logged}")
-    lines.append(f"the specification takes {taken.step} ({taken.place}: {', '.join(taken.cites)})")
+    if taken.place is not None:
+        lines.append(f"the specification takes {taken.step} ({taken.place}: {', '.join(taken.cites)})")
     lines += [f"  {effect.place}: {effect.text}" for effect in taken.effects]
     lines += [f"  {place}: {text}" for text, place in taken.outputs]
     return lines
@@ -183,7 +184,10 @@ def as_record(target: Target, found: Judgement, why: Why | None = None) -> dict[
         "graph": {"not_followed": one.reason}
         if isinstance(one, NotFollowed)
         else {"accepted": one.accepted, "left_open": list(one.open), "runs": list(one.runs)},
-        "tlc": {"accepted": found.matched.accepted, "states": [dict(view) for view in found.matched.views]},
+        found.by.lower(): {
+            "accepted": found.matched.accepted,
+            "states": [dict(view) for view in found.matched.views],
+        },
         "why": None if why is None else _why_record(target, found.log.rows[found.accepted], why),
     }
 
@@ -204,7 +208,7 @@ def _why_record(target: Target, row: Row, why: Why) -> dict[str, Any]:
         "taken": [
             {
                 "step": action.step,
-                "place": str(action.place),
+                "place": str(action.place or ""),
                 "cites": list(action.cites),
                 "expected": {
                     name: target.forms.to_wire(device.outputs[name], value)

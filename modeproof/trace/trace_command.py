@@ -6,6 +6,8 @@ import argparse
 import re
 import sys
 import time
+from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,16 +17,21 @@ from modeproof.ground.evidence.files import write_whole
 from modeproof.ground.lock import only_one
 from modeproof.ground.places import root
 from modeproof.kit.errors import plain
-from modeproof.kit.kit_command import quoted
+from modeproof.output.options import Clock, add_options, carried_out
+from modeproof.output.outcome import Outcome
+from modeproof.registers.runs import Run
 from modeproof.suites.build import make_graphs
-from modeproof.tlc.process import Outcome
+from modeproof.tlc.process import Outcome as Ended
+from modeproof.tlc.rests import why_stale
 from modeproof.tlc.start_up import entries
 from modeproof.tlc.toolchain import Toolchain, find_toolchain
 from modeproof.trace import machine_log as machine
+from modeproof.trace.by_reference import judge_by_reference
 from modeproof.trace.exact import Scans
 from modeproof.trace.lines import read_lines
 from modeproof.trace.log import Log, without_codes
 from modeproof.trace.log_judge import Graphs, Judgement, judge_logs, why_not
+from modeproof.trace.outcomes import about, outcome_of
 from modeproof.trace.table import TableForm, read_table, wire_param
 from modeproof.trace.targets import Target, find_target, rather_of
 from modeproof.trace.text import as_json, as_record, as_text
@@ -79,14 +86,20 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--json", metavar="FILE", type=Path, help="write the result as JSON as well")
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
+    add_options(parser, judge, about)
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run `trace`; the exit status is that of the verdict."""
-    place = root()
+    return carried_out(args).status
+
+
+def judge(args: argparse.Namespace) -> Outcome:
+    """Judge a log, print the verdict, and return what was found. Raises Unjudged."""
+    place, clock = root(), Clock()
     if machine.is_machine(place, args.target):
-        return machine.run(args, place, read_log)
+        return machine.judge(args, place, read_log, clock)
     if args.wiring is not None:
         raise Unjudged(f"--wiring is for a whole machine, and {args.target} is none")
     target = find_target(place, args.target, args.document)
@@ -96,42 +109,73 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged(error.message + rather_of(place, target, args.log)) from None
     if not args.codes:
         log = without_codes(log, target)
-    tools = find_toolchain()
-    id = f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
-    with only_one(place):
-        evidence.discard(place, target.document, id, evidence.YOURS)
-        started = time.time()
-        graphs = Graphs(place, lambda runs: make_graphs(place, runs, args.quiet))
-        if not args.quiet:
-            print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+    try:
+        tools = find_toolchain()
+    except Unjudged as missing:
+        return _by_reference(place, args, target, log, clock, missing)
+    id = _id(args, target)
+    evidence.discard(place, target.document, id, evidence.YOURS)
+    started = time.time()
+    graphs = Graphs(place, partial(_make_graphs, place, args.quiet))
+    if not args.quiet:
+        print(f"TLC reads {len(log.rows):,} lines", file=sys.stderr, flush=True)
+    try:
+        (found,), outcome = judge_logs(
+            place,
+            target,
+            [log],
+            graphs,
+            tools,
+            anywhere=args.begins == "anywhere",
+            samples=args.samples,
+            say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
+        )
+    except Unjudged as error:
+        _write(place, args, target, log, id, started, tools, graphs.used, error.message)
+        raise
+    why: Why | None = None
+    unsaid = ""
+    if args.samples is None:
         try:
-            (found,), outcome = judge_logs(
-                place,
-                target,
-                [log],
-                graphs,
-                tools,
-                anywhere=args.begins == "anywhere",
-                samples=args.samples,
-                say=lambda line: None if args.quiet else print(plain(line), file=sys.stderr, flush=True),
-            )
-        except Unjudged as error:
-            _write(place, args, target, log, id, started, tools, graphs, error.message)
-            raise
-        why: Why | None = None
-        unsaid = ""
-        if args.samples is None:
-            try:
-                why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
-            except Unjudged as error:  # the verdict stands all the same
-                unsaid = error.message
-        print(as_text(target, found, why, args.samples))
-        if unsaid:
-            print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
-        record = _write(place, args, target, log, id, started, tools, graphs, found, outcome, why)
+            why = why_not(place, target, found, graphs, tools, anywhere=args.begins == "anywhere")
+        except Unjudged as error:  # the verdict stands all the same
+            unsaid = error.message
+    text = as_text(target, found, why, args.samples)
+    print(text)
+    if unsaid:
+        print(f"modeproof: no explanation: {unsaid}", file=sys.stderr)
+    record = _write(place, args, target, log, id, started, tools, graphs.used, found, outcome, why)
     if args.json is not None:
         write_whole(args.json, as_json("trace", found.status, record))
-    return found.status
+    return outcome_of(args, target, found, why, record, text, clock)
+
+
+def _id(args: argparse.Namespace, target: Target) -> str:
+    return f"trace_{target.id}_{re.sub(r'[^A-Za-z0-9_.-]', '_', args.log.stem)}"
+
+
+def _by_reference(
+    place: Path, args: argparse.Namespace, target: Target, log: Log, clock: Clock, missing: Unjudged
+) -> Outcome:
+    """The same without TLC, as far as that goes. Raises Unjudged."""
+    if target.system or args.samples is not None or args.begins == "anywhere":
+        raise Unjudged(f"{missing.message}; without it a log of one device from power-up can be judged")
+    id, started = _id(args, target), time.time()
+    evidence.discard(place, target.document, id, evidence.YOURS)
+    found, why = judge_by_reference(target, log)
+    text = as_text(target, found, why)
+    print(text)
+    record = _write(place, args, target, log, id, started, None, [], found, why=why)
+    if args.json is not None:
+        write_whole(args.json, as_json("trace", found.status, record))
+    return outcome_of(args, target, found, why, record, text, clock)
+
+
+def _make_graphs(place: Path, quiet: bool, runs: Sequence[Run]) -> None:
+    """Have what is missing made; a run that makes it already is waited for."""
+    if any(why_stale(place, run) for run in runs):
+        with only_one(place, wait_for="this log"):
+            make_graphs(place, runs, quiet)
 
 
 def scan_times(text: str) -> Scans:
@@ -174,19 +218,15 @@ def _write(
     log: Log,
     id: str,
     started: float,
-    tools: Toolchain,
-    graphs: Graphs,
+    tools: Toolchain | None,
+    graphs: Sequence[Path],
     found: Judgement | str,
-    outcome: Outcome | None = None,
+    outcome: Ended | None = None,
     why: Why | None = None,
 ) -> dict[str, Any]:
     folder = place / "spec" / target.document
     registers = [folder / f"{name}.toml" for name in ("interface", "replay", "runs")]
-    inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs.used]
-    options = [f"--param {quoted(given)}" for given in args.param]
-    options += ["--from anywhere"] if args.begins == "anywhere" else []
-    options += [f"--samples {str(args.samples).replace(' to ', '-')}"] if args.samples else []
-    options += ["--codes"] if args.codes else []
+    inputs = [*registers, *sorted(folder.glob("*.tla")), *graphs]
     record = evidence.make(
         kind="trace",
         id=id,
@@ -196,11 +236,11 @@ def _write(
         as_expected=not isinstance(found, str) and found.status == 0,
         environment="as the log",
         strength=f"one log of {len(log.rows):,} lines",
-        command=" ".join(["modeproof trace", target.id, quoted(str(args.log)), *options]),
+        command=about(args).again,
         started=started,
         seconds=time.time() - started,
         inputs=evidence.hashes(place, [path for path in inputs if path.is_file()]),
-        tools=entries(tools, outcome.log.version if outcome is not None else ""),
+        tools={} if tools is None else entries(tools, outcome.log.version if outcome is not None else ""),
         result={
             "target": target.id,
             "log": {"name": args.log.name, "sha256": evidence.sha256(args.log), "lines": len(log.rows)},

@@ -14,15 +14,12 @@ from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import Unjudged
-from modeproof.ground.evidence.files import write_whole
-from modeproof.ground.places import build
 from modeproof.suites.write import Citations
 from modeproof.tlc.parse_tree import ParseTree, Place, read_tree
-from modeproof.tlc.process import run_tlc
 from modeproof.tlc.tla_values import canonical, parse
 from modeproof.tlc.toolchain import Toolchain
 from modeproof.trace.alphabet import Alphabet
-from modeproof.trace.exact import HEAP_MB, checked, constant_definitions, trace_run
+from modeproof.trace.exact import HEAP_MB, constant_definitions, run_alone, trace_run
 from modeproof.trace.follow import timeless
 from modeproof.trace.guards import Conjunct, Effect, Guards
 from modeproof.trace.log import Log, Row, Rows
@@ -41,10 +38,11 @@ class Taken:
     """A step that the specification takes in this scan, and the outputs after it, in Python form.
 
     `effects` are the conjuncts that set what the wrong outputs depend on, `outputs` their definitions.
+    The reference tells no step: then there is no place.
     """
 
     step: str
-    place: Place
+    place: Place | None
     cites: tuple[str, ...]
     expected: Mapping[str, Any]
     wrong: tuple[str, ...]
@@ -197,7 +195,6 @@ class _Question:
         self.part = target.parts[row.device]
         self.passed = passed
         self.name = f"Why_{target.id}"
-        self.folder = build(place) / "trace" / target.document / self.name
         self.place = place
         self.guards = Guards(tree, self.part.scan, self.part.device.steps)
         self.near = near
@@ -211,13 +208,13 @@ class _Question:
         """What the specification does, and what was in the way of what the log shows."""
         if not self.views or not self.inputs:
             return (), ()
-        for module, path in self.tree.files.items():
-            text = _LOCAL.sub("     ", path.read_text(encoding="utf-8"))
-            write_whole(self.folder / f"{module}.tla", text.encode())
-        write_whole(self.folder / f"{self.name}.tla", self._text().encode())
-        write_whole(self.folder / f"{self.name}.cfg", self._cfg().encode())
+        texts = {
+            f"{module}.tla": _LOCAL.sub("     ", path.read_text(encoding="utf-8"))
+            for module, path in self.tree.files.items()
+        }
         run = trace_run(self.target, self.name, HEAP_MB)
-        outcome = checked(run.name, run_tlc(self.place, run, tools, made_in=self.folder))
+        texts |= {f"{self.name}.tla": self._text(), run.cfg: self._cfg()}
+        outcome = run_alone(self.place, run, tools, texts)
         rows = [parse(line.decode()) for line in sorted(outcome.printed)]
         taken: dict[tuple[str, tuple[str, ...]], Taken] = {}
         for _, _, of, step, outputs in (row for row in rows if row[0] == "TAKES"):

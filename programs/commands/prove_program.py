@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
+import os
 import sys
 import time
 from collections.abc import Iterator, Mapping
@@ -12,9 +14,13 @@ from typing import Any
 
 from modeproof.ground.places import build, root
 from modeproof.kit.files import write_text
+from modeproof.kit.kit_command import quoted
+from modeproof.output.options import Clock
+from modeproof.output.outcome import Outcome
 from programs.certificates import certificate_folder as folder
 from programs.certificates import equality_certificate as certificate
 from programs.certificates.recheck import recheck
+from programs.commands.outcomes import outcome_of_equality
 from programs.commands.results import Case, junit_of, vector_of, write_record
 from programs.equality.binding import read_binding
 from programs.equality.comparison import about, make
@@ -27,11 +33,17 @@ EXIT = {"PROVED": 0, "REFUTED": 1, "UNKNOWN": 2}
 TRUSTED = (*certificate.TRUSTED, "z3")
 
 
-def run(args: argparse.Namespace) -> int:
-    """Judge the program and print the verdict; the exit status is that of the verdict."""
+def run_recheck(args: argparse.Namespace) -> int:
+    """Check a certificate; the exit status is that of the check."""
     started = time.process_time()
-    if args.recheck is not None:
-        return _recheck(args, started)
+    found = recheck(args.recheck)
+    print("\n".join(found.lines(time.process_time() - started)))
+    return found.status
+
+
+def judge_program(args: argparse.Namespace) -> Outcome:
+    """Judge the program, print the verdict, and return what was found. Raises Unjudged."""
+    started, clock = time.process_time(), Clock()
     given = {} if args.binding is None else read_binding(args.binding)
     product = make(args.files, args.target, args.unit, given, args.wrap)
 
@@ -53,7 +65,8 @@ def run(args: argparse.Namespace) -> int:
         lines.append(f"  vector      {_keep(found, args.vector)}")
     tell("")
     seconds = time.process_time() - started
-    print("\n".join([*text_of(found, seconds), *lines]))
+    text = "\n".join([*text_of(found, seconds), *lines])
+    print(text)
     record = record_of(found, seconds, ways)
     if args.binding is not None:
         record["binding_file"] = {str(args.binding): hashlib.sha256(args.binding.read_bytes()).hexdigest()}
@@ -62,7 +75,7 @@ def run(args: argparse.Namespace) -> int:
         said = {"compared": ", ".join(record["compared"]), "left out": ", ".join(record["left_out"])}
         case = Case(record["unit"], found.word, "\n".join(text_of(found, seconds)), said | record["sources"])
         write_text(args.junit, junit_of(record["target"], [case], record["cpu_seconds"]))
-    return EXIT[found.word]
+    return outcome_of_equality(args, found, record, text, clock)
 
 
 def _keep(found: Verdict, path: Path | None) -> str:
@@ -76,13 +89,15 @@ def _keep(found: Verdict, path: Path | None) -> str:
     if path is None:
         place.parent.mkdir(parents=True, exist_ok=True)
     write_text(place, vector_of(found.difference, found.product.binding))
-    return f"{place}; test it with `modeproof conform {reference.device.name} --vectors {place} ...`"
+    here = quoted(_from_here(place))
+    return f"{here}; test it with `modeproof conform {reference.device.name} --vectors {here} ...`"
 
 
-def _recheck(args: argparse.Namespace, started: float) -> int:
-    found = recheck(args.recheck)
-    print("\n".join(found.lines(time.process_time() - started)))
-    return found.status
+def _from_here(path: Path) -> str:
+    """A path from the current folder, where there is one: there is none to another drive."""
+    with contextlib.suppress(ValueError):
+        return os.path.relpath(path)
+    return str(path)
 
 
 # ---------------------------------------------------------------- what is printed

@@ -12,8 +12,11 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.kit.files import write_text
+from modeproof.output.options import Clock
+from modeproof.output.outcome import Outcome
 from programs.certificates import property_certificate
 from programs.certificates.certificate_folder import digest, tools
+from programs.commands.outcomes import outcome_of_properties
 from programs.commands.results import Case, junit_of, write_record
 from programs.language.tool_differences import assumed
 from programs.properties.property_file import read_questions
@@ -26,11 +29,14 @@ TRUSTED = (*property_certificate.TRUSTED, "z3")
 WRAP = "wrap where they leave their types; that they never do was not asked"
 
 
-def run(args: argparse.Namespace) -> int:
-    """Judge each property and print it; 1 if one is REFUTED, else 2 if one is not PROVED, else 0."""
+def judge_properties(args: argparse.Namespace) -> Outcome:
+    """Judge each property, print it, and return what was found. Raises Unjudged.
+
+    The status is 1 if one is REFUTED, else 2 if one is not PROVED, else 0.
+    """
     if args.binding is not None:
         raise Unjudged("--binding belongs to --target; properties use the names of the program")
-    started = time.process_time()
+    started, clock = time.process_time(), Clock()
 
     def tell(text: str) -> None:
         if sys.stderr.isatty():
@@ -46,13 +52,15 @@ def run(args: argparse.Namespace) -> int:
         lines.append("  certificate none: not every property is PROVED")
     tell("")
     seconds = time.process_time() - started
-    print("\n".join([*text_of(cell, found, seconds), *lines]))
+    text = "\n".join([*text_of(cell, found, seconds), *lines])
+    print(text)
     record = record_of(cell, found, args.property, seconds)
     write_record(root(), record, args.json)
     if args.junit is not None:
         cases = [_case(cell, verdict) for verdict in found]
         write_text(args.junit, junit_of(cell.unit.name, cases, record["cpu_seconds"]))
-    return status(found)
+    questions = read_questions(args.property)
+    return outcome_of_properties(args, cell, found, questions, record, text, clock)
 
 
 def _case(cell: Cell, found: Found) -> Case:

@@ -324,6 +324,10 @@ class Binding:
         signals = self.reference.signals("outputs")
         return {name: (self._path(name, "output") or "", signals[name]) for name in self.compared}
 
+    def variable_of(self, output: str) -> str:
+        """The program's variable for an output that is compared, in upper case."""
+        return self._taken[output][0]
+
     def plain_outputs(self, own: Mapping[str, Any]) -> dict[str, Any]:
         """The interpreter's outputs by the names of the document."""
         by_key = {name.upper(): value for name, value in own.items()}

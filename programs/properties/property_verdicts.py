@@ -27,12 +27,15 @@ FEW_SCANS, MOST_SCANS = 6, 40
 """Scans of a counterexample that is looked for at once, and in the end."""
 
 
+SAYS_NOTHING = "no values of its names make it false, so it says nothing"
+
+
 @dataclass(frozen=True)
 class Found:
     """What came out for one property.
 
     PROVED for ever; HOLDS in the first `scans` scans; REFUTED by `trace`; UNKNOWN; EMPTY: it holds only
-    because its trigger can never be true.
+    because its trigger can never be true, or because no values make it false.
     """
 
     asked: Asked
@@ -214,7 +217,9 @@ class Judgement:
         return self._searched(asked, bad, time.process_time() + self.seconds / 2)
 
     def _proved(self, asked: Asked, proof: Proof, until: float) -> Found:
-        """PROVED, if what triggers it can be true."""
+        """PROVED, if it can be false and what triggers it can be true."""
+        if self.cell.says_nothing(asked):
+            return Found(asked, "EMPTY", SAYS_NOTHING)
         reached = []
         for text, trigger in asked.trigger:
             term = self._put(z3.And(self.whole.inside, self.cell.holds(trigger)))

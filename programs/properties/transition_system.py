@@ -174,6 +174,15 @@ class Cell:
         found: z3.BoolRef = z3.simplify(term)
         return found
 
+    def says_nothing(self, asked: Asked) -> bool:
+        """Whether a property is true whatever its names stand for, so that no program can break it."""
+        if asked.holds is None or asked.once is not None:
+            return False
+        free = {path: z3.FreshConst(term.sort()) for path, term in self.after.items()}
+        own = Translator(self.source, self.unit, self.wrap)
+        term = Context(own, self.types, "").value(asked.holds, free, TRUE, BOOL)
+        return _follows(term)
+
     # ------------------------------------------------------------ with plain values
 
     def machine(self, retained: Mapping[str, Any]) -> Machine:

@@ -253,6 +253,7 @@ class _Function:
         self.code = function.__code__
         self.module = inspect.getmodule(function)
         self.locals = frozenset(self.code.co_varnames + self.code.co_cellvars)
+        self.stored: set[str] = set()
 
     def lint(self) -> None:
         if self.module is None:
@@ -279,8 +280,8 @@ class _Function:
                 self.fault(
                     decorator.lineno, "a decorator", "it may keep state, as a cache does; leave it out"
                 )
-        stored = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and _stores(node)}
-        self.locals |= stored  # the names of a generator's loop too
+        self.stored = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and _stores(node)}
+        self.locals |= self.stored  # the names of a generator's loop too
         for value in (*(self.function.__defaults__ or ()), *(self.function.__kwdefaults__ or {}).values()):
             self.constant(tree.lineno, "a default value", value)
         for statement in tree.body:
@@ -432,9 +433,25 @@ class _Function:
         self.parts([*(argument for argument in node.args if argument not in generators), *node.keywords])
 
     def replaced(self, node: ast.Call) -> None:
-        """dataclasses.replace builds a record of a class that is not named: follow the checks of all."""
-        for method in self.reading.methods("__post_init__"):
-            self.reading.follow(method)
+        """dataclasses.replace builds a record of the class that an annotation names, else of any class."""
+        record = self.annotated(node.args[0]) if node.args else _UNKNOWN
+        if not isinstance(record, type):
+            for method in self.reading.methods("__post_init__"):
+                self.reading.follow(method)
+        elif why := self.reading.follow_class(record):
+            self.fault(node.lineno, f"the record {record.__name__} replaced", why)
+
+    def annotated(self, node: ast.AST) -> Any:
+        """What mypy holds a value to: a parameter that keeps its value, or what a function returns."""
+        function, name = self.function, "return"
+        if isinstance(node, ast.Name) and node.id not in self.stored:
+            name = node.id
+        elif isinstance(node, ast.Call) and isinstance(self.resolve(node.func), FunctionType):
+            function = self.resolve(node.func)
+        else:
+            return _UNKNOWN
+        said = function.__annotations__.get(name, _UNKNOWN)
+        return function.__globals__.get(said, _UNKNOWN) if isinstance(said, str) else said
 
     def method(self, node: ast.Attribute) -> None:
         """A method of a record: all methods of that name are followed."""

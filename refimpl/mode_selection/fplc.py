@@ -13,7 +13,7 @@ back (E-18).
 # ruff: noqa: SIM109, SIM300 -- the names of words are upper case, and each comparison is one of the note's
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from refimpl.errors import ParameterError, StateError, check_bool, check_int, check_text, check_word
@@ -190,7 +190,7 @@ class Outputs:
 
 def power_up(params: Params) -> State:
     """The state after power-up: no mode, no key, and no zeros seen yet. E-25c"""
-    return State(params, START, NONE, NONE, NONE, NONE, 0)
+    return State(params, START, accepted=NONE, authority=NONE, selection=NONE, mode=NONE, elapsed_ms=0)
 
 
 def step(state: State, inputs: Inputs) -> tuple[State, Outputs]:
@@ -372,17 +372,22 @@ def _no_key_and_zeros_returned(s: State, i: Inputs, output: int, elapsed: int) -
 
 def _enter(s: State, to: Step) -> State:
     """Go on to the next step with all memory kept and the timer at 0. EKS-3-3, EKS-9-3"""
-    return State(s.params, to, s.accepted, s.authority, s.selection, s.mode, 0)
+    return replace(s, state=to, elapsed_ms=0)
+
+
+def _forget(s: State, to: Step, elapsed: int) -> State:
+    """Go to a step with nothing of this insertion in memory; the mode stays. EKS-GP-5"""
+    return replace(s, state=to, accepted=NONE, authority=NONE, selection=NONE, elapsed_ms=elapsed)
 
 
 def _enter_idle(s: State) -> State:
     """Ready for the next key; nothing of the last insertion is left. E-17, EKS-GP-5"""
-    return State(s.params, IDLE, NONE, NONE, NONE, s.mode, 0)
+    return _forget(s, IDLE, 0)
 
 
 def _enter_settle(s: State) -> State:
     """Drop the selection and the echo, keep the authority: the next selection starts from zeros. E-15"""
-    return State(s.params, SETTLE, s.accepted, s.authority, NONE, s.mode, 0)
+    return replace(_enter(s, SETTLE), selection=NONE)
 
 
 def _enter_clear(s: State) -> State:
@@ -391,7 +396,7 @@ def _enter_clear(s: State) -> State:
     EKS-3-4-FPLC, EKS-8-6, E-27. The timer of the removal starts, by LA going off and not by its setting:
     EKS-8-3, E-06.
     """
-    return State(s.params, CLEAR, NONE, NONE, NONE, s.mode, 0)
+    return _forget(s, CLEAR, 0)
 
 
 def _enter_error(s: State) -> State:
@@ -400,13 +405,13 @@ def _enter_error(s: State) -> State:
     EKS-KS-6, E-22, E-24
     """
     if s.params.ON_ERROR == "none":
-        return State(s.params, ERROR, NONE, NONE, NONE, NONE, 0)
-    return State(s.params, ERROR, NONE, NONE, NONE, s.mode, 0)
+        return replace(_forget(s, ERROR, 0), mode=NONE)
+    return _forget(s, ERROR, 0)
 
 
 def _wait(s: State, elapsed: int) -> State:
     """Stay, and let the timer run on."""
-    return State(s.params, s.state, s.accepted, s.authority, s.selection, s.mode, elapsed)
+    return replace(s, elapsed_ms=elapsed)
 
 
 def _wait_dwelling(s: State, elapsed: int) -> State:
@@ -532,7 +537,7 @@ def _pulse_ones(s: State, output: int, elapsed: int) -> State:
     if output == ALL_OUTPUTS:
         if s.params.T_SEQ_FROM == "ones":
             return _enter(s, PULSE_ZEROS)  # SeeOnes: the timer starts anew, EKS-4-2
-        return State(s.params, PULSE_ZEROS, NONE, NONE, NONE, s.mode, elapsed)  # SeeOnes: it goes on, EKS-2-6
+        return _forget(s, PULSE_ZEROS, elapsed)  # SeeOnes: it goes on, EKS-2-6
     return _wait(s, elapsed)  # AwaitOnes
 
 
@@ -544,7 +549,7 @@ def _pulse_zeros(s: State, output: int, elapsed: int) -> State:
     if elapsed >= s.params.T_SEQ_ms:
         return _enter_error(s)  # DeadlineExpired: EKS-4-4, EKS-4-8 read as "no valid result" (E-03)
     if output == NO_OUTPUT:
-        return State(s.params, ONE_OUTPUT, NONE, NONE, NONE, s.mode, elapsed)  # SeePulseZeros
+        return _forget(s, ONE_OUTPUT, elapsed)  # SeePulseZeros
     return _wait(s, elapsed)  # AwaitPulseZeros
 
 
@@ -558,7 +563,7 @@ def _one_output(s: State, output: int, elapsed: int) -> State:
         return _enter_error(s)  # DeadlineExpired: EKS-4-6, EKS-4-8
     if output == NO_OUTPUT:
         return _wait(s, elapsed)  # AwaitOneOutput
-    return State(s.params, AUTHORIZE, output, NONE, NONE, s.mode, 0)  # AcceptOutput: EKS-4-7
+    return replace(_forget(s, AUTHORIZE, 0), accepted=output)  # AcceptOutput: EKS-4-7
 
 
 def _authorize(s: State, i: Inputs) -> State:
@@ -568,7 +573,7 @@ def _authorize(s: State, i: Inputs) -> State:
     """
     if i.MW03 != ZERO or i.MW07 != ZERO:
         return _enter_error(s)  # RefuseEarlyWord
-    return State(s.params, AWAIT_SELECTION, s.accepted, s.accepted, NONE, s.mode, 0)  # PublishAuthority
+    return replace(_enter(s, AWAIT_SELECTION), authority=s.accepted, selection=NONE)  # PublishAuthority
 
 
 def _await_selection(s: State, i: Inputs) -> State:
@@ -597,7 +602,7 @@ def _check_selection(s: State, i: Inputs) -> State:
     if not within_authority(s.params, s.authority, i.MW03):
         return _enter_error(s)  # RefuseSelection
     selection = decode(SE, i.MW03)
-    return State(s.params, ECHO_SELECTION, s.accepted, s.authority, selection, s.mode, 0)  # AcceptSelection
+    return replace(_enter(s, ECHO_SELECTION), selection=selection)  # AcceptSelection
 
 
 def _echo_selection(s: State, i: Inputs) -> State:
@@ -652,8 +657,8 @@ def _switch(s: State, i: Inputs) -> State:
     if not matches(encode(SE, s.selection), i.MW07):
         return _enter_error(s)  # RefuseMatch
     if s.params.SELECTIONS == "once":
-        return State(s.params, COMPLETE, s.accepted, s.authority, s.selection, s.selection, 0)  # SwitchMode
-    return State(s.params, SETTLE, s.accepted, s.authority, NONE, s.selection, 0)  # SwitchMode
+        return replace(_enter(s, COMPLETE), mode=s.selection)  # SwitchMode
+    return replace(_enter_settle(s), mode=s.selection)  # SwitchMode
 
 
 def _settle(s: State, i: Inputs, elapsed: int) -> State:
@@ -672,7 +677,7 @@ def _clear(s: State, elapsed: int) -> State:
     """
     if elapsed >= s.params.T_REM_ms:
         return _enter_error(s)  # DeadlineExpired: E-30
-    return State(s.params, AWAIT_ZEROS, NONE, NONE, NONE, s.mode, elapsed)  # ClearWords
+    return _forget(s, AWAIT_ZEROS, elapsed)  # ClearWords
 
 
 def _await_zeros(s: State, i: Inputs, output: int, elapsed: int) -> State:

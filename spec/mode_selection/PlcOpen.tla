@@ -45,20 +45,20 @@ CopiesUnchanged ==
 EveryScanIsAnswered == \A n \in 0..N - 1 : ENABLED PlcScan(Alphabet[n])
 \* EKS-GP-5: before the first copy all words are zero
 PowerUpIsSafe == step = "" => ReadAuthorization = 0 /\ MW03 = 0 /\ CheckMSO = 0 /\ MW07 = 0
+\* What the note has after each copy
+Following == [CopyReadAuthorization |-> "CopyMW03", CopyMW03 |-> "CopyCheckMSO",
+              CopyCheckMSO |-> "CopyMW07", CopyMW07 |-> "CopyReadAuthorization"]
 \* EKS-2-13, EKS-2-16, EKS-2-21, EKS-2-26, EKS-3-4-PLC, EKS-9-4-PLC: where the order is fixed, the copies follow
-\* one another as the steps of the note do; only the first may come at any time
+\* one another as the steps of the note do, from the first on; only that may come at any time
 CopiesTakeTurns ==
     [][~ANY_ORDER =>
-        step' \in {"CopyReadAuthorization",
-            CASE step = "CopyReadAuthorization" -> "CopyMW03"
-              [] step = "CopyMW03" -> "CopyCheckMSO"
-              [] step = "CopyCheckMSO" -> "CopyMW07"
-              [] OTHER -> "CopyReadAuthorization"}]_beat
+        /\ step' \in {"CopyReadAuthorization", IF step = "" THEN "CopyReadAuthorization" ELSE turn}
+        /\ turn' = Following[step']]_beat
 \* EKS-3-1-PLC, EKS-3-4-PLC, EKS-9-1-PLC, EKS-9-4-PLC, EKS-GP-4, E-08: where ReadAuthorization is no longer MW01
 \* it is copied again before any other word; where it is, no turn is skipped
 LevelGoesFirst ==
     [][~ANY_ORDER =>
         IF ReadAuthorization = Scanned.MW01
-        THEN step' = "CopyReadAuthorization" => step \in {"", "CopyMW07"}
+        THEN step' = "CopyReadAuthorization" => turn = "CopyReadAuthorization"
         ELSE step' = "CopyReadAuthorization"]_beat
 =============================================================================

@@ -6,12 +6,14 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import pytest
 
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.lock import only_one
+from tests.anywhere.test_no_posix import windows
 
 HOLD = """
 import sys, time
@@ -23,8 +25,10 @@ with only_one(Path(sys.argv[1])):
 """
 
 
-def hold(place: Path) -> subprocess.Popen[str]:
-    holder = subprocess.Popen([sys.executable, "-c", HOLD, str(place)], stdout=subprocess.PIPE, text=True)
+def hold(place: Path, **environment: str) -> subprocess.Popen[str]:
+    command = [sys.executable, "-c", HOLD, str(place)]
+    given = os.environ | environment
+    holder = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=given)
     assert holder.stdout is not None and holder.stdout.readline() == "held\n"
     return holder
 
@@ -55,3 +59,32 @@ def test_a_stale_file_with_garbage_is_no_lock(tmp_path: Path) -> None:
     for _ in range(2):
         with only_one(tmp_path):
             pass
+
+
+def test_what_may_wait_begins_when_the_first_is_done(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    holder = hold(tmp_path)
+    threading.Timer(0.3, holder.kill).start()
+    with only_one(tmp_path, wait_for="this log"):
+        assert (tmp_path / "build/modeproof.lock").read_text() == f"{os.getpid()}\n"
+    assert f"(pid {holder.pid}, " in (said := capsys.readouterr().err)
+    assert said.endswith("; this log begins when it is done\n")
+    holder.communicate()
+
+
+def test_the_lock_of_windows_refuses_a_second_run(tmp_path: Path) -> None:
+    holder = hold(tmp_path, **windows())
+    try:
+        script = HOLD.replace("print", "raise SystemExit")
+        done = subprocess.run(
+            [sys.executable, "-c", script, str(tmp_path)],
+            env=os.environ | windows(),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert f"another modeproof is running here (pid {holder.pid}," in done.stderr
+    finally:
+        holder.kill()
+        holder.communicate()

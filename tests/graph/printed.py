@@ -145,7 +145,6 @@ basis = "finding:T-01"
 scans = [{ set = { buttons = ["press"], word = "0001" }, step = "StayOff" }]
 [[branch]]
 of = "shine"
-at = ["end"]
 why = "Figure {n}: and once more."
 clauses = ["TOY-1", "TOY-1"]
 scans = [{ set = { press = true }, dt_ms = 0, step = "SwitchOn" }]

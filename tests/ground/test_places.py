@@ -16,9 +16,7 @@ def plain(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
 
 
-def test_elsewhere_the_tool_is_its_own_tree_and_what_is_made_lies_in_the_users_project(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_is_made_lies_in_the_users_project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     deep = tmp_path / "plc" / "spec" / "foo"
     deep.mkdir(parents=True)
     (deep / "interface.toml").write_text("")
@@ -28,7 +26,7 @@ def test_elsewhere_the_tool_is_its_own_tree_and_what_is_made_lies_in_the_users_p
     assert root() == TREE and project() == tmp_path and build(root()) == tmp_path / ".modeproof"
 
 
-def test_whoever_stands_in_the_checkout_finds_it_in_build(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_in_the_checkout_it_lies_in_build(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(TREE / "docs")
     assert build(root()) == TREE / "build"
 

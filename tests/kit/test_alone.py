@@ -5,9 +5,11 @@ from __future__ import annotations
 import ast
 import json
 import os
+import re
 import subprocess
 import sys
 import zipfile
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -16,62 +18,14 @@ import modeproof.kit
 from modeproof.cli import main
 from modeproof.ground.errors import Unjudged
 from modeproof.suites import pack as packing
+from tests.anywhere.no_posix.not_on_windows import ARGUMENTS, ATTRIBUTES, IN_PART, MODULES
 from tests.kit.programs import program
 from tests.suites.test_conform_command import toy as toy  # the fixture
 
 SOURCES = sorted(Path(modeproof.kit.__file__).parent.glob("*.py"))
-NOT_ON_WINDOWS = {
-    "os": {
-        "fork",
-        "forkpty",
-        "killpg",
-        "setsid",
-        "setpgid",
-        "getpgid",
-        "setpgrp",
-        "wait",
-        "wait3",
-        "wait4",
-        "waitpid",
-    }
-    | {
-        "WIFEXITED",
-        "mkfifo",
-        "openpty",
-        "posix_spawn",
-        "getuid",
-        "geteuid",
-        "chown",
-        "nice",
-        "uname",
-        "set_blocking",
-    },
-    "signal": {
-        "SIGKILL",
-        "SIGALRM",
-        "SIGHUP",
-        "SIGUSR1",
-        "SIGUSR2",
-        "SIGCHLD",
-        "alarm",
-        "setitimer",
-        "pause",
-    },
-    "select": {"select", "poll", "epoll", "kqueue", "POLLIN", "POLLHUP"},
-}
-"""Of select, `select` exists on Windows, but takes no pipes."""
-MODULES_NOT_ON_WINDOWS = {
-    "fcntl",
-    "termios",
-    "pty",
-    "tty",
-    "resource",
-    "pwd",
-    "grp",
-    "posix",
-    "syslog",
-    "readline",
-}
+_WORDS = re.compile(
+    rf"\b({'|'.join([*MODULES, *ARGUMENTS, *chain(*ATTRIBUTES.values()), *chain(*IN_PART.values())])})\b"
+)
 OTHER_WAY = {"PolledLines": "lines_of"}
 """Classes for systems that have what they need, and the function that chooses between them and others."""
 
@@ -83,22 +37,23 @@ def found(source: str) -> list[str]:
     def visit(node: ast.AST, guarded: bool) -> None:
         if isinstance(node, ast.ClassDef) and node.name in OTHER_WAY:
             return
-        if isinstance(node, ast.Import | ast.ImportFrom):
+        if isinstance(node, ast.Import | ast.ImportFrom) and not guarded:
             names = [one.name for one in node.names] if isinstance(node, ast.Import) else [str(node.module)]
-            problems.extend(f"imports {name}" for name in names if name in MODULES_NOT_ON_WINDOWS)
+            problems.extend(f"imports {name}" for name in names if name in MODULES)
         named = isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and not guarded
-        if named and node.attr in NOT_ON_WINDOWS.get(node.value.id, ()):
+        if named and node.attr in (*ATTRIBUTES.get(node.value.id, ()), *IN_PART.get(node.value.id, ())):
             problems.append(f"line {node.lineno}: {node.value.id}.{node.attr}")
-        if isinstance(node, ast.keyword) and node.arg in ("preexec_fn", "start_new_session", "pass_fds"):
+        if isinstance(node, ast.keyword) and node.arg in ARGUMENTS:
             problems.append(f"{node.arg}")
-        if isinstance(node, ast.If | ast.IfExp) and (
-            "win32" in ast.unparse(node.test) or "_WINDOWS" in ast.unparse(node.test)
-        ):
-            guarded = True
+        if isinstance(node, ast.If | ast.IfExp):
+            guarded |= any(word in ast.unparse(node.test) for word in ("win32", "WINDOWS", "hasattr("))
+        if isinstance(node, ast.Try):
+            guarded |= any("AttributeError" in ast.unparse(one.type) for one in node.handlers if one.type)
         for child in ast.iter_child_nodes(node):
             visit(child, guarded)
 
-    visit(ast.parse(source), False)
+    if _WORDS.search(source):  # else there is nothing to look for
+        visit(ast.parse(source), False)
     return problems
 
 

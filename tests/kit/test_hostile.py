@@ -183,6 +183,26 @@ def test_an_interruption_leaves_no_part_of_a_file(tmp_path: Path, monkeypatch: p
     assert (tmp_path / "v.json").read_text() == "old"
 
 
+def test_a_file_that_another_program_has_open_is_tried_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    right, held = os.replace, iter(range(3))
+    monkeypatch.setattr("modeproof.kit.files._PAUSE_S", 0)
+
+    def replace(part: str, path: Path) -> None:
+        if next(held, None) is not None:
+            raise PermissionError(13, "Permission denied")
+        right(part, path)
+
+    monkeypatch.setattr("os.replace", replace)
+    write_whole(tmp_path / "v.json", b"new")
+    assert (tmp_path / "v.json").read_bytes() == b"new" and next(held, "let go") == "let go"
+    held = iter(range(1000))
+    with pytest.raises(GroundUnjudged, match=r"v\.json: cannot be written: Permission denied"):
+        write_whole(tmp_path / "v.json", b"newer")
+    assert (tmp_path / "v.json").read_bytes() == b"new" and len(list(tmp_path.iterdir())) == 1
+
+
 # ----------------------------------------------------------------------------------------------- adapters
 
 

@@ -92,12 +92,14 @@ def test_each_verdict_comes_with_its_reason(folder: Path) -> None:
         ("wrong", 'never = "S_Drive AND NOT Start"'),
         ("idle", 'holds = "S_Drive AND NOT Door"\nonly_if = "Stop"'),
         ("absent", 'never = "S_Drive AND Beam"'),
+        ("nothing", 'holds = "S_Drive"\nonly_if = "TRUE"'),
     )
-    assert [found[id][0] for id in ("closed", "wrong", "idle", "absent")] == [
+    assert [found[id][0] for id in ("closed", "wrong", "idle", "absent", "nothing")] == [
         "PROVED",
         "REFUTED",
         "UNKNOWN",
         "NOT JUDGED",
+        "EMPTY",
     ]
     assert "judged again by z3 and cvc5" in found["closed"][1]
     assert "was never true in" in found["idle"][1]

@@ -114,6 +114,14 @@ def test_a_program_of_other_names_is_refused_in_its_line(what: str, tmp_path: Pa
     assert "mine.st:" in str(caught.value)
 
 
+def test_a_block_of_a_documents_name_is_refused(tmp_path: Path) -> None:
+    fake = "FUNCTION_BLOCK SF_EDM VAR_OUTPUT Error : BOOL; END_VAR Error := FALSE; END_FUNCTION_BLOCK\n"
+    path = tmp_path / "mine.st"
+    path.write_text(fake + SOURCE, "utf-8")
+    with pytest.raises(Unjudged, match=r"mine\.st:1: SF_EDM: .* means the document's block"):
+        assert machine(path, 1).own
+
+
 @pytest.mark.parametrize("pin", ["edm.Error", "fplc.ERROR"])
 def test_a_program_that_overwrites_an_output_is_refused(pin: str, tmp_path: Path) -> None:
     path = edited(tmp_path, "oldMode := newMode;", f"oldMode := newMode; {pin} := FALSE;")

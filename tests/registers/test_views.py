@@ -29,14 +29,12 @@ BY_VIEW = "A-17: no step reads the mode; MC_KeyFlows_smoke judges the same with 
 WITHOUT_HISTORY = "A-17: of these runs only the check of types reads what the user did"
 SEEN_IN_EDGES = "EdgesAreRemembered shows that the edges in the view are what these inputs were"
 OWN_TIMER = "the timer of the device is in the view and counts the same; no run shows that"
-TURN = "CopiesTakeTurns: turn, which is in the view, says which step came before"
 ALLOWED: Mapping[tuple[str, str], str] = {
     ("mode_selection", "mode"): BY_VIEW,
     ("mode_selection", "touched"): WITHOUT_HISTORY,
     ("mode_selection", "seen"): WITHOUT_HISTORY,
     ("mode_selection", "confirmed"): WITHOUT_HISTORY,
     ("mode_selection", "lasted"): OWN_TIMER,
-    ("mode_selection", "step"): TURN,
     ("testable_safety_sensor", "in"): SEEN_IN_EDGES,
 }
 """Variables that a view may hide though a property reads them, each with its reason."""

@@ -126,7 +126,7 @@ def test_an_edit_that_fits_nowhere_makes_no_page(recorded_place: Path) -> None:
     readings = recorded_place / "scenes" / SCENE / "stories.toml"
     text = readings.read_text(encoding="utf-8")
     for old, new, said in (
-        ("s.selection, 0)", "nothing, 0)", "does not hold just once"),
+        ("mode=s.selection)", "mode=nothing)", "does not hold just once"),
         ('id = "Figure7"', 'id = "Figure8"', "no finding tries this reading"),
     ):
         assert old in text

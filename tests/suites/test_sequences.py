@@ -10,11 +10,12 @@ import pytest
 from modeproof.cli import main
 from modeproof.graph.columns import merge_columns
 from modeproof.ground.errors import Unjudged
+from modeproof.ground.places import documents, machines
 from modeproof.kit.suite_judge import CONFORMS, DIFFERS, run_suite
 from modeproof.kit.vectors import open_suite
 from modeproof.registers.citations import citations, read_sources
 from modeproof.registers.load import load_document, load_interface
-from modeproof.suites.sequences import plan
+from modeproof.suites.sequences import plan, read
 from modeproof.suites.write import write_suite
 from tests.graph.printed import SEQUENCES, lamp_graph
 from tests.kit.programs import starter
@@ -64,6 +65,12 @@ def test_what_is_declared_wrongly_is_refused(tmp_path: Path, old: str, new: str,
     graph = lamp_graph(tmp_path, sequences=SEQUENCES.replace(old, new, 1))
     with pytest.raises(Unjudged, match=said):
         plan(graph, merge_columns(graph))
+
+
+@pytest.mark.parametrize("document", [name for name in documents(ROOT) if name not in machines(ROOT)])
+def test_what_each_document_declares_can_be_read(document: str) -> None:
+    declared = read(ROOT, document)
+    assert declared.flows and declared.branches
 
 
 def test_two_flows_of_one_name_are_refused(tmp_path: Path) -> None:

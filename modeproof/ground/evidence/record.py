@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import os
@@ -153,22 +154,22 @@ def own_tools(place: Path = TREE, *code: str) -> dict[str, dict[str, str | None]
 def machine() -> dict[str, Any]:
     """What this computer is: system, architecture, processor, cores, memory in MiB (0: unknown)."""
     cpu = platform.processor()
-    memory = 0
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            cpu = next(
-                (line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), cpu
-            )
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
-    except (OSError, ValueError):
-        pass
+    with contextlib.suppress(OSError), open("/proc/cpuinfo", encoding="utf-8") as lines:
+        cpu = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), cpu)
     return {
         "system": f"{platform.system()} {platform.release()}",
         "arch": platform.machine(),
         "cpu": cpu,
         "cores": os.cpu_count() or 1,
-        "memory_mb": memory,
+        "memory_mb": _memory_mb(),
     }
+
+
+def _memory_mb() -> int:
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // (1 << 20)
+    except (OSError, ValueError, AttributeError):  # the last is Windows
+        return 0
 
 
 def make(

@@ -202,6 +202,24 @@ def test_a_property_that_can_never_speak_is_said() -> None:
     assert words(ever)[1] == "EMPTY"
 
 
+@pytest.mark.parametrize(
+    "row",
+    [
+        "holds = 'q'\nonly_if = 'TRUE'",
+        "never = 'q AND NOT q'",
+        "always = 'q OR NOT q'",
+        "after = 'a'\nwithin_ms = 5\nholds = 'q OR NOT q'",
+    ],
+)
+def test_a_property_that_nothing_can_break_is_empty(row: str) -> None:
+    found = verdict("q := a;", row)
+    assert words(found) == ["PROVED", "EMPTY"] and "no values" in found[1].how and status(found) == 2
+
+
+def test_a_property_that_this_program_cannot_break_is_proved() -> None:
+    assert words(verdict("q := a; r := NOT a;", "never = 'q AND r'"))[1] == "PROVED"
+
+
 @pytest.mark.parametrize(("limit", "word"), [(29, "REFUTED"), (30, "PROVED")])
 def test_a_time_limit_is_exact(limit: int, word: str) -> None:
     declared = "VAR t : TON; END_VAR"

@@ -107,6 +107,8 @@ GOOD = (
     "def step(w):\n    return inner(w)\ndef inner(w):\n    return any(w == c for c in CODES)",
     "def step(w):\n    return State(Step.IDLE, w)",
     "def step(w):\n    return State(Step.IDLE, w).doubled()",
+    "def step(s: State):\n    return replace(s, n=1)",
+    "def step(s: State):\n    return replace(one(s), n=1)\ndef one(s) -> State:\n    return s",
     "def step(w):\n    if w > 3:\n        raise ValueError(f'too large: {w!r}')\n    return w",
     "def step(w):\n    match w:\n        case 1 | 2:\n            return 1\n    return 2",
     "def step(w):\n    total = 0\n    total += w\n    assert total == w\n    return total if w > 2 else -1",
@@ -213,6 +215,26 @@ BAD = {
         "def step(s):\n    return replace(s, n=1)",
         "the call of type",
         "Inputs is built",
+    ),
+    "a record replaced whose class checks types": (
+        "def step(s: Checked):\n    return replace(s, n=1)",
+        "the call of type",
+        "Inputs is built",
+    ),
+    "a record replaced after its name was given to another": (
+        "def step(s: State):\n    s = checked(s)\n    return replace(s, n=1)\ndef checked(s):\n    return s",
+        "the call of type",
+        "Inputs is built",
+    ),
+    "a record replaced that a function without a type returns": (
+        "def step(s: State):\n    return replace(checked(s), n=1)\ndef checked(s):\n    return s",
+        "the call of type",
+        "Inputs is built",
+    ),
+    "a record replaced that can change": (
+        "def step(s: Loose):\n    return replace(s, n=1)",
+        "the record Loose replaced",
+        "freeze it",
     ),
     "a record that is made by a function of its own": (
         "def step(w):\n    return Counted(w)",

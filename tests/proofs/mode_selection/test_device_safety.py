@@ -69,7 +69,7 @@ RESPONSE = fplc_response.JUDGE
 DWELL_RESTARTS = ("    return _wait(s, elapsed)\n\n\n# ---", "    return _wait(s, 0)\n\n\n# ---")
 REMOVAL_RESTARTS = ("_wait(s, elapsed)  # AwaitReturnedZeros", "_wait(s, 0)  # AwaitReturnedZeros")
 NEVER_IDLE = ("return _enter_idle(s)  # LeaveAwaitZeros", "return _wait(s, elapsed)")
-TIMER_ANEW = ("AWAIT_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_ZEROS, NONE, NONE, NONE, s.mode, 0")
+TIMER_ANEW = ("_forget(s, AWAIT_ZEROS, elapsed)", "_forget(s, AWAIT_ZEROS, 0)")
 FAULTS: list[tuple[str, Judge, str, Sentence, list[tuple[str, str]]]] = [
     (
         "SelectionWithinOffer",

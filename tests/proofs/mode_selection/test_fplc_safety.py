@@ -100,7 +100,7 @@ FAULTS = [
         _state(fplc_safety.words_zero_without_key),
         [
             ("elif c == AWAIT_SELECTION or", "elif c == CLEAR or c == AWAIT_SELECTION or"),
-            ("State(s.params, CLEAR, NONE, NONE,", "State(s.params, CLEAR, NONE, s.authority,"),
+            ("_forget(s, CLEAR, 0)", "replace(_forget(s, CLEAR, 0), authority=s.authority)"),
         ],
     ),
     (
@@ -121,7 +121,7 @@ FAULTS = [
         "AuthorizationByTheText",
         "Switch",
         fplc_safety.authorization_by_the_text,
-        [("NONE, s.selection, 0)  # SwitchMode", "NONE, 0, 0)  # SwitchMode")],
+        [("_enter_settle(s), mode=s.selection)", "_enter_settle(s), mode=0)")],
     ),
     (
         "NoChangeWithoutLA",
@@ -138,7 +138,7 @@ FAULTS = [
         "NoChangeBesideSwitchover",
         "Match",
         fplc_safety.no_change_beside_switchover,
-        [("s.authority, NONE, s.mode, 0)", "s.authority, NONE, s.selection, 0)")],
+        [("_enter(s, SETTLE), selection=NONE)", "_enter(s, SETTLE), selection=NONE, mode=s.selection)")],
     ),
     (
         "TwoOutputsLeadToError",
@@ -165,7 +165,12 @@ FAULTS = [
         "LevelNeedsPulse",
         "PulseOnes",
         fplc_safety.level_needs_pulse,
-        [("PULSE_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_SELECTION, 0, 0, NONE, s.mode, 0")],
+        [
+            (
+                "_forget(s, PULSE_ZEROS, elapsed)",
+                "replace(_forget(s, AWAIT_SELECTION, 0), accepted=0, authority=0)",
+            )
+        ],
     ),
     ("NoWaitBeyondDeadline", "OneOutput", _state(fplc_safety.no_wait_beyond_deadline), [A_SCAN_LATE]),
     ("NoWaitBeyondDeadline", "AwaitZeros", fplc_safety.expiry_ends_the_wait, [(EXPIRY_FIRST, SUCCESS_FIRST)]),
@@ -203,7 +208,7 @@ FAULTS = [
         "RemovalTimerGoesOn",
         "Clear",
         fplc_safety.removal_timer_goes_on,
-        [("AWAIT_ZEROS, NONE, NONE, NONE, s.mode, elapsed", "AWAIT_ZEROS, NONE, NONE, NONE, s.mode, 0")],
+        [("_forget(s, AWAIT_ZEROS, elapsed)", "_forget(s, AWAIT_ZEROS, 0)")],
     ),
     (
         "NoNeedlessWait",
@@ -211,8 +216,8 @@ FAULTS = [
         fplc_prompt.no_needless_wait,
         [
             (
-                "if output == NO_OUTPUT:\n        return State(s.params, ONE",
-                "if output == NO_OUTPUT and elapsed > 0:\n        return State(s.params, ONE",
+                "if output == NO_OUTPUT:\n        return _forget(s, ONE",
+                "if output == NO_OUTPUT and elapsed > 0:\n        return _forget(s, ONE",
             )
         ],
     ),
@@ -248,7 +253,7 @@ FAULTS = [
         "NothingIsKept",
         "AwaitSelection",
         _state(fplc_prompt.nothing_is_kept),
-        [("State(s.params, CLEAR, NONE, NONE,", "State(s.params, CLEAR, s.accepted, NONE,")],
+        [("_forget(s, CLEAR, 0)", "replace(_forget(s, CLEAR, 0), accepted=s.accepted)")],
     ),
     (
         "StepsInOrder",
@@ -307,13 +312,13 @@ FAULTS = [
         "NoTimeWhereNoneRuns",
         "OneOutput",
         _kept,
-        [("AUTHORIZE, output, NONE, NONE, s.mode, 0)", "AUTHORIZE, output, NONE, NONE, s.mode, elapsed)")],
+        [("_forget(s, AUTHORIZE, 0)", "_forget(s, AUTHORIZE, elapsed)")],
     ),
     (
         "TimerIsTheTimeWaited",
         "PulseZeros",
         _kept,
-        [("ONE_OUTPUT, NONE, NONE, NONE, s.mode, elapsed", "ONE_OUTPUT, NONE, NONE, NONE, s.mode, 0")],
+        [("_forget(s, ONE_OUTPUT, elapsed)", "_forget(s, ONE_OUTPUT, 0)")],
     ),
     (
         "PulseWasSeen",
@@ -321,8 +326,8 @@ FAULTS = [
         _kept,
         [
             (
-                "== NO_OUTPUT:\n        return State(s.params, ONE",
-                "!= ALL_OUTPUTS:\n        return State(s.params, ONE",
+                "== NO_OUTPUT:\n        return _forget(s, ONE",
+                "!= ALL_OUTPUTS:\n        return _forget(s, ONE",
             )
         ],
     ),
@@ -330,7 +335,7 @@ FAULTS = [
         "NothingWithoutKey",
         "Error",
         _kept,
-        [("State(s.params, IDLE, NONE, NONE, NONE,", "State(s.params, IDLE, 0, NONE, NONE,")],
+        [("_forget(s, IDLE, 0)", "replace(_forget(s, IDLE, 0), accepted=0)")],
     ),
     (
         "ZerosWereSeen",
@@ -354,13 +359,13 @@ FAULTS = [
         "OneOutputAccepted",
         "OneOutput",
         _kept,
-        [("State(s.params, AUTHORIZE, output,", "State(s.params, AUTHORIZE, NONE,")],
+        [("accepted=output)", "accepted=NONE)")],
     ),
     (
         "ValuesInRange",
         "OneOutput",
         _kept,
-        [("State(s.params, AUTHORIZE, output,", "State(s.params, AUTHORIZE, 5,")],
+        [("accepted=output)", "accepted=5)")],
     ),
 ]
 
@@ -391,7 +396,7 @@ def test_every_property_that_an_fplc_theorem_names_has_a_fault() -> None:
 
 
 POWER_UP = {
-    "fplc": ("START, NONE, NONE, NONE, NONE, 0)", "START, NONE, NONE, NONE, 0, 0)"),
+    "fplc": ("mode=NONE, elapsed_ms=0)", "mode=0, elapsed_ms=0)"),
     "plc": ("ZERO, ZERO, ZERO, ZERO)", "ZERO, 0x0FF0, ZERO, ZERO)"),
     "hmi": ("Step.INHIBITED, NONE, NONE)", "Step.SELECT, 0, NONE)"),
     "eks": ("Step.EMPTY, NO_KEY, 0)", "Step.TEST_ONES, NO_KEY, 0)"),

@@ -1,0 +1,121 @@
+"""What the commands of users share: the options for records and other forms, and how a run ends with them."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import hashlib
+import io
+import re
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from modeproof.ground.errors import Unjudged
+from modeproof.ground.evidence import day
+from modeproof.ground.places import build, root
+from modeproof.output.outcome import File, Outcome, shown_path, unjudged, write
+
+RECORDS = "records"
+"""The folder of the records below that of results."""
+
+
+@dataclass(frozen=True)
+class About:
+    """What the arguments of a command name, before anything is read. files: by their role."""
+
+    command: str
+    subject: str
+    target: str
+    again: str
+    files: Mapping[str, Sequence[Path | None]] = field(default_factory=dict)
+    part: str = ""
+    """What tells two runs on the same files apart: the unit that was chosen, a suite."""
+
+    @property
+    def name(self) -> str:
+        """The name of the record, if no other is given."""
+        words = (self.command, self.subject, self.target, self.part)
+        slug = re.sub(r"[^A-Za-z0-9.]+", "-", " ".join(words)).strip("-.")
+        return slug if len(slug) <= 80 else f"{slug[:70]}-{hashlib.sha256(slug.encode()).hexdigest()[:8]}"
+
+    @property
+    def hashed(self) -> list[File]:
+        """The files that are there, with their hashes."""
+        found = []
+        for role, paths in self.files.items():
+            for path in paths:
+                with contextlib.suppress(OSError, AttributeError):
+                    digest = hashlib.sha256(path.read_bytes()).hexdigest()  # type: ignore[union-attr]
+                    found.append(File(path=shown_path(str(path)), sha256=digest, role=role))
+        return found
+
+
+def add_options(
+    parser: argparse.ArgumentParser,
+    judge: Callable[[argparse.Namespace], Outcome],
+    about: Callable[[argparse.Namespace], About],
+) -> None:
+    """Add the options. `judge` prints, and returns what was found; `about` says what is asked for."""
+    parser.add_argument(
+        "--record", type=Path, metavar="FILE", help="write the record there, not to the folder of records"
+    )
+    parser.set_defaults(judge=judge, about=about)
+
+
+def carried_out(args: argparse.Namespace) -> Outcome:
+    """Judge, print, and write what the options ask for. Raises Unjudged; then the record says so as well."""
+    found, error = _judged(args)
+    if error is not None:
+        raise error
+    return found
+
+
+def found_by(args: argparse.Namespace) -> Outcome:
+    """The same without a word on standard output; what cannot be judged is an outcome too."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        found, _ = _judged(args)
+    return found
+
+
+def _judged(args: argparse.Namespace) -> tuple[Outcome, Unjudged | None]:
+    about: About = args.about(args)
+    path: Path = args.record or records() / f"{about.name}.json"
+    known_before = path.exists()
+    with contextlib.suppress(OSError):  # what was found before says nothing of this run
+        path.unlink()
+    judge: Callable[[argparse.Namespace], Outcome] = args.judge
+    error, clock = None, Clock()
+    try:
+        found = judge(args)
+    except Unjudged as refused:
+        error = refused
+        known: dict[str, Any] = {"started": clock.started, "seconds": clock.seconds, "files": about.hashed}
+        found = unjudged(about.command, about.subject, about.target, about.again, refused.message, **known)
+    if error is None or args.record is not None or known_before:  # a slip of the pen is no entry
+        write(path, found)
+    return found, error
+
+
+def records() -> Path:
+    """The folder of the records of this project."""
+    return build(root()) / RECORDS
+
+
+class Clock:
+    """When a run began, and for how long it goes on."""
+
+    def __init__(self) -> None:
+        self._began, self._clock = time.time(), time.monotonic()
+
+    @property
+    def started(self) -> str:
+        """When it began, as records say it."""
+        return day(self._began)
+
+    @property
+    def seconds(self) -> float:
+        """Since then."""
+        return round(time.monotonic() - self._clock, 3)

@@ -1,0 +1,66 @@
+"""What `judge` says at its end: a row for each entry, and the next command for each that is not well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from modeproof.kit.errors import plain
+from modeproof.output.outcome import Outcome
+from modeproof.project.judging import Judged, Judging
+
+HEAD = ("entry", "verdict", "about", "", "seconds")
+MOST = 3
+"""Rules that a row names."""
+LONGEST = 300
+
+
+def lines_of(judging: Judging, found: Sequence[Judged]) -> Iterator[str]:
+    """The table, the reasons, and the sum as the last line."""
+    rows = [HEAD, *(row_of(one) for one in found)]
+    widths = [max(len(row[column]) for row in rows) for column in range(len(HEAD))]
+    for row in rows:
+        *words, seconds = (f"{text:<{width}}" for text, width in zip(row, widths, strict=True))
+        yield f"{'  '.join(words)}  {seconds.strip():>{widths[-1]}}"
+    for one in found:
+        if one.outcome.status:
+            yield ""
+            yield f"{one.entry.name}: {plain(why(one.outcome), LONGEST)}"
+            yield f"  next: {judging.again(one.entry)}"
+    yield ""
+    counts = [sum(one.outcome.status == status for one in found) for status in (0, 1, 2)]
+    parts = zip(counts, ("as expected", "not as expected", "not judged or unknown"), strict=True)
+    said = ", ".join(f"{count} {word}" for count, word in parts if count)
+    kept = sum(one.kept for one in found)
+    yield f"{len(found)} {'entry' if len(found) == 1 else 'entries'}: {said}; {kept} kept"
+
+
+def row_of(one: Judged) -> tuple[str, str, str, str, str]:
+    """The row of an entry."""
+    found = one.outcome
+    return one.entry.name, found.word, about(found), "kept" if one.kept else "judged", f"{found.seconds:.1f}"
+
+
+def about(found: Outcome) -> str:
+    """What was asked, and which clauses or properties are broken, or not shown."""
+    if not found.status:
+        count = len(found.demands)
+        return f"{count} properties" if count > 1 else found.target or found.subject
+    named = list(dict.fromkeys(rule for _, problem in found.problems for rule in [problem.rule.id]))
+    named = named or [demand.id for demand in found.demands if demand.word not in ("PROVED", "CONFORMS")]
+    more = f" and {len(named) - MOST} more" if len(named) > MOST else ""
+    verb = "breaks" if found.status == 1 else "not shown:"
+    return f"{verb} {', '.join(named[:MOST])}{more}" if named else found.target or found.subject
+
+
+def why(found: Outcome) -> str:
+    """Why an entry is not well, in one line."""
+    if found.reason:
+        return found.reason
+    problems = [problem.message for _, problem in found.problems]
+    return problems[0] if problems else found.sentence
+
+
+def status_of(found: Sequence[Judged]) -> int:
+    """1 if an entry is not as expected, else 2 if one could not be judged or there is none, else 0."""
+    statuses = {one.outcome.status for one in found}
+    return 1 if 1 in statuses else 0 if statuses == {0} else 2

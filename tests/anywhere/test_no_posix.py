@@ -1,0 +1,126 @@
+"""What users call runs on Windows, by construction: nothing that POSIX alone has is used.
+
+Each command runs in a process that has taken from the tool what Python on Windows does not have
+(`no_posix/sitecustomize.py`), with a console of code page 1252.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from modeproof.ground.places import TREE
+from tests.kit.test_alone import found
+
+ROOMS = ("modeproof", "programs", "machines", "proofs", "refimpl", "scenes", "examples")
+BLOCKER = Path(__file__).with_name("no_posix")
+ST = TREE / "examples" / "st"
+NOT_FOR_USERS = {"modeproof/strength/by_vectors.py"}
+"""Of a maintainers' command: `mutate` ends what hangs by a timer of POSIX."""
+
+
+def windows(tree: Path = TREE) -> dict[str, str]:
+    """The environment in which Python is as on Windows for the tool in this tree."""
+    return {
+        "NO_POSIX_BELOW": os.pathsep.join(str(tree / room) for room in ROOMS),
+        "PYTHONPATH": os.pathsep.join([str(BLOCKER), str(tree)]),
+        "PYTHONIOENCODING": "cp1252",
+    }
+
+
+def without_posix(
+    folder: Path, *words: str, tree: Path = TREE, status: int = 0
+) -> subprocess.CompletedProcess[str]:
+    """Run Python with these arguments as it is on Windows; what it says is of code page 1252."""
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("MODEPROOF_")}
+    done = subprocess.run(
+        [sys.executable, *words],
+        cwd=folder,
+        env=environment | windows(tree),
+        capture_output=True,
+        encoding="cp1252",
+        check=False,
+    )
+    assert done.returncode == status, done.stdout + done.stderr
+    return done
+
+
+def command(folder: Path, *words: str, status: int = 0) -> str:
+    """What a command of the tool prints."""
+    return without_posix(folder, "-m", "modeproof", *words, status=status).stdout
+
+
+def windows_text(source: Path, place: Path) -> Path:
+    """A copy as Windows writes it: lines end with CR and LF, a byte order mark before the first."""
+    place.write_bytes(b"\xef\xbb\xbf" + source.read_bytes().replace(b"\n", b"\r\n"))
+    return place
+
+
+def test_the_help_and_the_version_are_there(tmp_path: Path) -> None:
+    assert "prove-program" in command(tmp_path, "--help")
+    assert command(tmp_path, "--version").startswith("modeproof ")
+
+
+def test_a_program_of_windows_is_proved(tmp_path: Path) -> None:
+    name = "Bündel Ω.st"  # the console has one of the two letters
+    windows_text(ST / "sf_edm.st", tmp_path / name)
+    said = command(tmp_path, "prove-program", name, "--target", "sf_edm", "--json", "v.json")
+    assert said.startswith("PROVED: function block SF_EDM of Bündel \\u03a9.st has the outputs")
+    assert (tmp_path / "v.json").is_file()
+
+
+def test_every_module_can_be_imported(tmp_path: Path) -> None:
+    names = [
+        ".".join(path.relative_to(TREE).with_suffix("").parts)
+        for room in ("modeproof", "programs", "machines")
+        for path in sorted((TREE / room).rglob("*.py"))
+        if path.name not in ("__main__.py", "__init__.py") and "simulate" not in path.parts
+    ]
+    assert len(names) > 300
+    without_posix(tmp_path, "-c", f"import importlib\nfor name in {names}: importlib.import_module(name)")
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("import fcntl", "fcntl"),
+        ("import os; os.getuid()", "'os' has no attribute 'getuid'"),
+        ("from signal import SIGKILL", "cannot import name 'SIGKILL'"),
+        ("import multiprocessing; multiprocessing.get_context('fork')", "fork"),
+        ("import sys; assert sys.platform == 'linux'", "AssertionError"),
+    ],
+)
+def test_what_came_back_is_seen(tmp_path: Path, line: str, said: str) -> None:
+    (tmp_path / "modeproof").mkdir()
+    (tmp_path / "modeproof" / "planted.py").write_text(line + "\n")
+    for name in ("__init__.py", "kit"):
+        (tmp_path / "modeproof" / name).symlink_to(TREE / "modeproof" / name)
+    words = ["-c", "import modeproof.planted"]
+    assert said in without_posix(tmp_path, *words, tree=tmp_path, status=1).stderr
+
+
+def test_no_file_of_the_tool_uses_what_windows_lacks() -> None:
+    files = [path for room in ROOMS for path in sorted((TREE / room).rglob("*.py"))]
+    assert len(files) > 500
+    problems = {
+        path.relative_to(TREE).as_posix(): lines
+        for path in files
+        if (lines := found(path.read_text(encoding="utf-8")))
+    }
+    assert set(problems) == NOT_FOR_USERS
+
+
+@pytest.mark.deep
+def test_the_other_commands_run(tmp_path: Path) -> None:
+    assert "nothing is missing" in command(TREE, "doctor")
+    assert "CONFORMS" in command(tmp_path, "conform", "sf_edm", "--builtin", "refimpl", "--suite", "fast")
+    adapter = f'{sys.executable} "{TREE / "examples/adapters/refimpl_adapter.py"}" sf_edm'
+    assert "CONFORMS" in command(tmp_path, "conform", "sf_edm", "--adapter", adapter, "--suite", "brief")
+    assert "recorded counterexamples" in command(tmp_path, "simulate", "--out", "page.html")
+    shutil.copy(TREE / "examples/logs/fplc_good.csv", tmp_path / "log.csv")
+    assert "42 PROVED" in command(tmp_path, "machine", "--json", "machine.json")
