@@ -110,21 +110,30 @@ def _demand(machine: Machine, verdict: Verdict, shown: Values) -> Demand:
 
 def _message(verdict: Verdict) -> str:
     if not verdict.scans:
-        return f"{verdict.asked.sentence} {verdict.word}: {verdict.how}"
+        return f"{verdict.how}: {verdict.asked.sentence}"
     number = len(verdict.scans)
-    said = f"after {number} scan{'s' * (number > 1)} from power-up it is false; {verdict.row['hazard']}"
-    wires = "".join(f" The wire {row.partition(': ')[2]}." for row in verdict.mended)
-    return f"{verdict.asked.sentence} But {said}{wires}"
+    said = f"false after {number} scan{'s' * (number > 1)} from power-up: {verdict.asked.sentence}"
+    said += f" Hazard: {verdict.row['hazard']}"
+    wires = "".join(f" Wire {row.partition(': ')[2]}." for row in verdict.mended)
+    return f"{said}{wires}"
 
 
 def _counterexample(verdict: Verdict, shown: Values) -> Counterexample:
-    scans = [Scan(dt_ms=dt_ms, inputs=dict(given), given=dict(values)) for dt_ms, given, values in shown]
+    scans = [Scan(dt_ms=dt_ms, inputs=_words(given), given=_words(values)) for dt_ms, given, values in shown]
     named = {*_NAME.findall(verdict.asked.text)}
     return Counterexample(
         scans=scans,
         wrong=[name for name in scans[-1].given if name in named],
         found_by=verdict.how,
     )
+
+
+def _words(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values as on the wire: what is no BOOL is a WORD, in hexadecimal."""
+    return {
+        name: value if isinstance(value, bool) else f"{value:04X}" if isinstance(value, int) else value
+        for name, value in values.items()
+    }
 
 
 def _spot(machine: Machine, verdict: Verdict) -> Spot:

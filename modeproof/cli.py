@@ -21,6 +21,7 @@ from typing import Any, NoReturn
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged, suggestion
 from modeproof.ground.places import TREE, root
 from modeproof.kit.by_name import module_named
+from modeproof.kit.files import to_standard_output
 from modeproof.kit.parser import Parser
 
 GROUPS = {
@@ -129,10 +130,11 @@ def main(argv: list[str] | None = None) -> int:
         args = make_parser(given).parse_args(given)
         place = root()
         sys.path[:] = [str(place), *(path for path in sys.path if path != str(place))]
-        if args.command in JUDGES:
-            print(f"{'tree':<12} {place}", flush=True)
         run: Callable[[argparse.Namespace], int] = args.run
-        status = int(run(args))
+        with to_standard_output(vars(args).values()):
+            if args.command in JUDGES:
+                print(f"{'tree':<12} {place}", flush=True)
+            status = int(run(args))
         if _HEARD:  # a library has caught it and gone on
             raise KeyboardInterrupt
         return status

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 from modeproof.kit.errors import Unjudged
+from modeproof.kit.files import to_standard_output
 from modeproof.kit.kit_command import EXIT_UNJUDGED, add_parser
 from modeproof.kit.parser import Parser
 
@@ -15,10 +16,11 @@ def main(argv: list[str] | None = None) -> int:
     add_parser(parser.add_subparsers(dest="command", required=True, metavar="conform"))
     try:
         args = parser.parse_args(argv)
+        with to_standard_output(vars(args).values()):
+            return int(args.run(args))
     except Unjudged as error:
         print(f"modeproof-kit: {error}", file=sys.stderr)
         return EXIT_UNJUDGED
-    return int(args.run(args))
 
 
 if __name__ == "__main__":

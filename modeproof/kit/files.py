@@ -5,9 +5,10 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import sys
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +17,33 @@ from modeproof.kit.errors import Unjudged
 _ATTEMPTS, _PAUSE_S = 20, 0.05
 """A search engine or a virus scanner lets go of a file within a second; an editor may not."""
 
+STDOUT = Path("-")
+"""Stands for standard output."""
+
+
+@contextlib.contextmanager
+def to_standard_output(values: Iterable[object]) -> Iterator[None]:
+    """Where an option names standard output for a file, all else that is printed goes to standard error.
+
+    Raises Unjudged where two do.
+    """
+    wanted = sum(isinstance(value, Path) and value == STDOUT for value in values)
+    if wanted > 1:
+        raise Unjudged("two options write to `-`, standard output: give one of them a file")
+    with contextlib.redirect_stdout(sys.stderr) if wanted else contextlib.nullcontext():
+        yield
+
 
 def write_whole(path: Path, content: bytes, mode: int = 0o644) -> None:
     """Write a file atomically. Raises OSError when that fails; then the old file, if any, is still there.
 
-    A device, a pipe, or a name in /dev such as /dev/stdout gets the content; it stays what it is. Where the
-    path is a link, the file that it leads to is written.
+    `-` is standard output. A device, a pipe, or a name in /dev such as /dev/stdout gets the content; it stays
+    what it is. Where the path is a link, the file that it leads to is written.
     """
+    if path == STDOUT:
+        with open(1, "wb", closefd=False) as stream:
+            stream.write(content)
+        return
     if path.parent == Path("/dev") or (path.exists() and not path.is_file()):
         with path.open("ab") as stream:
             stream.write(content)

@@ -16,7 +16,11 @@ from typing import Any
 from modeproof.ground.errors import Unjudged
 from modeproof.ground.evidence import day
 from modeproof.ground.places import build, root
+from modeproof.kit.files import STDOUT, write_text
+from modeproof.output.diagram import as_svg
+from modeproof.output.markdown import as_markdown
 from modeproof.output.outcome import File, Outcome, shown_path, unjudged, write
+from modeproof.output.sarif import as_sarif
 
 RECORDS = "records"
 """The folder of the records below that of results."""
@@ -62,6 +66,18 @@ def add_options(
     parser.add_argument(
         "--record", type=Path, metavar="FILE", help="write the record there, not to the folder of records"
     )
+    parser.add_argument(
+        "--sarif", type=Path, metavar="FILE", help="write it as SARIF 2.1.0, for a forge or editor"
+    )
+    parser.add_argument(
+        "--markdown", type=Path, metavar="FILE", help="write a summary, for the page of a job"
+    )
+    parser.add_argument(
+        "--diagram",
+        type=Path,
+        metavar="FOLDER",
+        help="draw the scans of each problem there as SVG; a FILE.svg for the first alone",
+    )
     parser.set_defaults(judge=judge, about=about)
 
 
@@ -96,7 +112,40 @@ def _judged(args: argparse.Namespace) -> tuple[Outcome, Unjudged | None]:
         found = unjudged(about.command, about.subject, about.target, about.again, refused.message, **known)
     if error is None or args.record is not None or known_before:  # a slip of the pen is no entry
         write(path, found)
+    write_forms(args, found, about.name)
     return found, error
+
+
+FORMS: Mapping[str, Callable[[Outcome], str]] = {"sarif": as_sarif, "markdown": as_markdown}
+
+
+def write_forms(args: argparse.Namespace, found: Outcome, name: str) -> None:
+    """Write the forms that the options ask for. name: how pictures begin. Raises Unjudged."""
+    for form, made in FORMS.items():
+        if (path := getattr(args, form)) is not None:
+            write_text(path, made(found))
+    if args.diagram is not None:
+        for path, text in pictures(args.diagram, found, name):
+            write_text(path, text)
+
+
+def pictures(place: Path, found: Outcome, name: str) -> list[tuple[Path, str]]:
+    """The pictures with their files; those of an earlier run are removed. Raises Unjudged."""
+    one = place.suffix.lower() == ".svg"
+    drawn = [
+        (f"{name}-{number}.svg", as_svg(problem.counterexample, demand.sentence, problem.message))
+        for number, (demand, problem) in enumerate(found.problems, 1)
+        if problem.counterexample is not None
+    ]
+    try:
+        if not one:
+            place.mkdir(parents=True, exist_ok=True)
+        for old in [place] if one else place.glob(f"{name}-*.svg"):
+            if old != STDOUT and old.is_file():
+                old.unlink()
+    except OSError as error:
+        raise Unjudged(f"{place}: cannot be written: {error.strerror or error}") from None
+    return [(place, text) for _, text in drawn[:1]] if one else [(place / file, text) for file, text in drawn]
 
 
 def records() -> Path:

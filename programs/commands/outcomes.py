@@ -200,11 +200,11 @@ def _broken(cell: Cell, found: Found, trace: Trace, about: Rule) -> Problem:
     ]
     last = scans[-1]
     after = f"after {_scans(len(scans))} from power-up"
-    what = f"the program stops: {trace.stopped}" if trace.stopped else "it is false"
+    what = f"the program stops {after}: {trace.stopped}" if trace.stopped else f"false {after}"
     shown = {name.upper() for name in last.given}
     return Problem(
         rule=about,
-        message=f"{about.sentence} {after} {what}",
+        message=f"{what}: {about.sentence}",
         spot=last.spot or spot_of(cell.unit.place),
         counterexample=Counterexample(
             scans=scans,

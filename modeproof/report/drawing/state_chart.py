@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
+from modeproof.output.svg import Line, arrow_head, element, height_of, lines, picture, wrapped
 from modeproof.report.drawing.layered import Chain, Point, Size, narrowest
-from modeproof.report.drawing.svg import Line, arrow_head, element, height_of, lines, picture, wrapped
 
 MANY = 3
 """From so many states on the sources of a step are listed, not drawn."""

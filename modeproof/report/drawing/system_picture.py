@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
+from modeproof.output.svg import Line, arrow_head, element, height_of, lines, picture, wrapped
 from modeproof.report.drawing.layered import Chain, Size, place
-from modeproof.report.drawing.svg import Line, arrow_head, element, height_of, lines, picture, wrapped
 
 PAD = 8.0
 NAME, SIGNAL, CLAUSE = 13.0, 11.0, 9.5
