@@ -7,9 +7,11 @@ import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from types import GenericAlias
+from typing import Annotated, Any, Literal
 
 import msgspec
+from msgspec import Meta
 
 from modeproof.ground.errors import Unjudged, suggestion
 from modeproof.project.entries import KINDS, Binding, Row, texts
@@ -18,6 +20,17 @@ from modeproof.registers.typed import rows_of, typed
 VERSION = 1
 _NAME = re.compile(r"[A-Za-z0-9_-]{1,60}")
 _IN_LINE = re.compile(r"\(at line (\d+), column \d+\)")
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of a project file, for editors; `project.schema.json` is made of it."""
+    name: Any = Annotated[str, Meta(pattern=f"^{_NAME.pattern}$")]
+    fields: list[Any] = [
+        ("version", Literal[1]),
+        *((kind.KIND, GenericAlias(dict, (name, kind)), {}) for kind in KINDS),
+    ]
+    found = msgspec.json.schema(msgspec.defstruct("Project", fields, forbid_unknown_fields=True))
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "modeproof.toml", **found}
 
 
 class Wrong(Exception):
