@@ -43,9 +43,9 @@ _UNJUDGED = Rule(
 )
 
 
-def as_sarif(outcome: Outcome) -> str:
-    """The text of a SARIF file."""
-    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [_run(outcome)]}
+def as_sarif(*outcomes: Outcome) -> str:
+    """The text of a SARIF file, with a run for each outcome."""
+    log = {"$schema": SCHEMA, "version": "2.1.0", "runs": [*map(_run, outcomes)]}
     return json.dumps(log, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 

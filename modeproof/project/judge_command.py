@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,10 +14,14 @@ from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
 from modeproof.ground.places import PROJECT_FILE, project
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
+from modeproof.kit.files import write_text
+from modeproof.output.junit import as_junit
+from modeproof.output.markdown import as_markdown
+from modeproof.output.sarif import as_sarif
 from modeproof.project.checks import problems_of
 from modeproof.project.file import Listed, Wrong, read
 from modeproof.project.judging import Judged, Judging
-from modeproof.project.table import lines_of, status_of
+from modeproof.project.table import lines_of, status_of, table_of
 from modeproof.project.watch import Watch
 
 
@@ -34,6 +38,11 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument("--watch", action="store_true", help="judge again when a file is saved, until Ctrl-C")
     parser.add_argument(
         "--jobs", type=_jobs, default=cores(), metavar="N", help=f"so many at once (default {cores()})"
+    )
+    parser.add_argument("--sarif", type=Path, metavar="FILE", help="write all as SARIF 2.1.0 as well")
+    parser.add_argument("--junit", type=Path, metavar="FILE", help="write all as JUnit XML as well")
+    parser.add_argument(
+        "--markdown", type=Path, metavar="FILE", help="write a summary as well, for the page of a job"
     )
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
@@ -53,6 +62,10 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged(
             f"no {PROJECT_FILE} in {path.parent}, nor above it: `modeproof init` writes one from what is here"
         )
+    if args.watch and any(getattr(args, form) is not None for form in FORMS):
+        raise Unjudged(
+            "--watch ends with Ctrl-C; --sarif, --junit and --markdown are of one run: leave them out"
+        )
     begin = partial(begun, path, args)
     try:
         judging, entries = begin()
@@ -64,6 +77,9 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged(f"{judging.project.shown}: lists nothing to judge (docs/your-project.md)")
     found = judging.all(entries, args.anew)
     show(judging, found)
+    for form, made in FORMS.items():
+        if (place := getattr(args, form)) is not None:
+            write_text(place, made(found))
     if not args.watch:
         return status_of(found)
     print("watching; Ctrl-C ends it", file=sys.stderr, flush=True)
@@ -88,3 +104,15 @@ def begun(path: Path, args: argparse.Namespace) -> tuple[Judging, Sequence[Liste
 def show(judging: Judging, found: Sequence[Judged]) -> None:
     """Print the table."""
     print("\n".join(lines_of(judging, found)), flush=True)
+
+
+def _markdown(found: Sequence[Judged]) -> str:
+    return "\n".join([*table_of(found), *(as_markdown(one.outcome) for one in found if one.outcome.status)])
+
+
+FORMS: Mapping[str, Callable[[Sequence[Judged]], str]] = {
+    "sarif": lambda found: as_sarif(*(one.outcome for one in found)),
+    "junit": lambda found: as_junit({one.entry.name: one.outcome for one in found}),
+    "markdown": _markdown,
+}
+"""What makes each form of all that was found."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from modeproof.kit.errors import plain
+from modeproof.output.markdown import escaped
 from modeproof.output.outcome import Outcome
 from modeproof.project.judging import Judged, Judging
 
@@ -32,6 +33,16 @@ def lines_of(judging: Judging, found: Sequence[Judged]) -> Iterator[str]:
     said = ", ".join(f"{count} {word}" for count, word in parts if count)
     kept = sum(one.kept for one in found)
     yield f"{len(found)} {'entry' if len(found) == 1 else 'entries'}: {said}; {kept} kept"
+
+
+def table_of(found: Sequence[Judged]) -> Iterator[str]:
+    """The table as Markdown."""
+    rows = [HEAD, *(row_of(one) for one in found)]
+    for number, row in enumerate(rows):
+        yield f"| {' | '.join(map(escaped, row))} |"
+        if not number:
+            yield "|---" * len(HEAD) + "|"
+    yield ""
 
 
 def row_of(one: Judged) -> tuple[str, str, str, str, str]:

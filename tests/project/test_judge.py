@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import pytest
 
@@ -49,6 +50,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
             **{"command": own[0], "subject": own[1], "target": "sf_edm", "word": word, "status": status},
             **{"sentence": word, "again": " ".join(own), "started": "", "seconds": 1.0, "demands": [demand]},
             files=outcome.files("program", [judging.folder / own[1]]),
+            tools=outcome.tools(),
         )
         outcome.write(Path(record), found)
         return status, ""
@@ -294,3 +296,34 @@ def test_a_program_is_judged_by_its_own_command(place: Path, judge: Judge) -> No
 
 def env() -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(TREE)}
+
+
+def test_all_is_written_in_each_form(place: Path, asked: list[list[str]], judge: Judge) -> None:
+    write(place, plc__off_st=WRONG, plc__odd_st=f"unknown {BLOCK}", plc__no_st=f"refused {BLOCK}")
+    rows = [
+        f'[program.{name}]\nfiles = ["plc/{name}.st"]\ntarget = "sf_edm"\n' for name in ("off", "odd", "no")
+    ]
+    (place / "modeproof.toml").write_text("\n".join([TOML, *rows]))
+    status, _, said = judge("--junit", "a.xml", "--sarif", "a.sarif", "--markdown", "a.md")
+    assert status == 1, said
+    suites = {suite.get("name"): suite for suite in ElementTree.parse("a.xml").getroot()}
+    counts = {
+        name: (one.get("tests"), one.get("failures"), one.get("errors")) for name, one in suites.items()
+    }
+    assert counts == {
+        "contactors": ("1", "0", "0"),
+        "off": ("1", "1", "0"),
+        "odd": ("1", "0", "1"),
+        "no": ("1", "0", "1"),
+    }
+    runs = json.loads(Path("a.sarif").read_text())["runs"]
+    assert [len(run["results"]) for run in runs] == [0, 1, 1, 1]
+    assert len({run["automationDetails"]["id"] for run in runs}) == len(runs)
+    said = Path("a.md").read_text()
+    assert said.startswith("| entry | verdict |") and "| off | REFUTED |" in said and "### REFUTED" in said
+    assert "### PROVED" not in said
+
+
+def test_forms_are_of_one_run_and_not_of_a_watch(place: Path, asked: list[list[str]], judge: Judge) -> None:
+    status, _, said = judge("--watch", "--junit", "a.xml")
+    assert status == 2 and "leave them out" in said and not asked and not Path("a.xml").exists()
