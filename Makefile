@@ -4,13 +4,14 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 # Compiled modules are kept, whatever the environment says: each of the many processes starts in half the time
 unexport PYTHONDONTWRITEBYTECODE
-.PHONY: verify smoke exhaustive test test-deep bench kit wheels doctor lint lock clean venv compiler
+.PHONY: verify smoke exhaustive test test-deep bench kit wheels docs doctor lint lock clean venv compiler
 
 PYTHON ?= $(shell for p in python3.11 python3 python; do $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' >/dev/null 2>&1 && echo $$p && break; done)
 PY := .venv/bin/python
 STAMP := .venv/requirements.lock
 AWLSIM := .venv/awlsim.lock
 GRAMMAR := .venv/grammar.lock
+SITE := build/site-env/requirements.lock
 
 # What has not changed since it was judged is kept; `$(PY) -m modeproof verify --anew` judges all
 verify: $(STAMP) $(GRAMMAR)
@@ -41,6 +42,10 @@ bench: $(STAMP) $(AWLSIM)
 # One file for a PLC developer: build/modeproof-kit.pyz
 kit: $(STAMP)
 	@$(PY) -m modeproof vectors pack
+
+# The docs as a site with search: build/site/index.html. What makes it is installed for this alone.
+docs: $(SITE)
+	@$(dir $(SITE))bin/python docs/site/build.py
 
 # All that `pip install --no-index --find-links build/wheels modeproof` needs, on this system; EXTRAS="tlc report" adds theirs
 wheels: $(STAMP) $(GRAMMAR)
@@ -92,6 +97,12 @@ $(GRAMMAR): programs/requirements.lock $(STAMP)
 	  $(PY) -m pip --disable-pip-version-check install --quiet --no-index --no-deps --force-reinstall .venv/wheels/*.whl && \
 	  cp $< $@; \
 	fi
+
+$(SITE): docs/requirements.lock
+	@if [ -z "$(PYTHON)" ]; then echo "modeproof: Python 3.11 or newer is missing; install it, or name it: make PYTHON=/path/to/python3" >&2; exit 2; fi
+	@$(PYTHON) -m venv --clear $(@D) && \
+	  $(@D)/bin/python -m pip --disable-pip-version-check install --quiet --require-hashes --only-binary :all: -r $< && \
+	  cp $< $@
 
 lock:
 	@rm -rf build/lock && $(PYTHON) -m venv build/lock && build/lock/bin/python -m pip --quiet install uv==0.13.8
