@@ -16,7 +16,7 @@ from tests.project.foreign import BLOCK, TOML, WRONG, write
 
 INSTALL = 'pip install --find-links "$WHEELS" modeproof'
 JUDGE = "modeproof judge --junit modeproof.xml --sarif modeproof.sarif --markdown modeproof.md"
-WORKFLOWS = ("action.yml", ".github/workflows/release.yml", "docs/recipes/github.yml")
+WORKFLOWS = ("action.yml", ".github/workflows/release.yml", "examples/ci/github.yml")
 
 
 def of_action() -> list[str]:
@@ -25,7 +25,7 @@ def of_action() -> list[str]:
 
 
 def of_gitlab() -> list[str]:
-    return list(recipe("docs/recipes/gitlab-ci.yml")["modeproof"]["script"])
+    return list(recipe("examples/ci/gitlab-ci.yml")["modeproof"]["script"])
 
 
 def of_hook() -> list[str]:
@@ -36,7 +36,7 @@ def of_hook() -> list[str]:
 
 def of_dockerfile() -> list[str]:
     """Its RUN steps without their mounts, then what a container runs."""
-    lines = (TREE / "docs/recipes/Dockerfile").read_text(encoding="utf-8").splitlines()
+    lines = (TREE / "examples/ci/Dockerfile").read_text(encoding="utf-8").splitlines()
     steps = [line.partition(" ")[2] for line in lines if line.startswith("RUN ")]
     ran = [re.sub(r"^(--\S+ )+", "", step) for step in steps]
     entry, given = (
@@ -51,9 +51,9 @@ def of_dockerfile() -> list[str]:
 
 RECIPES = {
     "action.yml": of_action,
-    "docs/recipes/gitlab-ci.yml": of_gitlab,
+    "examples/ci/gitlab-ci.yml": of_gitlab,
     ".pre-commit-hooks.yaml": of_hook,
-    "docs/recipes/Dockerfile": of_dockerfile,
+    "examples/ci/Dockerfile": of_dockerfile,
 }
 
 
@@ -74,7 +74,7 @@ def actions(text: str) -> list[str]:
 def test_actions_are_pinned_by_their_hash() -> None:
     found = {name: actions((TREE / name).read_text("utf-8")) for name in WORKFLOWS}
     ours = ["OWNER/modeproof@v0.2.0", "github/codeql-action/upload-sarif@v3"]
-    assert found == {"action.yml": [], ".github/workflows/release.yml": [], "docs/recipes/github.yml": ours}
+    assert found == {"action.yml": [], ".github/workflows/release.yml": [], "examples/ci/github.yml": ours}
     assert actions("- uses: a/b@v4\n- uses: a/c@0123abc") == ["a/b@v4", "a/c@0123abc"]
 
 
