@@ -1,67 +1,82 @@
-"""Outcomes as JUnit XML: a suite for each, a case for each demand.
-
-A demand with a problem is a failure where the outcome is not as expected, else an error: so is a demand that
-is not shown, and an outcome that could not be judged.
-"""
+"""Verdicts as JUnit XML: a suite for each thing that was judged, a test case for each demand."""
 
 from __future__ import annotations
 
+import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from xml.etree import ElementTree
 
-from modeproof.kit.errors import plain
-from modeproof.output.outcome import Demand, Outcome
-
-SHOWN = ("PROVED", "CONFORMS")
-"""The words of a demand that is met."""
-
-
-def as_junit(outcomes: Mapping[str, Outcome]) -> str:
-    """The text of a JUnit file; the outcomes by the names of their suites."""
-    top = ElementTree.Element("testsuites")
-    for name, outcome in outcomes.items():
-        top.append(_suite(name, outcome))
-    ElementTree.indent(top)
-    return ElementTree.tostring(top, "unicode", xml_declaration=True) + "\n"
+UNPRINTABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What XML 1.0 cannot hold."""
+ELEMENTS = {
+    **dict.fromkeys(("PROVED", "CONFORMS"), "system-out"),
+    **dict.fromkeys(("REFUTED", "DIFFERS"), "failure"),
+}
+"""What JUnit calls a case with such a verdict; what is neither shown nor refuted is an error."""
 
 
-def _suite(name: str, outcome: Outcome) -> ElementTree.Element:
-    cases = list(_cases(outcome))
-    kinds = Counter(child.tag for case in cases for child in case)
-    suite = ElementTree.Element(
-        "testsuite",
-        name=plain(name),
-        tests=str(len(cases)),
-        failures=str(kinds["failure"]),
-        errors=str(kinds["error"]),
-        skipped="0",
-        time=f"{outcome.seconds:.3f}",
-        timestamp=outcome.started.removesuffix("Z"),
-    )
-    said = {"verdict": outcome.word, "target": outcome.target, "again": outcome.again}
-    properties = ElementTree.SubElement(suite, "properties")
-    for key, value in {**said, **{file.path: file.sha256 for file in outcome.files}}.items():
-        ElementTree.SubElement(properties, "property", name=plain(key), value=plain(value))
-    suite.extend(cases)
-    return suite
+@dataclass(frozen=True)
+class Case:
+    """A test case of JUnit: its name, the word and the lines of its verdict, and what else is said of it."""
+
+    name: str
+    word: str
+    text: str
+    properties: Mapping[str, str]
+
+    @property
+    def element(self) -> str:
+        """What JUnit calls it."""
+        return ELEMENTS.get(self.word, "error")
 
 
-def _cases(outcome: Outcome) -> Iterator[ElementTree.Element]:
-    for demand in outcome.demands:
-        yield _case(outcome, demand)
-    if not any(demand.word not in SHOWN for demand in outcome.demands) and outcome.status:
-        whole = Demand(id="judged", word=outcome.word, sentence=outcome.reason or outcome.sentence)
-        yield _case(outcome, whole)
+@dataclass(frozen=True)
+class Suite:
+    """Cases that belong together, and how long they took, in seconds."""
+
+    name: str
+    cases: Sequence[Case]
+    seconds: float
 
 
-def _case(outcome: Outcome, demand: Demand) -> ElementTree.Element:
-    made = ElementTree.Element("testcase", classname=plain(outcome.subject), name=plain(demand.id))
-    made.set("time", "0")
-    if demand.word in SHOWN:
-        return made
-    tag = "failure" if demand.problems and outcome.status == 1 else "error"
-    messages = [problem.message for problem in demand.problems] or [outcome.reason or demand.sentence]
-    wrong = ElementTree.SubElement(made, tag, type=demand.word, message=plain(messages[0]))
-    wrong.text = "\n".join(map(plain, [f"{demand.word}: {demand.sentence}", *messages]))
-    return made
+def junit_of(
+    suite: str, cases: Sequence[Case], seconds: float, command: str = "modeproof prove-program"
+) -> str:
+    """One suite as JUnit XML. seconds: of CPU, for all of its cases."""
+    return junit_of_suites([Suite(suite, cases, seconds)], command)
+
+
+def junit_of_suites(suites: Sequence[Suite], command: str) -> str:
+    """Suites as JUnit XML."""
+    root = ElementTree.Element("testsuites", name=command)
+    for suite in suites:
+        kinds = Counter(case.element for case in suite.cases)
+        attributes = {
+            "name": _xml(suite.name),
+            "tests": str(len(suite.cases)),
+            "failures": str(kinds["failure"]),
+            "errors": str(kinds["error"]),
+            "skipped": "0",
+            "time": str(suite.seconds),
+        }
+        of = ElementTree.SubElement(root, "testsuite", attributes)
+        for case in suite.cases:
+            _add(of, suite, case)
+    ElementTree.indent(root)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _add(of: ElementTree.Element, suite: Suite, case: Case) -> None:
+    row = ElementTree.SubElement(of, "testcase", {"classname": _xml(suite.name), "name": _xml(case.name)})
+    properties = ElementTree.SubElement(row, "properties")
+    for name, value in {"verdict": case.word, **case.properties}.items():
+        ElementTree.SubElement(properties, "property", name=_xml(name), value=_xml(value))
+    text = _xml(case.text)
+    message = {} if case.element == "system-out" else {"message": text.partition("\n")[0]}
+    ElementTree.SubElement(row, case.element, message).text = text
+
+
+def _xml(text: str) -> str:
+    return UNPRINTABLE.sub("?", text)

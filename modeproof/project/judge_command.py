@@ -5,23 +5,21 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from modeproof.ground.errors import EXIT_UNJUDGED, Unjudged
-from modeproof.ground.places import PROJECT_FILE, project
+from modeproof.ground.evidence.files import write_whole
+from modeproof.ground.places import PROJECT_FILE, build, project, root
 from modeproof.ground.processes import cores
 from modeproof.ground.progress import Progress
-from modeproof.kit.files import write_text
-from modeproof.output.junit import as_junit
-from modeproof.output.markdown import as_markdown
-from modeproof.output.sarif import as_sarif
+from modeproof.project import forms
 from modeproof.project.checks import problems_of
 from modeproof.project.file import Listed, Wrong, read
 from modeproof.project.judging import Judged, Judging
-from modeproof.project.table import lines_of, status_of, table_of
+from modeproof.project.table import lines_of, status_of
 from modeproof.project.watch import Watch
 
 
@@ -39,11 +37,7 @@ def add_parser(commands: Any) -> argparse.ArgumentParser:
     parser.add_argument(
         "--jobs", type=_jobs, default=cores(), metavar="N", help=f"so many at once (default {cores()})"
     )
-    parser.add_argument("--sarif", type=Path, metavar="FILE", help="write all as SARIF 2.1.0 as well")
-    parser.add_argument("--junit", type=Path, metavar="FILE", help="write all as JUnit XML as well")
-    parser.add_argument(
-        "--markdown", type=Path, metavar="FILE", help="write a summary as well, for the page of a job"
-    )
+    forms.add_options(parser)
     parser.add_argument("--quiet", action="store_true", help="no progress on standard error")
     parser.set_defaults(run=run)
     return parser
@@ -62,10 +56,6 @@ def run(args: argparse.Namespace) -> int:
         raise Unjudged(
             f"no {PROJECT_FILE} in {path.parent}, nor above it: `modeproof init` writes one from what is here"
         )
-    if args.watch and any(getattr(args, form) is not None for form in FORMS):
-        raise Unjudged(
-            "--watch ends with Ctrl-C; --sarif, --junit and --markdown are of one run: leave them out"
-        )
     begin = partial(begun, path, args)
     try:
         judging, entries = begin()
@@ -75,27 +65,35 @@ def run(args: argparse.Namespace) -> int:
         return EXIT_UNJUDGED
     if not entries:
         raise Unjudged(f"{judging.project.shown}: lists nothing to judge (docs/your-project.md)")
+    _keep_out_of_git(build(root()))
+    watch = Watch(partial(begin, quiet=True), judging, entries) if args.watch else None
     found = judging.all(entries, args.anew)
     show(judging, found)
-    for form, made in FORMS.items():
-        if (place := getattr(args, form)) is not None:
-            write_text(place, made(found))
-    if not args.watch:
+    forms.write(args, found)
+    if watch is None:
         return status_of(found)
     print("watching; Ctrl-C ends it", file=sys.stderr, flush=True)
-    return Watch(begin, found).run(judging, entries)
+    return watch.run(found)
 
 
-def begun(path: Path, args: argparse.Namespace) -> tuple[Judging, Sequence[Listed]]:
+def _keep_out_of_git(state: Path) -> None:
+    """Results are no sources: what makes their folder says so to git. Raises Unjudged."""
+    ours = state / ".gitignore"
+    if state == project() / ".modeproof" and not ours.exists():
+        write_whole(ours, b"*\n")
+
+
+def begun(path: Path, args: argparse.Namespace, quiet: bool = False) -> tuple[Judging, Sequence[Listed]]:
     """The project file as it is now, with the entries asked for. Raises Unjudged and Wrong."""
     read_in = read(path, Path(os.path.relpath(path)).as_posix())
     entries = read_in.chosen(args.names)
     if wrong := list(problems_of(read_in, entries)):
         raise Wrong(wrong)
-    progress = Progress(quiet=args.quiet)
+    quiet = quiet or args.quiet
+    progress = Progress(quiet=quiet)
 
     def say(line: str) -> None:
-        if not args.quiet:
+        if not quiet:
             print(line, file=sys.stderr, flush=True)
 
     return Judging(read_in, args.jobs, progress, say), entries
@@ -104,15 +102,3 @@ def begun(path: Path, args: argparse.Namespace) -> tuple[Judging, Sequence[Liste
 def show(judging: Judging, found: Sequence[Judged]) -> None:
     """Print the table."""
     print("\n".join(lines_of(judging, found)), flush=True)
-
-
-def _markdown(found: Sequence[Judged]) -> str:
-    return "\n".join([*table_of(found), *(as_markdown(one.outcome) for one in found if one.outcome.status)])
-
-
-FORMS: Mapping[str, Callable[[Sequence[Judged]], str]] = {
-    "sarif": lambda found: as_sarif(*(one.outcome for one in found)),
-    "junit": lambda found: as_junit({one.entry.name: one.outcome for one in found}),
-    "markdown": _markdown,
-}
-"""What makes each form of all that was found."""

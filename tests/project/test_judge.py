@@ -6,67 +6,17 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
-from xml.etree import ElementTree
 
 import pytest
 
-from modeproof.cli import main
 from modeproof.ground.places import TREE
 from modeproof.output import outcome
 from modeproof.project import basis
 from modeproof.project.judging import Judging
+from tests.project.conftest import Judge
 from tests.project.foreign import BLOCK, TOML, WRONG, write
-
-Judge = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture
-def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.delenv("MODEPROOF_STATE", raising=False)
-    return write(tmp_path, modeproof_toml=TOML, plc__contactors_st=BLOCK)
-
-
-@pytest.fixture
-def asked(monkeypatch: pytest.MonkeyPatch) -> list[list[str]]:
-    """The commands that were run; each gives a record, by the words of the source that it is asked of."""
-    given: list[list[str]] = []
-
-    def run(judging: Judging, words: Sequence[str]) -> tuple[int, str]:
-        *own, _, record = words
-        given.append(own)
-        text = (judging.folder / own[1]).read_text("utf-8") if own[0] == "prove-program" else ""
-        if "refused" in text:
-            return 2, f"{own[1]}:1: syntax error"
-        status: Any = 1 if text == WRONG else 2 if "unknown" in text else 0
-        word = ("PROVED", "REFUTED", "UNKNOWN")[status]
-        rule = outcome.Rule(id="EDMA-01", kind="clause", sentence="")
-        problems = [outcome.Problem(rule=rule, message="after 3 scans it is off")] if status else []
-        demand = outcome.Demand(id="equal", word=word, sentence="", problems=problems)
-        found = outcome.Outcome(
-            **{"command": own[0], "subject": own[1], "target": "sf_edm", "word": word, "status": status},
-            **{"sentence": word, "again": " ".join(own), "started": "", "seconds": 1.0, "demands": [demand]},
-            files=outcome.files("program", [judging.folder / own[1]]),
-            tools=outcome.tools(),
-        )
-        outcome.write(Path(record), found)
-        return status, ""
-
-    monkeypatch.setattr(Judging, "_run", run)
-    return given
-
-
-@pytest.fixture
-def judge(capsys: pytest.CaptureFixture[str]) -> Judge:
-    def run(*words: str) -> tuple[int, str, str]:
-        status = main(["judge", *words])
-        said = capsys.readouterr()
-        return status, said.out, said.err
-
-    return run
 
 
 def test_what_has_not_changed_is_not_judged_again(place: Path, asked: list[list[str]], judge: Judge) -> None:
@@ -296,34 +246,3 @@ def test_a_program_is_judged_by_its_own_command(place: Path, judge: Judge) -> No
 
 def env() -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": str(TREE)}
-
-
-def test_all_is_written_in_each_form(place: Path, asked: list[list[str]], judge: Judge) -> None:
-    write(place, plc__off_st=WRONG, plc__odd_st=f"unknown {BLOCK}", plc__no_st=f"refused {BLOCK}")
-    rows = [
-        f'[program.{name}]\nfiles = ["plc/{name}.st"]\ntarget = "sf_edm"\n' for name in ("off", "odd", "no")
-    ]
-    (place / "modeproof.toml").write_text("\n".join([TOML, *rows]))
-    status, _, said = judge("--junit", "a.xml", "--sarif", "a.sarif", "--markdown", "a.md")
-    assert status == 1, said
-    suites = {suite.get("name"): suite for suite in ElementTree.parse("a.xml").getroot()}
-    counts = {
-        name: (one.get("tests"), one.get("failures"), one.get("errors")) for name, one in suites.items()
-    }
-    assert counts == {
-        "contactors": ("1", "0", "0"),
-        "off": ("1", "1", "0"),
-        "odd": ("1", "0", "1"),
-        "no": ("1", "0", "1"),
-    }
-    runs = json.loads(Path("a.sarif").read_text())["runs"]
-    assert [len(run["results"]) for run in runs] == [0, 1, 1, 1]
-    assert len({run["automationDetails"]["id"] for run in runs}) == len(runs)
-    said = Path("a.md").read_text()
-    assert said.startswith("| entry | verdict |") and "| off | REFUTED |" in said and "### REFUTED" in said
-    assert "### PROVED" not in said
-
-
-def test_forms_are_of_one_run_and_not_of_a_watch(place: Path, asked: list[list[str]], judge: Judge) -> None:
-    status, _, said = judge("--watch", "--junit", "a.xml")
-    assert status == 2 and "leave them out" in said and not asked and not Path("a.xml").exists()
