@@ -14,6 +14,7 @@ import msgspec
 from msgspec import Meta
 
 from modeproof.ground.errors import Unjudged, suggestion
+from modeproof.ground.places import PROJECT_FILE
 from modeproof.project.entries import KINDS, Binding, Row, texts
 from modeproof.registers.typed import rows_of, typed
 
@@ -25,12 +26,10 @@ _IN_LINE = re.compile(r"\(at line (\d+), column \d+\)")
 def schema() -> dict[str, Any]:
     """The JSON schema of a project file, for editors; `project.schema.json` is made of it."""
     name: Any = Annotated[str, Meta(pattern=f"^{_NAME.pattern}$")]
-    fields: list[Any] = [
-        ("version", Literal[1]),
-        *((kind.KIND, GenericAlias(dict, (name, kind)), {}) for kind in KINDS),
-    ]
-    found = msgspec.json.schema(msgspec.defstruct("Project", fields, forbid_unknown_fields=True))
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "modeproof.toml", **found}
+    tables: list[Any] = [(kind.KIND, GenericAlias(dict, (name, kind)), {}) for kind in KINDS]
+    whole = msgspec.defstruct("Project", [("version", Literal[1]), *tables], forbid_unknown_fields=True)
+    found = msgspec.json.decode(msgspec.json.encode(msgspec.json.schema(whole)))
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": PROJECT_FILE, **found}
 
 
 class Wrong(Exception):
