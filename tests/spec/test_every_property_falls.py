@@ -164,7 +164,7 @@ def test_weakened_and_pinned_again_it_is_still_refused(tree: Path) -> None:
     said: list[str] = []
     assert judge_killers(tree, "edm", find_toolchain(), False, said.append) == ["IdleShowsNothing"]
     assert said == [
-        "edm: IdleShowsNothing: does not fall",
+        "edm: IdleShowsNothing: does not fail",
         f"edm: {len(KILLERS['edm'].edits)} edits, 1 judged now, 1 break nothing",
     ]
     assert "IdleShowsNothing: has not been judged" in problems(tree)[0]
@@ -271,7 +271,7 @@ def test_a_file_of_another_form_is_refused_in_a_line(tree: Path, wrong: str) -> 
 def test_a_negative_of_more_than_one_change_is_no_killer(row: str, tree: Path) -> None:
     change(tree, "spec/edm/runs.toml", 'reading = "StopBeforeTimeout"', row)
     assert problems(tree) == [
-        "spec/edm/properties.toml: MissedPickUpIsAnError: falls with nothing: "
+        "spec/edm/properties.toml: MissedPickUpIsAnError: is broken by nothing: "
         "give it an edit of a device in killers.toml, or say why none can be"
     ]
 
