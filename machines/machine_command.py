@@ -33,11 +33,11 @@ from modeproof.ground.errors import Unjudged
 from modeproof.ground.places import root
 from modeproof.ground.progress import Progress
 from modeproof.kit.files import write_json, write_text
+from modeproof.output.junit import Case, junit_of
 from modeproof.output.options import Clock
 from modeproof.output.outcome import Outcome
 from programs.certificates.certificate_folder import tools
 from programs.commands.prove_properties import TRUSTED
-from programs.commands.results import Case, junit_of
 from programs.language.tool_differences import assumed
 
 FOLDER = Path("spec/machine_cell")
