@@ -133,7 +133,7 @@ def _devices(document: Document, modules: Mapping[str, Module], root: str) -> tu
 
 
 def check_killers(document: Document, sources: Sources) -> list[Problem]:
-    """Every property without a fault that it falls with, and every row that is of no use or not judged."""
+    """Every property that no fault breaks, and every row that is of no use or not judged."""
     file = document.source("killers")
     killers = load_killers(document.root, document.name)
     problems: list[Problem] = []

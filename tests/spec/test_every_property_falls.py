@@ -187,7 +187,7 @@ def test_verify_names_a_property_that_became_true(tree: Path) -> None:
 HEAD = "[[killer.IdleShowsNothing]]\n"
 ROW = re.compile(r"\n\[\[killer\.IdleShowsNothing\]\]\n(?:.+\n)+")
 WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
-    "falls with nothing": (ROW, ""),
+    "is broken by nothing": (ROW, ""),
     "was judged on another text": ('state = "Idle" -> 1', 'state = "Idle" -> 2'),
     "unknown property": (HEAD, "[[killer.IdleShowsAll]]\n"),
     "unknown run": (HEAD, f'{HEAD}run = "MC_SF_EDM_nowhere"\n'),
@@ -203,7 +203,7 @@ WRONG: dict[str, tuple[str | re.Pattern[str], str]] = {
         re.compile(r"\Z"),
         '\n[bounds.spare]\nrun = "MC_SF_EDM_arbitrary"\n',
     ),
-    "falls with MissedPickUpIsAnError": (
+    "it is broken by MissedPickUpIsAnError": (
         re.compile(r"\Z"),
         '\n[by_construction]\nIdleShowsNothing = "none"\n',
     ),
@@ -284,7 +284,7 @@ def test_an_edit_that_cannot_be_judged_hides_no_other(tree: Path) -> None:
     said: list[str] = []
     with pytest.raises(Unjudged, match="not judged: IdleShowsNothing, ResetNeverStarts"):
         judge_killers(tree, "edm", find_toolchain(), False, said.append)
-    assert "edm: CodeTellsTheRow: falls" in said
+    assert "edm: CodeTellsTheRow: fails" in said
     assert [line for line in problems(tree) if "CodeTellsTheRow" in line] == []
 
 
