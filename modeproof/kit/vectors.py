@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import gzip
 import hashlib
+import itertools
 import json
 import zipfile
 import zlib
@@ -317,6 +318,12 @@ def content_hash(suite: Suite) -> str:
     for _, row in _rows(suite.path, suite.member):
         found.update(json.dumps(row, sort_keys=True).encode())
     return found.hexdigest()
+
+
+def same_rows(one: Suite, other: Suite) -> bool:
+    """Whether two vector files hold the same header and the same cases."""
+    rows = (_rows(suite.path, suite.member) for suite in (one, other))
+    return all(pair[0] == pair[1] for pair in itertools.zip_longest(*rows))
 
 
 def _rows(path: Path, member: str) -> Iterator[tuple[int, Mapping[str, Any]]]:
