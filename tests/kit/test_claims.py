@@ -20,7 +20,7 @@ KIT = Path(__file__).resolve().parents[2] / "modeproof" / "kit"
 FILES = {"judge": "suite_judge", "relation": "relation", "verdict": "verdict"}
 """The files that are edited, by the names that their mutants have."""
 LONGEST_S = 8
-"""An edit that makes the judge wait for ever is noticed by this; the claims together take a third of a second."""
+"""An edit that makes the judge wait for ever is noticed by this; all claims take a third of a second."""
 
 
 class WithMethods(Module):
