@@ -34,7 +34,7 @@ from modeproof.kit.signals import Signal, loads, read_signals, shown
 
 KIND, VERSION = "modeproof-vectors", 1
 EXACT, SETTLED, MONITOR = "exact", "settled", "monitor"
-"""The relations: each scan's outputs; the outputs once they stand still; the safety properties alone."""
+"""The relations: each scan's outputs; the outputs once they do not change; the safety properties alone."""
 PACKED = ".gz"
 """The suffix of a file that is packed with gzip."""
 COMPACT = ".compact"

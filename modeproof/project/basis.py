@@ -63,7 +63,7 @@ def basis_path(name: str) -> Path:
 
 
 def kept(name: str, basis: Basis, folder: Path) -> tuple[Outcome | None, str]:
-    """The result of an entry that still stands, or why there is none."""
+    """The result of an entry that is still valid, or why there is none."""
     path = basis_path(name)
     if not path.exists():
         return None, FIRST

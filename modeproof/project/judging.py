@@ -41,7 +41,7 @@ GRACE_S = 5.0
 
 @dataclass(frozen=True)
 class Judged:
-    """What came of an entry. kept: it was found before, and still stands."""
+    """What came of an entry. kept: it was found before, and is still valid."""
 
     entry: Listed
     outcome: Outcome
