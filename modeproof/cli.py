@@ -56,8 +56,8 @@ GROUPS = {
             "judge all that modeproof.toml lists: programs, machines, adapters, logs",
         ),
         "report": (
-            "modeproof.report.report_command",
-            "the assessor's report: one HTML file, from registers and evidence",
+            "modeproof.dossier.report_command",
+            "the dossier about your project; in the tool's checkout the assessor's report",
         ),
         "explain": (
             "modeproof.explain.explain_command",
